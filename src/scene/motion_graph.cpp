@@ -113,6 +113,14 @@ void check_turned(const JsonPlace& place, const std::vector<GraphMove>& moves, c
     }
 }
 
+/// As std::remainder(degrees, 360), to the last bit; sooner where that is a subtraction, which is exact then.
+double within_half_a_turn(double degrees) {
+    const double size = std::abs(degrees);
+    if (size <= 180) return degrees;
+    if (size < 540 && size != 360) return degrees - std::copysign(360.0, degrees);
+    return std::remainder(degrees, 360.0);
+}
+
 void write_stance(JsonWriter& out, const char* key, const Stance& stance) {
     out.member(key, {stance.position.x, stance.position.y, stance.heading_deg});
 }
@@ -128,7 +136,7 @@ MoveEnd end_of(const OrientedPlacement& placed, const Stance& exit, double durat
 
 OrientedPlacement beginning_at(const MoveEnd& end, const Stance& entry) {
     // Headings add up over a long walk: kept within a turn, they stay exact.
-    OrientedPlacement next({{}, std::remainder(end.heading_deg - entry.heading_deg, 360.0), end.time});
+    OrientedPlacement next({{}, within_half_a_turn(end.heading_deg - entry.heading_deg), end.time});
     next.placement.translate = end.position - next.rotation(entry.position);
     return next;
 }

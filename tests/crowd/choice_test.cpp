@@ -164,7 +164,7 @@ TEST_F(ChoiceTest, APlanIsRoomThatIsKept) {
     reservations.reserve(1, 0, other);
     const auto met = [&] {
         int planned = 0;
-        for (const Candidate& candidate : choose(moves, reservations, crowd, point).candidates) {
+        for (const Candidate& candidate : testing::choice_at(moves, reservations, crowd, point).candidates) {
             EXPECT_NE(candidate.met, Met::play);
             planned += candidate.met == Met::plan;
         }
@@ -182,7 +182,7 @@ TEST_F(ChoiceTest, AChoiceHasAPlanThatLastsAsLongAsAsked) {
     crowd.plan = 4;
     ReservationTable reservations(moves, crowd.area, crowd.grace);
     const ChoicePoint point = at_wall(moves, crowd.area, 2);
-    const Choice choice = choose(moves, reservations, crowd, point);
+    const Choice choice = testing::choice_at(moves, reservations, crowd, point);
     EXPECT_FALSE(choice.candidates[choice.taken].no_way_on);
     double seconds = 0;
     for (const PlannedMove& next : choice.plan) seconds += moves.duration(next.move);
@@ -192,7 +192,8 @@ TEST_F(ChoiceTest, AChoiceHasAPlanThatLastsAsLongAsAsked) {
     crowd.area = {2.1, 2.1};
     crowd.grace = 0;
     ReservationTable alone(moves, crowd.area, 0);
-    PlanSearch search(moves, alone, crowd, 0, 1);
+    PlanSearch search(moves, alone, crowd);
+    search.start(0, 1);
     EXPECT_FALSE(search.look(0, OrientedPlacement({{50, 50}, 0, 0})));
     EXPECT_TRUE(search.plan().empty());
 }
@@ -212,7 +213,7 @@ TEST_F(ChoiceTest, AtAWallItTurnsAsLittleAsItMust) {
     CrowdRun crowd;
     crowd.area = {20, 20};
     ReservationTable reservations(moves, crowd.area, crowd.grace);
-    const Choice choice = choose(moves, reservations, crowd, at_wall(moves, crowd.area, 1.1));
+    const Choice choice = testing::choice_at(moves, reservations, crowd, at_wall(moves, crowd.area, 1.1));
     EXPECT_EQ(choice.kind, PlayKind::pivoted);
     double least = 360;
     for (const Candidate& candidate : choice.candidates) {
@@ -238,7 +239,7 @@ TEST_F(ChoiceTest, RoomIsKeptWhereOthersEnd) {
     for (const double grace : {0.0, 1.0}) {
         ReservationTable reservations(moves, crowd.area, grace);
         reservations.reserve(1, 0, other);
-        const Choice choice = choose(moves, reservations, crowd, point);
+        const Choice choice = testing::choice_at(moves, reservations, crowd, point);
         int in_the_way = 0;
         for (const Candidate& candidate : choice.candidates) {
             if (candidate.turn_deg == 0) in_the_way += candidate.in_the_way;
@@ -247,7 +248,7 @@ TEST_F(ChoiceTest, RoomIsKeptWhereOthersEnd) {
         EXPECT_FALSE(choice.candidates[choice.taken].in_the_way);
         // Once agent 1 has chosen, its room moves on with it.
         reservations.reserve(1, 1, {0, {{2 * exit + 1.5, 20}, 180, 0.7}, 0.7, PlayKind::chosen});
-        for (const Candidate& candidate : choose(moves, reservations, crowd, point).candidates) {
+        for (const Candidate& candidate : testing::choice_at(moves, reservations, crowd, point).candidates) {
             EXPECT_FALSE(candidate.in_the_way);
         }
     }
@@ -263,7 +264,7 @@ TEST_F(ChoiceTest, WithNobodyFreeTheLeastContactIsForcedAndTheFloorKept) {
         const mobb::Placement at{{-9.3 + 0.2 * other, 0.1 * other}, 90.0 * other, point.time + 0.1 * other};
         reservations.reserve(other, 0, {4, at, 0, PlayKind::chosen});
     }
-    const Choice choice = choose(moves, reservations, crowd, point);
+    const Choice choice = testing::choice_at(moves, reservations, crowd, point);
     ASSERT_EQ(choice.kind, PlayKind::forced);
     const Candidate& taken = choice.candidates[choice.taken];
     EXPECT_FALSE(taken.leaves_floor);
@@ -285,7 +286,7 @@ TEST_F(ChoiceTest, OnNoFloorAtAllTheLeastContactIsStillFound) {
     crowd.area = {0.5, 0.5};
     ReservationTable reservations(moves, crowd.area, crowd.grace);
     const ChoicePoint point = at_wall(moves, crowd.area);
-    const Choice choice = choose(moves, reservations, crowd, point);
+    const Choice choice = testing::choice_at(moves, reservations, crowd, point);
     EXPECT_EQ(choice.kind, PlayKind::forced);
     EXPECT_TRUE(choice.candidates[choice.taken].leaves_floor);
     // In a room of one's own there is none.

@@ -10,8 +10,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <optional>
+#include <span>
 #include <tuple>
+#include <vector>
 
 namespace mobbscope {
 namespace {
@@ -94,9 +98,7 @@ TEST_F(WorldTest, VerdictsAreThoseOfTheDirectSearch) {
         EXPECT_EQ(blocker(reservations, candidates[i]), expected) << i;
         EXPECT_EQ(checks[i].collides, expected.has_value()) << i;
         EXPECT_EQ(checks[i].asked, asked_of(candidates[i], reserved, expected)) << i;
-        std::int64_t queries = 0;
-        EXPECT_EQ(all.is_clear(candidates[i], queries), !expected);
-        EXPECT_LE(queries, checks[i].asked);
+        EXPECT_EQ(all.is_clear(candidates[i]), !expected);
         ruled_out += checks[i].collides;
         all_asked += checks[i].asked;
     }
@@ -114,6 +116,49 @@ TEST_F(WorldTest, VerdictsAreThoseOfTheDirectSearch) {
             EXPECT_EQ(again[i].asked, checks[i].asked);
         }
     }
+}
+
+TEST_F(WorldTest, WhomSeveralMeetFirstIsWhomEachMeetsFirst) {
+    const glm::dvec2 area{12, 9};
+    ReservationGrid reservations(area);
+    for (int agent = 0; agent < 100; ++agent) reservations.reserve(random_motion(agent, 0, area, 6));
+    std::vector<PlayedMove> candidates;
+    for (int i = 0; i < 200; ++i) candidates.push_back(random_motion(99, 9, area, 6));
+    const std::vector<const PlayedMove*> asked_about = pointers(candidates);
+    constexpr double kEver = 1e6;
+    const FloorRect everywhere{glm::dvec2(-kEver), glm::dvec2(kEver)};
+    const Surroundings all = reservations.around(99, everywhere, -kEver, kEver);
+    std::vector<FirstMet> found(candidates.size());
+    all.find_first(asked_about, found);
+    std::vector<FirstMet> once_more = found;
+    all.find_first(asked_about, once_more);
+    int colliding = 0, late = 0;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        FirstMet alone;
+        all.find_first(std::span(&asked_about[i], 1), std::span(&alone, 1));
+        EXPECT_EQ(found[i].index, alone.index) << i;
+        EXPECT_EQ(found[i].asked, alone.asked) << i;
+        // Who has met somebody is asked about no more; others are, as by further surroundings.
+        EXPECT_EQ(once_more[i].index, alone.index) << i;
+        EXPECT_EQ(once_more[i].asked, (alone.collides() ? 1 : 2) * alone.asked) << i;
+        std::vector<AskedPair> pairs;
+        EXPECT_EQ(all.append(candidates[i], alone.asked, pairs), 0);
+        EXPECT_EQ(pairs.size(), static_cast<std::size_t>(alone.asked));
+        for (std::size_t k = 0; k < pairs.size(); ++k) {
+            const bool is_last = k + 1 == pairs.size();
+            EXPECT_EQ(mobb::intersects(pairs[k].candidate.placed, pairs[k].reserved.placed),
+                      is_last && alone.collides());
+        }
+        pairs.clear();
+        if (!alone.collides()) {
+            EXPECT_EQ(all.append(candidates[i], alone.asked + 3, pairs), 3);
+        }
+        colliding += alone.collides();
+        late += alone.index >= 64 && alone.collides();
+    }
+    EXPECT_GT(colliding, 50);
+    EXPECT_LT(colliding, 190);
+    EXPECT_GT(late, 5);
 }
 
 TEST_F(WorldTest, OfContactsAtOneTimeTheFirstAgentCounts) {

@@ -191,7 +191,7 @@ TEST(TurnedMoves, WhatIsForcedHarmsForTheFewestSeconds) {
     reservations.reserve(1, 0, {2, {{2.1, 0.3}, 0, 0}, 0});
     reservations.reserve(2, 0, {2, {{2.1, -0.3}, 0, 0}, 0});
     reservations.reserve(3, 0, {3, {{0, 0.9}, 0, 0.4}, 0});
-    const Choice choice = choose(moves, reservations, crowd, point);
+    const Choice choice = testing::choice_at(moves, reservations, crowd, point);
     ASSERT_EQ(choice.kind, PlayKind::forced);
     ASSERT_EQ(choice.candidates.size(), 2u);
     const auto first_contact = [&](const Candidate& candidate) {
@@ -218,7 +218,7 @@ TEST(TurnedMoves, WhoStandsInFrontOfAWallTurnsAway) {
         // Ends at (4.5, 0), with the wall a metre and a half ahead.
         point.before.move = move;
         point.before.placement = {{move == 0 ? 4.5 : 4.5 - 2.4, 0}, 0, move == 0 ? -1.0 : -2.0};
-        const Choice choice = choose(moves, reservations, crowd, point);
+        const Choice choice = testing::choice_at(moves, reservations, crowd, point);
         const Candidate& taken = choice.candidates[choice.taken];
         return std::tuple(choice.kind, taken.move, taken.turn_deg != 0);
     };

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <crowd/graph/build_graph.h>
+#include <crowd/simulation/choice.h>
+#include <crowd/simulation/plan_search.h>
 #include <crowd/simulation/reservation_table.h>
 #include <crowd/simulation/simulate.h>
 #include <scene/crowd_run.h>
@@ -56,6 +58,13 @@ inline Scene with_run(Scene scene, int agents, glm::dvec2 area, double plan = 0)
     const FittedScene fitted(scene, {});
     const MoveSet moves(fitted);
     return scene_of_run(moves, simulate(moves, options).run);
+}
+
+/// One choice by itself.
+inline Choice choice_at(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run,
+                        const ChoicePoint& point) {
+    PlanSearch search(moves, reservations, run);
+    return choose(moves, reservations, run, point, search);
 }
 
 }  // namespace mobbscope::testing

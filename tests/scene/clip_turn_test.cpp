@@ -1,4 +1,5 @@
 // The keys turn of a clip and turned of a move.
+#include <base/random.h>
 #include <base/text.h>
 #include <import/skeleton/motion.h>
 #include <scene/clip_import.h>
@@ -12,6 +13,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace mobbscope {
 namespace {
@@ -133,6 +135,25 @@ TEST(ClipTurn, ATurnedMoveFitsTheOneThatItIsAVariantOf) {
          "/graph/moves/1/clip: the clip 'walk' turns not at all, the move by 30 degrees"},
     };
     for (const auto& [message, expected] : cases) EXPECT_NE(message.find(expected), std::string::npos) << message;
+}
+
+TEST(MotionGraph, AMoveBeginsWithTheRemainderOfItsHeading) {
+    CounterRandom random(1, 2, 3);
+    std::vector<double> headings;
+    for (const double turns : {0.0, 0.5, 1.0, 1.5, 2.0, 3.0}) {
+        const double at = 360 * turns;
+        for (const double heading : {at, std::nextafter(at, 0.0), std::nextafter(at, 2e3)}) {
+            headings.push_back(heading);
+            headings.push_back(-heading);
+        }
+    }
+    for (int i = 0; i < 1000; ++i) headings.push_back(1500 * (random.unit() - 0.5));
+    for (const double heading : headings) {
+        const double begins = beginning_at({{1, 2}, heading, 3}, {}).placement.rotate_deg;
+        const double expected = std::remainder(heading, 360.0);
+        EXPECT_EQ(begins, expected) << heading;
+        EXPECT_EQ(std::signbit(begins), std::signbit(expected)) << heading;
+    }
 }
 
 }  // namespace

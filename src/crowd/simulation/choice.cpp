@@ -1,7 +1,6 @@
 #include <base/error.h>
 #include <base/random.h>
 #include <crowd/simulation/choice.h>
-#include <crowd/simulation/plan_search.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,14 +28,11 @@ double beyond_wall(const mobb::Disk& disk, glm::dvec2 area) {
 class Chooser {
   public:
     Chooser(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run, const ChoicePoint& point,
-            std::vector<AskedPair>* asked)
-        : moves_(moves),
-          reservations_(reservations),
-          run_(run),
-          point_(point),
-          asked_(asked),
-          search_(moves, reservations, run, point.agent, point.play, asked) {
+            PlanSearch& search, std::vector<AskedPair>* asked)
+        : moves_(moves), reservations_(reservations), run_(run), point_(point), asked_(asked), search_(search) {
+        search_.start(point.agent, point.play, asked);
         choice_.time = point.time;
+        placements_.start(point.before.move, before_, moves.after(point.before.move));
         reserve(1);
     }
 
@@ -268,8 +264,8 @@ class Chooser {
     const ChoicePoint& point_;
     std::vector<AskedPair>* asked_;
     OrientedPlacement before_{point_.before.placement};
-    FollowingPlacements placements_{moves_, point_.before.move, before_, moves_.after(point_.before.move)};
-    PlanSearch search_;
+    FollowingPlacements placements_{moves_};
+    PlanSearch& search_;
     Choice choice_;
     ReservationTable::Nearby nearby_;                 ///< what is near the candidates
     std::vector<std::optional<PlayedMove>> motions_;  ///< by candidate; none: it leaves the floor
@@ -309,8 +305,8 @@ std::optional<Blocker> blocker_of(const MoveSet& moves, const ReservationTable& 
 }  // namespace
 
 Choice choose(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run, const ChoicePoint& point,
-              std::vector<AskedPair>* asked) {
-    return Chooser(moves, reservations, run, point, asked).choose();
+              PlanSearch& search, std::vector<AskedPair>* asked) {
+    return Chooser(moves, reservations, run, point, search, asked).choose();
 }
 
 Choice choice_of(const MoveSet& moves, const CrowdRun& run, int agent, int play) {
@@ -328,7 +324,8 @@ Choice choice_of(const MoveSet& moves, const CrowdRun& run, int agent, int play)
     for (int other = 0; other < static_cast<int>(run.agents.size()); ++other) {
         if (other != agent) reserve_plays(reservations, moves, run, other, point);
     }
-    Choice choice = choose(moves, reservations, run, point);
+    PlanSearch search(moves, reservations, run);
+    Choice choice = choose(moves, reservations, run, point, search);
     for (Candidate& candidate : choice.candidates) {
         candidate.clip = clip_of(candidate);
         candidate.blocker = blocker_of(moves, reservations, point, candidate);

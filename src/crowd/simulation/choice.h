@@ -1,6 +1,7 @@
 /// A choice point: all moves that may follow, why each is discarded, and which is taken (paper, Section 5).
 #pragma once
 
+#include <crowd/simulation/plan_search.h>
 #include <crowd/simulation/reservation_table.h>
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
@@ -60,9 +61,10 @@ struct ChoicePoint {
 /// least turn. If there is none of these either (`forced`), the candidate is taken that harms least: that is for the
 /// fewest seconds in contact with what others play, summed over all of them, and of several the one whose first contact
 /// is latest. Candidates that stay on the floor go first; if none does, of those with as few seconds that which ends
-/// least far beyond the wall. The random number depends on (seed, agent, play) alone.
+/// least far beyond the wall. The random number depends on (seed, agent, play) alone. `search`: of the same, in whose
+/// memory plans are looked for.
 Choice choose(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run, const ChoicePoint& point,
-              std::vector<AskedPair>* asked = nullptr);
+              PlanSearch& search, std::vector<AskedPair>* asked = nullptr);
 
 /// Repeats the choice of one play of a run, with clips and blockers; it is exactly as it was if the run has not been
 /// changed since it was simulated. An agent's first play was placed, not chosen: its choice has that play as the only

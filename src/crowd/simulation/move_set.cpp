@@ -20,8 +20,6 @@ namespace {
 
 constexpr double kSpeedOver = 0.25;  // seconds: of a moment, as a walker's root is not equally fast within a step
 
-constexpr std::size_t kTogether = 16;  // followers in a group: of more the ones that take least room were not alone
-
 /// Place of a turn among all from -180 degrees on.
 std::size_t heading_index(double turn_deg) { return static_cast<std::size_t>(turn_deg / kTurnStep + 12.5); }
 
@@ -121,7 +119,7 @@ std::vector<MoveSet::FollowerGroup> MoveSet::turned_each_way(const std::vector<i
             const PlannedMove planned{moves[i], turn};
             const std::optional<int> played = turned(planned);
             if (!played) continue;
-            if (is_new || out.back().moves.size() == kTogether) out.emplace_back();
+            if (is_new || out.back().moves.size() == kMostTogether) out.emplace_back();
             is_new = false;
             out.back().moves.push_back({planned, *played, i, clip(*played).last});
         }

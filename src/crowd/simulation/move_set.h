@@ -88,10 +88,12 @@ class MoveSet {
         FloorRect bounds;
         double begin = 0, end = 0;  ///< global seconds
     };
+    /// Of more the ones that take least room were not alone.
+    static constexpr std::size_t kMostTogether = 16;
     /// Some that turn alike: they are near each other.
     struct FollowerGroup {
-        std::vector<Follower> moves;
-        Room room;  ///< after a move that ends at 0, at the origin, along +x
+        std::vector<Follower> moves;  ///< 1 to kMostTogether
+        Room room;                    ///< after a move that ends at 0, at the origin, along +x
     };
     /// Each of after_by_room by each of kTurns that it can turn by: all that turn least first, each time in that order.
     const std::vector<FollowerGroup>& followers(int move) const {
@@ -156,33 +158,36 @@ class MoveSet {
 /// given, which must outlive it.
 class FollowingPlacements {
   public:
-    /// `next`: moves that are not turned, such as MoveSet::after gives.
-    FollowingPlacements(const MoveSet& moves, int before, const OrientedPlacement& placed, const std::vector<int>& next)
-        : moves_(moves), before_(before), placed_(placed), next_(next), found_(next.size()) {}
+    explicit FollowingPlacements(const MoveSet& moves) : moves_(moves) {}
+
+    /// Begins anew, with moves that are not turned, such as MoveSet::after gives.
+    void start(int before, const OrientedPlacement& placed, const std::vector<int>& next) {
+        before_ = before;
+        placed_ = placed;
+        next_ = next;
+        states_.assign(next.size(), State::unknown);
+        if (found_.size() < next.size()) found_.resize(next.size());
+    }
 
     /// Of the one with that index among `next`, turned; null where it leads beyond what can be placed.
     const OrientedPlacement* at(std::size_t index, double turn_deg) {
-        Found& found = found_[index];
         // It is the same however far a move turns on its way.
-        if (!found.known || moves_.turns_at_once()) {
-            found.placement = moves_.following(before_, placed_, {next_[index], turn_deg});
-            found.known = true;
-            found.is_valid = mobb::is_valid(found.placement.placement);
+        if (states_[index] == State::unknown || moves_.turns_at_once()) {
+            found_[index] = moves_.following(before_, placed_, {next_[index], turn_deg});
+            states_[index] = mobb::is_valid(found_[index].placement) ? State::valid : State::invalid;
         }
-        return found.is_valid ? &found.placement : nullptr;
+        return states_[index] == State::valid ? &found_[index] : nullptr;
     }
 
   private:
-    struct Found {
-        OrientedPlacement placement;
-        bool known = false, is_valid = false;
-    };
+    enum class State : unsigned char { unknown, valid, invalid };
 
     const MoveSet& moves_;
-    int before_;
-    const OrientedPlacement& placed_;
-    const std::vector<int>& next_;
-    std::vector<Found> found_;
+    int before_ = 0;
+    OrientedPlacement placed_;
+    std::span<const int> next_;
+    std::vector<State> states_;
+    std::vector<OrientedPlacement> found_;  ///< of those that are known; the memory is used again
 };
 
 }  // namespace mobbscope

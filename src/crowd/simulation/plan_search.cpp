@@ -1,6 +1,10 @@
 #include <crowd/simulation/plan_search.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <memory>
 #include <optional>
+#include <span>
 
 namespace mobbscope {
 
@@ -16,6 +20,7 @@ bool PlanSearch::look(int move, const OrientedPlacement& placed, std::span<const
     longest_.clear();
     reach_ = 0;
     left_ = kMostLookedAt;
+    collides_ = false;
     if (run_.plan == 0) return true;
     if (!kept.empty()) {
         int last = move;
@@ -43,29 +48,52 @@ void PlanSearch::add(const PlannedMove& next, double seconds) {
 bool PlanSearch::extend(int before, const OrientedPlacement& placed, double seconds) {
     if (seconds >= run_.plan && (run_.grace == 0 || !reservations_.faces_wall(before, placed))) return true;
     if (seconds >= kLongest * run_.plan) return false;
-    FollowingPlacements placements(moves_, before, placed, moves_.after_by_room(before));
+    while (levels_.size() <= plan_.size()) levels_.push_back(std::make_unique<Level>(moves_));
+    Level& level = *levels_[plan_.size()];
+    level.placements.start(before, placed, moves_.after_by_room(before));
     for (const MoveSet::FollowerGroup& group : moves_.followers(before)) {
-        // Looked up once for all of them, when the first one stays on the floor.
-        std::optional<Surroundings> motions, plans;
-        for (const MoveSet::Follower& next : group.moves) {
-            const OrientedPlacement* const at = placements.at(next.number, next.planned.turn_deg);
-            // Most that leave the floor have left it at their end.
-            if (!at || is_over_wall(next.last, *at, run_.area)) continue;
-            const PlayableClip& clip = moves_.clip(next.played);
-            const std::optional<FloorRect> bounds = bounds_on_floor(clip, *at, run_.area);
-            if (!bounds) continue;
-            if (--left_ < 0) return false;
-            if (!motions) {
-                const auto [all, begin, end] = moves_.room_after(before, placed, group.room);
-                motions = reservations_.motions().around(agent_, all, begin, end);
-                plans = reservations_.plans().around(agent_, all, begin, end);
+        bool is_looked_up = false;
+        for (auto next = group.moves.begin(); next != group.moves.end();) {
+            // Where one collides, those that are like it mostly do, and are looked at together; where none does, the
+            // first is mostly gone on from.
+            const auto most = static_cast<std::size_t>(collides_ ? std::max(left_, 1) : 1);
+            level.clear();
+            for (; next != group.moves.end() && level.looked_at.size() < most; ++next) {
+                const OrientedPlacement* const at = level.placements.at(next->number, next->planned.turn_deg);
+                // Most that leave the floor have left it at their end.
+                if (!at || is_over_wall(next->last, *at, run_.area)) continue;
+                const PlayableClip& clip = moves_.clip(next->played);
+                const std::optional<FloorRect> bounds = bounds_on_floor(clip, *at, run_.area);
+                if (!bounds) continue;
+                level.looked_at.emplace_back(agent_, play_, next->played, clip, *at, *bounds);
+                level.followers.push_back(&*next);
             }
-            const PlayedMove motion(agent_, play_, next.played, clip, *at, *bounds);
-            if (!motions->is_clear(motion, queries_, asked_) || !plans->is_clear(motion, queries_, asked_)) continue;
-            const double seconds_then = seconds + moves_.duration(next.played);
-            add(next.planned, seconds_then);
-            if (extend(next.played, *at, seconds_then)) return true;
-            plan_.pop_back();
+            if (level.looked_at.empty()) break;
+            if (left_ <= 0) return false;
+            // Looked up once for all of them, when the first one stays on the floor.
+            if (!is_looked_up) {
+                const auto [all, begin, end] = moves_.room_after(before, placed, group.room);
+                reservations_.motions().find_around(agent_, all, begin, end, level.motions);
+                reservations_.plans().find_around(agent_, all, begin, end, level.plans);
+                is_looked_up = true;
+            }
+            level.found.assign(level.looked_at.size(), {});
+            for (const PlayedMove& motion : level.looked_at) level.candidates.push_back(&motion);
+            level.motions.find_first(level.candidates, level.found);
+            level.plans.find_first(level.candidates, level.found);
+            for (std::size_t i = 0; i < level.looked_at.size(); ++i) {
+                if (--left_ < 0) return false;
+                const PlayedMove& motion = level.looked_at[i];
+                const FirstMet& met = level.found[i];
+                queries_ += met.asked;
+                if (asked_) level.plans.append(motion, level.motions.append(motion, met.asked, *asked_), *asked_);
+                collides_ = met.collides();
+                if (collides_) continue;
+                const double seconds_then = seconds + moves_.duration(motion.move);
+                add(level.followers[i]->planned, seconds_then);
+                if (extend(motion.move, motion.at, seconds_then)) return true;
+                plan_.pop_back();
+            }
         }
     }
     return false;

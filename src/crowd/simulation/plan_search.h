@@ -5,6 +5,7 @@
 #include <scene/crowd_run.h>
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -12,11 +13,18 @@ namespace mobbscope {
 
 class PlanSearch {
   public:
-    /// For a play of an agent that it has not reserved yet. `asked` gets the pairs whose trees were queried. All must
-    /// outlive the search.
-    PlanSearch(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run, int agent, int play,
-               std::vector<AskedPair>* asked = nullptr)
-        : moves_(moves), reservations_(reservations), run_(run), agent_(agent), play_(play), asked_(asked) {}
+    /// All must outlive the search.
+    PlanSearch(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run)
+        : moves_(moves), reservations_(reservations), run_(run) {}
+
+    /// Begins anew, for a play of an agent that it has not reserved yet. `asked` gets the pairs whose trees were
+    /// queried, and must outlive what is looked for.
+    void start(int agent, int play, std::vector<AskedPair>* asked = nullptr) {
+        agent_ = agent;
+        play_ = play;
+        asked_ = asked;
+        queries_ = 0;
+    }
 
     /// Looks for moves that can follow `move`, back to back, that stay on the floor, collide with nothing that another
     /// agent has reserved, last CrowdRun::plan seconds, and do not end facing a wall (that only with a grace, as
@@ -26,22 +34,42 @@ class PlanSearch {
 
     const std::vector<PlannedMove>& plan() const { return longest_; }  ///< what look() found
     double seconds() const { return reach_; }                          ///< that it lasts
-    std::int64_t queries() const { return queries_; }                  ///< tree queries made so far
+    std::int64_t queries() const { return queries_; }                  ///< tree queries made since the start
 
   private:
+    /// What is looked at behind one move of a plan, in memory that is used again.
+    struct Level {
+        explicit Level(const MoveSet& moves) : placements(moves) {}
+
+        FollowingPlacements placements;
+        Surroundings motions, plans;
+        std::vector<PlayedMove> looked_at;
+        std::vector<const MoveSet::Follower*> followers;  ///< of those, as the next two
+        std::vector<const PlayedMove*> candidates;
+        std::vector<FirstMet> found;
+
+        void clear() {
+            looked_at.clear();
+            followers.clear();
+            candidates.clear();
+        }
+    };
+
     bool extend(int before, const OrientedPlacement& placed, double seconds);
     void add(const PlannedMove& next, double seconds);
 
     const MoveSet& moves_;
     const ReservationTable& reservations_;
     const CrowdRun& run_;
-    int agent_;
-    int play_;
-    std::vector<AskedPair>* asked_;
-    std::vector<PlannedMove> plan_;  ///< at present
+    int agent_ = 0;
+    int play_ = 0;
+    std::vector<AskedPair>* asked_ = nullptr;
+    std::vector<std::unique_ptr<Level>> levels_;  ///< by the moves planned before
+    std::vector<PlannedMove> plan_;               ///< at present
     std::vector<PlannedMove> longest_;
     double reach_ = 0;
-    int left_ = 0;  ///< moves that may still be looked at
+    int left_ = 0;           ///< moves that may still be looked at
+    bool collides_ = false;  ///< the one that was looked at last
     std::int64_t queries_ = 0;
 };
 

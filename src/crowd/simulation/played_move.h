@@ -4,6 +4,7 @@
 #include <mobb/blocks.h>
 #include <mobb/clip.h>
 #include <mobb/kdop.h>
+#include <mobb/lanes.h>
 #include <mobb/placed_tree.h>
 #include <mobb/production.h>
 #include <mobb/tree.h>
@@ -26,7 +27,7 @@ struct FloorRect {
     glm::dvec2 high{0};
 
     bool meets(const FloorRect& other) const {
-        return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y;
+        return !mobb::any((mobb::lanes(low) > mobb::lanes(other.high)) | (mobb::lanes(other.low) > mobb::lanes(high)));
     }
     /// Around both.
     FloorRect with(const FloorRect& other) const { return {glm::min(low, other.low), glm::max(high, other.high)}; }
@@ -96,8 +97,8 @@ struct PlayedMove {
           placed(clip.blocks, where.rotation, where.placement.translate, where.placement.start),
           bounds(placed_bounds) {}
 
-    double begin() const { return placed.time(placed.first()); }  ///< global seconds
-    double end() const { return placed.time(placed.end()); }
+    double begin() const { return placed.begin_time(); }  ///< global seconds
+    double end() const { return placed.end_time(); }
     /// Of a clip that has a tree.
     mobb::PlacedTree placed_tree() const { return {*playable->tree, at.placement}; }
 

@@ -2,10 +2,11 @@
 #include <mobb/predicate.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <utility>
+#include <span>
 
 namespace mobbscope {
 
@@ -13,10 +14,41 @@ namespace {
 
 constexpr double kCell = 4;       // metres: about what a clip of two seconds covers
 constexpr int kMostCells = 1024;  // in a row or column: a huge floor gets larger cells
-constexpr std::size_t kUsuallyNear = 32;
 
 int cells_along(double length) {
     return static_cast<int>(std::clamp(std::ceil(length / kCell), 1.0, static_cast<double>(kMostCells)));
+}
+
+/// Puts a value where `free` says that there is none, or else at the end; returns where.
+template <class T>
+std::uint32_t put(std::vector<T>& values, std::vector<std::uint32_t>& free, const T& value) {
+    if (free.empty()) {
+        values.push_back(value);
+        return static_cast<std::uint32_t>(values.size() - 1);
+    }
+    const std::uint32_t place = free.back();
+    free.pop_back();
+    values[place] = value;
+    return place;
+}
+
+/// How many of some numbers, the least first, are less than `limit`. Without a branch for each step, which would often
+/// be mispredicted.
+std::size_t count_before(double limit, const std::vector<double>& numbers) {
+    const double* from = numbers.data();
+    for (std::size_t left = numbers.size(); left > 0;) {
+        const std::size_t half = (left + 1) / 2;
+        from += half * static_cast<std::size_t>(from[half - 1] < limit);
+        left -= half;
+    }
+    return static_cast<std::size_t>(from - numbers.data());
+}
+
+/// Into the processor's caches: values up to `end`, the first few lines of them.
+template <class T>
+void fetch(const T* from, const T* end) {
+    constexpr std::ptrdiff_t kLine = 64 / sizeof(T), kMost = 8 * kLine;
+    for (end = from + std::min(end - from, kMost); from < end; from += kLine) __builtin_prefetch(from);
 }
 
 /// Row by row: visit(x, y).
@@ -38,77 +70,112 @@ ReservationGrid::ReservationGrid(glm::dvec2 area)
 
 ReservationGrid::CellRange ReservationGrid::cells_of(const FloorRect& rect) const {
     const auto along = [](double at, double low, double per_metre, int count) {
-        return static_cast<int>(std::clamp((at - low) * per_metre, 0.0, count - 1.0));
+        return static_cast<std::int16_t>(std::clamp((at - low) * per_metre, 0.0, count - 1.0));
     };
     return {along(rect.low.x, low_.x, per_metre_.x, columns_), along(rect.low.y, low_.y, per_metre_.y, rows_),
             along(rect.high.x, low_.x, per_metre_.x, columns_), along(rect.high.y, low_.y, per_metre_.y, rows_)};
 }
 
 std::size_t ReservationGrid::reserve(const PlayedMove& motion) {
-    auto slot = static_cast<std::uint32_t>(motions_.size());
-    const Held held{motion, cells_of(motion.bounds), false};
-    if (free_.empty()) {
-        motions_.push_back(held);
-    } else {
-        slot = free_.back();
-        free_.pop_back();
-        motions_[slot] = held;
-    }
-    const Entry entry{motion.bounds, motion.begin(), motion.end(), motion.agent, slot, held.cells.x0, held.cells.y0};
+    const std::uint32_t place = put(motions_, unused_, motion);
+    const CellRange cells = cells_of(motion.bounds);
+    const std::uint32_t slot = put(held_, free_, Held{cells, place, false});
+    const Entry entry{motion.bounds, motion.begin(), motion.end(), motion.agent, slot, place, cells.x0, cells.y0};
     longest_ = std::max(longest_, entry.end - entry.begin);
     latest_end_ = std::max(latest_end_, entry.end);
-    for_each_cell(held.cells, [&](int x, int y) {
-        std::vector<Entry>& cell = cells_[index(x, y)];
-        cell.insert(std::ranges::upper_bound(cell, entry.begin, {}, &Entry::begin), entry);
+    for_each_cell(cells, [&](int x, int y) {
+        Cell& cell = cells_[index(x, y)];
+        const auto next = std::ranges::upper_bound(cell.begins, entry.begin);
+        cell.entries.insert(cell.entries.begin() + (next - cell.begins.begin()), entry);
+        cell.begins.insert(next, entry.begin);
     });
     endings_.push({entry.end, slot});
     return slot;
 }
 
 void ReservationGrid::withdraw(std::size_t reservation) {
-    // Its slot is used again when it would have ended.
-    Held& held = motions_[reservation];
+    // Its slot is used again when it would have ended, its place in memory at once.
+    Held& held = held_[reservation];
     for_each_cell(held.cells, [&](int x, int y) {
-        std::vector<Entry>& cell = cells_[index(x, y)];
-        cell.erase(std::ranges::find(cell, reservation, &Entry::slot));
+        Cell& cell = cells_[index(x, y)];
+        const auto entry = std::ranges::find(cell.entries, reservation, &Entry::slot);
+        cell.begins.erase(cell.begins.begin() + (entry - cell.entries.begin()));
+        cell.entries.erase(entry);
     });
     held.withdrawn = true;
+    unused_.push_back(held.place);
 }
 
 void ReservationGrid::forget_before(double now) {
     while (!endings_.empty() && endings_.top().end <= now) {
         const std::uint32_t slot = endings_.top().slot;
         endings_.pop();
-        if (!motions_[slot].withdrawn) withdraw(slot);
+        if (!held_[slot].withdrawn) withdraw(slot);
         free_.push_back(slot);
     }
 }
 
-template <class Visit>
-void ReservationGrid::visit_cells(const CellRange& range, double from, double to, const Visit& visit) const {
-    for_each_cell(range, [&](int x, int y) {
-        const std::vector<Entry>& cell = cells_[index(x, y)];
-        for (auto entry = std::ranges::lower_bound(cell, from, {}, &Entry::begin);
-             entry != cell.end() && entry->begin <= to; ++entry) {
-            // Of the cells of the range that a motion reaches into, the first one reports it.
-            if (x == std::max(range.x0, entry->x0) && y == std::max(range.y0, entry->y0)) visit(*entry);
+template <class Meets, class Visit>
+void ReservationGrid::visit_cells(const CellRange& range, double from, double to, const Meets& meets,
+                                  const Visit& visit) const {
+    struct Window {
+        const Entry* next;
+        const Entry* last;
+        int x, y;
+    };
+    constexpr std::ptrdiff_t kAtATime = 32;
+    std::array<Window, kAtATime> windows;
+    std::size_t count = 0;
+    const auto visit_windows = [&] {
+        for (auto [next, last, x, y] : std::span(windows).first(count)) {
+            std::array<const Entry*, kAtATime> met;
+            while (next < last) {
+                std::size_t meeting = 0;
+                for (const Entry* const end = next + std::min(kAtATime, last - next); next != end; ++next) {
+                    // Of the cells of the range that a motion reaches into, the first one reports it. Without a branch
+                    // for each, which would often be mispredicted.
+                    const unsigned is_first = static_cast<unsigned>(x == std::max(range.x0, next->x0)) &
+                                              static_cast<unsigned>(y == std::max(range.y0, next->y0));
+                    met[meeting] = next;
+                    meeting += is_first & static_cast<unsigned>(meets(*next));
+                }
+                for (std::size_t i = 0; i < meeting; ++i) visit(*met[i]);
+            }
         }
+        count = 0;
+    };
+    // What belongs to a cell lies anywhere in memory: of all cells it is fetched before it is read of one.
+    for_each_cell(range, [&](int x, int y) {
+        const std::vector<double>& begins = cells_[index(x, y)].begins;
+        fetch(begins.data(), begins.data() + begins.size());
     });
+    for_each_cell(range, [&](int x, int y) {
+        const auto& [begins, entries] = cells_[index(x, y)];
+        const Entry* const first = entries.data() + count_before(from, begins);
+        const Entry* const last = entries.data() + count_before(to, begins);
+        fetch(first, last);
+        windows[count++] = {first, last, x, y};
+        if (count == windows.size()) visit_windows();
+    });
+    visit_windows();
 }
 
-Surroundings ReservationGrid::around(int agent, const FloorRect& bounds, double begin, double end) const {
-    std::vector<Surroundings::Near> near;
-    // Most plans go on when all that is played has ended.
-    if (begin >= latest_end_) return Surroundings(std::move(near));
-    near.reserve(kUsuallyNear);
-    // What began longer ago than any motion lasts has ended; the margin is far more than rounding.
-    const double from = begin - longest_ - 1e-12 * std::abs(begin);
-    visit_cells(cells_of(bounds), from, end, [&](const Entry& other) {
-        if (other.agent != agent && mobb::overlap_in_time(begin, end, other.begin, other.end) &&
-            bounds.meets(other.bounds))
-            near.push_back({other.bounds, other.begin, other.end, &motions_[other.slot].motion});
+void ReservationGrid::find_around(int agent, const FloorRect& bounds, double begin, double end,
+                                  Surroundings& out) const {
+    out.refill([&](std::vector<Surroundings::Near>& near) {
+        // Most plans go on when all that is played has ended.
+        if (begin >= latest_end_) return;
+        // What began longer ago than any motion lasts has ended; the margin is far more than rounding.
+        const double from = begin - longest_ - 1e-12 * std::abs(begin);
+        const auto meets = [&](const Entry& other) {
+            return static_cast<unsigned>(other.agent != agent) &
+                   static_cast<unsigned>(mobb::overlap_in_time(begin, end, other.begin, other.end)) &
+                   static_cast<unsigned>(bounds.meets(other.bounds));
+        };
+        visit_cells(cells_of(bounds), from, end, meets, [&](const Entry& other) {
+            near.push_back({other.bounds, other.begin, other.end, &motions_[other.place]});
+        });
     });
-    return Surroundings(std::move(near));
 }
 
 void ReservationGrid::all_pairs(const PlayedMove& candidate, double range, std::vector<AskedPair>& pairs) const {
@@ -117,11 +184,10 @@ void ReservationGrid::all_pairs(const PlayedMove& candidate, double range, std::
     reach.high += range;
     std::vector<std::uint32_t> slots;
     constexpr double kEver = std::numeric_limits<double>::infinity();
-    visit_cells(cells_of(reach), -kEver, kEver, [&](const Entry& other) {
-        if (other.agent != candidate.agent && reach.meets(other.bounds)) slots.push_back(other.slot);
-    });
+    const auto meets = [&](const Entry& other) { return other.agent != candidate.agent && reach.meets(other.bounds); };
+    visit_cells(cells_of(reach), -kEver, kEver, meets, [&](const Entry& other) { slots.push_back(other.slot); });
     std::sort(slots.begin(), slots.end());
-    for (const std::uint32_t slot : slots) pairs.push_back({candidate, motions_[slot].motion});
+    for (const std::uint32_t slot : slots) pairs.push_back({candidate, motions_[held_[slot].place]});
 }
 
 }  // namespace mobbscope

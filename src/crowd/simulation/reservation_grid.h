@@ -25,15 +25,21 @@ class ReservationGrid {
     void withdraw(std::size_t reservation);
     /// Motions that end at `now` or before are dropped: no candidate that begins later can meet them.
     void forget_before(double now);
-    std::size_t size() const { return motions_.size() - free_.size(); }  ///< motions not forgotten
+    std::size_t size() const { return held_.size() - free_.size(); }  ///< motions not forgotten
 
     /// The motions of other agents than `agent` whose bounds meet `bounds`, from `begin` to `end`, global seconds. They
     /// may be asked until something is reserved or forgotten.
-    Surroundings around(int agent, const FloorRect& bounds, double begin, double end) const;
+    Surroundings around(int agent, const FloorRect& bounds, double begin, double end) const {
+        Surroundings out;
+        find_around(agent, bounds, begin, end, out);
+        return out;
+    }
     /// The same around one candidate.
     Surroundings around(const PlayedMove& candidate) const {
         return around(candidate.agent, candidate.bounds, candidate.begin(), candidate.end());
     }
+    /// The same in place of what is there, in its memory.
+    void find_around(int agent, const FloorRect& bounds, double begin, double end, Surroundings& out) const;
 
     /// Appends every pair of the candidate and a motion of another agent whose bounds on the floor come within `range`
     /// metres of the candidate's, at any time: the pairs that would be queried if times were not compared first, and
@@ -42,11 +48,11 @@ class ReservationGrid {
 
   private:
     struct CellRange {
-        int x0, y0, x1, y1;  ///< inclusive
+        std::int16_t x0, y0, x1, y1;  ///< inclusive
     };
     struct Held {
-        PlayedMove motion;
         CellRange cells;
+        std::uint32_t place;  ///< of motions_
         bool withdrawn;
     };
     /// What decides in a cell whether a motion is near a candidate: beside each other in memory, unlike the motions.
@@ -54,8 +60,14 @@ class ReservationGrid {
         FloorRect bounds;
         double begin, end;  ///< global seconds
         int agent;
-        std::uint32_t slot;  ///< of motions_
-        int x0, y0;          ///< the first cell that it reaches into
+        std::uint32_t slot;   ///< of held_
+        std::uint32_t place;  ///< of motions_
+        std::int16_t x0, y0;  ///< the first cell that it reaches into
+    };
+    /// The motions whose bounds reach into a cell, by their begin.
+    struct Cell {
+        std::vector<double> begins;  ///< of the entries, beside each other
+        std::vector<Entry> entries;
     };
     struct Ending {
         double end;
@@ -67,20 +79,22 @@ class ReservationGrid {
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
     }
-    /// Calls visit(entry) once for each motion that reaches into a cell of the range and begins from `from` to `to`,
-    /// global seconds.
-    template <class Visit>
-    void visit_cells(const CellRange& range, double from, double to, const Visit& visit) const;
+    /// Calls visit(entry) once for each motion that reaches into a cell of the range, begins from `from` on, before
+    /// `to`, global seconds, and for which meets(entry) is true.
+    template <class Meets, class Visit>
+    void visit_cells(const CellRange& range, double from, double to, const Meets& meets, const Visit& visit) const;
 
     glm::dvec2 low_;
     glm::dvec2 per_metre_;  ///< cells
     int columns_;
     int rows_;
-    std::vector<std::vector<Entry>> cells_;  ///< motions whose bounds reach into the cell, by their begin
-    double longest_ = 0;                     ///< seconds that a motion lasts
+    std::vector<Cell> cells_;
+    double longest_ = 0;                                         ///< seconds that a motion lasts
     double latest_end_ = std::numeric_limits<double>::lowest();  ///< global seconds; nothing lasts longer
-    std::vector<Held> motions_;
-    std::vector<std::uint32_t> free_;  ///< slots of motions_ that hold nothing
+    std::vector<Held> held_;
+    std::vector<std::uint32_t> free_;    ///< slots of held_ that hold nothing
+    std::vector<PlayedMove> motions_;    ///< that are held; in as little memory as caches hold, if they can
+    std::vector<std::uint32_t> unused_;  ///< places of motions_ that hold nothing
     std::priority_queue<Ending, std::vector<Ending>, std::greater<>> endings_;
 };
 

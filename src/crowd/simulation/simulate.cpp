@@ -102,9 +102,9 @@ class Simulator {
             const ReservationTable::Nearby nearby = reservations_.nearby(motion);
             if (!nearby.motions.is_clear(motion) || !nearby.plans.is_clear(motion)) continue;
             Play play{move, at.placement, at.placement.start, PlayKind::chosen};
-            PlanSearch search(moves_, reservations_, simulation_.run, agent, 0);
-            const bool has_way_on = search.look(move, at);
-            play.plan = search.plan();
+            search_.start(agent, 0);
+            const bool has_way_on = search_.look(move, at);
+            play.plan = search_.plan();
             // Where the floor is nearly full, any place will do.
             if (i < kTries / 2 && (!has_way_on || reservations_.in_the_way(motion, nearby))) continue;
             simulation_.run.agents.push_back({std::to_string(agent + 1), {}});
@@ -122,7 +122,8 @@ class Simulator {
         const ChoicePoint point{turn.agent, static_cast<int>(plays.size()), plays.back(), turn.time};
         asked_.clear();
         const bool records_asked = sample_ && sample_->recorded() == Recorded::asked;
-        const Choice choice = choose(moves_, reservations_, simulation_.run, point, records_asked ? &asked_ : nullptr);
+        const Choice choice =
+            choose(moves_, reservations_, simulation_.run, point, search_, records_asked ? &asked_ : nullptr);
         const Candidate& taken = choice.candidates[choice.taken];
         if (sample_) record(choice, point);
         count(choice);
@@ -177,6 +178,7 @@ class Simulator {
     const SimulationProgress& progress_;
     ReservationTable reservations_;
     Simulation simulation_;
+    PlanSearch search_{moves_, reservations_, simulation_.run};
     std::priority_queue<Turn, std::vector<Turn>, std::greater<>> turns_;
     std::vector<AskedPair> asked_;  ///< at the present choice point
 };

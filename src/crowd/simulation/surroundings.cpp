@@ -6,19 +6,20 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 namespace mobbscope {
 
 namespace {
 
-constexpr std::size_t kGrain = 64;  // candidates a task: fewer are not worth a thread
-constexpr std::size_t kAtATime = 32;
+constexpr std::size_t kGrain = 64;    // candidates a task: fewer are not worth a thread
+constexpr std::size_t kAtATime = 64;  // as many as a number has bits
 
 bool comes_near(const PlayedMove& candidate, const Surroundings::Near& other) {
     // Without a branch for each, which would often be mispredicted.
@@ -67,26 +68,25 @@ void add_contacts(const PlayedMove& a, const PlayedMove& b, double most, Contact
 
 }  // namespace
 
-Surroundings::Surroundings(std::vector<Near> near) : near_(std::move(near)) {
+void Surroundings::sort() {
     std::sort(near_.begin(), near_.end(), [](const Near& a, const Near& b) {
         if (a.begin != b.begin) return a.begin < b.begin;
         return std::tie(a.motion->agent, a.motion->play) < std::tie(b.motion->agent, b.motion->play);
     });
 }
 
-Surroundings::FirstMet Surroundings::first_met(const PlayedMove& candidate) const {
-    int asked = 0;
+void Surroundings::find_first(const PlayedMove& candidate, FirstMet& found) const {
     if (candidate.playable->tree) {
-        for (std::size_t i = 0; i < near_.size(); ++i) {
+        for (std::size_t i = 0; i < near_.size() && !found.collides(); ++i) {
             if (!comes_near(candidate, near_[i])) continue;
-            ++asked;
-            if (contact_of(candidate, *near_[i].motion)) return {i, asked};
+            ++found.asked;
+            if (contact_of(candidate, *near_[i].motion)) found.index = i;
         }
-        return {near_.size(), asked};
+        return;
     }
     std::array<std::size_t, kAtATime> index;
     std::array<const mobb::PlacedBlocks*, kAtATime> others;
-    for (std::size_t i = 0; i < near_.size();) {
+    for (std::size_t i = 0; i < near_.size() && !found.collides();) {
         std::size_t count = 0;
         for (; i < near_.size() && count < kAtATime; ++i) {
             index[count] = i;
@@ -94,10 +94,63 @@ Surroundings::FirstMet Surroundings::first_met(const PlayedMove& candidate) cons
             count += comes_near(candidate, near_[i]) ? std::size_t{1} : std::size_t{0};
         }
         const auto met = mobb::intersects_any(candidate.placed, std::span(others).first(count));
-        if (met) return {index[*met], asked + static_cast<int>(*met) + 1};
-        asked += static_cast<int>(count);
+        if (met) found.index = index[*met];
+        found.asked += static_cast<int>(met ? *met + 1 : count);
     }
-    return {near_.size(), asked};
+}
+
+void Surroundings::find_first_in(std::span<const PlayedMove* const> candidates, std::size_t from,
+                                 std::span<FirstMet> found) const {
+    const std::size_t end = std::min(near_.size(), from + kAtATime);
+    struct Search {
+        std::size_t candidate;
+        std::uint64_t left;  // of the motions near it
+        std::size_t next() const { return static_cast<std::size_t>(std::countr_zero(left)); }
+    };
+    std::array<Search, kAtATime> searches;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        std::uint64_t near = 0;
+        for (std::size_t k = end; k-- > from;) near = near << 1 | std::uint64_t{comes_near(*candidates[i], near_[k])};
+        searches[count] = {i, near};
+        count += near != 0 && !found[i].collides() ? std::size_t{1} : std::size_t{0};
+    }
+    std::array<mobb::BlocksPair, kAtATime> pairs;
+    std::array<bool, kAtATime> meet;
+    // Each is asked about one motion at a time: most that collide with any collide with the first or second.
+    while (count > 0) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const Search& search = searches[i];
+            pairs[i] = {&candidates[search.candidate]->placed, &near_[from + search.next()].motion->placed};
+        }
+        mobb::intersects_each(std::span(pairs).first(count), std::span(meet).first(count));
+        std::size_t open = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            Search search = searches[i];
+            FirstMet& of = found[search.candidate];
+            ++of.asked;
+            of.index = meet[i] ? from + search.next() : FirstMet::kNobody;
+            search.left &= search.left - 1;
+            searches[open] = search;
+            open += !meet[i] && search.left != 0 ? std::size_t{1} : std::size_t{0};
+        }
+        count = open;
+    }
+}
+
+void Surroundings::find_first(std::span<const PlayedMove* const> candidates, std::span<FirstMet> found) const {
+    if (candidates.empty()) return;
+    if (candidates.size() == 1 || candidates.front()->playable->tree) {
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            if (!found[i].collides()) find_first(*candidates[i], found[i]);
+        }
+        return;
+    }
+    for (std::size_t first = 0; first < candidates.size(); first += kAtATime) {
+        const std::size_t count = std::min(kAtATime, candidates.size() - first);
+        for (std::size_t from = 0; from < near_.size(); from += kAtATime)
+            find_first_in(candidates.subspan(first, count), from, found.subspan(first, count));
+    }
 }
 
 template <class Visit>
@@ -118,38 +171,33 @@ int Surroundings::ask_on(const PlayedMove& candidate, const FirstMet& met, const
     return asked;
 }
 
-void Surroundings::append(const PlayedMove& candidate, std::int64_t count, std::vector<AskedPair>& asked) const {
-    for (auto other = near_.begin(); count > 0; ++other) {
+int Surroundings::append(const PlayedMove& candidate, int count, std::vector<AskedPair>& asked) const {
+    for (auto other = near_.begin(); count > 0 && other != near_.end(); ++other) {
         if (!comes_near(candidate, *other)) continue;
         asked.push_back({candidate, *other->motion});
         --count;
     }
+    return count;
 }
 
-CandidateCheck Surroundings::check(const PlayedMove& candidate, std::vector<AskedPair>* asked) const {
-    const FirstMet met = first_met(candidate);
-    CandidateCheck out{met.index < near_.size(), met.asked};
-    if (out.collides) {
-        const auto near = [&](const Near& other) { return comes_near(candidate, other); };
-        const auto last = std::find_if(near_.rbegin(), near_.rend(), near);
-        // No contact is before the candidate: what has begun by then is asked, whenever the earliest is.
-        if (last->begin <= candidate.begin()) {
-            const auto behind = near_.begin() + static_cast<std::ptrdiff_t>(met.index) + 1;
-            out.asked += static_cast<int>(std::count_if(behind, last.base(), near));
-        } else {
-            out.asked = ask_on(candidate, met, [](const PlayedMove&, const mobb::Contact&) {});
-        }
-    }
-    if (asked) append(candidate, out.asked, *asked);
-    return out;
+CandidateCheck Surroundings::check(const PlayedMove& candidate, const FirstMet& met) const {
+    if (!met.collides()) return {false, met.asked};
+    const auto near = [&](const Near& other) { return comes_near(candidate, other); };
+    const auto last = std::find_if(near_.rbegin(), near_.rend(), near);
+    // No contact is before the candidate: what has begun by then is asked, whenever the earliest is.
+    if (last->begin > candidate.begin())
+        return {true, ask_on(candidate, met, [](const PlayedMove&, const mobb::Contact&) {})};
+    const auto behind = near_.begin() + static_cast<std::ptrdiff_t>(met.index) + 1;
+    return {true, met.asked + static_cast<int>(std::count_if(behind, last.base(), near))};
 }
 
 std::vector<CandidateCheck> Surroundings::check_all(std::span<const PlayedMove* const> candidates,
                                                     std::vector<AskedPair>* asked) const {
     std::vector<CandidateCheck> out(candidates.size());
-    std::vector<std::vector<AskedPair>> pairs(asked ? candidates.size() : 0);
     const auto check_range = [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i != end; ++i) out[i] = check(*candidates[i], asked ? &pairs[i] : nullptr);
+        std::vector<FirstMet> met(end - begin);
+        find_first(candidates.subspan(begin, end - begin), met);
+        for (std::size_t i = begin; i != end; ++i) out[i] = check(*candidates[i], met[i - begin]);
     };
     if (candidates.size() <= kGrain) {
         check_range(0, candidates.size());
@@ -157,14 +205,15 @@ std::vector<CandidateCheck> Surroundings::check_all(std::span<const PlayedMove* 
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), kGrain),
                           [&](const auto& range) { check_range(range.begin(), range.end()); });
     }
-    for (const std::vector<AskedPair>& of_one : pairs) asked->insert(asked->end(), of_one.begin(), of_one.end());
+    for (std::size_t i = 0; asked && i < candidates.size(); ++i) append(*candidates[i], out[i].asked, *asked);
     return out;
 }
 
 std::optional<Blocker> Surroundings::blocker(const PlayedMove& candidate) const {
     std::optional<Blocker> out;
-    const FirstMet met = first_met(candidate);
-    if (met.index == near_.size()) return out;
+    FirstMet met;
+    find_first(candidate, met);
+    if (!met.collides()) return out;
     ask_on(candidate, met, [&](const PlayedMove& other, const mobb::Contact& contact) {
         if (!out || std::tuple(contact.time, other.agent) < std::tuple(out->contact.time, out->agent)) {
             out = {other.agent,       other.play, contact,
@@ -175,16 +224,10 @@ std::optional<Blocker> Surroundings::blocker(const PlayedMove& candidate) const 
     return out;
 }
 
-bool Surroundings::is_clear(const PlayedMove& candidate, std::int64_t& queries, std::vector<AskedPair>* asked) const {
-    const FirstMet met = first_met(candidate);
-    queries += met.asked;
-    if (asked) append(candidate, met.asked, *asked);
-    return met.index == near_.size();
-}
-
 bool Surroundings::is_clear(const PlayedMove& candidate) const {
-    std::int64_t queries = 0;
-    return is_clear(candidate, queries);
+    FirstMet met;
+    find_first(candidate, met);
+    return !met.collides();
 }
 
 ContactTimes Surroundings::contact_times(const PlayedMove& candidate, double most) const {

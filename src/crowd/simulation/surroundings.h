@@ -41,6 +41,16 @@ struct CandidateCheck {
     int asked = 0;  ///< tree queries: as many as it takes to find the blocker, the motions by their begin
 };
 
+/// The first motion that a candidate is found to collide with.
+struct FirstMet {
+    static constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
+
+    std::size_t index = kNobody;  ///< among the surroundings
+    int asked = 0;                ///< tree queries: of the motions near the candidate, those up to it
+
+    bool collides() const { return index != kNobody; }
+};
+
 /// How a candidate collides with what others have reserved.
 struct ContactTimes {
     double seconds = 0;                                      ///< in contact; with two at a time it counts twice
@@ -58,41 +68,47 @@ class Surroundings {
         const PlayedMove* motion;
     };
 
-    Surroundings() = default;
-    /// Takes motions in any order.
-    explicit Surroundings(std::vector<Near> near);
+    /// Motions in any order, in place of those that are there.
+    template <class Fill>
+    void refill(const Fill& fill) {
+        near_.clear();
+        fill(near_);
+        sort();
+    }
 
     /// Checks each candidate. The pairs whose trees were queried are appended to `asked`, in the order of the
     /// candidates. The results do not depend on the number of threads.
     std::vector<CandidateCheck> check_all(std::span<const PlayedMove* const> candidates,
                                           std::vector<AskedPair>* asked = nullptr) const;
-    /// The same of one.
-    CandidateCheck check(const PlayedMove& candidate, std::vector<AskedPair>* asked = nullptr) const;
 
     /// What the candidate collides with first; none: it collides with nobody.
     std::optional<Blocker> blocker(const PlayedMove& candidate) const;
 
-    /// Whether the candidate collides with nobody; the first that it is found to collide with ends the search. Adds the
-    /// number of tree queries to `queries`, and the pairs to `asked`.
-    bool is_clear(const PlayedMove& candidate, std::int64_t& queries, std::vector<AskedPair>* asked = nullptr) const;
+    /// The first motion that each candidate is found to collide with: several are asked about together. Goes on from
+    /// what is found, as of surroundings asked before: candidates that collide are not asked about, and queries add up.
+    /// Requires as many found as candidates.
+    void find_first(std::span<const PlayedMove* const> candidates, std::span<FirstMet> found) const;
+    /// Whether the candidate collides with nobody.
     bool is_clear(const PlayedMove& candidate) const;
+    /// Appends the pairs of the first `count` queries about a candidate; returns how many of them are missing here.
+    int append(const PlayedMove& candidate, int count, std::vector<AskedPair>& asked) const;
 
     /// Where there are more than `most` seconds of contact, they and the first may be found in part.
     ContactTimes contact_times(const PlayedMove& candidate,
                                double most = std::numeric_limits<double>::infinity()) const;
 
   private:
-    /// The first motion that a candidate is found to collide with.
-    struct FirstMet {
-        std::size_t index;  ///< of near_; its size: there is none
-        int asked;          ///< of the motions near the candidate, those up to it
-    };
-    FirstMet first_met(const PlayedMove& candidate) const;
+    void sort();
+    /// As find_first, of one.
+    void find_first(const PlayedMove& candidate, FirstMet& found) const;
+    /// Of some that have met nobody so far, against those of near_ from `from` on, as many as a number has bits.
+    void find_first_in(std::span<const PlayedMove* const> candidates, std::size_t from,
+                       std::span<FirstMet> found) const;
+    /// With the first motion that the candidate meets.
+    CandidateCheck check(const PlayedMove& candidate, const FirstMet& met) const;
     /// Asks on behind that motion to the earliest contact: calls visit(motion, contact) for each. How many are asked.
     template <class Visit>
     int ask_on(const PlayedMove& candidate, const FirstMet& met, const Visit& visit) const;
-    /// The first `count` motions near the candidate.
-    void append(const PlayedMove& candidate, std::int64_t count, std::vector<AskedPair>& asked) const;
 
     std::vector<Near> near_;  ///< by begin
 };
