@@ -106,6 +106,15 @@ struct Nearness {
     }
 };
 
+/// Squared distances of B's points (bx, by), turned by (c, s), from A's: B's origin lies at (from_x, from_y) from
+/// these.
+template <class Lanes>
+MOBB_INLINE Lanes squared_apart(Lanes c, Lanes s, Lanes bx, Lanes by, Lanes from_x, Lanes from_y) {
+    const Lanes px = hn::NegMulAdd(s, by, hn::MulAdd(c, bx, from_x));
+    const Lanes py = hn::MulAdd(c, by, hn::MulAdd(s, bx, from_y));
+    return hn::MulAdd(px, px, hn::Mul(py, py));
+}
+
 /// Of kLanes pairs (first_a + lane, first_b + lane). The samples at the centres share what Shift says of the first
 /// partner.
 MOBB_INLINE Nearness nearness(const Blocks::Rings& a, std::ptrdiff_t first_a, const Blocks::Rings& b,
@@ -118,9 +127,8 @@ MOBB_INLINE Nearness nearness(const Blocks::Rings& a, std::ptrdiff_t first_a, co
     for (int lane = 0; lane < kLanes; lane += static_cast<int>(hn::Lanes(d))) {
         const std::ptrdiff_t i = first_a + lane, j = first_b + lane;
         const auto bx = hn::LoadU(d, b.x + j), by = hn::LoadU(d, b.y + j);
-        const auto px = hn::NegMulAdd(s, by, hn::MulAdd(c, bx, hn::Sub(ox, hn::LoadU(d, a.x + i))));
-        const auto py = hn::MulAdd(c, by, hn::MulAdd(s, bx, hn::Sub(oy, hn::LoadU(d, a.y + i))));
-        const auto squared = hn::MulAdd(px, px, hn::Mul(py, py));
+        const auto from_x = hn::Sub(ox, hn::LoadU(d, a.x + i)), from_y = hn::Sub(oy, hn::LoadU(d, a.y + i));
+        const auto squared = squared_apart(c, s, bx, by, from_x, from_y);
         const auto most = hn::Add(hn::LoadU(d, a.outer + i), hn::Add(slack, hn::LoadU(d, b.outer + j)));
         const auto least = hn::Add(hn::LoadU(d, a.inner + i), hn::Sub(hn::LoadU(d, b.inner + j), sure_slack));
         const auto may = hn::Le(squared, hn::Mul(most, most));
@@ -170,10 +178,13 @@ MOBB_INLINE float time_error(const PlacedBlocks& a, const PlacedBlocks& b) {
     return static_cast<float>(PlacedBlocks::kTimeError * (a.largest_time() + b.largest_time()));
 }
 
-/// Whether samples of the two share time by a constant shift: of one dt, and not so late that it is too inexact to tell
-/// which do.
+/// Whether times of both are exact enough to tell which samples share time: they do not begin too late.
+MOBB_INLINE bool are_timed(const PlacedBlocks& a, const PlacedBlocks& b) {
+    return a.begin_parts() != PlacedBlocks::kNoParts && b.begin_parts() != PlacedBlocks::kNoParts;
+}
+/// Whether samples of the two share time by a constant shift.
 MOBB_INLINE bool are_shifted(const PlacedBlocks& a, const PlacedBlocks& b) {
-    return a.dt() == b.dt() && a.begin_parts() != PlacedBlocks::kNoParts && b.begin_parts() != PlacedBlocks::kNoParts;
+    return a.dt() == b.dt() && are_timed(a, b);
 }
 
 /// Of two that are shifted and whose roots share time: so samples fit into an int.
@@ -181,10 +192,14 @@ MOBB_INLINE Shift shift_of(const PlacedBlocks& a, const PlacedBlocks& b) { retur
 
 constexpr int kMostBits = 64;
 
-/// Samples [first, end) of A.
+/// Samples [first, end) of a clip.
 struct SampleSpan {
     int first, end;
 };
+MOBB_INLINE SampleSpan samples_of_block(const Blocks& blocks, int level, int block) {
+    const int first = block * Blocks::span(level);
+    return {first, std::min(blocks.count(), first + Blocks::span(level))};
+}
 /// Those that share time with B, where both are of one dt.
 MOBB_INLINE SampleSpan shared_samples(const Blocks& a, const Blocks& b, int whole) {
     return {std::max(0, whole), std::min(a.count() - 1, b.count() + whole) + 1};

@@ -186,13 +186,8 @@ class BlockTraversal {
 
     MOBB_INLINE bool below(int level_a, int i, int level_b, int j) {
         if (level_a == 0 && level_b == 0) return test_samples(i, j);
-        if (unequal_ && unequal_->fine(level_a, level_b) <= 1) {
-            const auto samples = [](const Blocks& blocks, int level, int block) {
-                const int first = block * Blocks::span(level);
-                return SampleSpan{first, std::min(blocks.count(), first + Blocks::span(level))};
-            };
-            return unequal_->scan(samples(blocks_a_, level_a, i), samples(blocks_b_, level_b, j));
-        }
+        if (unequal_ && unequal_->fine(level_a, level_b) <= 1)
+            return unequal_->scan(samples_of_block(blocks_a_, level_a, i), samples_of_block(blocks_b_, level_b, j));
         // Blocks that last about as long descend together; else the longer one, if it can.
         constexpr double kAlike = 3;
         const double seconds_a = Blocks::span(level_a) * a_.dt(), seconds_b = Blocks::span(level_b) * b_.dt();
@@ -256,11 +251,10 @@ class BlockTraversal {
 
     /// The samples of two blocks of level 0.
     bool test_samples(int i, int j) {
-        const int first_a = i * Blocks::kSamples, end_a = std::min(blocks_a_.count(), first_a + Blocks::kSamples);
-        const int first_b = j * Blocks::kSamples, end_b = std::min(blocks_b_.count(), first_b + Blocks::kSamples);
+        const SampleSpan a = samples_of_block(blocks_a_, 0, i), b = samples_of_block(blocks_b_, 0, j);
         const int from_a = a_.first(), from_b = b_.first();
-        const PairVisit pairs = visit_sample_pairs(a_, from_a + first_a, from_a + end_a, b_, from_b + first_b,
-                                                   from_b + end_b, observer_, on_hit_);
+        const PairVisit pairs = visit_sample_pairs(a_, from_a + a.first, from_a + a.end, b_, from_b + b.first,
+                                                   from_b + b.end, observer_, on_hit_);
         if constexpr (Observer::watches) observer_.sample_test(pairs.hit);
         return pairs.stopped;
     }

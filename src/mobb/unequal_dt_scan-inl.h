@@ -43,19 +43,13 @@ MOBB_INLINE unsigned near_partners(const Units& units, int first, const Units& o
             const auto bx = hn::TableLookupLanes(hn::LoadU(d, others.x + j + m), index);
             const auto by = hn::TableLookupLanes(hn::LoadU(d, others.y + j + m), index);
             const auto reach = hn::Add(r, hn::TableLookupLanes(hn::LoadU(d, others.r + j + m), index));
-            const auto px = hn::NegMulAdd(s, by, hn::MulAdd(c, bx, from_x));
-            const auto py = hn::MulAdd(c, by, hn::MulAdd(s, bx, from_y));
+            const auto squared = squared_apart(c, s, bx, by, from_x, from_y);
             std::uint8_t bits[8];
-            hn::StoreMaskBits(d, hn::Le(hn::MulAdd(px, px, hn::Mul(py, py)), hn::Mul(reach, reach)), bits);
+            hn::StoreMaskBits(d, hn::Le(squared, hn::Mul(reach, reach)), bits);
             out |= static_cast<unsigned>(bits[0]) << lane;
         }
     }
     return out;
-}
-
-/// Whether it is exact enough when samples of the two share time for UnequalDtScan.
-MOBB_INLINE bool are_timed(const PlacedBlocks& a, const PlacedBlocks& b) {
-    return a.begin_parts() != PlacedBlocks::kNoParts && b.begin_parts() != PlacedBlocks::kNoParts;
 }
 
 /// Two clips of different dt, the fine one's less than the coarse one's, that are timed and whose roots share time.

@@ -89,7 +89,7 @@ struct LargestRatio {
     double ratio = 0;
     double across = 0;  ///< the change there
     double inside = 0;  ///< the largest inside the two moves, at least ChangeRow::least
-    int joint = -1;     ///< of `before`, see clip_with_joints; the root for what is not of joints
+    int joint = -1;     ///< index into the joints of clip_with_joints; the root for what is not of joints
     int before = -1;    ///< the moves: indices into the graph's; -1: no join was measured
     int after = -1;
     std::size_t over = 0;  ///< joins with a ratio over kMostRatio
@@ -98,7 +98,7 @@ struct LargestRatio {
 /// How far a foot slides that should stand.
 struct LargestSlide {
     double metres = 0;
-    int joint = -1;   ///< of `before`, see clip_with_joints; -1: none stood
+    int joint = -1;   ///< index into the joints of clip_with_joints; -1: none stood
     int before = -1;  ///< the move; of a contact across a join the one before it
     int after = -1;   ///< the move after it; -1: within one move
 };

@@ -61,8 +61,8 @@ struct ChoicePoint {
 /// least turn. If there is none of these either (`forced`), the candidate is taken that harms least: that is for the
 /// fewest seconds in contact with what others play, summed over all of them, and of several the one whose first contact
 /// is latest. Candidates that stay on the floor go first; if none does, of those with as few seconds that which ends
-/// least far beyond the wall. The random number depends on (seed, agent, play) alone. `search`: of the same, in whose
-/// memory plans are looked for.
+/// least far beyond the wall. The random number depends on (seed, agent, play) alone. `search` is
+/// started anew; it has the same moves, reservations and run.
 Choice choose(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run, const ChoicePoint& point,
               PlanSearch& search, std::vector<AskedPair>* asked = nullptr);
 

@@ -88,7 +88,7 @@ class MoveSet {
         FloorRect bounds;
         double begin = 0, end = 0;  ///< global seconds
     };
-    /// Of more the ones that take least room were not alone.
+    /// Followers in a group: in a larger one, moves that take little room would share it with moves that take much.
     static constexpr std::size_t kMostTogether = 16;
     /// Some that turn alike: they are near each other.
     struct FollowerGroup {

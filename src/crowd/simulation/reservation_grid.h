@@ -93,7 +93,7 @@ class ReservationGrid {
     double latest_end_ = std::numeric_limits<double>::lowest();  ///< global seconds; nothing lasts longer
     std::vector<Held> held_;
     std::vector<std::uint32_t> free_;    ///< slots of held_ that hold nothing
-    std::vector<PlayedMove> motions_;    ///< that are held; in as little memory as caches hold, if they can
+    std::vector<PlayedMove> motions_;    ///< that are held; places are used again at once, so that caches hold them
     std::vector<std::uint32_t> unused_;  ///< places of motions_ that hold nothing
     std::priority_queue<Ending, std::vector<Ending>, std::greater<>> endings_;
 };
