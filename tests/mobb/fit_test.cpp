@@ -17,7 +17,7 @@ struct Drift {
     glm::dvec2 velocity{0};
     double middle = 0;
 };
-Drift drift_of(const Box& box) { return {box.drift / box.half.z, box.center.z}; }
+Drift drift_of(const Box& box) { return {box.half.z > 0 ? box.drift / box.half.z : glm::dvec2(0), box.center.z}; }
 
 /// How far the cylinders of a range reach along a unit axis of (x, y, w*t), seen from a moving centre: worked out from
 /// the rim, not from the formula.
