@@ -22,28 +22,6 @@ double unit_scale(const ImportOptions& options) {
 /// Tables with ids are tracks of people, whose rows are far apart; those without are mostly sampled motions.
 mobb::Motion usual_motion(const CsvTable& table) { return table.has_id ? mobb::Motion::linear : mobb::Motion::held; }
 
-/// Which of CsvTable::others has the radii; none: r, or metres. Every other such column is an error.
-std::optional<std::size_t> radius_column(const CsvTable& table, const ImportOptions& options) {
-    const RadiusColumn* const wanted = options.radius ? std::get_if<RadiusColumn>(&*options.radius) : nullptr;
-    std::optional<std::size_t> found;
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < table.others.size(); ++i) {
-        names.push_back(table.others[i].first);
-        if (wanted && names.back() == wanted->name) found = i;
-    }
-    if (table.has_radius) names.emplace_back("r");
-    if (wanted && !found && !(table.has_radius && wanted->name == "r")) {
-        throw std::invalid_argument("line 1: the header names no column " + in_quotes(wanted->name) + " of radii" +
-                                    did_you_mean(wanted->name, names) + "; give metres, or a column that it names");
-    }
-    for (std::size_t i = 0; i < table.others.size(); ++i) {
-        if (i == found) continue;
-        throw std::invalid_argument("line 1, column " + std::to_string(table.others[i].second + 1) + ": the column " +
-                                    in_quotes(names[i]) + " is unknown; the header may name id, t, x, y and r");
-    }
-    return found;
-}
-
 /// Makes clips of tracks; messages are for import of one file.
 class ClipMaker {
   public:
@@ -52,14 +30,12 @@ class ClipMaker {
           file_(file),
           options_(options),
           scale_(unit_scale(options)),
-          radius_column_(radius_column(table, options)),
           first_(table.tracks.front().rows.front().t) {
         for (const CsvTrack& track : table.tracks) first_ = std::min(first_, track.rows.front().t);
     }
 
     ImportedClip make(const CsvTrack& track) {
         std::vector<TimedDisk> rows = track.rows;
-        if (radius_column_) take_radii(track, rows);
         SourceFacts facts{"csv", scale_, static_cast<int>(rows.size()), std::nullopt, 0, {}};
         const std::optional<double> stored_dt = spacing(rows, facts);
         facts.dt = stored_dt;
@@ -96,23 +72,6 @@ class ClipMaker {
     }
 
   private:
-    /// Into r, from the column that the options name.
-    void take_radii(const CsvTrack& track, std::vector<TimedDisk>& rows) const {
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            const std::string& field = track.others[i][*radius_column_];
-            const std::optional<double> value = parse_double(field);
-            if (value && *value >= 0 && *value <= mobb::kMaxLength) {
-                rows[i].disk.r = *value;
-                continue;
-            }
-            throw InputError(
-                file_,
-                at_line(track.lines[i]) + ", column " + std::to_string(table_.others[*radius_column_].second + 1) +
-                    " (" + table_.others[*radius_column_].first + ")",
-                in_quotes(field) + " is no radius; give a number from 0 to " + short_double(mobb::kMaxLength));
-        }
-    }
-
     static std::string resampled(const CsvTrack& track, double fps) {
         const std::vector<TimedDisk>& rows = track.rows;
         const std::size_t row = *first_out_of_step(rows);
@@ -152,9 +111,8 @@ class ClipMaker {
     const std::string& file_;
     const ImportOptions& options_;
     double scale_;
-    std::optional<std::size_t> radius_column_;  ///< index into CsvTable::others
-    double first_;                              ///< the earliest time of all tracks, seconds
-    std::size_t count_ = 0;                     ///< samples made so far, of all tracks
+    double first_;           ///< the earliest time of all tracks, seconds
+    std::size_t count_ = 0;  ///< samples made so far, of all tracks
 };
 
 }  // namespace
@@ -194,7 +152,7 @@ ImportOffer csv_offer(const CsvTable& table, const std::filesystem::path&, const
     if (table.tracks.size() > 1) out.options.push_back(id_offer(table.tracks));
     out.options.push_back(
         {"radius", "", table.has_radius ? "the column r" : "the file has no column r", !table.has_radius});
-    for (const auto& [name, column] : table.others) out.options.back().choices.push_back({name, "the column " + name});
+    for (const std::string& name : table.others) out.options.back().choices.push_back({name, "the column " + name});
     if (!timed) {
         out.options.push_back(
             {"dt", "", table.has_time ? "one row does not tell how long it lasts" : "the file has no column t", true});

@@ -100,6 +100,10 @@ void refuse_second_document(std::string_view text, const std::string& file) {
 
 }  // namespace
 
+bool looks_like_mapf_plan(std::string_view text) {
+    return text.starts_with("schedule:") || text.find("\nschedule:") != std::string_view::npos;
+}
+
 TrackFile parse_mapf_plan(std::string_view text, const std::string& file) {
     if (text.size() > kLargestPlan) throw InputError(file, "", "is larger than 64 MiB; split the plan");
     if (text.find('\0') != std::string_view::npos) throw InputError(file, "", "holds a NUL byte; this is no text file");
