@@ -129,17 +129,19 @@ void add_import_options(Command& command, ImportOptions& options) {
         };
         command.add_option(name, set, help, placeholder).group("Import (over the scene's, for clips with a source)");
     };
-    add("--fps", &ImportOptions::fps, parse_number, "Samples per second (30; trajectories: as stored)", "F");
+    add("--fps", &ImportOptions::fps, parse_number, "Samples per second (30; trajectories: as stored); frames per second of a table with frame numbers", "F");
     add("--unit", &ImportOptions::unit, as_it_is, "m, cm, in, auto or metres per file unit", "U");
     add("--up", &ImportOptions::up, as_it_is, "y or z", "AXIS");
     add("--root", &ImportOptions::root, as_it_is, "The joint whose path is taken", "JOINT");
     add("--trim", &ImportOptions::trim, parse_trim, "Only this part, in seconds from the first key", "A:B");
     add("--dt", &ImportOptions::dt, parse_number,
-        "Seconds between the rows of a CSV without times, or frames of trajectories", "S");
+        "Seconds between the rows of a table without times, or from one frame number to the next", "S");
     add("--radius", &ImportOptions::radius, radius_from_text,
         "Radius in metres of every sample, the column of a CSV that holds it, or a file (.csv) of ids or classes and "
         "radii",
         "R");
+    add("--columns", &ImportOptions::columns, as_it_is,
+        "Which columns of a table are id, t, frame, x, y and r, or how they are worked out: id=trackId,t=frame/25", "C");
     add("--motion", &ImportOptions::motion, one_of(mobb::motion_from_name, "held, linear"),
         "What a disk does until the next sample: held, linear (tracks of people: linear; else held); inline samples "
         "too",
