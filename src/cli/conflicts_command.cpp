@@ -31,15 +31,12 @@ struct ConflictsCommandArguments : FittedArguments {
     bool check = false;
 };
 
-/// The crowd in the file: its agents, the people of a run, or the tracks of a CSV, each from the time of its first row.
+/// The crowd in the file: its agents, or the people of a run; a CSV without ids is somebody alone.
 Scene load_crowd(const ConflictsCommandArguments& arguments) {
     Scene scene = load(arguments.file, arguments.import_options, RadiusOf::every_clip);
     if (scene.crowd) return scene_of_people(scene);
-    if (lower_extension(arguments.file) == ".csv") {
+    if (!is_scene_file(arguments.file) && scene.agents.empty() && scene.clips.front().facts.format == "csv")
         add_agents_for_clips(scene);
-        for (Agent& agent : scene.agents)
-            agent.placement.start = scene.clips[static_cast<std::size_t>(agent.clip)].start;
-    }
     if (scene.agents.empty())
         throw InputError(arguments.file.string(), "",
                          "there are no agents who could meet; give a scene with agents, "
@@ -144,7 +141,7 @@ void write_plan_conflicts(JsonWriter& out, const std::vector<PlanConflict>& foun
 void write_json(const Findings& findings) {
     JsonWriter out(std::cout);
     out.begin_object();
-    out.member("file", findings.scene.file.string());
+    out.member("file", shown_name(findings.scene.file));
     out.member("agents", findings.people.count());
     out.member("radius", common_radius(findings.scene));
     out.member("pairs", findings.conflicts.pairs);

@@ -202,6 +202,7 @@ ImportOptions offer_depends_on(const ImportOptions& options) {
     out.root = options.root;
     out.up = options.up;
     out.dt = options.dt;
+    out.fps = options.fps;
     out.columns = options.columns;
     return out;
 }

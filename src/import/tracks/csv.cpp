@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -70,6 +71,9 @@ class CsvParser {
         }
         if (table_.tracks.empty())
             throw InputError(file_, at_line(lines_.number()), "there is no row after the header; add samples");
+        if (table_.has_id) {
+            for (CsvTrack& track : table_.tracks) sort(track);
+        }
         tell();
         return std::move(table_);
     }
@@ -367,7 +371,8 @@ class CsvParser {
         CsvTrack& track = table_.tracks[last_];
         track.rows.push_back(row());
         track.lines.push_back(lines_.number());
-        if ((table_.has_time || table_.has_frame) && track.rows.size() > 1) check_order(track);
+        // Tracks may lie across each other in any order, the rows of one motion may not.
+        if (!table_.has_id && (table_.has_time || table_.has_frame) && track.rows.size() > 1) check_order(track);
     }
 
     std::string_view identifier() const {
@@ -421,12 +426,36 @@ class CsvParser {
     void check_order(const CsvTrack& track) const {
         const double before = track.rows[track.rows.size() - 2].t;
         if (track.rows.back().t > before) return;
-        const Column when = table_.has_frame ? Column::frame : Column::t;
-        const std::vector<std::size_t> columns = formula(when)->columns();
-        fail(columns.empty() ? 0 : columns.front(),
-             (table_.has_frame ? "the frame does not come after " : "the time does not come after ") +
-                 short_double(before) + " of the row before" +
-                 (track.id.empty() ? "" : " of track " + in_quotes(track.id)) + "; sort the rows and remove doubles");
+        fail(column_of_time(), time_word() + " does not come after " + short_double(before) +
+                                   " of the row before; sort the rows and remove doubles");
+    }
+
+    /// Rows in order of their times, of which no two are one.
+    void sort(CsvTrack& track) const {
+        if (!(table_.has_time || table_.has_frame)) return;
+        if (!std::ranges::is_sorted(track.rows, {}, &TimedDisk::t)) {
+            std::vector<std::size_t> order(track.rows.size());
+            std::iota(order.begin(), order.end(), std::size_t{0});
+            std::ranges::stable_sort(order, {}, [&](std::size_t i) { return track.rows[i].t; });
+            CsvTrack sorted{track.id, {}, {}};
+            for (const std::size_t i : order) {
+                sorted.rows.push_back(track.rows[i]);
+                sorted.lines.push_back(track.lines[i]);
+            }
+            track = std::move(sorted);
+        }
+        const auto twice = std::ranges::adjacent_find(track.rows, {}, &TimedDisk::t);
+        if (twice == track.rows.end()) return;
+        const auto at = static_cast<std::size_t>(twice - track.rows.begin());
+        throw InputError(file_, at_line(track.lines[at + 1]),
+                         time_word() + ' ' + short_double(twice->t) + " of track " + in_quotes(track.id) +
+                             " stands already in line " + std::to_string(track.lines[at]) + "; remove one");
+    }
+
+    std::string time_word() const { return table_.has_frame ? "the frame" : "the time"; }
+    std::size_t column_of_time() const {
+        const std::vector<std::size_t> columns = formula(table_.has_frame ? Column::frame : Column::t)->columns();
+        return columns.empty() ? 0 : columns.front();
     }
 
     // ---- what is said of it

@@ -15,7 +15,7 @@
 
 namespace mobbscope {
 
-/// The rows of one id, in the file's order; times increase.
+/// The rows of one id; times increase.
 struct CsvTrack {
     std::string id;  ///< empty without an id column
     std::vector<TimedDisk> rows;
