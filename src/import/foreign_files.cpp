@@ -58,8 +58,8 @@ constexpr ForeignKind kForeign[] = {
     {"7z\xbc\xaf"sv, "a 7-Zip archive", kUnpack},
     {"rar!"sv, "a RAR archive", kUnpack},
     {"ustar"sv, "a tar archive", "unpack it first", 257},
-    {"gltf"sv, "a GLB file", "rename it to .glb"},
-    {"kaydara fbx"sv, "an FBX file", "rename it to .fbx"},
+    {"gltf"sv, "a GLB file", "give it in a file whose name ends with .glb"},
+    {"kaydara fbx"sv, "an FBX file", "give it in a file whose name ends with .fbx"},
     {"#rosbag"sv, "a ROS bag", kExport},
     {"\x7f"
      "elf"sv,

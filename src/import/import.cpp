@@ -183,6 +183,7 @@ ParsedFile parse_clip_file(const std::filesystem::path& file) {
         throw InputError(file.string(), "", "no such file or folder; check the path");
     if (format || is_there) {
         std::string bytes = read_input(file);
+        if (bytes.empty() && !format) throw InputError(file.string(), "", "is empty; give a table or tracks");
         const FileReader* reader = is_motion ? format->reader : reader_of(bytes);
         // A name that says what it is says so of text that tells nothing: then its reader knows what is wrong.
         if (!reader) {

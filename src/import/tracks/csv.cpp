@@ -215,6 +215,7 @@ class CsvParser {
                                 : also_by_option()));
         }
         if (formula(Column::t)) formula(Column::frame).reset();
+        table_.header_line = header_line_;
         table_.has_id = id.has_value();
         table_.has_time = formula(Column::t).has_value();
         table_.has_frame = formula(Column::frame).has_value();
@@ -484,7 +485,7 @@ class CsvParser {
             over = (table_.others.size() == 1 ? "the column " : "the columns ") + quoted_list(table_.others);
         }
         if (unnamed > 0) {
-            over += (over.empty() ? "" : ", and ") +
+            over += (over.empty() ? "" : " and ") +
                     (unnamed == 1 ? std::string("a column") : counted(unnamed, "", "columns")) + " without a name";
         }
         if (!over.empty()) {

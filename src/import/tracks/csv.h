@@ -26,6 +26,7 @@ struct CsvTrack {
 
 /// The rows of a file: nothing scaled, nothing sampled.
 struct CsvTable {
+    int header_line = 1;  ///< in the file, from 1
     bool has_id = false;
     bool has_time = false;    ///< seconds in t of each row
     bool has_frame = false;   ///< frame numbers there; without either t is 0

@@ -68,17 +68,18 @@ TrackFile tracks_of(const CsvTable& table, double dt, double rate) {
 
 /// What is refused of a table with ids and of one without.
 void check_columns(const CsvTable& table, const std::string& file, const ImportOptions& options) {
-    if (options.id && !table.has_id) throw InputError(file, "line 1", "the header names no column id; leave id out");
+    const std::string header = at_line(table.header_line);
+    if (options.id && !table.has_id) throw InputError(file, header, "the header names no column id; leave id out");
     // People have a usual radius.
     if (!table.has_radius && !options.radius && !table.has_id)
-        throw InputError(file, "line 1", "the header names no column r; add one or give radius (metres)");
+        throw InputError(file, header, "the header names no column r; add one or give radius (metres)");
     if (table.has_frame && !options.dt && !frame_rate(table, options)) {
-        throw InputError(file, "line 1",
+        throw InputError(file, header,
                          "the rows have frame numbers in place of times: give fps (frames a second), or dt (seconds "
                          "from one frame to the next)");
     }
     if (!table.has_time && !table.has_frame && !options.dt)
-        throw InputError(file, "line 1", "the header names no column t; name one or give dt (seconds between rows)");
+        throw InputError(file, header, "the header names no column t; name one or give dt (seconds between rows)");
 }
 
 /// Without ids the rows are one motion.

@@ -8,8 +8,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <new>
+#include <system_error>
 
 namespace mobbscope {
 
@@ -31,6 +33,12 @@ class Database {
     /// Opens a copy in memory: nothing is locked, and nothing is written beside the file.
     Database(std::string_view bytes, const std::string& file)
         : file_(file), steps_left_(static_cast<std::int64_t>(bytes.size()) * kStepsPerByte + kStepsBetweenChecks) {
+        std::error_code none;
+        const std::uintmax_t log = std::filesystem::file_size(file + "-wal", none);
+        if (!none && log > 0) {
+            fail("a part of it is still in " + file +
+                 "-wal; close the program that writes it, or let sqlite3 put both together (PRAGMA wal_checkpoint)");
+        }
         if (bytes.size() < kSqliteHeader) fail("ends within the header of its SQLite database; get the whole file");
         sqlite3* opened = nullptr;
         const int status = sqlite3_open_v2(":memory:", &opened, SQLITE_OPEN_READWRITE, nullptr);
@@ -46,6 +54,8 @@ class Database {
         check(sqlite3_deserialize(opened, "main", copy, size, size,
                                   SQLITE_DESERIALIZE_FREEONCLOSE | SQLITE_DESERIALIZE_READONLY));
         // What the schema of a file says is data, not to be run.
+        constexpr int kLongestValue = 1 << 20;  // bytes
+        sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, kLongestValue);
         sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
         sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
         sqlite3_db_config(opened, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
