@@ -8,6 +8,7 @@
 #include <cmath>
 #include <deque>
 #include <numeric>
+#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
@@ -103,7 +104,7 @@ class CsvParser {
 
     void skip_blanks(std::string_view& rest) const {
         std::size_t at = 0;
-        while (at < rest.size() && is_blank(rest[at]) && rest[at] != separator_) ++at;
+        while (at < rest.size() && is_blank(rest[at]) && (separator_ == ' ' || rest[at] != separator_)) ++at;
         rest.remove_prefix(at);
     }
 
@@ -193,17 +194,17 @@ class CsvParser {
     }
 
     void choose_columns() {
-        if (options_.columns) {
-            try {
+        try {
+            if (options_.columns) {
                 for (const auto& [column, text] : chosen_columns(*options_.columns))
                     formula(column).emplace(text, std::span<const std::string>(names_));
-            } catch (const std::invalid_argument& error) {
-                fail_in_header(error.what());
             }
+            take_boxes();
+        } catch (const std::invalid_argument& error) {
+            fail_in_header(error.what());
         }
         const std::optional<ColumnFormula>& id = formula(Column::id);
         if (id && !id->only_column()) fail_in_header("columns: id is one column, and nothing to work out");
-        take_boxes();
         std::array<double, std::size(kColumns)> scales{};
         for (const Column column : kColumns) take_by_name(column, scales);
         name_radius_column();
