@@ -142,8 +142,8 @@ TEST(TableKinds, FramesBecomeTimesByFps) {
     // One motion.
     ImportOptions one = with_fps(10);
     one.radius = 0.5;
-    EXPECT_DOUBLE_EQ(table_clips_of("frame,x,y\n100,0,0\n101,1,0\n102,2,0\n", one)[0].clip->dt(), 0.1);
-    EXPECT_EQ(table_clips_of("frame,x,y\n100,0,0\n", one)[0].clip->dt(), 0.1);
+    EXPECT_NEAR(table_clips_of("frame,x,y\n100,0,0\n101,1,0\n102,2,0\n", one)[0].clip->dt(), 0.1, 1e-12);
+    EXPECT_NEAR(table_clips_of("frame,x,y\n100,0,0\n", one)[0].clip->dt(), 0.1, 1e-12);
 }
 
 TEST(TableKinds, RowsOfTracksMayComeInAnyOrder) {

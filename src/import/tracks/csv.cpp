@@ -46,6 +46,12 @@ char separator_of(std::string_view header) {
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
+/// A name within a hint.
+std::string shown(const std::string& name) {
+    constexpr std::size_t kLongest = 40;
+    return shortened(cleaned(name), kLongest);
+}
+
 std::string quoted_list(const std::vector<std::string>& names) {
     constexpr std::size_t kMostNamed = 8;
     std::string out;
@@ -86,7 +92,7 @@ class CsvParser {
         throw InputError(file_, at_line(header_line_), message);
     }
     [[noreturn]] void fail(std::size_t column, const std::string& message) const {
-        const std::string name = column < names_.size() ? " (" + cleaned(names_[column]) + ")" : "";
+        const std::string name = column < names_.size() ? " (" + shown(names_[column]) + ")" : "";
         throw InputError(file_, at_line(lines_.number()) + ", column " + std::to_string(column + 1) + name, message);
     }
 
@@ -190,7 +196,7 @@ class CsvParser {
 
     std::string also_by_option() const {
         return "; or say what it is by the option columns, such as x=" +
-               (names_.empty() || names_.back().empty() ? "east" : cleaned(names_.back()));
+               (names_.empty() || names_.back().empty() ? "east" : shown(names_.back()));
     }
 
     void choose_columns() {
@@ -256,12 +262,12 @@ class CsvParser {
                 formula(i == 0 ? Column::x : Column::y)
                     .emplace(box.has_middles ? "(" + sum + ")/2" : sum + "/2", std::span<const std::string>(names_));
             }
-            const auto shown = [&](std::size_t i) {
+            const auto centre = [&](std::size_t i) {
                 const std::string sum = middle(i, i + 2, "", "");
                 return box.has_middles ? "(" + sum + ")/2" : sum + "/2";
             };
             table_.warnings.push_back({"the columns " + quoted_list({names.begin(), names.end()}) +
-                                           " are taken for boxes: their centres are " + shown(0) + ", " + shown(1) +
+                                           " are taken for boxes: their centres are " + centre(0) + ", " + centre(1) +
                                            "; give columns (x=" + names[0] + ",y=" + names[1] + ") if that is wrong",
                                        "columns"});
             return;
@@ -292,7 +298,7 @@ class CsvParser {
             if (first == second) fail_at_name(found[1], "the column stands twice; remove one");
             fail_at_name(found[1], in_quotes(first) + " and " + in_quotes(second) + " may both be " +
                                        std::string(name(column)) + "; say which by the option columns, such as " +
-                                       std::string(name(column)) + "=" + cleaned(second));
+                                       std::string(name(column)) + "=" + shown(second));
         }
         const KnownColumn& is = known.front();
         scale = is.says_unit ? is.scale : 0;

@@ -124,8 +124,13 @@ class TextTracksParser {
     /// "id frame x/m y/m z/m" and the like name the columns; anything else is a remark.
     void read_names(std::string_view comment) {
         split(comment, kMaxColumns, words_);
-        // The unit of the name before it: "x [m]".
-        std::erase_if(words_, [](const Word& word) { return word.text[0] == '[' || word.text[0] == '('; });
+        // What stands in brackets is the unit of a name, or a remark.
+        bool bracketed = false;
+        std::erase_if(words_, [&bracketed](const Word& word) {
+            const bool is_name = !bracketed && word.text[0] != '[' && word.text[0] != '(';
+            bracketed = !is_name && word.text.back() != ']' && word.text.back() != ')';
+            return !is_name;
+        });
         if (words_.size() > kMaxColumns) return;
         Columns named{"petrack", words_.size()};
         int time = -1;
