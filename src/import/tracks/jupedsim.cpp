@@ -94,7 +94,7 @@ class Database {
     std::int64_t steps_left_;
 };
 
-std::string text_of(sqlite3_stmt* row, int column) {
+std::string text_in(sqlite3_stmt* row, int column) {
     const auto* const text = reinterpret_cast<const char*>(sqlite3_column_text(row, column));
     return text ? text : "";
 }
@@ -137,9 +137,9 @@ class JupedsimReader {
         std::optional<std::string> version, fps;
         database_.each("SELECT key, value FROM metadata", [&](sqlite3_stmt* row) {
             check_count();
-            const std::string key = text_of(row, 0);
-            if (key == "version") version = text_of(row, 1);
-            if (key == "fps") fps = text_of(row, 1);
+            const std::string key = text_in(row, 0);
+            if (key == "version") version = text_in(row, 1);
+            if (key == "fps") fps = text_in(row, 1);
         });
         if (!version) database_.fail("its metadata has no version; JuPedSim writes one");
         if (std::ranges::find(kVersions, *version) == kVersions.end()) {
@@ -180,7 +180,7 @@ class JupedsimReader {
         const int type = sqlite3_column_type(row, column);
         if (type == SQLITE_NULL) fail_at(name, "there is no value; give a number");
         if (type != SQLITE_INTEGER && type != SQLITE_FLOAT)
-            fail_at(name, in_quotes(text_of(row, column)) + " is no number; give one");
+            fail_at(name, in_quotes(text_in(row, column)) + " is no number; give one");
         const double value = sqlite3_column_double(row, column);
         if (!(std::abs(value) <= largest)) fail_at(name, brief(value) + " is beyond " + short_double(largest));
         return value;
