@@ -31,15 +31,11 @@ struct ConflictsCommandArguments : FittedArguments {
     bool check = false;
 };
 
-/// The crowd in the file: its agents, the people of a run, or the tracks of a CSV, each from the time of its first row.
+/// The crowd in the file: its agents, or the people of a run; a CSV without ids is somebody alone.
 Scene load_crowd(const ConflictsCommandArguments& arguments) {
     Scene scene = load(arguments.file, arguments.import_options, RadiusOf::every_clip);
     if (scene.crowd) return scene_of_people(scene);
-    if (lower_extension(arguments.file) == ".csv") {
-        add_agents_for_clips(scene);
-        for (Agent& agent : scene.agents)
-            agent.placement.start = scene.clips[static_cast<std::size_t>(agent.clip)].start;
-    }
+    if (lower_extension(arguments.file) == ".csv") add_agents_for_clips(scene);
     if (scene.agents.empty())
         throw InputError(arguments.file.string(), "",
                          "there are no agents who could meet; give a scene with agents, "

@@ -29,15 +29,30 @@ struct ConvertCommandArguments {
     ImportOptions import_options;
 };
 
-/// One row a sample: t,x,y,r, with the clip's name in front where there are several. t is the start of the sample's
-/// hold in clip time; tracks of trajectories keep the time of their file.
+/// When each clip starts: when its agent does, where every clip has one agent that plays it where it is; else 0.
+std::vector<double> starts_of(const Scene& scene) {
+    std::vector<double> starts(scene.clips.size(), 0);
+    std::vector<bool> placed(scene.clips.size(), false);
+    for (const Agent& agent : scene.agents) {
+        const auto clip = static_cast<std::size_t>(agent.clip);
+        if (placed[clip] || agent.placement.translate != glm::dvec2(0) || agent.placement.rotate_deg != 0)
+            return std::vector<double>(scene.clips.size(), 0);
+        placed[clip] = true;
+        starts[clip] = agent.placement.start;
+    }
+    return starts;
+}
+
+/// One row a sample: t,x,y,r, with the clip's name in front where there are several. t is the time of the sample, from
+/// when the clip starts.
 std::string to_csv(const Scene& scene) {
     const bool several = scene.clips.size() > 1;
-    const bool has_common_time = contents_by_name(scene.file) == Contents::trajectories;
+    const std::vector<double> starts = starts_of(scene);
     std::string text = several ? "id,t,x,y,r\n" : "t,x,y,r\n";
-    for (const SceneClip& clip : scene.clips) {
+    for (std::size_t c = 0; c < scene.clips.size(); ++c) {
+        const SceneClip& clip = scene.clips[c];
         const std::string id = several ? csv_field(clip.name) + ',' : "";
-        const double start = has_common_time ? clip.start : 0;
+        const double start = starts[c];
         for (int i = 0; i < clip.clip->count(); ++i) {
             const mobb::Disk& disk = clip.clip->samples()[static_cast<std::size_t>(i)];
             text += id + format_double(start + i * clip.clip->dt()) + ',' + format_double(disk.x) + ',' +

@@ -458,7 +458,6 @@ class SceneReader {
 
 Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& overrides) {
     Scene scene;
-    const bool is_crowd = contents_by_name(file) == Contents::trajectories;
     std::vector<ImportWarning> warnings;
     const ImportOptions options = overrides_for(file, overrides, warnings);
     for (ImportedClip& imported : import_clips(file, options)) {
@@ -473,7 +472,7 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& ove
         if (!imported.id.empty()) clip.options.id = imported.id;
         if (!imported.animation.empty()) clip.options.animation = imported.animation;
         name_own_radius(clip);
-        if (is_crowd) {
+        if (clip.facts.t0) {
             const auto index = static_cast<int>(scene.clips.size());
             scene.agents.push_back({clip.name, index, {.start = clip.start}, std::nullopt});
         }

@@ -27,7 +27,7 @@ struct ImportOptions {
     std::optional<double> fps;                      ///< samples per second, over 0 to 1e6; default 30, or as stored
     std::optional<std::string> unit;                ///< "m", "cm", "in", "auto" or metres per file unit, over 0 to 1e6
     std::optional<std::string> up;                  ///< "y" or "z"
-    std::optional<std::pair<double, double>> trim;  ///< 0 <= A < B <= kMaxTime: file seconds from the first key
+    std::optional<std::pair<double, double>> trim;  ///< 0 <= A < B <= kMaxTime: file seconds from the first key or row
     std::optional<Origin> origin;                   ///< default keep
     std::optional<std::string> id;                  ///< of a file of tracks: the one to take
     std::optional<Radius> radius;                   ///< metres from 0 to kMaxLength; overrides r of every sample
@@ -74,7 +74,11 @@ struct SourceFacts {
     std::size_t rig = 0;                          ///< the same for the same names of root and joints; 0: no skeleton
     std::optional<double> guessed_from_height{};  ///< metres: the body's height, where it decided the unit
 
-    std::string label{};  ///< of a track: its class, "Biker"; empty where the file has none
+    // Of tracks:
+    std::string label{};  ///< its class, "Biker"; empty where the file has none
+    /// Seconds on the file's own clock: its earliest point, which is time 0 of the clock of all its tracks. None: the
+    /// clip is no track.
+    std::optional<double> t0{};
 };
 
 struct Skeleton;
@@ -87,9 +91,7 @@ struct ImportedClip {
     SourceFacts facts;
     std::string animation{};                     ///< of a file with several: ImportOptions::animation for this one
     std::shared_ptr<const Skeleton> skeleton{};  ///< null without joints, and for very long clips
-    /// Seconds: when it starts on the clock of its file's tracks, 0 for the first of them (trajectories with trim: at
-    /// its begin).
-    double start = 0;
+    double start = 0;  ///< seconds: when it starts on the clock of its file's tracks, see SourceFacts::t0
 };
 
 }  // namespace mobbscope

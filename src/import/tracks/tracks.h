@@ -1,4 +1,4 @@
-/// Crowds as files hold them: many tracks by one clock of frame numbers; and the clips of tracks.
+/// Crowds as files hold them: many tracks by one clock of frame numbers or seconds; and the clips of tracks.
 #pragma once
 
 #include <base/error.h>
@@ -16,15 +16,19 @@
 
 namespace mobbscope {
 
+/// What tracks do between their points unless an option says otherwise: these are far apart.
+inline constexpr mobb::Motion kMotionOfTracks = mobb::Motion::linear;
+
 /// Frames per second; a file that says more is damaged.
 inline constexpr double kMaxFrameRate = 1e6;
 
 /// Where somebody was at a frame, in file units.
 struct TrackPoint {
-    double frame = 0;
+    double frame = 0;  ///< or seconds, see TrackFile::timed
     double x = 0;
     double y = 0;
     int line = 0;  ///< in the file, from 1
+    double r = 0;  ///< see TrackFile::has_radius
 };
 
 /// One agent's points; frames increase.
@@ -39,13 +43,17 @@ struct Track {
 /// A file as it stands, with what it or its format says of units and time. An assumption is a sentence that tells the
 /// user what was taken in the file's stead and which option overrules it; empty where the file says it.
 struct TrackFile {
-    std::string format;         ///< "obsmat", "trajnet", "trajnetpp", "petrack", "sdd", "mapf"
+    std::string format;         ///< "obsmat", "trajnet", "trajnetpp", "petrack", "sdd", "mapf", "csv"
     std::vector<Track> tracks;  ///< at least one; ids differ; in order of first appearance
 
+    bool timed = false;          ///< the points have times in seconds in place of frame numbers; rate is 1
     double rate = 1;             ///< frames per second, see rate_of_steps
     bool rate_of_steps = false;  ///< the rate counts usual steps from point to point, not frame numbers
-    double least_step = 1;       ///< frames between points, where no track has two
+    /// Frames between points, where no track has two; none: then dt must say it.
+    std::optional<double> least_step = 1;
     std::string rate_assumption{};
+
+    bool has_radius = false;  ///< the points have radii, in file units
 
     double unit = 1;                         ///< metres per file unit
     std::optional<double> guessed_height{};  ///< metres: how high the heads are, where that decided the unit
@@ -86,10 +94,12 @@ TrackFile parse_trajnetpp(std::string_view text, const std::string& file);
 TrackFile parse_mapf_plan(std::string_view text, const std::string& file);
 
 /// The clips of a file's tracks, or of the one that options.id names, each with the time at which it starts on the
-/// crowd's common clock. Stored points are the samples; options.fps resamples them. Missing frames of a track are
-/// interpolated, tracks out of step are resampled (30 fps), both with a warning. options.dt is the time from one frame
-/// number to the next; options.trim counts from the file's first frame, and who is not there then is left out. Throws
-/// InputError.
+/// crowd's common clock, which begins with the file's earliest point. Stored points are the samples; options.fps
+/// resamples them (of timed tracks those out of step alone). Gaps of a track are filled linearly at the file's most
+/// frequent step, which is also how long a track of one point lasts; tracks out of step are resampled (30 fps). What
+/// was done to several tracks is one warning, counted. options.dt is the time from one frame number to the next (timed
+/// tracks: how long one of one point lasts); options.trim is of the common clock, and who is not there then is left
+/// out. Throws InputError.
 std::vector<ImportedClip> track_clips(const TrackFile& tracks, const std::filesystem::path& file,
                                       const ImportOptions& options);
 
