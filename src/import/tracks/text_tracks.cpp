@@ -1,4 +1,5 @@
 // Trajectories in columns: which of four formats a text is, and its rows.
+#include <import/tracks/mapf_plan.h>
 #include <import/tracks/tracks.h>
 #include <mobb/clip.h>
 
@@ -325,6 +326,7 @@ class TextTracksParser {
 }  // namespace
 
 TrackFile parse_text_tracks(std::string_view text, const std::string& file) {
+    if (looks_like_mapf_text_plan(text)) return parse_mapf_text_plan(text, file);
     return TextTracksParser(text, file).parse();
 }
 
