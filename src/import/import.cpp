@@ -9,6 +9,7 @@
 #include <import/skeleton/motion.h>
 #include <import/skeleton/motion_clips.h>
 #include <import/tracks/csv.h>
+#include <import/tracks/mapf_plan.h>
 #include <import/tracks/tracks.h>
 
 #include <algorithm>
@@ -88,12 +89,15 @@ constexpr FileReader kTrajnetpp{parse_once<parse_trajnetpp, track_clips, track_o
                                 looks_like_trajnetpp};
 constexpr FileReader kMapfPlan{parse_once<parse_mapf_plan, track_clips, track_offer>, Contents::trajectories,
                                looks_like_mapf_plan};
+constexpr FileReader kTextPlan{parse_once<parse_mapf_text_plan, track_clips, track_offer>, Contents::trajectories,
+                               looks_like_mapf_text_plan};
 constexpr FileReader kTable{parse_once<read_csv, table_clips, table_offer>, Contents::table, looks_like_table};
 constexpr FileReader kTextTracks{parse_once<parse_text_tracks, track_clips, track_offer>, Contents::trajectories,
                                  looks_like_text_tracks};
 
 /// Those that are told by content. The first that holds a file reads it.
-constexpr const FileReader* kByContent[] = {&kJupedsim, &kBvh, &kTrajnetpp, &kMapfPlan, &kTable, &kTextTracks};
+constexpr const FileReader* kByContent[] = {&kJupedsim, &kBvh,   &kTrajnetpp, &kMapfPlan,
+                                            &kTextPlan, &kTable, &kTextTracks};
 
 struct Format {
     std::string_view extension;

@@ -48,7 +48,7 @@ Rgba agent_color(const Scene& scene, const PlacedAgent& who, int index);
 /// query.
 std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState& view);
 
-/// The sample that holds at a global time, or none.
+/// The sample that holds at a global time, or none. A linear clip has its last one at the moment at which it ends.
 std::optional<int> sample_at(const DrawnAgent& agent, double time);
 
 }  // namespace mobbscope

@@ -1,6 +1,6 @@
 // Damaged trajectory files give clips or an InputError, nothing else, and soon; and never much more than they hold.
 #include <base/error.h>
-#include <import/tracks/tracks.h>
+#include <import/tracks/mapf_plan.h>
 #include <support/mutate.h>
 
 #include <gtest/gtest.h>
@@ -65,6 +65,14 @@ TEST(TrajectoryFuzz, DamagedPlansAreReadOrRefused) {
           "schedule: {a: [{t: 0, x: 1, y: 2}, &p {t: 1, x: 1, y: 2}], \"b\": [*p], ? c : [{t: 1.5, x: -1, y: .5}]}\n",
           "%YAML 1.2\n---\n# plan\nschedule: !!map\n  'a': |\n    text\n  b: >-\n    text\n"},
          20'000);
+}
+
+TEST(TrajectoryFuzz, DamagedTextPlansAreReadOrRefused) {
+    fuzz(parse_mapf_text_plan,
+         {"agents=2\nsolver=planner\nsolution=\n0:(5,6),(1,2),\n1:(6,6),(1,3),\n", "0:(5,6),(1,2),\n1:(6,6),(1,3),\n",
+          "0:(5,6)->(9,9):0,(1,2)->(1,2):-1,\n1:(6,6)->(9,9):0,(1,3)->(1,2):-1,\n",
+          "Agent 0: (6,5)->(6,6)->\nAgent 1: (2,1)->(3,1)->\n", "2\n12,13,14,\n7,7,7,\n"},
+         50'000);
 }
 
 }  // namespace

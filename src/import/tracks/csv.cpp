@@ -44,7 +44,7 @@ char separator_of(std::string_view header) {
     return most->second > 0 ? most->first : ' ';
 }
 
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
+bool is_gap(char c) { return c == ' ' || c == '\t'; }
 
 /// A name within a hint.
 std::string shown(const std::string& name) {
@@ -110,7 +110,7 @@ class CsvParser {
 
     void skip_blanks(std::string_view& rest) const {
         std::size_t at = 0;
-        while (at < rest.size() && is_blank(rest[at]) && (separator_ == ' ' || rest[at] != separator_)) ++at;
+        while (at < rest.size() && is_gap(rest[at]) && (separator_ == ' ' || rest[at] != separator_)) ++at;
         rest.remove_prefix(at);
     }
 
