@@ -39,9 +39,10 @@ TEST(Conflicts, JsonHasThePairs) {
     const TempFolder folder;
     const std::string file = folder.write("crowd.txt", kTrajectories);
     const json found = conflicts({file});
-    EXPECT_EQ(keys(found),
-              (std::set<std::string>{"file", "agents", "radius", "pairs", "pairs_tested", "seconds", "conflicts"}));
+    EXPECT_EQ(keys(found), (std::set<std::string>{"file", "t0", "agents", "radius", "pairs", "pairs_tested", "seconds",
+                                                  "conflicts"}));
     EXPECT_EQ(found["file"], file);
+    EXPECT_EQ(found["t0"], 5) << "frame 10";
     EXPECT_EQ(found["agents"], 3);
     EXPECT_EQ(found["radius"], 0.2);
     EXPECT_EQ(found["pairs"], 3);

@@ -80,9 +80,8 @@ TEST(Csv, OtherTimesAreResampledFromTheFirstToTheLast) {
     ten.fps = 10;
     EXPECT_EQ(only(clips(text, ten)).count(), 5);
     ASSERT_EQ(read[0].facts.warnings.size(), 1u);
-    EXPECT_EQ(
-        read[0].facts.warnings[0].text,
-        "the times are not uniform (line 3: 10.1 s, in step would be 10.133 s); the path is resampled at 30 fps");
+    EXPECT_EQ(read[0].facts.warnings[0].text,
+              "the times are not uniform (line 3: 10.1 s, in step would be 10.133 s); the path is resampled at 30 fps");
     EXPECT_NE(clips(text, ten)[0].facts.warnings.at(0).text.find("resampled at 10 fps"), std::string::npos);
 }
 
@@ -90,8 +89,7 @@ TEST(Csv, AWarningNamesTheLineInTheFileNotInTheTrack) {
     const auto read = clips("id,t,x,y,r\na,0,0,0,0\nb,0,0,0,0\n\na,1,0,0,0\nb,1,0,0,0\nb,5.5,0,0,0\na,2,0,0,0\n");
     EXPECT_TRUE(read.at(0).facts.warnings.empty());
     ASSERT_EQ(read.at(1).facts.warnings.size(), 1u);
-    EXPECT_EQ(said(read[1].facts.warnings[0]),
-              "the times are not uniform; the path is resampled at 30 fps (line 7)");
+    EXPECT_EQ(said(read[1].facts.warnings[0]), "the times are not uniform; the path is resampled at 30 fps (line 7)");
 }
 
 TEST(Csv, WithoutTimesDtIsNeeded) {
