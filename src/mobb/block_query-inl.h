@@ -156,7 +156,7 @@ class BlockTraversal {
                 for (int m = 0; m < shifts.count; ++m) {
                     if (((there[m] >> lane) & 1U) == 0) continue;
                     const int block_a = i + lane, block_b = block_a + to_b + m;
-                    // The last block of a clip may have fewer samples than others, and share no time then.
+                    // The last block of a clip may last for less than others, and share no time then.
                     const double begin_b = (shifts.first + m) * span + shifts.rest;
                     if ((block_a == last_a || block_b == last_b) && !share_time(level, block_a, block_b, begin_b)) {
                         continue;
@@ -171,8 +171,8 @@ class BlockTraversal {
     /// Whether blocks i and j do, where B's begins so many samples after A's.
     bool share_time(int level, int i, int j, double begin_b) const {
         const int size = Blocks::span(level);
-        const double until_a = std::min(size, blocks_a_.count() - i * size);
-        const double until_b = begin_b + std::min(size, blocks_b_.count() - j * size);
+        const double until_a = blocks_a_.steps(i * size, size);
+        const double until_b = begin_b + blocks_b_.steps(j * size, size);
         return std::min(until_a, until_b) - std::max(begin_b, 0.0) > least_common();
     }
 
@@ -308,7 +308,8 @@ class BlockTraversal {
         if (meet) return {};
         const auto box = [](const Blocks& blocks, int level, int block) {
             const Blocks::Node node = blocks.node(blocks.node_of(level, block));
-            return box_around(node.bound, node.first * blocks.dt(), (node.first + node.count) * blocks.dt());
+            const Clip& clip = blocks.clip();
+            return box_around(node.bound, clip.time(node.first), clip.time(node.first + node.count));
         };
         return separate_block(box(blocks_a_, level_a, i), box(blocks_b_, level_b, j),
                               RelativeFrame(a_.frame(), b_.frame(), 1));

@@ -48,12 +48,10 @@ const Clip& existing(const ClipPtr& clip) {
 class Run {
   public:
     Run(const Clip& clip, glm::dvec2 origin, int first, int end)
-        : samples_(clip.samples().data()), origin_(origin), first_(first), end_(end) {
-        const bool runs = clip.motion() == Motion::linear;
-        // Of a linear clip the last disk of the run is the one that its last sample runs to, if any.
-        last_ = runs ? std::min(end, clip.count() - 1) : end - 1;
-        stays_ = !runs;
-        last_stays_ = last_ < end;
+        : samples_(clip.samples().data()), origin_(origin), first_(first) {
+        // Where samples run, the last disk of the run is the one that its last sample runs to, if any.
+        last_ = clip.runs() ? std::min(end, clip.count() - 1) : end - 1;
+        stays_ = !clip.runs();
     }
 
     /// From the first centre to the last.
@@ -75,18 +73,13 @@ class Run {
             visit(x, y, d.r);
             if (stays_ && per_sample != glm::dvec2(0)) visit(x - per_sample.x, y - per_sample.y, d.r);
         }
-        if (stays_ || !last_stays_) return;
-        const Disk& d = samples_[last_];
-        const double at = end_ - first_;
-        visit((d.x - origin_.x) - at * per_sample.x, (d.y - origin_.y) - at * per_sample.y, d.r);
     }
 
   private:
     const Disk* samples_;
     glm::dvec2 origin_;
-    int first_, end_, last_;
-    bool stays_;       ///< each disk does
-    bool last_stays_;  ///< the last disk does
+    int first_, last_;
+    bool stays_;  ///< each disk does
 };
 
 /// Around a run, moving by `moving_by` metres a sample; `drift` is over `span` samples. Centre and drift are numbers of
@@ -154,6 +147,7 @@ Blocks::Blocks(ClipPtr clip)
       per_dt_(1 / dt_),
       count_(clip->count()),
       linear_(clip->motion() == Motion::linear),
+      steps_(clip->steps()),
       disks_(clip->samples().data()),
       reach_(clip->reach()),
       clip_(std::move(clip)) {
@@ -175,10 +169,10 @@ Blocks::Blocks(ClipPtr clip)
     moving_radius_ = radius_ = reach_from(origin_);
     if (is_short()) {
         const Run run(*clip_, {0, 0}, 0, n);
-        const MovingDisk moving = around<double>(run, run.per_sample(), n);
+        const MovingDisk moving = around<double>(run, run.per_sample(), steps_);
         if (moving.radius < radius_) {
             origin_ = moving.from + moving.drift / 2.0;
-            velocity_ = moving.drift * per_dt_ / static_cast<double>(n);
+            velocity_ = moving.drift * per_dt_ / static_cast<double>(steps_);
             moving_radius_ = moving.radius;
             radius_ = reach_from(origin_);
         }
@@ -239,7 +233,7 @@ Blocks::Level Blocks::add_level(int number) {
         if (!moves) continue;
         block[3 * stride] = static_cast<float>(disk.drift.x);
         block[4 * stride] = static_cast<float>(disk.drift.y);
-        block[5 * stride] = static_cast<float>(samples) / static_cast<float>(size);
+        block[5 * stride] = static_cast<float>(steps(k * size, size)) / static_cast<float>(size);
         speed_ = std::max(speed_, rounded_up(glm::length(disk.drift) / (size * dt_)));
     }
     return level;
@@ -330,14 +324,15 @@ void Blocks::add_windows(int level) {
 
 MovingDisk bounding_disk(const Clip& clip, int first, int end) {
     const Run run(clip, {0, 0}, first, end);
-    return around<double>(run, run.per_sample(), end - first);
+    const int steps = std::min(end, clip.steps()) - first;
+    return around<double>(run, run.per_sample(), std::max(steps, 1));
 }
 
 MovingDisk Blocks::bound(const Level& level, int block, int span) const {
     const Paths p = paths_of(level);
     MovingDisk out{origin_ + glm::dvec2(p.x()[block], p.y()[block]), glm::dvec2(0), p.r()[block]};
     if (level.arrays == kStill) return out;
-    const double part = static_cast<double>(std::min(count_ - block * span, span)) / span;
+    const double part = static_cast<double>(steps(block * span, span)) / span;
     out.drift = part * glm::dvec2(p.dx()[block], p.dy()[block]);
     return out;
 }

@@ -5,6 +5,7 @@
 #include <mobb/box.h>
 #include <mobb/clip.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -70,6 +71,9 @@ class alignas(64) Blocks {
     const ClipPtr& shared_clip() const { return clip_; }
 
     int count() const { return count_; }  ///< of samples
+    int steps() const { return steps_; }  ///< of the clip: how many dt it lasts
+    /// How many dt of them pass in `span` samples from `first` on, at least 0.
+    int steps(int first, int span) const { return std::min(steps_ - first, span); }
     double dt() const { return dt_; }
     double per_dt() const { return per_dt_; }  ///< 1 / dt()
     bool is_linear() const { return linear_; }
@@ -228,6 +232,7 @@ class alignas(64) Blocks {
     std::int64_t sure_parts_;
     float speed_ = 0;
     bool linear_;
+    int steps_;
     std::array<Level, kMostLevels> levels_{};
     std::vector<float> values_;
     const Disk* disks_;

@@ -29,8 +29,12 @@ double reach_of(const ChainLink& link) {
     return std::abs(link.translate.x) + std::abs(link.translate.y) + std::numbers::sqrt2 * link.part->clip().reach();
 }
 
-/// How many bits tell the nodes of a tree apart.
-int bits_for(const Tree& tree) { return static_cast<int>(std::bit_width(tree.nodes().size() - 1)); }
+bool of_linear_clip(const Tree& tree) { return tree.clip().motion() == Motion::linear; }
+
+/// How many bits tell the nodes of a link apart: those of its tree, and the joint behind a linear one.
+int bits_for(const Tree& tree) {
+    return static_cast<int>(std::bit_width(tree.nodes().size() - (of_linear_clip(tree) ? 0 : 1)));
+}
 
 /// From the first centre to the last; where they coincide, what stands in for it.
 glm::dvec2 chain_axis(const Disk& first, const Disk& last, glm::dvec2 stand_in) {
@@ -88,7 +92,8 @@ void Chain::append(std::span<const ChainLink> links) {
         reach = std::max(reach, reach_of(link));
     }
     const auto count = static_cast<std::int64_t>(links_.size() + links.size());
-    if ((count << shift) + count > std::numeric_limits<int>::max()) {
+    // Above the links stand fewer than two nodes for each, with joints.
+    if ((count << shift) + 2 * count > std::numeric_limits<int>::max()) {
         throw std::invalid_argument("the chain has too many nodes: use fewer links, or trees with larger leaves");
     }
     if (links_.empty()) {
@@ -102,7 +107,7 @@ void Chain::append(std::span<const ChainLink> links) {
     for (const ChainLink& link : links) {
         const Tree& tree = link.part->tree();
         push({link.part, tree.nodes().data(), tree.clip().samples().data(), Rotation::from_degrees(link.rotate_deg),
-              link.translate, links_.empty() ? 0 : end(), tree.clip().count(), tree.clip().motion() == Motion::linear});
+              link.translate, links_.empty() ? 0 : end(), tree.clip().count(), of_linear_clip(tree), false, 0});
     }
     join_peaks();
 }
@@ -125,9 +130,14 @@ void Chain::drop_before(double seconds) {
 void Chain::push(Link link) {
     upper_.resize(perfect_);
     const int k = static_cast<int>(links_.size());
-    Peak peak{~k, k, 1, link.part->outline().placed(link.rotation, link.translate)};
+    const bool has_joint = k > 0 && links_.back().linear;
+    if (has_joint) links_.back().until = links_.back().end() - 1;
+    if (k > 0) link.is_run_to = has_joint;
+    link.until = link.linear && (link.count > 1 || link.is_run_to) ? link.end() - 1 : link.end();
     linear_ = linear_ || link.linear;
+    Peak peak{root_child(k), k, 1, link.part->outline().placed(link.rotation, link.translate)};
     links_.push_back(std::move(link));
+    if (has_joint) peak = with_joint(peak);
     while (!peaks_.empty() && peaks_.back().links == peak.links) {
         peak = joined(peaks_.back(), peak);
         peaks_.pop_back();
@@ -142,15 +152,29 @@ void Chain::join_peaks() {
     for (std::size_t i = peaks_.size() - 1; i > 0; --i) all = joined(peaks_[i - 1], all);
 }
 
+/// A link, and the joint in front of it.
+Chain::Peak Chain::with_joint(const Peak& link) {
+    const int k = link.first_link;
+    Link& before = links_[static_cast<std::size_t>(k - 1)];
+    const std::array<Disk, 2> ends{before.disk(before.end() - 1), before.runs_on_to()};
+    const KDop joint(ends, chain_axis(ends[0], ends[1], {1, 0}));
+    before.joint = chain_rectangle(joint, kKDopRounding * reach_);
+    return joined({joint_child(k - 1), k, 0, joint}, link);
+}
+
 Chain::Peak Chain::joined(const Peak& left, const Peak& right) {
     const int links = left.links + right.links;
     const Link& first = links_[static_cast<std::size_t>(left.first_link)];
     const Link& last = links_[static_cast<std::size_t>(left.first_link + links - 1)];
-    const glm::dvec2 axis = chain_axis(first.disk(first.first), last.disk(last.end() - 1), left.outline.axis());
+    // The joint in front of its first link is part of a tree; of the first link of all it has been dropped.
+    const bool has_joint = left.first_link > 0 && first.is_run_to;
+    const Link& begins = has_joint ? links_[static_cast<std::size_t>(left.first_link - 1)] : first;
+    const int first_sample = first.first - (has_joint ? 1 : 0);
+    const glm::dvec2 axis = chain_axis(begins.disk(first_sample), last.disk(last.end() - 1), left.outline.axis());
     Peak peak{static_cast<int>(upper_.size()), left.first_link, links, {left.outline, right.outline, axis}};
     upper_.push_back({chain_rectangle(peak.outline, kKDopRounding * reach_),
-                      first.first,
-                      last.end() - first.first,
+                      first_sample,
+                      left.first_link + links - 1,
                       {left.child, right.child}});
     return peak;
 }
@@ -163,17 +187,20 @@ Disk Chain::disk(int i) const { return link_of(i).disk(i); }
 
 Disk Chain::disk_at_end(int i) const {
     const Link& link = link_of(i);
-    return link.disk(link.runs_to(i));
+    if (!link.linear || i == end() - 1) return link.disk(i);
+    return i + 1 < link.end() ? link.disk(i + 1) : link.runs_on_to();
 }
 
 Clip flattened(const Chain& chain) {
-    if (chain.is_linear() && chain.links() > 1) {
-        throw std::invalid_argument("a chain of linear clips is no clip: the last sample of each stays for its dt");
+    const Motion motion = chain.part(0).clip().motion();
+    for (int k = 1; k < chain.links(); ++k) {
+        if (chain.part(k).clip().motion() != motion) throw std::invalid_argument("its clips are both held and linear");
     }
+    if (chain.until() == chain.first()) throw std::invalid_argument("all that is left takes no time");
     std::vector<Disk> samples;
     samples.reserve(static_cast<std::size_t>(chain.end() - chain.first()));
     for (int i = chain.first(); i < chain.end(); ++i) samples.push_back(chain.disk(i));
-    return {chain.dt(), std::move(samples), chain.is_linear() ? Motion::linear : Motion::held};
+    return {chain.dt(), std::move(samples), motion};
 }
 
 }  // namespace mobb

@@ -7,6 +7,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -44,22 +45,30 @@ struct ChainLink {
 struct ChainNode {
     int first = 0;  ///< sample of the chain
     int count = 0;
+    int until = 0;                        ///< the node ends when this sample begins
     std::array<int, 2> children{-1, -1};  ///< in time order; -1 in a leaf
     BoxKind kind = BoxKind::obb2d;
-    int link = -1;                         ///< the link whose tree's node this is; -1: a node above the links
-    int node_of_link = -1;                 ///< ... and which one
-    const Rectangle* rectangle = nullptr;  ///< in the frame of the link's clip; of a node above the links, the chain's
+    int link = -1;                         ///< the link that the samples are of; -1: of several
+    int node_of_link = -1;                 ///< the node of the link's tree that this is; -1: none, but the chain's own
+    const Rectangle* rectangle = nullptr;  ///< in the frame of the link's clip, or of the chain's own node in its frame
 
     bool is_leaf() const { return children[0] < 0; }
     int end() const { return first + count; }
+    bool is_joint() const { return link >= 0 && node_of_link < 0; }
 };
 
-/// One or more links in order of time, without gaps. Sample I of the chain is sample I - F of the link whose first
-/// sample in the chain is F, and holds over [I*dt, (I+1)*dt) of chain time.
+/// One or more links in order of time. Sample I of the chain is sample I - F of the link whose first sample in the
+/// chain is F, and begins at I*dt of chain time.
 ///
-/// The nodes of the links' trees are used where they are: seen through the link's placement, not copied. Above them
-/// stand MOBB boxes, fitted to merged outlines: perfect binary trees over 2^k links each, the oldest the largest,
-/// joined along a spine. A value: copies are independent, and any number of threads may ask one that nobody changes.
+/// A linear link runs on: from its last sample centre and radius run to the first one of the next link, if that is
+/// linear, or else stay as they are until it begins. This joint is a segment of its own, so that the tree of the link,
+/// which ends at its last sample, stays valid. The chain ends as its last clip does, but a last clip of one sample that
+/// another link has run to takes no time. So links of one motion are as one clip of all their samples.
+///
+/// The nodes of the links' trees are used where they are: seen through the link's placement, not copied. Joints are
+/// leaves. Above them stand MOBB boxes, fitted to merged outlines: perfect binary trees over 2^k links each, the oldest
+/// the largest, joined along a spine. A value: copies are independent, and any number of threads may ask one that
+/// nobody changes.
 class Chain {
   public:
     /// Time is linear in the number of links and does not depend on their samples. Throws std::invalid_argument, naming
@@ -88,7 +97,9 @@ class Chain {
 
     int first() const { return links_.front().first; }  ///< the first sample that has not been dropped
     int end() const { return links_.back().end(); }     ///< one past the last sample
-    double duration() const { return end() * dt_; }     ///< chain time at which the last sample ends, seconds
+    int until() const { return links_.back().until; }   ///< the chain ends when this sample begins, or would begin
+    double duration() const { return until() * dt_; }   ///< chain time at which it ends, seconds
+    double until_next() const { return end() * dt_; }   ///< chain time at which a link that is added begins, seconds
     /// An upper bound in metres on |x| + |y| + r over the samples.
     double reach() const { return reach_; }
 
@@ -116,19 +127,28 @@ class Chain {
         int first;  ///< in the chain
         int count;
         bool linear;
+        bool is_run_to;     ///< the link before it is linear, also if that has been dropped
+        int until;          ///< what the link's tree bounds ends when this sample begins
+        Rectangle joint{};  ///< of a linear link with another one behind it: around the joint, in the chain's frame
 
-        /// The sample that sample i becomes until it ends.
-        int runs_to(int i) const { return linear && i + 1 < end() ? i + 1 : i; }
         int end() const { return first + count; }
         Disk disk(int i) const { return placed(samples[i - first], rotation, translate); }
+        /// Of a linear link with another one behind it, which must be the next in memory: what its last sample becomes.
+        Disk runs_on_to() const {
+            const Link& next = this[1];
+            return next.linear ? next.disk(next.first) : disk(end() - 1);
+        }
     };
-    /// A box over several links. A child >= 0 is one of upper_; ~k is the root of link k.
+    /// A box over several links, or over a joint and the link behind it. A child >= 0 is one of upper_; of others
+    /// see root_child and joint_child.
     struct Upper {
         Rectangle rectangle;
         int first;
-        int count;
+        int last_link;
         int children[2];
     };
+    static int root_child(int link) { return ~(2 * link); }
+    static int joint_child(int link) { return ~(2 * link + 1); }  ///< the joint behind a link
     /// A tree that is not yet part of a larger one.
     struct Peak {
         int child;  ///< as in Upper
@@ -139,10 +159,14 @@ class Chain {
 
     int id_of(int child) const {
         const int uppers = static_cast<int>(upper_.size());
-        return child >= 0 ? uppers - 1 - child : uppers + (~child << shift_);
+        if (child >= 0) return uppers - 1 - child;
+        const int link = ~child / 2;
+        return uppers + (link << shift_) + (~child % 2 == 0 ? 0 : nodes_of(links_[static_cast<std::size_t>(link)]));
     }
+    static int nodes_of(const Link& link) { return static_cast<int>(link.part->tree().nodes().size()); }
     const Link& link_of(int sample) const;
     void push(Link link);
+    Peak with_joint(const Peak& link);
     Peak joined(const Peak& left, const Peak& right);
     void join_peaks();
 
@@ -161,23 +185,39 @@ inline ChainNode Chain::node(int id) const {
     const int uppers = static_cast<int>(upper_.size());
     if (id < uppers) {
         const Upper& upper = upper_[static_cast<std::size_t>(uppers - 1 - id)];
-        return {upper.first, upper.count,     {id_of(upper.children[0]), id_of(upper.children[1])}, BoxKind::obb2d, -1,
-                -1,          &upper.rectangle};
+        const Link& last = links_[static_cast<std::size_t>(upper.last_link)];
+        return {upper.first,
+                last.end() - upper.first,
+                last.until,
+                {id_of(upper.children[0]), id_of(upper.children[1])},
+                BoxKind::obb2d,
+                -1,
+                -1,
+                &upper.rectangle};
     }
     const int k = (id - uppers) >> shift_;
     const int root = uppers + (k << shift_);
     const Link& link = links_[static_cast<std::size_t>(k)];
+    if (id - root == nodes_of(link))
+        return {link.end() - 1, 1, link.end(), {-1, -1}, BoxKind::obb2d, k, -1, &link.joint};
     const Node& node = link.nodes[id - root];
     // Turned, what lay along x and y no longer does.
     const BoxKind kind = info(node.kind).axes == BoxAxes::world ? BoxKind::obb2d : node.kind;
-    ChainNode out{link.first + node.first, node.count, {-1, -1}, kind, k, id - root, &node.rectangle};
+    ChainNode out{link.first + node.first,
+                  node.count,
+                  std::min(link.first + node.end(), link.until),
+                  {-1, -1},
+                  kind,
+                  k,
+                  id - root,
+                  &node.rectangle};
     if (!node.is_leaf()) out.children = {id + 1, root + node.second_child};
     return out;
 }
 
 inline Rectangle Chain::rectangle(const ChainNode& node) const {
     Rectangle out = *node.rectangle;
-    if (node.link < 0) return out;
+    if (node.node_of_link < 0) return out;
     const Link& link = links_[static_cast<std::size_t>(node.link)];
     out.center = link.rotation(out.center) + link.translate;
     out.axis = link.rotation(out.axis);
@@ -185,8 +225,8 @@ inline Rectangle Chain::rectangle(const ChainNode& node) const {
 }
 
 inline Box Chain::box(const ChainNode& node) const {
-    if (node.link < 0) {
-        const double t0 = time_scale_ * (node.first * dt_), t1 = time_scale_ * (node.end() * dt_);
+    if (node.node_of_link < 0) {
+        const double t0 = time_scale_ * (node.first * dt_), t1 = time_scale_ * (node.until * dt_);
         return over_time(node.kind, *node.rectangle, t0, t1);
     }
     const Link& link = links_[static_cast<std::size_t>(node.link)];
@@ -203,7 +243,7 @@ inline Box Chain::box(const ChainNode& node) const {
 }
 
 /// The clip of all samples of a chain that have not been dropped, in its frame: bit for bit the same disks. Throws
-/// std::invalid_argument for several links of which one is linear: its last sample stays, which no clip's sample does.
+/// std::invalid_argument if the links are of both motions, or if all that is left takes no time.
 Clip flattened(const Chain& chain);
 
 }  // namespace mobb

@@ -25,7 +25,7 @@ Clip::Clip(double dt, std::vector<Disk> samples, Motion motion)
     if (samples_.size() > kMaxSamples) {
         throw std::invalid_argument("a clip holds at most 500000000 samples");
     }
-    if (duration() > kMaxTime) throw std::invalid_argument("the clip lasts longer than 1e12 s");
+    if (until_next() > kMaxTime) throw std::invalid_argument("the clip lasts longer than 1e12 s");
     for (std::size_t i = 0; i < samples_.size(); ++i) {
         const Disk& d = samples_[i];
         const auto fail = [i](const char* what) {

@@ -3,6 +3,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <memory>
@@ -30,14 +31,16 @@ inline constexpr double kLeastDt = 1e-12;
 inline constexpr std::size_t kMaxSamples = 500'000'000;
 
 /// What a disk does until the next sample. `held`: it stays (paper, Section 3). `linear`: centre and radius run
-/// linearly to those of the next sample, as swept disks (the paper's alternative, Section 3); the last one stays.
+/// linearly to those of the next sample, as swept disks (the paper's alternative, Section 3), and the clip ends at its
+/// last sample. A linear clip of one sample holds it for dt.
 enum class Motion { held, linear };
 
 std::string_view name(Motion motion);
 std::optional<Motion> motion_from_name(std::string_view name);
 std::span<const std::string_view> motion_names();
 
-/// N >= 1 disks at uniform spacing dt > 0 seconds; disk i belongs to [i*dt, (i+1)*dt). Immutable: share it freely.
+/// N >= 1 disks at uniform spacing dt > 0 seconds; disk i belongs to [time(i), time(i + 1)). Immutable: share it
+/// freely.
 class Clip {
   public:
     /// Throws std::invalid_argument, naming the sample, if dt is not finite or below kLeastDt, there is no sample, a
@@ -49,8 +52,17 @@ class Clip {
     Motion motion() const { return motion_; }
     int count() const { return static_cast<int>(samples_.size()); }
     std::span<const Disk> samples() const { return samples_; }
-    /// Seconds: count * dt, as the last sample has its cylinder too (reading of Eq. 1, "o < t_end").
-    double duration() const { return count() * dt_; }
+    /// Whether samples run to the next ones: of a linear clip of more than one sample.
+    bool runs() const { return motion_ == Motion::linear && count() > 1; }
+    /// How many dt the clip lasts: one for each sample, as the last one has its cylinder too (reading of Eq. 1,
+    /// "o < t_end"); where samples run, one for each from a sample to the next.
+    int steps() const { return runs() ? count() - 1 : count(); }
+    /// Clip time in seconds at which sample i begins and the one before it ends, 0 <= i <= count(). The last sample of
+    /// a clip that runs begins and ends at once.
+    double time(int i) const { return std::min(i, steps()) * dt_; }
+    double duration() const { return steps() * dt_; }  ///< seconds
+    /// Seconds from when the clip begins to when the next one of a chain does: a linear one runs on to it for dt.
+    double until_next() const { return count() * dt_; }
     /// An upper bound in metres on |x| + |y| + r over the samples: what the slack of box tests is made from.
     double reach() const { return reach_; }
 
@@ -121,6 +133,7 @@ class PlacedClip {
         : samples_(clip.samples().data()),
           dt_(clip.dt()),
           last_to_(clip.motion() == Motion::linear ? clip.count() - 1 : -1),
+          steps_(clip.steps()),
           clip_(&clip),
           rotate_deg_(placement.rotate_deg),
           frame_{Rotation::from_degrees(placement.rotate_deg), placement.translate, placement.start, clip.reach(),
@@ -145,13 +158,14 @@ class PlacedClip {
     Disk disk_at_end(int i) const { return disk(i < last_to_ ? i + 1 : i); }
     bool is_linear() const { return last_to_ >= 0; }
     double dt() const { return dt_; }
-    /// Global time at which sample i begins to hold; time(i + 1) is when it ends. Never decreases with i.
-    double time(int i) const { return frame_.start + i * dt_; }
+    /// Global time at which sample i begins; time(i + 1) is when it ends (see Clip::time). Never decreases with i.
+    double time(int i) const { return frame_.start + std::min(i, steps_) * dt_; }
 
   private:
     const Disk* samples_;
     double dt_;
     int last_to_;  ///< the last sample that another runs to; -1 of a held clip
+    int steps_;    ///< of the clip
     const Clip* clip_;
     double rotate_deg_;
     PlacedFrame frame_;

@@ -92,7 +92,7 @@ class BoundedDisks::Search {
 };
 
 std::span<const Disk> swept_disks(const Clip& clip, SampleRange range) {
-    const bool runs_on = clip.motion() == Motion::linear && range.end() < clip.count();
+    const bool runs_on = clip.runs() && range.end() < clip.count();
     const int count = range.count + (runs_on ? 1 : 0);
     return clip.samples().subspan(static_cast<std::size_t>(range.first), static_cast<std::size_t>(count));
 }

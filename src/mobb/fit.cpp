@@ -33,23 +33,21 @@ Rectangle rectangle_around(const BoundedDisks& bounded, glm::dvec2 u) {
 
 /// Over the time of the range.
 Box box_over_time(BoxKind kind, const Clip& clip, SampleRange range, const Rectangle& rectangle, double w) {
-    return over_time(kind, rectangle, w * (range.first * clip.dt()), w * (range.end() * clip.dt()));
+    return over_time(kind, rectangle, w * clip.time(range.first), w * clip.time(range.end()));
 }
 
 /// Extents of the cylinders along one axis of space-time. A cylinder spans p.a -/+ r*|a_xy|, and its height w*dt shifts
 /// one side by w*dt*a_t: Fig. 6, whose signs hold for one orientation only. A slanted one lies between the disks at its
 /// ends.
 Extent extent_in_order(const Clip& clip, SampleRange range, double height, glm::dvec3 a) {
-    const bool runs = clip.motion() == Motion::linear;
     const double in_plane = std::hypot(a.x, a.y);
-    const double below = std::min(0.0, height * a.z);
-    const double above = std::max(0.0, height * a.z);
+    const double below = clip.runs() ? 0 : std::min(0.0, height * a.z);
+    const double above = clip.runs() ? 0 : std::max(0.0, height * a.z);
     Extent e;
     int i = range.first;
     for (const Disk& d : swept_disks(clip, range)) {
         const double p = d.x * a.x + d.y * a.y + (height * i) * a.z;
-        const bool stays = i < range.end() && (!runs || i + 1 == clip.count());
-        e.add(p - d.r * in_plane + (stays ? below : 0), p + d.r * in_plane + (stays ? above : 0));
+        e.add(p - d.r * in_plane + below, p + d.r * in_plane + above);
         ++i;
     }
     return e;
@@ -58,6 +56,7 @@ Extent extent_in_order(const Clip& clip, SampleRange range, double height, glm::
 /// extent_in_order along two axes at once, of which none may come out as zero.
 class TwoExtents {
   public:
+    /// Of disks that each stay for so long, in w*t.
     TwoExtents(double height, glm::dvec3 a, glm::dvec3 b)
         : x_{a.x, b.x},
           y_{a.y, b.y},
@@ -66,12 +65,12 @@ class TwoExtents {
           below_(least(height * z_, both(0))),
           above_(greatest(height * z_, both(0))) {}
 
-    /// A disk at a time in w*t, which stays for the height or not.
-    void add(const Disk& d, double time, bool stays) {
+    /// A disk at a time in w*t.
+    void add(const Disk& d, double time) {
         const TwoDoubles p = d.x * x_ + d.y * y_ + time * z_;
         const TwoDoubles reach = d.r * in_plane_;
-        low_ = least(p - reach + (stays ? below_ : both(0)), low_);
-        high_ = greatest(p + reach + (stays ? above_ : both(0)), high_);
+        low_ = least(p - reach + below_, low_);
+        high_ = greatest(p + reach + above_, high_);
     }
     Extent operator[](int i) const { return {low_[i], high_[i]}; }
 
@@ -83,20 +82,13 @@ class TwoExtents {
 
 /// Along three axes in one pass.
 std::array<Extent, 3> extents_3d(const Clip& clip, SampleRange range, double height, const Axes3& axes) {
-    TwoExtents first_two(height, axes[0], axes[1]), third(height, axes[2], axes[2]);
+    const double stays = clip.runs() ? 0 : height;
+    TwoExtents first_two(stays, axes[0], axes[1]), third(stays, axes[2], axes[2]);
     int i = range.first;
-    const auto add = [&](const Disk& d, bool stays) {
+    for (const Disk& d : swept_disks(clip, range)) {
         const double time = height * i++;
-        first_two.add(d, time, stays);
-        third.add(d, time, stays);
-    };
-    // Held disks stay; of a linear clip only the last does.
-    const std::span<const Disk> bounded = swept_disks(clip, range);
-    if (clip.motion() == Motion::held) {
-        for (const Disk& d : bounded) add(d, true);
-    } else {
-        for (const Disk& d : bounded.first(bounded.size() - 1)) add(d, false);
-        add(bounded.back(), range.end() == clip.count());
+        first_two.add(d, time);
+        third.add(d, time);
     }
     std::array<Extent, 3> e{first_two[0], first_two[1], third[0]};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -200,21 +192,24 @@ glm::dvec2 drift_per_sample(std::span<const Disk> disks) {
     return disks.size() == 1 ? glm::dvec2(0) : travel(disks) / static_cast<double>(disks.size() - 1);
 }
 
+/// How many dt a range lasts.
+int steps(const Clip& clip, SampleRange range) { return std::min(range.end(), clip.steps()) - range.first; }
+
 /// Where the disks are against a centre that drifts so and passes the origin in the middle of their time: each at the
 /// beginning and at the end of its hold interval, over which it stands still and so falls behind. Those of a linear
 /// clip run straight from one to the next: the range's own come first.
 std::vector<Disk> drifting(const Clip& clip, SampleRange range, glm::dvec2 per_sample) {
     std::vector<Disk> out;
     out.reserve(2 * static_cast<std::size_t>(range.count));
-    const bool runs = clip.motion() == Motion::linear;
     int i = range.first;
+    const double middle = 0.5 * steps(clip, range);
     const auto add = [&](const Disk& d, int at) {
-        const double samples = at - range.first - 0.5 * range.count;
+        const double samples = at - range.first - middle;
         out.push_back({d.x - samples * per_sample.x, d.y - samples * per_sample.y, d.r});
     };
     for (const Disk& d : swept_disks(clip, range)) {
         add(d, i);
-        if (i < range.end() && (!runs || i + 1 == clip.count())) add(d, i + 1);
+        if (!clip.runs()) add(d, i + 1);
         ++i;
     }
     return out;
@@ -324,12 +319,11 @@ Box fit_moving(const Clip& clip, SampleRange range, Axes axes, double time_scale
     const std::span<const Disk> all = disks(clip, range);
     const glm::dvec2 per_sample = drift_per_sample(all);
     const std::vector<Disk> seen = drifting(clip, range, per_sample);
-    const std::span<const Disk> own =
-        clip.motion() == Motion::linear ? std::span(seen).first(all.size()) : std::span(seen);
+    const std::span<const Disk> own = clip.runs() ? std::span(seen).first(all.size()) : std::span(seen);
     const BoundedDisks bounded{seen};
     const Rectangle rectangle = rectangle_around(bounded, axis_2d(own, bounded, travel_axis(all), axes));
     Box box = box_over_time(BoxKind::moving, clip, range, rectangle, time_scale);
-    box.drift = 0.5 * range.count * per_sample;
+    box.drift = 0.5 * steps(clip, range) * per_sample;
     return box;
 }
 
@@ -352,8 +346,8 @@ Box fit(BoxKind kind, const Clip& clip, SampleRange range, Axes axes, double tim
         case BoxKind::aabb:
             return fit_aabb(clip, range, time_scale);
         case BoxKind::block:
-            return box_around(bounding_disk(clip, range.first, range.end()), time_scale * (range.first * clip.dt()),
-                              time_scale * (range.end() * clip.dt()));
+            return box_around(bounding_disk(clip, range.first, range.end()), time_scale * clip.time(range.first),
+                              time_scale * clip.time(range.end()));
     }
     return {};
 }

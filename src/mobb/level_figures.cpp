@@ -1,5 +1,6 @@
 #include <mobb/level_figures.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <numbers>
 #include <span>
@@ -9,8 +10,9 @@ namespace mobb {
 double cylinder_volume(const Clip& clip, SampleRange range) {
     double sum = 0;
     const std::span<const Disk> samples = clip.samples();
-    for (std::size_t i = static_cast<std::size_t>(range.first); i < static_cast<std::size_t>(range.end()); ++i) {
-        const bool runs = clip.motion() == Motion::linear && i + 1 < samples.size();
+    const bool runs = clip.runs();
+    const auto end = static_cast<std::size_t>(std::min(range.end(), clip.steps()));
+    for (auto i = static_cast<std::size_t>(range.first); i < end; ++i) {
         const double r0 = samples[i].r;
         const double r1 = samples[runs ? i + 1 : i].r;
         sum += runs ? (r0 * r0 + r0 * r1 + r1 * r1) / 3 : r0 * r0;

@@ -24,6 +24,7 @@ struct LinkPlace {
     Rotation rotation;        ///< of the link's clip, into the chain
     glm::dvec2 translate{0};  ///< likewise, metres
     int first = 0;            ///< the chain's index of the link's first sample
+    int until = 0;            ///< and of the sample at whose begin the link's own samples end
     PlacedFrame chain;        ///< of the whole chain
 };
 
@@ -38,13 +39,13 @@ class alignas(64) PlacedBlocks {
     }
     /// As a Placement, with a rotation that is known.
     PlacedBlocks(const Blocks& blocks, const Rotation& rotation, glm::dvec2 translate, double start)
-        : PlacedBlocks(blocks, rotation, translate, start, 0, nullptr) {}
+        : PlacedBlocks(blocks, rotation, translate, start, 0, blocks.steps(), nullptr) {}
     PlacedBlocks(const Blocks&&, const Placement&) = delete;
     /// As a link of a chain. The place must outlive it, too.
     PlacedBlocks(const Blocks& blocks, const LinkPlace& link)
         : PlacedBlocks(blocks, link.chain.rotation * link.rotation,
                        link.chain.rotation(link.translate) + link.chain.translate, link.chain.start, link.first,
-                       &link) {}
+                       link.until, &link) {}
 
     const Blocks& blocks() const { return *blocks_; }
     /// From the clip's frame to the world's.
@@ -66,7 +67,7 @@ class alignas(64) PlacedBlocks {
     /// Of the clip, from when its first sample begins.
     PlacedFrame frame() const {
         return {rotation_, translate_, begin_, link_ ? link_->chain.reach : blocks_->reach(),
-                blocks_->count() * blocks_->dt()};
+                blocks_->steps() * blocks_->dt()};
     }
 
     int first() const { return first_; }
@@ -80,8 +81,8 @@ class alignas(64) PlacedBlocks {
     }
     Disk disk_at_end(int i) const { return disk(is_linear() && i + 1 < end() ? i + 1 : i); }
     bool is_linear() const { return blocks_->is_linear(); }
-    /// Global time at which sample i begins; time(i + 1) is when it ends.
-    double time(int i) const { return start_ + i * dt(); }
+    /// Global time at which sample i begins; time(i + 1) is when it ends (see Clip::time).
+    double time(int i) const { return i < end() ? start_ + i * dt() : end_; }
     /// No number that times are computed from is larger, seconds: what their rounding is measured by.
     double largest_time() const { return std::abs(start_) + end() * dt(); }
     static constexpr double kTimeError = 0x1p-48;  ///< of them, with a wide margin
@@ -96,10 +97,10 @@ class alignas(64) PlacedBlocks {
 
   private:
     PlacedBlocks(const Blocks& blocks, const Rotation& rotation, glm::dvec2 translate, double start, int first,
-                 const LinkPlace* link)
+                 int until, const LinkPlace* link)
         : center_(rotation(blocks.origin()) + translate),
           begin_(start + first * blocks.dt()),
-          end_(start + (first + blocks.count()) * blocks.dt()),
+          end_(start + until * blocks.dt()),
           blocks_(&blocks),
           cosine_(static_cast<float>(rotation.c)),
           sine_(static_cast<float>(rotation.s)),

@@ -86,9 +86,10 @@ class Tree {
     /// How many nodes of its level come before a node, in the order of time.
     int place_in_level(int i) const { return places_[static_cast<std::size_t>(i)].in_level; }
 
-    /// Clip time covered by a node, [t0, t1) in seconds.
-    double t0(const Node& node) const { return node.first * clip_->dt(); }
-    double t1(const Node& node) const { return node.end() * clip_->dt(); }
+    /// Clip time covered by a node, [t0, t1) in seconds; t0 = t1 of a node that has only the last sample of a clip
+    /// that runs.
+    double t0(const Node& node) const { return clip_->time(node.first); }
+    double t1(const Node& node) const { return clip_->time(node.end()); }
 
   private:
     /// Where a node stands: no query asks for it.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -132,6 +133,8 @@ std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState&
 
 std::optional<int> sample_at(const DrawnAgent& agent, double time) {
     const mobb::PlacedClip& clip = agent.clip();
+    // Whoever was last seen at this very moment is there. Times are rounded.
+    if (clip.clip().runs() && std::abs(time - agent.end()) <= mobb::kMinOverlap) return clip.count() - 1;
     if (time < agent.begin() || time >= agent.end()) return std::nullopt;
     const int i = mobb::first_ending_after(clip, 0, clip.count(), time);
     return i < clip.count() ? std::optional(i) : std::nullopt;

@@ -25,7 +25,7 @@ const double kHalfOfContact = std::sqrt(0.4 * 0.4 - 0.3 * 0.3) / 4;  // seconds
 const std::string kTrajectories =
     "#framerate: 2\n# id frame x/m y/m\n1 10 0 0\n1 11 1 0\n1 12 2 0\n1 13 3 0\n1 14 4 0\n2 12 4 0.3\n2 13 3 0.3\n"
     "2 14 2 0.3\n3 10 20 20\n3 11 21 20\n";
-const std::string kCsv = "id,t,x,y,r\n1,5,0,0,0.2\n1,5.5,1,0,0.2\n1,6,2,0,0.2\n2,6,2,0.3,0.2\n2,6.5,1,0.3,0.2\n";
+const std::string kCsv = "id,t,x,y,r\n1,5,0,0,0.2\n1,5.5,1,0,0.2\n1,6,2,0,0.2\n2,5.5,2,0.3,0.2\n2,6,1,0.3,0.2\n";
 
 json conflicts(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "conflicts");
@@ -94,10 +94,15 @@ TEST(Conflicts, TracksOfACsvKeepTheirTimes) {
     const TempFolder folder;
     const json found = conflicts({folder.write("tracks.csv", kCsv)});
     ASSERT_EQ(found["conflicts"].size(), 1u);
-    // They meet at 1 s, where 1 ends its walk and stays; 2 goes on at 2 m/s.
+    // They walk towards each other at 2 m/s each, and pass at 0.75 s.
     ASSERT_EQ(found["conflicts"][0]["intervals"].size(), 1u);
-    EXPECT_EQ(found["conflicts"][0]["intervals"][0][0], 1);
-    EXPECT_NEAR(found["conflicts"][0]["intervals"][0][1].get<double>(), 1 + 2 * kHalfOfContact, 1e-12);
+    EXPECT_NEAR(found["conflicts"][0]["intervals"][0][0].get<double>(), 0.75 - kHalfOfContact, 1e-12);
+    EXPECT_NEAR(found["conflicts"][0]["intervals"][0][1].get<double>(), 0.75 + kHalfOfContact, 1e-12);
+    // Nobody collides with somebody who has left: 2 comes to where 1 was, when 1 is gone.
+    EXPECT_EQ(conflicts({folder.write(
+                  "gone.csv", "id,t,x,y,r\n1,5,0,0,0.2\n1,6,2,0,0.2\n2,6,2,0.3,0.2\n2,7,1,0.3,0.2\n")})["conflicts"]
+                  .size(),
+              0u);
     EXPECT_EQ(conflicts({folder.write("one.csv", "t,x,y,r\n0,0,0,1\n1,0,0,1\n")})["pairs"], 0);
 }
 

@@ -17,7 +17,7 @@ struct Drift {
     glm::dvec2 velocity{0};
     double middle = 0;
 };
-Drift drift_of(const Box& box) { return {box.drift / box.half.z, box.center.z}; }
+Drift drift_of(const Box& box) { return {box.half.z > 0 ? box.drift / box.half.z : glm::dvec2(0), box.center.z}; }
 
 /// How far the cylinders of a range reach along a unit axis of (x, y, w*t), seen from a moving centre: worked out from
 /// the rim, not from the formula.
@@ -29,10 +29,11 @@ Reach reach_along(const Clip& clip, SampleRange range, glm::dvec3 axis, double w
     const double in_plane = std::sqrt(axis.x * axis.x + axis.y * axis.y);
     const glm::dvec2 rim = in_plane > 0 ? glm::dvec2{axis.x, axis.y} / in_plane : glm::dvec2{1, 0};
     Reach reach;
+    const bool runs = clip.motion() == Motion::linear && clip.count() > 1;
     for (int i = range.first; i < range.end(); ++i) {
         for (const double side : {-1.0, 1.0}) {
             for (const int end : {0, 1}) {
-                const bool runs = clip.motion() == Motion::linear && i + 1 < clip.count();
+                if (runs && i + end == clip.count()) continue;  // it ends at its last sample
                 const Disk d = clip.samples()[static_cast<std::size_t>(runs ? i + end : i)];
                 const double wt = w * clip.dt() * (i + end);
                 const glm::dvec2 q = -(wt - drift.middle) * drift.velocity;
@@ -288,7 +289,26 @@ TEST(Fit, OfALinearClipHoldsTheDiskThatTheLastOneRunsTo) {
     // Walking straight, a box that moves along has nothing to make up for.
     const Clip walk(1, {{0, 0, 0.5}, {1, 0, 0.5}, {2, 0, 0.5}, {3, 0, 0.5}}, Motion::linear);
     EXPECT_DOUBLE_EQ(fit(BoxKind::moving, walk, {0, 3}, Axes::endpoints, 1).half.x, 0.5);
-    EXPECT_DOUBLE_EQ(fit(BoxKind::moving, walk, {0, 4}, Axes::endpoints, 1).half.x, 1) << "the last sample stays";
+    EXPECT_DOUBLE_EQ(fit(BoxKind::moving, walk, {0, 4}, Axes::endpoints, 1).half.x, 0.5);
+}
+
+TEST(Fit, ALinearClipEndsAtItsLastSample) {
+    const Clip clip(0.5, {{0, 0, 0.5}, {2, 0, 0.5}, {4, 6, 1}}, Motion::linear);
+    EXPECT_EQ(clip.duration(), 1);
+    EXPECT_EQ(clip.until_next(), 1.5);
+    for (const BoxKind kind : {BoxKind::obb2d, BoxKind::moving, BoxKind::aabb, BoxKind::block}) {
+        const Box whole = fit(kind, clip, {0, 3}, Axes::endpoints, 2);
+        EXPECT_DOUBLE_EQ(whole.half.z, 1) << "w*t";
+        EXPECT_DOUBLE_EQ(whole.center.z, 1);
+        const Box last = fit(kind, clip, {2, 1}, Axes::endpoints, 2);
+        EXPECT_EQ(last.half.z, 0);
+        EXPECT_EQ(last.center, glm::dvec3(4, 6, 2));
+        EXPECT_EQ(last.half.x, 1);
+        EXPECT_EQ(last.drift, glm::dvec2(0));
+    }
+    const Clip one(0.5, {{0, 0, 0.5}}, Motion::linear);
+    EXPECT_EQ(one.duration(), 0.5) << "a single sample holds for dt";
+    EXPECT_EQ(fit(BoxKind::obb2d, one, {0, 1}, Axes::endpoints, 1).half.z, 0.25);
 }
 
 TEST(Fit, AMovingBoxIsAsNarrowAsAStraightWalk) {

@@ -168,16 +168,52 @@ TEST(Approach, TheTraceHasTheDistanceOfTheEarliestLeast) {
     const Trace& trace = recorder.trace();
     const Trace::Event last = trace[trace.size() - 1];
     ASSERT_EQ(last.test, TestKind::samples);
-    ASSERT_EQ(last.pairs.size(), 2u);
+    ASSERT_EQ(last.pairs.size(), 1u) << "nobody is there after the last sample";
     EXPECT_DOUBLE_EQ(last.pairs[0].distance, 1) << "half-way";
-    EXPECT_DOUBLE_EQ(last.pairs[1].distance, std::hypot(2, 1)) << "the last sample stays";
 }
 
 TEST(Approach, CylindersThatRunHaveTheVolumeOfAFrustum) {
     const std::vector<Disk> samples{{0, 0, 1}, {5, 0, 2}, {5, 1, 2}};
     EXPECT_DOUBLE_EQ(cylinder_volume(Clip(0.5, samples), {0, 3}), 0.5 * std::numbers::pi * (1 + 4 + 4));
     EXPECT_DOUBLE_EQ(cylinder_volume(Clip(0.5, samples, Motion::linear), {0, 3}),
-                     0.5 * std::numbers::pi * (7.0 / 3 + 4 + 4));
+                     0.5 * std::numbers::pi * (7.0 / 3 + 4));
+    EXPECT_DOUBLE_EQ(cylinder_volume(Clip(0.5, samples, Motion::linear), {1, 2}), 0.5 * std::numbers::pi * 4);
+    EXPECT_EQ(cylinder_volume(Clip(0.5, samples, Motion::linear), {2, 1}), 0);
+    EXPECT_DOUBLE_EQ(cylinder_volume(Clip(0.5, {{0, 0, 1}}, Motion::linear), {0, 1}), 0.5 * std::numbers::pi);
+}
+
+TEST(Approach, NobodyIsThereAfterTheLastSample) {
+    // Two in file at one speed: the second comes to where the first was last seen.
+    const auto leader =
+        std::make_shared<const Clip>(0.4, std::vector<Disk>{{0, 0, 0.2}, {0.5, 0, 0.2}, {1, 0, 0.2}}, Motion::linear);
+    const auto follower = std::make_shared<const Clip>(
+        0.4, std::vector<Disk>{{-0.75, 0, 0.2}, {-0.25, 0, 0.2}, {0.25, 0, 0.2}, {0.75, 0, 0.2}}, Motion::linear);
+    const auto meet = [](const ClipPtr& a, const ClipPtr& b, TreeKind kind) {
+        const Tree tree_a(a, {.tree = kind}), tree_b(b, {.tree = kind});
+        const PlacedTree placed_a(tree_a, {}), placed_b(tree_b, {});
+        EXPECT_EQ(query(placed_a, placed_b), direct_search(placed_a.placed_clip(), placed_b.placed_clip()));
+        return query(placed_a, placed_b).has_value();
+    };
+    const auto held =
+        std::make_shared<const Clip>(0.4, std::vector<Disk>(leader->samples().begin(), leader->samples().end()));
+    for (const TreeKind kind : kTreeKinds) {
+        EXPECT_FALSE(meet(leader, follower, kind)) << name(kind);
+        EXPECT_TRUE(meet(held, follower, kind)) << name(kind) << ": a held one is there for a dt more";
+        // Whoever comes at the very moment at which another is last seen shares no time with it.
+        const Clip other(0.4, {{1, 0, 0.2}, {1, 0, 0.2}}, Motion::linear);
+        const Tree a(leader, {.tree = kind}), b(std::make_shared<const Clip>(other), {.tree = kind});
+        EXPECT_FALSE(query(PlacedTree(a, {}), PlacedTree(b, {.start = leader->duration()}))) << name(kind);
+        EXPECT_TRUE(query(PlacedTree(a, {}), PlacedTree(b, {.start = leader->duration() - 0.01}))) << name(kind);
+    }
+}
+
+TEST(Approach, ASingleSampleHoldsForDt) {
+    const auto one = std::make_shared<const Clip>(0.4, std::vector<Disk>{{0, 0, 0.2}}, Motion::linear);
+    for (const TreeKind kind : kTreeKinds) {
+        const Tree a(one, {.tree = kind}), b(one, {.tree = kind});
+        EXPECT_TRUE(query(PlacedTree(a, {}), PlacedTree(b, {.start = 0.39}))) << name(kind);
+        EXPECT_FALSE(query(PlacedTree(a, {}), PlacedTree(b, {.start = 0.4}))) << name(kind);
+    }
 }
 
 /// So near each other the squares of the predicate cannot tell points apart: no box test may, either.
@@ -211,7 +247,7 @@ TEST(Approach, OfWholeClipsFindsWhatFineStepsFind) {
     const auto fine = [](const Clip& clip) {
         std::vector<Disk> out;
         const PlacedClip placed(clip, {});
-        for (int i = 0; i < clip.count(); ++i) {
+        for (int i = 0; i < clip.steps(); ++i) {
             const SweptDisk runs = swept(placed, i);
             for (int k = 0; k < kSteps; ++k) out.push_back(runs.at(runs.begin + (runs.end - runs.begin) * k / kSteps));
         }

@@ -281,9 +281,10 @@ TEST(Blocks, BoundsHoldEveryDiskAndNoMore) {
         for (int i = 0; i < blocks.node_count(); ++i) {
             const Blocks::Node node = blocks.node(i);
             double most = -1e300;
+            const int steps = std::min(node.first + node.count, clip->steps()) - node.first;
             for (int k = 0; k < node.count; ++k) {
                 const auto center = [&](int at) {
-                    return node.bound.from + node.bound.drift * (double(at) / node.count);
+                    return node.bound.from + node.bound.drift * (double(std::min(at, steps)) / std::max(steps, 1));
                 };
                 most = std::max(most, beyond(samples.disk(node.first + k), center(k), node.bound.radius));
                 most = std::max(most, beyond(samples.disk_at_end(node.first + k), center(k + 1), node.bound.radius));
@@ -371,7 +372,7 @@ TEST(Blocks, RootsThatMoveHoldTheClip) {
         const PlacedClip placed(*clip, Placement{});
         for (int i = 0; i < clip->count(); ++i) {
             const auto center = [&](int at) {
-                return blocks.origin() + blocks.velocity() * ((at - clip->count() / 2.0) * clip->dt());
+                return blocks.origin() + blocks.velocity() * (clip->time(at) - clip->duration() / 2);
             };
             const double room = 1e-9 * (1 + clip->reach());
             EXPECT_LE(beyond(placed.disk(i), center(i), blocks.moving_radius()), room);

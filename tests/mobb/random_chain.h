@@ -50,12 +50,16 @@ inline std::vector<ChainLink> random_links(Random& random, int most, double time
     return links;
 }
 
-/// Links of which about half are linear.
+/// Links of which such a share is linear.
 inline std::vector<ChainLink> random_running_links(Random& random, int most, double time_scale, int most_samples,
-                                                   std::optional<TreeKind> kind = {}) {
+                                                   std::optional<TreeKind> kind = {}, double linear = 0.5) {
     std::vector<ChainLink> links = random_links(random, most, time_scale, most_samples, kind);
     for (ChainLink& link : links) {
-        link.part = part_of(random_motion(random, link.part->tree().shared_clip()), link.part->tree().options());
+        if (!random.chance(linear)) continue;
+        const Clip& held = link.part->clip();
+        const auto runs = std::make_shared<const Clip>(
+            held.dt(), std::vector(held.samples().begin(), held.samples().end()), Motion::linear);
+        link.part = part_of(runs, link.part->tree().options());
     }
     return links;
 }
