@@ -155,6 +155,13 @@ std::string brief(double value) {
     return {buffer, end};
 }
 
+std::string to_thousandth(double value) {
+    std::string out = formatted("%.3f", value);
+    out.erase(out.find_last_not_of('0') + 1);
+    if (out.ends_with('.')) out.pop_back();
+    return out == "-0" ? "0" : out;
+}
+
 std::string formatted(const char* format, ...) {
     va_list arguments, again;
     va_start(arguments, format);

@@ -40,6 +40,9 @@ std::string short_double(double value);
 /// A number for people: six significant digits.
 std::string brief(double value);
 
+/// A place or a time for people: to the thousandth, however large, without zeros at the end.
+std::string to_thousandth(double value);
+
 /// As std::printf writes it.
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
 

@@ -13,7 +13,6 @@
 #include <glm/vec2.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -100,6 +99,10 @@ struct Findings {
         const mobb::Disk b = disk(conflict.b, conflict.b_sample);
         return {(a.x + b.x) / 2, (a.y + b.y) / 2};
     }
+    /// Of tracks: time 0 on their file's own clock, seconds. The agents of a scene start when the scene says.
+    std::optional<double> t0() const {
+        return lower_extension(scene.file) == ".json" ? std::nullopt : scene.clips.front().facts.t0;
+    }
     int a_sample(const Conflict& conflict) const { return people.sample(conflict.a, conflict.a_sample); }
     int b_sample(const Conflict& conflict) const { return people.sample(conflict.b, conflict.b_sample); }
 
@@ -141,6 +144,7 @@ void write_json(const Findings& findings) {
     JsonWriter out(std::cout);
     out.begin_object();
     out.member("file", findings.scene.file.string());
+    out.member("t0", findings.t0());
     out.member("agents", findings.people.count());
     out.member("radius", common_radius(findings.scene));
     out.member("pairs", findings.conflicts.pairs);
@@ -166,11 +170,8 @@ void write_json(const Findings& findings) {
     out.end_object();
 }
 
-/// In metres, to the millimetre.
-std::string to_millimetres(double length) { return brief(std::round(length * 1000) / 1000); }
-
 std::string place_in_words(glm::dvec2 place) {
-    return "(" + to_millimetres(place.x) + ", " + to_millimetres(place.y) + ")";
+    return "(" + to_thousandth(place.x) + ", " + to_thousandth(place.y) + ")";
 }
 
 /// "; vertex conflict at 3 s in (1, 2) and 2 more": the first of each kind.
@@ -200,9 +201,9 @@ void print_text(const Findings& findings) {
             std::cout << separator << brief(interval.t0) << " to " << brief(interval.t1);
             separator = ", ";
         }
-        std::cout << " s; least clearance " << to_millimetres(deepest.least_clearance) << " m at "
-                  << brief(deepest.time) << " s near " << place_in_words(position) << ", samples "
-                  << findings.a_sample(deepest) << " and " << findings.b_sample(deepest)
+        std::cout << " s; least clearance " << to_thousandth(deepest.least_clearance) << " m at " << brief(deepest.time)
+                  << " s near " << place_in_words(position) << ", samples " << findings.a_sample(deepest) << " and "
+                  << findings.b_sample(deepest)
                   << (findings.of_plan(deepest) ? plan_conflicts_in_words(findings.in_plan(deepest)) : "") << '\n';
     }
     const PeopleConflicts& conflicts = findings.conflicts;

@@ -10,8 +10,8 @@
 #include <charconv>
 #include <limits>
 #include <memory>
-#include <set>
 #include <system_error>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -62,17 +62,37 @@ void print_held_warning(const Scene& scene) {
     warn(scene.file.string() + ": clip " + in_quotes(worst->name) + others + ": " + warnings.front().text);
 }
 
-/// One warning a text, whatever the number of clips it holds for.
+/// A warning, and of how many clips.
+struct ClipsWarning {
+    ImportWarning warning;  ///< its line is the first clip's, its samples are those of all
+    const SceneClip* first = nullptr;
+    std::size_t clips = 0;
+};
+
+/// One line a text, whatever the number of clips it holds for.
 void print_warnings(const Scene& scene) {
     print_held_warning(scene);
-    std::set<std::string> said;
+    std::vector<ClipsWarning> all;
+    std::unordered_map<std::string, std::size_t> by_text;
     for (const SceneClip& clip : scene.clips) {
         for (const ImportWarning& warning : clip.facts.warnings) {
             // Its figures differ from clip to clip.
             if (warning.option == "motion") continue;
-            if (said.insert(warning.text).second)
-                warn(scene.file.string() + ": clip " + in_quotes(clip.name) + ": " + warning.text);
+            const auto [at, is_new] = by_text.try_emplace(warning.text, all.size());
+            if (is_new) all.push_back({warning, &clip, 0});
+            ClipsWarning& known = all[at->second];
+            if (known.clips++ > 0) known.warning.samples += warning.samples;
         }
+    }
+    for (const ClipsWarning& each : all) {
+        std::string whose = "clip " + in_quotes(each.first->name) + ": ";
+        if (each.clips > 1) {
+            whose = each.clips == scene.clips.size()
+                        ? ""
+                        : "of " + std::to_string(scene.clips.size()) + " clips " + std::to_string(each.clips) +
+                              ", such as " + in_quotes(each.first->name) + ": ";
+        }
+        warn(scene.file.string() + ": " + whose + said(each.warning));
     }
 }
 

@@ -65,7 +65,7 @@ class Ranges {
     Ranges(const mobb::PlacedClip& clip, int leaf) : clip_(clip), leaf_(leaf) {
         disks_.reserve(static_cast<std::size_t>(clip.count()));
         for (int i = 0; i < clip.count(); ++i) disks_.push_back(clip.disk(i));
-        build(0, clip.count());
+        build(0, clip.clip().steps());
     }
 
     const Range& operator[](int i) const { return ranges_[static_cast<std::size_t>(i)]; }

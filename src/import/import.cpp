@@ -127,9 +127,25 @@ ImportOptions offer_depends_on(const ImportOptions& options) {
 
 std::vector<ImportedClip> Importer::clips(const std::filesystem::path& file, const ImportOptions& options) {
     at_place(file.string(), "", [&] { check(options); });
-    auto parsed = parsed_.find(file);
-    if (parsed == parsed_.end()) parsed = parsed_.emplace(file, parse_clip_file(file)).first;
-    return parsed->second.clips(options);
+    auto at = known_.find(file);
+    if (at == known_.end()) at = known_.emplace(file, Known{parse_clip_file(file)}).first;
+    Known& known = at->second;
+    if (!options.id) return known.file.clips(options);
+    // Who asks for a second track will ask for a thousand, and each alone takes a look at the whole file.
+    ImportOptions of_all = options;
+    of_all.id.reset();
+    if (known.asked_with != of_all) {
+        known.asked_with = of_all;
+        known.tracks.clear();
+        return known.file.clips(options);
+    }
+    try {
+        if (known.tracks.empty()) known.tracks = known.file.clips(of_all);
+    } catch (const InputError&) {
+        // What is wrong with another track does not matter.
+    }
+    const auto track = std::ranges::find(known.tracks, *options.id, &ImportedClip::id);
+    return track == known.tracks.end() ? known.file.clips(options) : std::vector{*track};
 }
 
 std::vector<ImportedClip> import_clips(const std::filesystem::path& file, const ImportOptions& options) {

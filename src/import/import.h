@@ -47,7 +47,12 @@ class Importer {
     std::vector<ImportedClip> clips(const std::filesystem::path& file, const ImportOptions& options);
 
   private:
-    std::map<std::filesystem::path, ParsedFile> parsed_;
+    struct Known {
+        ParsedFile file;
+        std::optional<ImportOptions> asked_with{};  ///< when one track was asked for last: without its id
+        std::vector<ImportedClip> tracks{};         ///< all, once two were asked for with the same options
+    };
+    std::map<std::filesystem::path, Known> known_;
 };
 
 /// The same for one file.

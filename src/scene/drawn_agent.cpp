@@ -1,5 +1,4 @@
 #include <base/text.h>
-#include <mobb/predicate.h>
 #include <scene/arrangement.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
@@ -134,9 +133,8 @@ std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState&
 
 std::optional<int> sample_at(const DrawnAgent& agent, double time) {
     const mobb::PlacedClip& clip = agent.clip();
-    // A linear clip ends with its last sample, which is seen at that moment; of a run the next play begins there.
-    const bool ends_now = std::abs(time - agent.end()) <= mobb::kMinOverlap;
-    if (ends_now && clip.is_linear() && agent.run_agent < 0) return clip.count() - 1;
+    // Whoever was last seen at this very moment is there. Times are rounded.
+    if (clip.clip().runs() && std::abs(time - agent.end()) <= mobb::kMinOverlap) return clip.count() - 1;
     if (time < agent.begin() || time >= agent.end()) return std::nullopt;
     const int i = mobb::first_ending_after(clip, 0, clip.count(), time);
     return i < clip.count() ? std::optional(i) : std::nullopt;

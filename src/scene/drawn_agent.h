@@ -48,7 +48,8 @@ Rgba agent_color(const Scene& scene, const PlacedAgent& who, int index);
 /// query.
 std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState& view);
 
-/// The sample that holds at a global time, or none. A linear clip has its last one at the moment at which it ends.
+/// The sample that holds at a global time, or runs to the next; of a linear clip the last one when the clip ends. None:
+/// nobody is there.
 std::optional<int> sample_at(const DrawnAgent& agent, double time);
 
 }  // namespace mobbscope

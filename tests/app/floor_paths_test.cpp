@@ -86,10 +86,10 @@ TEST(FloorPaths, OfDisksThatRunAreThoseOfAllTimes) {
         constexpr int kSteps = 24;
         double gap = std::numeric_limits<double>::infinity();
         double distance = std::numeric_limits<double>::infinity();
-        for (int i = 0; i < pa.count() * kSteps; ++i) {
+        for (int i = 0; i < a.steps() * kSteps; ++i) {
             const double ta = pa.time(0) + a.dt() * (i + 0.5) / kSteps;
             const mobb::Disk da = mobb::swept(pa, i / kSteps).at(ta);
-            for (int j = 0; j < pb.count() * kSteps; ++j) {
+            for (int j = 0; j < b.steps() * kSteps; ++j) {
                 const double tb = pb.time(0) + b.dt() * (j + 0.5) / kSteps;
                 const mobb::Disk db = mobb::swept(pb, j / kSteps).at(tb);
                 const double clear = std::hypot(da.x - db.x, da.y - db.y) - da.r - db.r;

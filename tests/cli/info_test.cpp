@@ -26,12 +26,15 @@ TEST(Info, JsonTellsWhatIsInTheFiles) {
     const json clips = json::parse(run.out)["clips"];
     ASSERT_EQ(clips.size(), 2u);
     const json& a = clips[0];
-    EXPECT_EQ(testing::keys(a),
-              (std::set<std::string>{"file",        "name",        "format",      "animation",           "root",
-                                     "joints",      "unit",        "root_why",    "guessed_from_height", "class",
-                                     "motion",      "file_frames", "file_dt",     "file_duration",       "samples",
-                                     "dt",          "duration",    "path_length", "mean_speed",          "min_radius",
-                                     "mean_radius", "max_radius",  "warnings"}));
+    EXPECT_EQ(testing::keys(a), (std::set<std::string>{"file",          "name",        "format",
+                                                       "animation",     "root",        "joints",
+                                                       "unit",          "root_why",    "guessed_from_height",
+                                                       "class",         "t0",          "start",
+                                                       "motion",        "file_frames", "file_dt",
+                                                       "file_duration", "samples",     "dt",
+                                                       "duration",      "path_length", "mean_speed",
+                                                       "min_radius",    "mean_radius", "max_radius",
+                                                       "warnings"}));
     EXPECT_EQ(a["motion"], "held");
     EXPECT_EQ(a["file"], csv);
     EXPECT_EQ(a["name"], "a");
@@ -59,8 +62,8 @@ TEST(Info, TellsHowClipsMoveBetweenSamples) {
     };
     EXPECT_EQ(motion({"info", csv, "--json"}), "linear");
     EXPECT_EQ(motion({"info", csv, "--json", "--motion", "held"}), "held");
-    EXPECT_NE(run_program({"info", csv}).out.find("2 s in all, linear to the next sample\n"), std::string::npos);
-    EXPECT_NE(run_program({"info", csv, "--motion", "held"}).out.find("2 s in all, held until the next sample\n"),
+    EXPECT_NE(run_program({"info", csv}).out.find(" 1 s in all, linear to the next sample\n"), std::string::npos);
+    EXPECT_NE(run_program({"info", csv, "--motion", "held"}).out.find(" 2 s in all, held until the next sample\n"),
               std::string::npos);
     const std::string scene =
         folder.write("s.json", R"({"clips": {"c": {"dt": 1, "samples": [[0, 0, 1], [0.5, 0, 1]]}}})");

@@ -103,6 +103,40 @@ TEST(Moment, OnlyWhoIsThereHasABody) {
     EXPECT_EQ(who_has_a_disk(build_draw_list(scene, view, kGoldenSize)), std::set<int>{0});
 }
 
+/// A and B walk from step to step, at the places given.
+FittedScene plan(std::vector<mobb::Disk> a, std::vector<mobb::Disk> b) {
+    Scene scene;
+    for (auto* path : {&a, &b}) {
+        const std::string name = path == &a ? "A" : "B";
+        scene.clips.push_back(
+            {name, std::nullopt, {}, std::make_shared<const mobb::Clip>(1, *path, mobb::Motion::linear)});
+        scene.agents.push_back({name, static_cast<int>(scene.agents.size()), {}, std::nullopt});
+    }
+    return {std::move(scene), {}};
+}
+
+TEST(Moment, WhoWaitsIsMarkedAndNamed) {
+    const FittedScene scene = plan({{0, 0, 0.2}, {1, 0, 0.2}, {1, 0, 0.2}, {1, 0, 0.2}},
+                                   {{5, 0, 0.2}, {5, 0, 0.2}, {5, 1, 0.2}, {5, 2, 0.2}});
+    const std::tuple<double, std::set<int>, std::string> cases[] = {
+        {0.5, {1}, "B waits"}, {1, {0}, "A waits"}, {2.5, {0}, "A waits"}, {3, {0}, "A waits"}};
+    for (const auto& [time, who, words] : cases) {
+        std::set<int> waiting;
+        for (const Body& body : moment(scene, at(time)).bodies) {
+            if (body.waits) waiting.insert(body.agent);
+        }
+        EXPECT_EQ(waiting, who) << time;
+        const DrawList list = build_draw_list(scene, at(time), kGoldenSize);
+        EXPECT_NE(list.detail.find(words), std::string::npos) << time << list.detail;
+        EXPECT_EQ(who_has_a_disk(list), (std::set<int>{0, 1})) << "the last moment too";
+    }
+    const FittedScene both = plan({{0, 0, 0.2}, {0, 0, 0.2}}, {{5, 0, 0.2}, {5, 0, 0.2}});
+    EXPECT_NE(build_draw_list(both, at(0.5), kGoldenSize).detail.find("A and B wait"), std::string::npos);
+    EXPECT_EQ(build_draw_list(plan({{0, 0, 0.2}, {1, 0, 0.2}}, {{5, 0, 0.2}, {6, 0, 0.2}}), at(0.5), kGoldenSize)
+                  .detail.find("wait"),
+              std::string::npos);
+}
+
 TEST(Moment, TheFloorDiskIsTheSampleAndCanBePicked) {
     const FittedScene scene = fitted(crossing());
     const DrawList list = build_draw_list(scene, at(1.6), kGoldenSize);

@@ -54,15 +54,20 @@ Sequence steps(const FittedScene& fitted, const ViewState& view) {
 
 Sequence motion(const FittedScene& fitted, const ViewState& view, double rate) {
     Bounds bounds;
+    bool ends_with_somebody = false;
     if (fitted.scene().crowd) {
         bounds.min.z = 0;
         bounds.max.z = fitted.scene().crowd->seconds;
     } else {
-        bounds = bounds_of(drawn_agents(fitted, view));
+        const std::vector<DrawnAgent> agents = drawn_agents(fitted, view);
+        bounds = bounds_of(agents);
+        ends_with_somebody = std::ranges::any_of(
+            agents, [&](const DrawnAgent& agent) { return sample_at(agent, bounds.max.z).has_value(); });
     }
     const double begin = bounds.min.z;
-    // A picture at the very end would show nobody.
-    const double count = std::max(1.0, std::ceil((bounds.max.z - begin) * rate - 1e-6));
+    // Where all clips are held, a picture at the very end would show nobody.
+    const double length = (bounds.max.z - begin) * rate;
+    const double count = ends_with_somebody ? std::floor(length + 1e-6) + 1 : std::max(1.0, std::ceil(length - 1e-6));
     const auto at = [view, begin, rate](int i) {
         ViewState out = view;
         out.time = begin + i / rate;

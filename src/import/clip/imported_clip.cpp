@@ -49,4 +49,11 @@ std::optional<double> metres_per_unit(const std::string& unit) {
 std::string_view name(Origin origin) { return kOrigins[static_cast<std::size_t>(origin)]; }
 std::optional<Origin> origin_from_name(std::string_view name) { return enumerator_named<Origin>(kOrigins, name); }
 
+std::string said(const ImportWarning& warning) {
+    std::string details;
+    if (warning.samples > 0) details = counted(warning.samples, "sample", "samples");
+    if (warning.line > 0) details += (details.empty() ? "" : ", ") + at_line(warning.line);
+    return warning.text + (details.empty() ? "" : " (" + details + ")");
+}
+
 }  // namespace mobbscope

@@ -51,11 +51,16 @@ std::optional<Origin> origin_from_name(std::string_view name);
 
 /// What was passed over or looks wrong, in one sentence.
 struct ImportWarning {
-    std::string text;
-    std::string option{};  ///< the key of the option that mends it; empty: none does
+    std::string text;         ///< the same for all clips that it is about in the same way
+    std::string option{};     ///< the key of the option that mends it; empty: none does
+    int line = 0;             ///< in the file, from 1: where it shows first; 0: nowhere
+    std::size_t samples = 0;  ///< of the clip: how many it is about; 0: that is not counted
 
     friend bool operator==(const ImportWarning&, const ImportWarning&) = default;
 };
+
+/// The whole warning: "there are gaps, which are filled linearly (3 samples, line 12)".
+std::string said(const ImportWarning& warning);
 
 /// What the file said, before sampling.
 struct SourceFacts {

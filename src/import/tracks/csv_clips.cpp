@@ -139,9 +139,10 @@ class MotionMaker {
     std::string resampled(double fps) const {
         const std::size_t row = *first_out_of_step(rows_);
         const double dt = (rows_.back().t - rows_.front().t) / static_cast<double>(rows_.size() - 1);
-        return "the times are not uniform (line " + std::to_string(track_.lines[row]) + ": " + brief(rows_[row].t) +
-               " s, in step would be " + brief(rows_.front().t + static_cast<double>(row) * dt) +
-               " s); the path is resampled at " + brief(fps) + " fps";
+        return "the times are not uniform (line " + std::to_string(track_.lines[row]) + ": " +
+               to_thousandth(rows_[row].t) + " s, in step would be " +
+               to_thousandth(rows_.front().t + static_cast<double>(row) * dt) + " s); the path is resampled at " +
+               brief(fps) + " fps";
     }
 
     /// The rows' uniform spacing in seconds, or none. Gives rows without a time column their times.

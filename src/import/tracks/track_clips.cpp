@@ -103,30 +103,6 @@ int line_out_of_step(std::span<const TrackPoint> points, double step) {
     return points.back().line;
 }
 
-/// What was done to tracks of a file, and to how many: said once, whatever their number.
-class Counted {
-  public:
-    void add(const std::string& id, int line) {
-        if (tracks_++ > 0) return;
-        id_ = id;
-        line_ = line;
-    }
-    explicit operator bool() const { return tracks_ > 0; }
-
-    /// "of 379 tracks 12 have gaps, such as '17' (line 845)", or "the track has gaps (line 845)".
-    std::string said(std::size_t of, const std::string& has, const std::string& have) const {
-        const std::string place = " (" + at_line(line_) + ")";
-        if (of == 1) return "the track " + has + place;
-        return "of " + std::to_string(of) + " tracks " + std::to_string(tracks_) + ' ' + (tracks_ == 1 ? has : have) +
-               ", such as " + in_quotes(id_) + place;
-    }
-
-  private:
-    std::size_t tracks_ = 0;
-    std::string id_;  ///< of the first
-    int line_ = 0;
-};
-
 class TrackClipMaker {
   public:
     /// Refers to the file and the options.
@@ -174,6 +150,7 @@ class TrackClipMaker {
         facts.duration = clock_.seconds(points.back().frame - points.front().frame);
         if (points.size() == 1 && file_.timed && options_.dt) grid.step = *options_.dt;
         if (grid.in_step && !grid.has_gaps) facts.dt = clock_.seconds(grid.step);
+        warn_of(points, grid, facts.warnings);
 
         const bool resampled = !grid.in_step || (options_.fps && !file_.timed);
         const double fps = options_.fps.value_or(kDefaultFps);
@@ -189,14 +166,6 @@ class TrackClipMaker {
             last = std::min(last, std::floor((options_.trim->second - start) / dt + kFrameTolerance));
         }
         if (first > last) return std::nullopt;
-        ++made_;
-        const int line = line_out_of_step(points, clock_.usual_step());
-        if (points.size() == 1) lone_.add(track.id, line);
-        if (!grid.in_step) out_of_step_.add(track.id, line);
-        if (grid.has_gaps) {
-            gaps_.add(track.id, line);
-            filled_ += grid.steps - static_cast<double>(points.size() - 1);
-        }
         const std::size_t most = grid.has_gaps ? most_filled_ : kMaxSamples;
         if (last - first >= static_cast<double>(most - std::min(count_, most))) {
             throw std::invalid_argument("its times make more than " + std::to_string(most) +
@@ -221,31 +190,26 @@ class TrackClipMaker {
         return out;
     }
 
-    /// What was done to the tracks that were made.
-    std::vector<ImportWarning> counted_warnings() const {
-        std::vector<ImportWarning> out;
-        if (gaps_) {
-            out.push_back({gaps_.said(made_, "has gaps", "have gaps") + ": " +
-                           counted(std::llround(filled_), "sample is", "samples are") + " filled linearly"});
+  private:
+    /// What is done to a track, or is not.
+    void warn_of(std::span<const TrackPoint> points, const TrackGrid& grid,
+                 std::vector<ImportWarning>& warnings) const {
+        const int line = line_out_of_step(points, clock_.usual_step());
+        if (grid.has_gaps) {
+            const double filled = grid.steps - static_cast<double>(points.size() - 1);
+            warnings.push_back({"there are gaps, which are filled linearly", "", line, std::size_t(filled)});
         }
-        if (out_of_step_) {
-            out.push_back({out_of_step_.said(made_, "is not uniform in time", "are not uniform in time") +
-                               ": resampled at " + brief(options_.fps.value_or(kDefaultFps)) + " fps",
-                           "fps"});
+        if (!grid.in_step) {
+            warnings.push_back({"the times are not uniform; the path is resampled at " +
+                                    brief(options_.fps.value_or(kDefaultFps)) + " fps",
+                                "fps", line});
         } else if (options_.fps && file_.timed) {
-            out.push_back({"fps does not apply: the rows are uniform in time and are the samples", "fps"});
+            warnings.push_back({"fps does not apply: the rows are uniform in time and are the samples", "fps"});
         }
-        if (lone_) {
-            const double lasts = file_.timed ? options_.dt.value_or(usual_step()) : usual_step();
-            out.push_back(
-                {lone_.said(made_, "has one row", "have one row") + ": it holds for " + brief(lasts) + " s", "dt"});
-        } else if (options_.dt && file_.timed) {
-            out.push_back({"dt does not apply: the rows have times", "dt"});
-        }
-        return out;
+        if (options_.dt && file_.timed && points.size() > 1)
+            warnings.push_back({"dt does not apply: the rows have times", "dt"});
     }
 
-  private:
     bool has_radii() const { return file_.has_radius && !options_.radius; }
 
     static mobb::Disk disk(const TrackPoint& point) { return {point.x, point.y, point.r}; }
@@ -282,9 +246,6 @@ class TrackClipMaker {
     SourceFacts common_;                     ///< what holds for every track
     std::size_t most_filled_ = kMaxSamples;  ///< samples that the file may become by filling gaps
     std::size_t count_ = 0;                  ///< samples made so far
-    std::size_t made_ = 0;                   ///< tracks made so far
-    Counted gaps_, out_of_step_, lone_;
-    double filled_ = 0;  ///< samples in gaps
 };
 
 }  // namespace
@@ -296,9 +257,6 @@ std::vector<ImportedClip> track_clips(const TrackFile& tracks, const std::filesy
     TrackClipMaker maker = at_place(name, "", [&] { return TrackClipMaker(tracks, options); });
     std::vector<ImportedClip> clips =
         clips_by_track(tracks.tracks, file, options, [&](const Track& track) { return maker.make(track); });
-    const std::vector<ImportWarning> warnings = maker.counted_warnings();
-    for (ImportedClip& clip : clips)
-        clip.facts.warnings.insert(clip.facts.warnings.end(), warnings.begin(), warnings.end());
     if (clips.empty()) {
         throw InputError(name, "",
                          (options.id ? "track " + in_quotes(*options.id) + " has no point" : "nobody is there") +

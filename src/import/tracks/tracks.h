@@ -96,8 +96,8 @@ TrackFile parse_mapf_plan(std::string_view text, const std::string& file);
 /// The clips of a file's tracks, or of the one that options.id names, each with the time at which it starts on the
 /// crowd's common clock, which begins with the file's earliest point. Stored points are the samples; options.fps
 /// resamples them (of timed tracks those out of step alone). Gaps of a track are filled linearly at the file's most
-/// frequent step, which is also how long a track of one point lasts; tracks out of step are resampled (30 fps). What
-/// was done to several tracks is one warning, counted. options.dt is the time from one frame number to the next (timed
+/// frequent step, which is also how long a track of one point lasts; tracks out of step are resampled (30 fps), both
+/// with a warning. options.dt is the time from one frame number to the next (timed
 /// tracks: how long one of one point lasts); options.trim is of the common clock, and who is not there then is left
 /// out. Throws InputError.
 std::vector<ImportedClip> track_clips(const TrackFile& tracks, const std::filesystem::path& file,

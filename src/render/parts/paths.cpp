@@ -42,7 +42,9 @@ void add_disks(DrawList& list, const DrawnAgent& agent, const PathFocus& focus) 
     std::vector<DiskInstance>& disks = list.disks.edit();
     const float height = static_cast<float>(clip.clip().dt() * list.space.time_height);
     const auto centre = [&](const mobb::Disk& disk, int i) { return list.space.point(disk.x, disk.y, clip.time(i)); };
-    for (int i = shown.first; i < shown.end(); ++i) {
+    // The last sample of a linear clip is the end of the disk before it.
+    const int end = std::min(shown.end(), clip.clip().steps());
+    for (int i = shown.first; i < end; ++i) {
         const mobb::Disk disk = clip.disk(i);
         DiskInstance instance;
         instance.base = centre(disk, i);

@@ -256,6 +256,9 @@ void add_labels(DrawList& list, LabelLayout& layout, const Diagram& diagram, con
     }
 }
 
+/// Seconds; 0 of the last sample of a linear clip.
+double lasts(const mobb::PlacedClip& clip, int sample) { return clip.time(sample + 1) - clip.time(sample); }
+
 }  // namespace
 
 DiskExtents disk_extents(const DrawnAgent& agent, int node, int sample) {
@@ -267,7 +270,7 @@ DiskExtents disk_extents(const DrawnAgent& agent, int node, int sample) {
     DiskExtents out;
     out.base = {disk.x, disk.y, w * clip.time(sample)};
     out.radius = disk.r;
-    out.rise = {at_end.x - disk.x, at_end.y - disk.y, w * clip.clip().dt()};
+    out.rise = {at_end.x - disk.x, at_end.y - disk.y, w * lasts(clip, sample)};
     out.top_radius = at_end.r;
     const auto on_floor = [](glm::dvec3 v) {
         const glm::dvec3 flat(v.x, v.y, 0);
@@ -313,7 +316,8 @@ class DiskProjectionPicture final : public Picture {
         if (!view.disks) return;
         DiskInstance disk;
         disk.radius = static_cast<float>(extents_.radius);
-        disk.stand_upright(static_cast<float>(agent_.clip().clip().dt() * list_.space.time_height));
+        const double seconds = lasts(agent_.clip(), view.projection->sample);
+        disk.stand_upright(static_cast<float>(seconds * list_.space.time_height));
         disk.top += glm::vec3(glm::dvec3(extents_.rise.x, extents_.rise.y, 0));
         disk.top_radius = static_cast<float>(extents_.top_radius);
         disk.color = with_alpha(agent_.color, 0.5f);
