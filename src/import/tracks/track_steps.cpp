@@ -1,9 +1,11 @@
+#include <base/text.h>
 #include <import/clip/sampling.h>
 #include <import/tracks/track_steps.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace mobbscope {
@@ -40,12 +42,27 @@ std::vector<StepCount> step_counts(std::span<const Track> tracks) {
     return out;
 }
 
-/// Frame numbers are not rounded: there the most frequent one counts.
-double common_step(std::span<const StepCount> counts) {
+/// With so many significant digits.
+double rounded_to(double value, int digits) { return *parse_double(formatted("%.*g", digits, value)); }
+
+/// Of what doubles as large as `largest` cannot tell from the step, the number of fewest digits, or of fewest a second.
+double without_noise(double step, double largest) {
+    constexpr int kMostDigits = 12;
+    const double noise = 4 * std::numeric_limits<double>::epsilon() * std::max(largest, step);
+    for (int digits = 1; digits <= kMostDigits; ++digits) {
+        for (const double candidate : {rounded_to(step, digits), 1 / rounded_to(1 / step, digits)}) {
+            if (std::abs(candidate - step) <= noise) return candidate;
+        }
+    }
+    return step;
+}
+
+/// Frame numbers are not rounded: there the most frequent one counts. `largest`: of all times.
+double common_step(std::span<const StepCount> counts, double largest) {
     double most_frequent = 0;
     std::size_t most = 0;
     std::size_t in_row = 0;
-    double sum = 0;
+    long double sum = 0;
     std::size_t all = 0;
     bool whole = true;
     for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -55,11 +72,11 @@ double common_step(std::span<const StepCount> counts) {
             most = in_row;
             most_frequent = step;
         }
-        sum += step * static_cast<double>(count);
+        sum += static_cast<long double>(step) * static_cast<long double>(count);
         all += count;
         whole = whole && step == std::floor(step);
     }
-    return whole ? most_frequent : sum / static_cast<double>(all);
+    return whole ? most_frequent : without_noise(static_cast<double>(sum / static_cast<long double>(all)), largest);
 }
 
 /// How many steps a track lasts whose points are whole steps apart, to kFrameTolerance; none if they are not. The step
@@ -96,7 +113,10 @@ std::optional<double> most_frequent_step(std::span<const Track> tracks) {
         within -= counts[begin].count;
     }
     if (best.empty()) return std::nullopt;
-    return common_step(best);
+    double largest = 0;
+    for (const Track& track : tracks)
+        largest = std::max({largest, std::abs(track.points.front().frame), std::abs(track.points.back().frame)});
+    return common_step(best, largest);
 }
 
 TrackGrid grid_of(const Track& track, double usual) {

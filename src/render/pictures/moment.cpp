@@ -243,7 +243,7 @@ std::vector<LegendEntry> moment_legend(const DrawList& list, std::span<const Dra
         out.push_back(entry);
     };
     if (view.disks && agents.size() > 1 && !in_grid) line(palette.hit, 3, "overlap");
-    if (view.disks && !in_grid && has_waiting(paths)) line(palette.quiet_text, 1.3f, "waits: a ring within");
+    if (view.disks && !in_grid && has_waiting(paths)) line(palette.quiet_text, 1.3f, "waits (inner ring)");
     if (view.disks && may_show_radii(agents)) line(palette.text, 1.4f, "radius, to the farthest joint");
     const bool is_run = !agents.empty() && agents.front().run_agent >= 0;
     if (view.floor && !(is_run && agents.size() > kMostWithWays)) {
