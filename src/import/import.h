@@ -15,8 +15,8 @@
 
 namespace mobbscope {
 
-/// What the extension of a file tells, whether or not it exists, that of "a.csv.gz" as that of "a.csv"; nothing for what
-/// no reader takes.
+/// What the extension of a file tells, whether or not it exists, that of "a.csv.gz" as that of "a.csv"; nothing for
+/// what no reader takes.
 std::optional<Contents> contents_by_name(const std::filesystem::path& file);
 
 /// The same by the content where the extension tells nothing; nothing too if there is no such file.
@@ -38,8 +38,8 @@ struct ParsedFile {
     std::function<ImportOffer(const ImportOptions&)> offer;
 };
 
-/// Reads a file, which may be standard input ("-") and packed by gzip. Motion files are told by their extensions, tables
-/// and trajectories by their content. Throws InputError.
+/// Reads a file, which may be standard input ("-") and packed by gzip. Motion files are told by their extensions,
+/// tables and trajectories by their content. Throws InputError.
 ParsedFile parse_clip_file(const std::filesystem::path& file);
 
 /// Of the options those that an offer depends on.
