@@ -13,7 +13,6 @@
 #include <glm/vec2.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -31,15 +30,12 @@ struct ConflictsCommandArguments : FittedArguments {
     bool check = false;
 };
 
-/// The crowd in the file: its agents, the people of a run, or the tracks of a CSV, each from the time of its first row.
+/// The crowd in the file: its agents, or the people of a run; a CSV without ids is somebody alone.
 Scene load_crowd(const ConflictsCommandArguments& arguments) {
     Scene scene = load(arguments.file, arguments.import_options, RadiusOf::every_clip);
     if (scene.crowd) return scene_of_people(scene);
-    if (lower_extension(arguments.file) == ".csv") {
+    if (!is_scene_file(arguments.file) && scene.agents.empty() && scene.clips.front().facts.format == "csv")
         add_agents_for_clips(scene);
-        for (Agent& agent : scene.agents)
-            agent.placement.start = scene.clips[static_cast<std::size_t>(agent.clip)].start;
-    }
     if (scene.agents.empty())
         throw InputError(arguments.file.string(), "",
                          "there are no agents who could meet; give a scene with agents, "
@@ -104,6 +100,8 @@ struct Findings {
         const mobb::Disk b = disk(conflict.b, conflict.b_sample);
         return {(a.x + b.x) / 2, (a.y + b.y) / 2};
     }
+    /// Of tracks: time 0 on their file's own clock, seconds. The agents of a scene start when the scene says.
+    std::optional<double> t0() const { return is_scene_file(scene.file) ? std::nullopt : scene.clips.front().facts.t0; }
     int a_sample(const Conflict& conflict) const { return people.sample(conflict.a, conflict.a_sample); }
     int b_sample(const Conflict& conflict) const { return people.sample(conflict.b, conflict.b_sample); }
 
@@ -144,7 +142,8 @@ void write_plan_conflicts(JsonWriter& out, const std::vector<PlanConflict>& foun
 void write_json(const Findings& findings) {
     JsonWriter out(std::cout);
     out.begin_object();
-    out.member("file", findings.scene.file.string());
+    out.member("file", shown_name(findings.scene.file));
+    out.member("t0", findings.t0());
     out.member("agents", findings.people.count());
     out.member("radius", common_radius(findings.scene));
     out.member("pairs", findings.conflicts.pairs);
@@ -170,11 +169,8 @@ void write_json(const Findings& findings) {
     out.end_object();
 }
 
-/// In metres, to the millimetre.
-std::string to_millimetres(double length) { return brief(std::round(length * 1000) / 1000); }
-
 std::string place_in_words(glm::dvec2 place) {
-    return "(" + to_millimetres(place.x) + ", " + to_millimetres(place.y) + ")";
+    return "(" + to_thousandth(place.x) + ", " + to_thousandth(place.y) + ")";
 }
 
 /// "; vertex conflict at 3 s in (1, 2) and 2 more": the first of each kind.
@@ -204,9 +200,9 @@ void print_text(const Findings& findings) {
             std::cout << separator << brief(interval.t0) << " to " << brief(interval.t1);
             separator = ", ";
         }
-        std::cout << " s; least clearance " << to_millimetres(deepest.least_clearance) << " m at "
-                  << brief(deepest.time) << " s near " << place_in_words(position) << ", samples "
-                  << findings.a_sample(deepest) << " and " << findings.b_sample(deepest)
+        std::cout << " s; least clearance " << to_thousandth(deepest.least_clearance) << " m at " << brief(deepest.time)
+                  << " s near " << place_in_words(position) << ", samples " << findings.a_sample(deepest) << " and "
+                  << findings.b_sample(deepest)
                   << (findings.of_plan(deepest) ? plan_conflicts_in_words(findings.in_plan(deepest)) : "") << '\n';
     }
     const PeopleConflicts& conflicts = findings.conflicts;

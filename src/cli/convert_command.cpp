@@ -4,12 +4,15 @@
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
-#include <import/import.h>
 #include <import/tracks/csv.h>
 #include <motion_files/formats.h>
 #include <motion_files/played_motion.h>
 #include <motion_files/read_back.h>
 
+#include <glm/vec2.hpp>
+
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <iostream>
@@ -22,6 +25,8 @@ namespace mobbscope::cli {
 
 namespace {
 
+constexpr double kSameDt = 1e-9;  // of itself: what is read back is not the same to the last bit
+
 struct ConvertCommandArguments {
     std::filesystem::path file;
     std::optional<std::string> agent;
@@ -29,15 +34,30 @@ struct ConvertCommandArguments {
     ImportOptions import_options;
 };
 
-/// One row a sample: t,x,y,r, with the clip's name in front where there are several. t is the start of the sample's
-/// hold in clip time; tracks of trajectories keep the time of their file.
+/// When each clip starts: when its agent does, where every clip has one agent that plays it where it is; else 0.
+std::vector<double> starts_of(const Scene& scene) {
+    std::vector<double> starts(scene.clips.size(), 0);
+    std::vector<bool> placed(scene.clips.size(), false);
+    for (const Agent& agent : scene.agents) {
+        const auto clip = static_cast<std::size_t>(agent.clip);
+        if (placed[clip] || agent.placement.translate != glm::dvec2(0) || agent.placement.rotate_deg != 0)
+            return std::vector<double>(scene.clips.size(), 0);
+        placed[clip] = true;
+        starts[clip] = agent.placement.start;
+    }
+    return starts;
+}
+
+/// One row a sample: t,x,y,r, with the clip's name in front where there are several. t is the time of the sample, from
+/// when the clip starts.
 std::string to_csv(const Scene& scene) {
     const bool several = scene.clips.size() > 1;
-    const bool has_common_time = contents_by_name(scene.file) == Contents::trajectories;
+    const std::vector<double> starts = starts_of(scene);
     std::string text = several ? "id,t,x,y,r\n" : "t,x,y,r\n";
-    for (const SceneClip& clip : scene.clips) {
+    for (std::size_t c = 0; c < scene.clips.size(); ++c) {
+        const SceneClip& clip = scene.clips[c];
         const std::string id = several ? csv_field(clip.name) + ',' : "";
-        const double start = has_common_time ? clip.start : 0;
+        const double start = starts[c];
         for (int i = 0; i < clip.clip->count(); ++i) {
             const mobb::Disk& disk = clip.clip->samples()[static_cast<std::size_t>(i)];
             text += id + format_double(start + i * clip.clip->dt()) + ',' + format_double(disk.x) + ',' +
@@ -58,13 +78,28 @@ void check_clip_names(const Scene& scene) {
     }
 }
 
-void warn_of_lost_dt(const Scene& scene) {
-    for (const SceneClip& clip : scene.clips) {
-        if (clip.clip->count() > 1) continue;
-        warn(scene.file.string() + ": clip " + in_quotes(clip.name) +
-             " has one sample, so the CSV does not tell its dt (" + format_double(clip.clip->dt()) +
-             " s); give --dt when reading it");
+/// A clip of one sample has no dt in a CSV: it is read with the one that most rows are apart.
+void warn_of_lost_dt(const Scene& scene, const std::string& text, const std::filesystem::path& out) {
+    const auto is_alone = [](const SceneClip& clip) { return clip.clip->count() == 1; };
+    if (std::ranges::none_of(scene.clips, is_alone)) return;
+    std::vector<ImportedClip> read;
+    try {
+        read = csv_clips(parse_csv(text, out.string()), out, {});
+    } catch (const InputError&) {
+        // No clip has two samples.
     }
+    std::vector<const SceneClip*> lost;
+    for (std::size_t i = 0; i < scene.clips.size(); ++i) {
+        const double dt = scene.clips[i].clip->dt();
+        const bool same = !read.empty() && std::abs(read[i].clip->dt() - dt) <= kSameDt * dt;
+        if (is_alone(scene.clips[i]) && !same) lost.push_back(&scene.clips[i]);
+    }
+    if (lost.empty()) return;
+    const std::string others =
+        lost.size() > 1 ? " (and " + counted(lost.size() - 1, "more clip", "more clips") + ")" : "";
+    warn(shown_name(scene.file) + ": clip " + in_quotes(lost.front()->name) + others +
+         " has one sample, so the CSV does not tell its dt (" + format_double(lost.front()->clip->dt()) +
+         " s); give --dt when reading it");
 }
 
 /// What a CSV of these clips is read as.
@@ -145,8 +180,9 @@ void run_convert(const ConvertCommandArguments& arguments) {
         return;
     }
     check_clip_names(scene);
-    write_file(arguments.out, to_csv(scene));
-    warn_of_lost_dt(scene);
+    const std::string text = to_csv(scene);
+    write_file(arguments.out, text);
+    warn_of_lost_dt(scene, text, arguments.out);
     warn_of_lost_motion(scene, arguments.out);
 }
 

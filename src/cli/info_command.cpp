@@ -1,3 +1,4 @@
+#include <base/file.h>
 #include <base/json_writer.h>
 #include <base/text.h>
 #include <cli/command_line.h>
@@ -32,7 +33,7 @@ SourceFacts facts_of(const SceneClip& clip) {
 
 /// Where a clip was read from: the source that its scene names, or the file itself.
 std::string file_of(const Scene& scene, const SceneClip& clip) {
-    return clip.source ? (scene.file.parent_path() / *clip.source).string() : scene.file.string();
+    return shown_name(clip.source ? scene.file.parent_path() / *clip.source : scene.file);
 }
 
 /// Neither a CSV nor a scene has a skeleton: then these are null.
@@ -58,6 +59,9 @@ void write_clip(JsonWriter& out, const Scene& scene, const SceneClip& clip) {
     write_skeleton(out, facts);
     out.key("class");
     facts.label.empty() ? out.null() : out.value(facts.label);
+    out.member("t0", facts.t0);
+    out.key("start");
+    facts.t0 ? out.value(clip.start) : out.null();
     out.member("unit", facts.unit);
     out.member("guessed_from_height", facts.guessed_from_height);
     out.member("file_frames", facts.frames);
@@ -73,7 +77,7 @@ void write_clip(JsonWriter& out, const Scene& scene, const SceneClip& clip) {
     out.member("mean_radius", figures.mean_radius);
     out.member("max_radius", figures.max_radius);
     std::vector<std::string> warnings;
-    for (const ImportWarning& warning : facts.warnings) warnings.push_back(warning.text);
+    for (const ImportWarning& warning : facts.warnings) warnings.push_back(said(warning));
     out.values("warnings", warnings);
     out.end_object();
 }
@@ -98,13 +102,13 @@ Warnings common_warnings(const Scene& scene) {
     return common;
 }
 
-void list_warnings(const Warnings& warnings, const Warnings& said) {
+void list_warnings(const Warnings& warnings, const Warnings& common) {
     for (const ImportWarning& warning : warnings) {
-        if (!holds(said, warning)) std::cout << "  warning      " << cleaned(warning.text) << '\n';
+        if (!holds(common, warning)) std::cout << "  warning      " << cleaned(said(warning)) << '\n';
     }
 }
 
-void print_clip(const Scene& scene, const SceneClip& clip, const Warnings& said) {
+void print_clip(const Scene& scene, const SceneClip& clip, const Warnings& common) {
     const SourceFacts facts = facts_of(clip);
     const PathFigures figures = figures_of(*clip.clip);
     std::cout << cleaned(clip.name) << " (" << cleaned(file_of(scene, clip)) << ", " << facts.format << ")\n";
@@ -114,6 +118,10 @@ void print_clip(const Scene& scene, const SceneClip& clip, const Warnings& said)
                   << (clip.options.animation ? ", animation " + in_quotes(facts.animation) : "") << '\n';
     }
     if (!facts.label.empty()) std::cout << "  class        " << in_quotes(facts.label) << '\n';
+    if (facts.t0) {
+        std::cout << "  there        from " << brief(clip.start) << " to " << brief(clip.start + clip.clip->duration())
+                  << " s; 0 is " << short_double(*facts.t0) << " s in the file\n";
+    }
     std::cout << "  in the file  " << counted(facts.frames, "frame", "frames") << " over " << brief(facts.duration)
               << " s, " << (facts.dt ? brief(*facts.dt) + " s apart" : "not uniform in time") << ", "
               << brief(facts.unit) << " m per unit" << guess_of(facts) << '\n'
@@ -124,18 +132,18 @@ void print_clip(const Scene& scene, const SceneClip& clip, const Warnings& said)
               << "  path         " << brief(figures.length) << " m at " << brief(figures.mean_speed) << " m/s\n"
               << "  radius       " << brief(figures.min_radius) << " to " << brief(figures.max_radius) << " m, mean "
               << brief(figures.mean_radius) << " m\n";
-    list_warnings(facts.warnings, said);
+    list_warnings(facts.warnings, common);
 }
 
 void print_clips(const Scene& scene) {
-    Warnings said;
+    Warnings common;
     if (scene.clips.size() > 1) {
-        said = common_warnings(scene);
-        if (!said.empty())
-            std::cout << cleaned(scene.file.string()) << ": all of its " << scene.clips.size() << " clips\n";
-        list_warnings(said, {});
+        common = common_warnings(scene);
+        if (!common.empty())
+            std::cout << cleaned(shown_name(scene.file)) << ": all of its " << scene.clips.size() << " clips\n";
+        list_warnings(common, {});
     }
-    for (const SceneClip& clip : scene.clips) print_clip(scene, clip, said);
+    for (const SceneClip& clip : scene.clips) print_clip(scene, clip, common);
 }
 
 void run_info(const InfoCommandArguments& arguments) {

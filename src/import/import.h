@@ -15,8 +15,12 @@
 
 namespace mobbscope {
 
-/// What the extension of a file tells, whether or not it exists; nothing for what no reader takes.
+/// What the extension of a file tells, whether or not it exists, that of "a.csv.gz" as that of "a.csv"; nothing for
+/// what no reader takes.
 std::optional<Contents> contents_by_name(const std::filesystem::path& file);
+
+/// The same by the content where the extension tells nothing; nothing too if there is no such file.
+std::optional<Contents> contents_of(const std::filesystem::path& file);
 
 /// All extensions that a reader takes, in lower case with their dots.
 std::span<const std::string_view> clip_extensions();
@@ -34,7 +38,8 @@ struct ParsedFile {
     std::function<ImportOffer(const ImportOptions&)> offer;
 };
 
-/// Reads a file by its extension. Throws InputError.
+/// Reads a file, which may be standard input ("-") and packed by gzip. Motion files are told by their extensions,
+/// tables and trajectories by their content. Throws InputError.
 ParsedFile parse_clip_file(const std::filesystem::path& file);
 
 /// Of the options those that an offer depends on.
@@ -47,7 +52,12 @@ class Importer {
     std::vector<ImportedClip> clips(const std::filesystem::path& file, const ImportOptions& options);
 
   private:
-    std::map<std::filesystem::path, ParsedFile> parsed_;
+    struct Known {
+        ParsedFile file;
+        std::optional<ImportOptions> asked_with{};  ///< when one track was asked for last: without its id
+        std::vector<ImportedClip> tracks{};         ///< all, once two were asked for with the same options
+    };
+    std::map<std::filesystem::path, Known> known_;
 };
 
 /// The same for one file.

@@ -60,11 +60,7 @@ bool is_in_grid(const Scene& scene, const ViewState& view) {
 }
 
 void lay_out_clips(Scene& scene) {
-    if (!scene.agents.empty() || scene.clips.size() < 2) return;
-    const SceneClip& first = scene.clips.front();
-    const bool tracks_of_one_file = std::ranges::all_of(
-        scene.clips, [&](const SceneClip& clip) { return clip.options.id && clip.source == first.source; });
-    if (!tracks_of_one_file) scene.view.arrange = Arrange::grid;
+    if (scene.agents.empty() && scene.clips.size() > 1) scene.view.arrange = Arrange::grid;
 }
 
 std::vector<std::string> names_in_view(const Scene& scene) {

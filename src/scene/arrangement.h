@@ -26,7 +26,7 @@ std::vector<GridCell> grid_of(const Scene& scene, std::span<const PlacedAgent> a
 bool is_in_grid(const Scene& scene, const ViewState& view);
 
 /// A scene of several clips without agents is seen in a grid: each clip is where its own file has it, so that together
-/// they would be a heap. Tracks of one file have their places in common and stay where they are.
+/// they would be a heap.
 void lay_out_clips(Scene& scene);
 
 /// The names that ViewState::hidden and its like may have: of a run its people, without agents the clips.

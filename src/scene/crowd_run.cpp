@@ -177,9 +177,9 @@ class CrowdReader {
         const glm::dvec2 gap = taken.position - left.position;
         if (!(std::hypot(gap.x, gap.y) <= kJoint)) {
             place.require("translate")
-                .fail("begins at (" + brief(taken.position.x) + ", " + brief(taken.position.y) +
-                      "), but the play before ends at (" + brief(left.position.x) + ", " + brief(left.position.y) +
-                      ")");
+                .fail("begins at (" + short_double(taken.position.x) + ", " + short_double(taken.position.y) +
+                      "), but the play before ends at (" + short_double(left.position.x) + ", " +
+                      short_double(left.position.y) + ")");
         }
         const double turn = std::remainder(taken.heading_deg - left.heading_deg, 360.0);
         const bool may_turn = run_.turn_rate == kTurnsAtOnce && play.kind != PlayKind::chosen;

@@ -26,12 +26,15 @@ TEST(Info, JsonTellsWhatIsInTheFiles) {
     const json clips = json::parse(run.out)["clips"];
     ASSERT_EQ(clips.size(), 2u);
     const json& a = clips[0];
-    EXPECT_EQ(testing::keys(a),
-              (std::set<std::string>{"file",        "name",        "format",      "animation",           "root",
-                                     "joints",      "unit",        "root_why",    "guessed_from_height", "class",
-                                     "motion",      "file_frames", "file_dt",     "file_duration",       "samples",
-                                     "dt",          "duration",    "path_length", "mean_speed",          "min_radius",
-                                     "mean_radius", "max_radius",  "warnings"}));
+    EXPECT_EQ(testing::keys(a), (std::set<std::string>{"file",          "name",        "format",
+                                                       "animation",     "root",        "joints",
+                                                       "unit",          "root_why",    "guessed_from_height",
+                                                       "class",         "t0",          "start",
+                                                       "motion",        "file_frames", "file_dt",
+                                                       "file_duration", "samples",     "dt",
+                                                       "duration",      "path_length", "mean_speed",
+                                                       "min_radius",    "mean_radius", "max_radius",
+                                                       "warnings"}));
     EXPECT_EQ(a["motion"], "held");
     EXPECT_EQ(a["file"], csv);
     EXPECT_EQ(a["name"], "a");

@@ -191,7 +191,7 @@ void Session::tell_of_warnings(std::size_t from) {
         of->source
             ? MessageOffer{"clip.import", of->name + ' ' + worst->option, "Import options..."}
             : MessageOffer{"clip.motion", std::string(name(mobb::Motion::linear)) + ' ' + of->name, "Make it linear"};
-    tell(MessageLevel::warning, of->name + ": " + worst->text + others, offer);
+    tell(MessageLevel::warning, of->name + ": " + said(*worst) + others, offer);
 }
 
 }  // namespace mobbscope::app

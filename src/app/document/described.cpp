@@ -77,7 +77,7 @@ void describe_clip(Described& out, const SceneClip& clip) {
                                                                       : "linear: runs to the next sample"},
                  {"path", formatted("%.2f m, %.2f m/s", figures.length, figures.mean_speed)}};
     if (!clip.facts.root.empty()) out.facts.emplace_back("root", clip.facts.root);
-    for (const ImportWarning& warning : clip.facts.warnings) out.facts.emplace_back("note", warning.text);
+    for (const ImportWarning& warning : clip.facts.warnings) out.facts.emplace_back("note", said(warning));
 }
 
 }  // namespace

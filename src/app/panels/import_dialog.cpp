@@ -181,7 +181,7 @@ void field_remarks(Ui& ui, const ImportField& field, float left) {
     for (const ImportWarning& warning : field.clip.facts.warnings) {
         // An assumption stands there already, as the reason.
         if (warning.option != field.option.key || (field.offer && field.offer->why == warning.text)) continue;
-        line(ui.style.warning, "! " + warning.text);
+        line(ui.style.warning, "! " + said(warning));
         ui.mark(field.mark() + ".warning");
     }
     const auto refused = ui.session.importing.refused.find(field.option.key);
@@ -207,6 +207,9 @@ void import_field(Ui& ui, const ImportField& field) {
         trim_field(ui, field);
     } else if (field.option.is_number() && (!field.offer || field.offer->choices.empty())) {
         number_option(ui, field);
+    } else if (field.option.key == std::string_view("columns")) {
+        if (const std::optional<std::string> typed = text_edit(ui, field.mark(), field.text()))
+            set_option(ui, field, *typed);
     } else {
         choice_field(ui, field);
     }
@@ -280,7 +283,7 @@ void fields(Ui& ui, const SceneClip& clip, int index) {
         import_field(ui, field);
     }
     for (const ImportWarning& warning : clip.facts.warnings) {
-        if (std::ranges::find(shown, warning.option) == shown.end()) words(ui.style.warning, "! " + warning.text);
+        if (std::ranges::find(shown, warning.option) == shown.end()) words(ui.style.warning, "! " + said(warning));
     }
 }
 

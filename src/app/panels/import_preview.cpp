@@ -259,8 +259,7 @@ void time_bar(Ui& ui, const SceneClip& clip, double seconds) {
     const auto trim = clip.options.trim;
     const double begin = trim ? trim->first : 0;
     const double end = trim ? std::min(trim->second, seconds) : seconds;
-    const bool by_file = contents_by_name(*clip.source) == Contents::trajectories;
-    const double offset = begin + (by_file ? clip.start : 0);
+    const double offset = clip.facts.t0 ? clip.start : begin;
     const float handle = ui.px(12);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x;

@@ -202,7 +202,7 @@ void clip_row(Ui& ui, int index, float indent) {
             invoke(session, "clip.import", clip.name);
         }
         if (ImGui::IsItemHovered() && warned) {
-            ImGui::SetTooltip("%s\n%s", clip.name.c_str(), clip.facts.warnings.front().text.c_str());
+            ImGui::SetTooltip("%s\n%s", clip.name.c_str(), said(clip.facts.warnings.front()).c_str());
         }
     };
     const bool clicked = agents_row(ui,

@@ -1,4 +1,5 @@
 #include <base/text.h>
+#include <import/clip/column_choice.h>
 #include <import/clip/imported_clip.h>
 
 #include <array>
@@ -37,6 +38,7 @@ void check(const ImportOptions& options) {
             "radius must be from 0 to " + short_double(mobb::kMaxLength) + " metres");
     require(!options.dt || (*options.dt >= mobb::kLeastDt && *options.dt <= mobb::kMaxTime),
             "dt must be from " + short_double(mobb::kLeastDt) + " to " + short_double(mobb::kMaxTime) + " seconds");
+    if (options.columns) chosen_columns(*options.columns);
 }
 
 std::optional<double> metres_per_unit(const std::string& unit) {
@@ -48,5 +50,12 @@ std::optional<double> metres_per_unit(const std::string& unit) {
 
 std::string_view name(Origin origin) { return kOrigins[static_cast<std::size_t>(origin)]; }
 std::optional<Origin> origin_from_name(std::string_view name) { return enumerator_named<Origin>(kOrigins, name); }
+
+std::string said(const ImportWarning& warning) {
+    std::string details;
+    if (warning.samples > 0) details = counted(warning.samples, "sample", "samples");
+    if (warning.line > 0) details += (details.empty() ? "" : ", ") + at_line(warning.line);
+    return warning.text + (details.empty() ? "" : " (" + details + ")");
+}
 
 }  // namespace mobbscope

@@ -27,12 +27,14 @@ struct ImportOptions {
     std::optional<double> fps;                      ///< samples per second, over 0 to 1e6; default 30, or as stored
     std::optional<std::string> unit;                ///< "m", "cm", "in", "auto" or metres per file unit, over 0 to 1e6
     std::optional<std::string> up;                  ///< "y" or "z"
-    std::optional<std::pair<double, double>> trim;  ///< 0 <= A < B <= kMaxTime: file seconds from the first key
+    std::optional<std::pair<double, double>> trim;  ///< 0 <= A < B <= kMaxTime: file seconds from the first key or row
     std::optional<Origin> origin;                   ///< default keep
     std::optional<std::string> id;                  ///< of a file of tracks: the one to take
     std::optional<Radius> radius;                   ///< metres from 0 to kMaxLength; overrides r of every sample
-    /// Seconds, over 0 to kMaxTime, between rows of a CSV without a time column, or frame numbers of a trajectory file.
+    /// Seconds, over 0 to kMaxTime, between rows of a CSV without a time column, or frame numbers of a file.
     std::optional<double> dt;
+    /// Which columns of a table are id, t, frame, x, y and r, or how they are worked out: "id=trackId,t=frame/25".
+    std::optional<std::string> columns{};
     /// What a disk does until the next sample; default linear for trajectories, plans and CSV with ids, else held.
     std::optional<mobb::Motion> motion{};
 
@@ -51,11 +53,16 @@ std::optional<Origin> origin_from_name(std::string_view name);
 
 /// What was passed over or looks wrong, in one sentence.
 struct ImportWarning {
-    std::string text;
-    std::string option{};  ///< the key of the option that mends it; empty: none does
+    std::string text;         ///< the same for all clips that it is about in the same way
+    std::string option{};     ///< the key of the option that mends it; empty: none does
+    int line = 0;             ///< in the file, from 1: where it shows first; 0: nowhere
+    std::size_t samples = 0;  ///< of the clip: how many it is about; 0: that is not counted
 
     friend bool operator==(const ImportWarning&, const ImportWarning&) = default;
 };
+
+/// The whole warning: "there are gaps, which are filled linearly (3 samples, line 12)".
+std::string said(const ImportWarning& warning);
 
 /// What the file said, before sampling.
 struct SourceFacts {
@@ -74,7 +81,11 @@ struct SourceFacts {
     std::size_t rig = 0;                          ///< the same for the same names of root and joints; 0: no skeleton
     std::optional<double> guessed_from_height{};  ///< metres: the body's height, where it decided the unit
 
-    std::string label{};  ///< of a track: its class, "Biker"; empty where the file has none
+    // Of tracks:
+    std::string label{};  ///< its class, "Biker"; empty where the file has none
+    /// Seconds on the file's own clock: its earliest point, which is time 0 of the clock of all its tracks. None: the
+    /// clip is no track.
+    std::optional<double> t0{};
 };
 
 struct Skeleton;
@@ -87,9 +98,7 @@ struct ImportedClip {
     SourceFacts facts;
     std::string animation{};                     ///< of a file with several: ImportOptions::animation for this one
     std::shared_ptr<const Skeleton> skeleton{};  ///< null without joints, and for very long clips
-    /// Seconds: when it starts on the clock of its file's tracks, 0 for the first of them (trajectories with trim: at
-    /// its begin).
-    double start = 0;
+    double start = 0;  ///< seconds: when it starts on the clock of its file's tracks, see SourceFacts::t0
 };
 
 }  // namespace mobbscope

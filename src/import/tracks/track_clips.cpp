@@ -1,4 +1,5 @@
 #include <import/clip/sampling.h>
+#include <import/tracks/track_steps.h>
 #include <import/tracks/tracks.h>
 
 #include <algorithm>
@@ -15,13 +16,9 @@ namespace mobbscope {
 
 namespace {
 
-constexpr mobb::Motion kMotionOfTracks = mobb::Motion::linear;
 // A damaged frame number leaves a gap of any length: what fills gaps may be so many times what the file holds.
 constexpr std::size_t kMaxFill = 100;
 constexpr std::size_t kAlwaysFilled = 10'000;
-// Frames of a plan may be fractions: they are in step to so many of a step.
-constexpr double kStepTolerance = 1e-6;
-
 /// The radius where no option says one.
 double default_radius(const Track& track) { return class_radius(track.label).value_or(kDefaultTrackRadius); }
 
@@ -61,64 +58,62 @@ std::string unused_radii(const TrackFile& file, const Radius& radius) {
            " not in the file" + (unused.size() == 1 ? "" : ", such as " + in_quotes(unused.front()));
 }
 
-/// How many points are so many frames after the one before: nearly always all points of a file are as many.
-using StepCounts = std::map<double, std::ptrdiff_t>;
-
-void count_steps(std::span<const TrackPoint> points, StepCounts& counts) {
-    auto last = counts.end();
-    for (std::size_t i = 1; i < points.size(); ++i) {
-        const double step = points[i].frame - points[i - 1].frame;
-        if (last == counts.end() || last->first != step) last = counts.try_emplace(step, 0).first;
-        ++last->second;
-    }
-}
-
-/// The most frequent step, the shorter of equals; none for none.
-std::optional<double> usual(const StepCounts& counts) {
-    const auto most = std::ranges::max_element(counts, {}, &StepCounts::value_type::second);
-    return most == counts.end() ? std::nullopt : std::optional(most->first);
-}
-
 /// Frame numbers to seconds.
 class FrameClock {
   public:
-    FrameClock(const TrackFile& file, const ImportOptions& options) : dt_(options.dt) {
-        StepCounts steps;
+    FrameClock(const TrackFile& file, const ImportOptions& options) {
         first_ = file.tracks.front().points.front().frame;
         last_ = first_;
         for (const Track& track : file.tracks) {
-            count_steps(track.points, steps);
             first_ = std::min(first_, track.points.front().frame);
             last_ = std::max(last_, track.points.back().frame);
         }
-        step_ = usual(steps).value_or(file.least_step);
+        const std::optional<double> step = most_frequent_step(file.tracks);
+        if (!step && !file.least_step && !options.dt) {
+            throw std::invalid_argument(
+                "every track has one row, which does not tell how long it lasts; give dt (seconds)");
+        }
+        step_ = step ? *step : file.least_step ? *file.least_step : *options.dt;
+        if (!file.timed) frame_time_ = options.dt;
         rate_ = file.rate_of_steps ? file.rate * step_ : file.rate;
     }
 
     /// Dividing by the rate gives the nearest double, which multiplying by its inverse does not.
-    double seconds(double frames) const { return dt_ ? frames * *dt_ : frames / rate_; }
+    double seconds(double frames) const { return frame_time_ ? frames * *frame_time_ : frames / rate_; }
     /// Since the file's first frame.
-    double time(const TrackPoint& point) const { return seconds(point.frame - first_); }
+    double time(double frame) const { return seconds(frame - first_); }
+    double t0() const { return seconds(first_); }
     double duration() const { return seconds(last_ - first_); }
     double usual_step() const { return step_; }  ///< frames
 
   private:
-    std::optional<double> dt_;
+    std::optional<double> frame_time_;
     double rate_ = 1;
     double first_ = 0;
     double last_ = 0;
     double step_ = 1;
 };
 
+/// The line of the first point that does not come one step after the one before, or of the only one.
+int line_out_of_step(std::span<const TrackPoint> points, double step) {
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const double between = points[i].frame - points[i - 1].frame;
+        if (std::abs(between - step) > 2 * kFrameTolerance * step) return points[i].line;
+    }
+    return points.back().line;
+}
+
 class TrackClipMaker {
   public:
-    /// Refers to the options.
+    /// Refers to the file and the options.
     TrackClipMaker(const TrackFile& file, const ImportOptions& options)
-        : options_(options), clock_(file, options), common_{file.format, file.unit, 0, std::nullopt, 0, {}} {
+        : file_(file), options_(options), clock_(file, options), common_{file.format,  file.unit, 0,
+                                                                         std::nullopt, 0,         {}} {
+        common_.t0 = clock_.t0();
         for (const std::string& warning : file.warnings) common_.warnings.push_back({warning});
         std::size_t points = 0;
         for (const Track& track : file.tracks) points += track.points.size();
-        most_ = options.fps ? kMaxSamples : std::min(kMaxSamples, kMaxFill * points + kAlwaysFilled);
+        if (!options.fps) most_filled_ = std::min(kMaxSamples, kMaxFill * points + kAlwaysFilled);
         if (!(clock_.duration() <= mobb::kMaxTime)) {
             throw std::invalid_argument("its frames last " + brief(clock_.duration()) + " s, over " +
                                         short_double(mobb::kMaxTime) + "; check them");
@@ -130,7 +125,9 @@ class TrackClipMaker {
             common_.warnings.push_back({file.unit_assumption, "unit"});
             common_.guessed_from_height = file.guessed_height;
         }
-        const std::string remark = options.radius ? unused_radii(file, *options.radius) : assumed_radius(file);
+        const std::string remark = options.radius    ? unused_radii(file, *options.radius)
+                                   : file.has_radius ? ""
+                                                     : assumed_radius(file);
         if (!remark.empty()) common_.warnings.push_back({remark, "radius"});
         if (options.trim && options.trim->second > clock_.duration() + clock_.seconds(clock_.usual_step())) {
             common_.warnings.push_back({"trim ends at " + brief(options.trim->second) + " s, but the file lasts " +
@@ -145,97 +142,110 @@ class TrackClipMaker {
 
     /// Nothing if the track is not there in the time that is taken.
     std::optional<ImportedClip> make(const Track& track) {
-        const std::span<const TrackPoint> points = trimmed(track);
-        if (points.empty()) return std::nullopt;
-        StepCounts steps;
-        count_steps(points, steps);
-        const double step = usual(steps).value_or(clock_.usual_step());
-        const double dt = clock_.seconds(step);
-        const bool resampled = !in_step(steps, step);
-
+        const std::span<const TrackPoint> points = track.points;
+        TrackGrid grid = grid_of(track, clock_.usual_step());
         SourceFacts facts = common_;
         facts.label = track.label;
-        facts.frames = static_cast<int>(track.points.size());
-        facts.duration = clock_.seconds(track.points.back().frame - track.points.front().frame);
-        if (resampled) {
-            const double fps = options_.fps.value_or(kDefaultFps);
-            facts.warnings.push_back(
-                {"the points are not uniform in time; the path is resampled at " + brief(fps) + " fps", "fps"});
-        } else if (uniform(steps, step)) {
-            facts.dt = dt;
-        } else {
-            const double missing =
-                (points.back().frame - points.front().frame) / step - static_cast<double>(points.size() - 1);
-            facts.warnings.push_back({counted(std::llround(missing), "frame is", "frames are") +
-                                      " missing within the track; the path is interpolated there"});
+        facts.frames = static_cast<int>(points.size());
+        facts.duration = clock_.seconds(points.back().frame - points.front().frame);
+        if (points.size() == 1 && file_.timed && options_.dt) grid.step = *options_.dt;
+        if (grid.in_step && !grid.has_gaps) facts.dt = clock_.seconds(grid.step);
+        warn_of(points, grid, facts.warnings);
+
+        const bool resampled = !grid.in_step || (options_.fps && !file_.timed);
+        const double fps = options_.fps.value_or(kDefaultFps);
+        const double dt = resampled ? 1 / fps : clock_.seconds(grid.step);
+        if (resampled) grid.steps = sample_count(0, facts.duration, dt) - 1;
+
+        // The part that is taken.
+        const double start = clock_.time(points.front().frame);
+        double first = 0;
+        double last = grid.steps;
+        if (options_.trim) {
+            first = std::max(first, std::ceil((options_.trim->first - start) / dt - kFrameTolerance));
+            last = std::min(last, std::floor((options_.trim->second - start) / dt + kFrameTolerance));
         }
-        const double sample_dt = options_.fps || resampled ? 1 / options_.fps.value_or(kDefaultFps) : dt;
+        if (first > last) return std::nullopt;
+        const std::size_t most = grid.has_gaps ? most_filled_ : kMaxSamples;
+        if (last - first >= static_cast<double>(most - std::min(count_, most))) {
+            throw std::invalid_argument("its times make more than " + std::to_string(most) +
+                                        " samples; check them, or lower fps");
+        }
+        const double radius = options_.radius    ? metres_of(*options_.radius, track.id, track.label)
+                              : file_.has_radius ? 0
+                                                 : default_radius(track);
+        std::vector<mobb::Disk> samples = resampled ? sampled(points, {first * dt, dt, std::size_t(last - first) + 1})
+                                                    : filled(points, grid.step, first, last);
+        for (mobb::Disk& disk : samples) {
+            disk = {disk.x * common_.unit, disk.y * common_.unit, has_radii() ? disk.r * common_.unit : radius};
+        }
+        count_ += samples.size();
+        put_at_origin(samples, options_.origin.value_or(Origin::keep));
 
         ImportedClip out;
         out.id = track.id;
-        out.start = clock_.time(points.front()) - (options_.trim ? options_.trim->first : 0);
-        const double radius =
-            options_.radius ? metres_of(*options_.radius, track.id, track.label) : default_radius(track);
-        out.clip = std::make_shared<mobb::Clip>(sample_dt, samples(points, radius, sample_dt, facts.dt == sample_dt),
-                                                options_.motion.value_or(kMotionOfTracks));
+        out.start = resampled ? start + first * dt : clock_.time(points.front().frame + first * grid.step);
+        out.clip = std::make_shared<mobb::Clip>(dt, std::move(samples), options_.motion.value_or(kMotionOfTracks));
         out.facts = std::move(facts);
         return out;
     }
 
   private:
-    /// The points within the time that is taken.
-    std::span<const TrackPoint> trimmed(const Track& track) const {
-        std::span<const TrackPoint> points = track.points;
-        if (!options_.trim) return points;
-        const double near = kFrameTolerance * clock_.seconds(clock_.usual_step());
-        const auto begin = std::find_if(points.begin(), points.end(), [&](const TrackPoint& point) {
-            return clock_.time(point) >= options_.trim->first - near;
-        });
-        const auto end = std::find_if(begin, points.end(), [&](const TrackPoint& point) {
-            return clock_.time(point) > options_.trim->second + near;
-        });
-        return {begin, end};
-    }
-
-    static bool uniform(const StepCounts& steps, double step) {
-        return std::ranges::all_of(
-            steps, [step](double s) { return std::abs(s - step) <= kStepTolerance * step; },
-            &StepCounts::value_type::first);
-    }
-
-    /// Whether only whole steps are missing.
-    static bool in_step(const StepCounts& steps, double step) {
-        return std::ranges::all_of(
-            steps,
-            [step](double s) { return std::abs(s / step - std::round(s / step)) <= kStepTolerance && s > 0.5 * step; },
-            &StepCounts::value_type::first);
-    }
-
-    std::vector<mobb::Disk> samples(std::span<const TrackPoint> points, double radius, double dt, bool as_stored) {
-        const auto disk = [&](const TrackPoint& point) {
-            return mobb::Disk{point.x * common_.unit, point.y * common_.unit, radius};
-        };
-        std::vector<mobb::Disk> out;
-        if (as_stored) {
-            out.resize(points.size());
-            std::ranges::transform(points, out.begin(), disk);
-        } else {
-            std::vector<TimedDisk> stored;
-            stored.reserve(points.size());
-            for (const TrackPoint& point : points)
-                stored.push_back({clock_.seconds(point.frame - points.front().frame), disk(point)});
-            const std::size_t left = most_ - std::min(count_, most_);
-            out = sample(stored, sample_grid(0, stored.back().t, std::nullopt, dt, left));
+    /// What is done to a track, or is not.
+    void warn_of(std::span<const TrackPoint> points, const TrackGrid& grid,
+                 std::vector<ImportWarning>& warnings) const {
+        const int line = line_out_of_step(points, clock_.usual_step());
+        if (grid.has_gaps) {
+            const double filled = grid.steps - static_cast<double>(points.size() - 1);
+            warnings.push_back({"there are gaps, which are filled linearly", "", line, std::size_t(filled)});
         }
-        count_ += out.size();
-        put_at_origin(out, options_.origin.value_or(Origin::keep));
+        if (!grid.in_step) {
+            warnings.push_back({"the times are not uniform; the path is resampled at " +
+                                    brief(options_.fps.value_or(kDefaultFps)) + " fps",
+                                "fps", line});
+        } else if (options_.fps && file_.timed) {
+            warnings.push_back({"fps does not apply: the rows are uniform in time and are the samples", "fps"});
+        }
+        if (options_.dt && file_.timed && points.size() > 1)
+            warnings.push_back({"dt does not apply: the rows have times", "dt"});
+    }
+
+    bool has_radii() const { return file_.has_radius && !options_.radius; }
+
+    static mobb::Disk disk(const TrackPoint& point) { return {point.x, point.y, point.r}; }
+
+    /// The points as they are stored, and what lies in gaps between them: of samples counted from the first point those
+    /// from `first` to `last`.
+    static std::vector<mobb::Disk> filled(std::span<const TrackPoint> points, double step, double first, double last) {
+        std::vector<mobb::Disk> out;
+        out.reserve(static_cast<std::size_t>(last - first) + 1);
+        double at = 0;  // the sample of points[i]
+        for (std::size_t i = 0; i < points.size() && at <= last; ++i) {
+            if (at >= first) out.push_back(disk(points[i]));
+            if (i + 1 == points.size()) break;
+            const double next = steps_between(points[i], points[i + 1], step);
+            for (double k = std::max(first - at, 1.0); k < std::min(next, last - at + 1); ++k)
+                out.push_back(mix(disk(points[i]), disk(points[i + 1]), k / next));
+            at += next;
+        }
         return out;
     }
+
+    /// In the time from the first point.
+    std::vector<mobb::Disk> sampled(std::span<const TrackPoint> points, const SampleGrid& grid) const {
+        std::vector<TimedDisk> stored;
+        stored.reserve(points.size());
+        for (const TrackPoint& point : points)
+            stored.push_back({clock_.seconds(point.frame - points.front().frame), disk(point)});
+        return sample(stored, grid);
+    }
+
+    const TrackFile& file_;
     const ImportOptions& options_;
     FrameClock clock_;
-    SourceFacts common_;     ///< what holds for every track
-    std::size_t most_ = 0;   ///< samples that the file may become
-    std::size_t count_ = 0;  ///< made so far
+    SourceFacts common_;                     ///< what holds for every track
+    std::size_t most_filled_ = kMaxSamples;  ///< samples that the file may become by filling gaps
+    std::size_t count_ = 0;                  ///< samples made so far
 };
 
 }  // namespace
@@ -264,7 +274,7 @@ ImportOffer track_offer(const TrackFile& tracks, const std::filesystem::path& fi
                     {{"fps", maker.usual_step() > 0 ? short_double(1 / maker.usual_step()) : "", "as stored: " + step},
                      unit_offer(tracks.unit, tracks.unit_assumption.empty() ? "as the file or its format says"
                                                                             : tracks.unit_assumption),
-                     {"trim", "", "all of it, from the file's first frame"},
+                     {"trim", "", "all of it, from the file's earliest row"},
                      origin_offer()}};
     if (tracks.tracks.size() > 1) out.options.push_back(id_offer(tracks.tracks));
     const auto has_class = [](const Track& track) { return !track.label.empty(); };

@@ -1,7 +1,8 @@
-/// Crowds as files hold them: many tracks by one clock of frame numbers; and the clips of tracks.
+/// Crowds as files hold them: many tracks by one clock of frame numbers or seconds; and the clips of tracks.
 #pragma once
 
 #include <base/error.h>
+#include <base/file.h>
 #include <base/text.h>
 #include <import/clip/import_options.h>
 #include <import/clip/imported_clip.h>
@@ -16,15 +17,19 @@
 
 namespace mobbscope {
 
+/// What tracks do between their points unless an option says otherwise: these are far apart.
+inline constexpr mobb::Motion kMotionOfTracks = mobb::Motion::linear;
+
 /// Frames per second; a file that says more is damaged.
 inline constexpr double kMaxFrameRate = 1e6;
 
 /// Where somebody was at a frame, in file units.
 struct TrackPoint {
-    double frame = 0;
+    double frame = 0;  ///< or seconds, see TrackFile::timed
     double x = 0;
     double y = 0;
     int line = 0;  ///< in the file, from 1
+    double r = 0;  ///< see TrackFile::has_radius
 };
 
 /// One agent's points; frames increase.
@@ -39,13 +44,17 @@ struct Track {
 /// A file as it stands, with what it or its format says of units and time. An assumption is a sentence that tells the
 /// user what was taken in the file's stead and which option overrules it; empty where the file says it.
 struct TrackFile {
-    std::string format;         ///< "obsmat", "trajnet", "trajnetpp", "petrack", "sdd", "mapf"
+    std::string format;         ///< "obsmat", "trajnet", "trajnetpp", "petrack", "jupedsim", "sdd", "mapf", "csv"
     std::vector<Track> tracks;  ///< at least one; ids differ; in order of first appearance
 
+    bool timed = false;          ///< the points have times in seconds in place of frame numbers; rate is 1
     double rate = 1;             ///< frames per second, see rate_of_steps
     bool rate_of_steps = false;  ///< the rate counts usual steps from point to point, not frame numbers
-    double least_step = 1;       ///< frames between points, where no track has two
+    /// Frames between points, where no track has two; none: then dt must say it.
+    std::optional<double> least_step = 1;
     std::string rate_assumption{};
+
+    bool has_radius = false;  ///< the points have radii, in file units
 
     double unit = 1;                         ///< metres per file unit
     std::optional<double> guessed_height{};  ///< metres: how high the heads are, where that decided the unit
@@ -74,22 +83,41 @@ class TrackCollector {
     std::size_t last_ = 0;  ///< the track that had a point last
 };
 
+/// Whether a text begins like one of those that parse_text_tracks reads: rows of numbers between blanks.
+bool looks_like_text_tracks(std::string_view text);
+
 /// Text, told apart by its content: UCY and ETH `obsmat` (frame id x z y vx vz vy), TrajNet (frame ped x y), PeTrack
-/// and JuPedSim (id frame x y z, or as a comment names the columns), SDD (id xmin ymin xmax ymax frame lost occluded
-/// generated "label"). `file` stands for the file in messages. Throws InputError naming the line.
+/// and JuPedSim's text (id frame x y z, or as a comment names the columns, semi-axes a and b among them), SDD (id xmin
+/// ymin xmax ymax frame lost occluded generated "label"). `file` stands for the file in messages. Throws InputError
+/// naming the line.
 TrackFile parse_text_tracks(std::string_view text, const std::string& file);
+
+/// Whether a text begins like TrajNet++.
+bool looks_like_trajnetpp(std::string_view text);
 
 /// TrajNet++: a JSON object a line, {"scene": {...}} or {"track": {"f", "p", "x", "y"}}. Throws InputError.
 TrackFile parse_trajnetpp(std::string_view text, const std::string& file);
+
+/// Whether the bytes are an SQLite database.
+bool is_sqlite(std::string_view bytes);
+
+/// JuPedSim's: an SQLite database with the tables trajectory_data (frame, id, pos_x, pos_y) and metadata (version,
+/// fps). Throws InputError naming the row.
+TrackFile parse_jupedsim(std::string_view bytes, const std::string& file);
+
+/// Whether a text begins like a plan in YAML: with `schedule:`, or with other keys before it.
+bool looks_like_mapf_plan(std::string_view text);
 
 /// A plan of multi-agent path finding in YAML: `schedule:` with a list of t, x, y for each agent. Throws InputError.
 TrackFile parse_mapf_plan(std::string_view text, const std::string& file);
 
 /// The clips of a file's tracks, or of the one that options.id names, each with the time at which it starts on the
-/// crowd's common clock. Stored points are the samples; options.fps resamples them. Missing frames of a track are
-/// interpolated, tracks out of step are resampled (30 fps), both with a warning. options.dt is the time from one frame
-/// number to the next; options.trim counts from the file's first frame, and who is not there then is left out. Throws
-/// InputError.
+/// crowd's common clock, which begins with the file's earliest point. Stored points are the samples; options.fps
+/// resamples them (of timed tracks those out of step alone). Gaps of a track are filled linearly at the file's most
+/// frequent step, which is also how long a track of one point lasts; tracks out of step are resampled (30 fps), both
+/// with a warning. options.dt is the time from one frame number to the next (timed
+/// tracks: how long one of one point lasts); options.trim is of the common clock, and who is not there then is left
+/// out. Throws InputError.
 std::vector<ImportedClip> track_clips(const TrackFile& tracks, const std::filesystem::path& file,
                                       const ImportOptions& options);
 
@@ -126,7 +154,7 @@ std::vector<ImportedClip> clips_by_track(const Tracks& tracks, const std::filesy
             at_line(track.first_line()) + (track.id.empty() ? "" : ", track " + in_quotes(track.id));
         std::optional<ImportedClip> clip = at_place(file.string(), place, [&] { return make(track); });
         if (!clip) continue;
-        clip->name = tracks.size() > 1 ? track.id : file.stem().string();
+        clip->name = tracks.size() > 1 ? track.id : input_stem(file);
         clips.push_back(std::move(*clip));
     }
     if (found) return clips;

@@ -106,7 +106,8 @@ void mention(Caption& caption, const std::string& text) {
 }
 
 void mention_cursor_outside(Caption& caption, double time, double begin, double end) {
-    mention(caption, formatted("%.10g s lies outside %.4g..%.4g s", time, begin, end));
+    mention(caption,
+            formatted("%.10g", time) + " s lies outside " + to_thousandth(begin) + ".." + to_thousandth(end) + " s");
 }
 
 void mention_hidden(Caption& caption, std::span<const std::string> hidden, std::size_t all) {

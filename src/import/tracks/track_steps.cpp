@@ -1,0 +1,139 @@
+#include <base/text.h>
+#include <import/clip/sampling.h>
+#include <import/tracks/track_steps.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace mobbscope {
+
+double steps_between(const TrackPoint& a, const TrackPoint& b, double step) {
+    return std::max(std::round((b.frame - a.frame) / step), 1.0);
+}
+
+namespace {
+
+// Points of equal steps, each within kFrameTolerance of its place, are at most so much nearer or farther than others.
+constexpr double kSpread = 4 * kFrameTolerance;
+
+// Steps of a track that are together so little from as many of the file's are those, of which it is so much.
+constexpr double kSameStep = 1e-6;
+
+/// So many points are so many frames after the one before.
+struct StepCount {
+    double step = 0;
+    std::size_t count = 0;
+};
+
+/// All steps, the shortest first. Nearly always many in a row are equal.
+std::vector<StepCount> step_counts(std::span<const Track> tracks) {
+    std::vector<StepCount> out;
+    for (const Track& track : tracks) {
+        for (std::size_t i = 1; i < track.points.size(); ++i) {
+            const double step = track.points[i].frame - track.points[i - 1].frame;
+            if (out.empty() || out.back().step != step) out.push_back({step, 0});
+            ++out.back().count;
+        }
+    }
+    std::ranges::sort(out, {}, &StepCount::step);
+    return out;
+}
+
+/// With so many significant digits.
+double rounded_to(double value, int digits) { return *parse_double(formatted("%.*g", digits, value)); }
+
+/// Of what doubles as large as `largest` cannot tell from the step, the number of fewest digits, or of fewest a second.
+double without_noise(double step, double largest) {
+    constexpr int kMostDigits = 12;
+    const double noise = 4 * std::numeric_limits<double>::epsilon() * std::max(largest, step);
+    for (int digits = 1; digits <= kMostDigits; ++digits) {
+        for (const double candidate : {rounded_to(step, digits), 1 / rounded_to(1 / step, digits)}) {
+            if (std::abs(candidate - step) <= noise) return candidate;
+        }
+    }
+    return step;
+}
+
+/// Frame numbers are not rounded: there the most frequent one counts. `largest`: of all times.
+double common_step(std::span<const StepCount> counts, double largest) {
+    double most_frequent = 0;
+    std::size_t most = 0;
+    std::size_t in_row = 0;
+    long double sum = 0;
+    std::size_t all = 0;
+    bool whole = true;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        const auto& [step, count] = counts[i];
+        in_row = i > 0 && counts[i - 1].step == step ? in_row + count : count;
+        if (in_row > most) {
+            most = in_row;
+            most_frequent = step;
+        }
+        sum += static_cast<long double>(step) * static_cast<long double>(count);
+        all += count;
+        whole = whole && step == std::floor(step);
+    }
+    return whole ? most_frequent : without_noise(static_cast<double>(sum / static_cast<long double>(all)), largest);
+}
+
+/// How many steps a track lasts whose points are whole steps apart, to kFrameTolerance; none if they are not. The step
+/// that is held against the points is what the track's span makes of so many, so `step` need not be exact.
+std::optional<double> steps_in(std::span<const TrackPoint> points, double step) {
+    double steps = 0;
+    for (std::size_t i = 1; i < points.size(); ++i) steps += steps_between(points[i - 1], points[i], step);
+    if (!(steps <= kMaxFrame)) return std::nullopt;
+    const double first = points.front().frame;
+    const double exact = (points.back().frame - first) / steps;
+    double at = 0;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        at += steps_between(points[i - 1], points[i], step);
+        if (std::abs(points[i].frame - (first + at * exact)) > kFrameTolerance * exact) return std::nullopt;
+    }
+    return steps;
+}
+
+}  // namespace
+
+std::optional<double> most_frequent_step(std::span<const Track> tracks) {
+    const std::vector<StepCount> counts = step_counts(tracks);
+    std::span<const StepCount> best;
+    std::size_t most = 0;
+    std::size_t within = 0;  // counts [begin, end)
+    std::size_t end = 0;
+    for (std::size_t begin = 0; begin < counts.size(); ++begin) {
+        for (; end < counts.size() && counts[end].step <= (1 + kSpread) * counts[begin].step; ++end)
+            within += counts[end].count;
+        if (within > most) {
+            most = within;
+            best = std::span(counts).subspan(begin, end - begin);
+        }
+        within -= counts[begin].count;
+    }
+    if (best.empty()) return std::nullopt;
+    double largest = 0;
+    for (const Track& track : tracks)
+        largest = std::max({largest, std::abs(track.points.front().frame), std::abs(track.points.back().frame)});
+    return common_step(best, largest);
+}
+
+TrackGrid grid_of(const Track& track, double usual) {
+    const std::span<const TrackPoint> points = track.points;
+    if (points.size() == 1) return {0, usual};
+    const double span = points.back().frame - points.front().frame;
+    const auto rows = static_cast<double>(points.size() - 1);
+    const auto grid = [&](double steps) {
+        // Tracks of one file share its step, whatever their times were rounded to.
+        const double step = std::abs(span - steps * usual) <= kSameStep * usual ? usual : span / steps;
+        return TrackGrid{steps, step, true, steps > rows};
+    };
+    if (steps_in(points, span / rows) == rows) return grid(rows);
+    for (const double step : {usual, *most_frequent_step({&track, 1})}) {
+        if (const auto steps = steps_in(points, step)) return grid(*steps);
+    }
+    return {.in_step = false};
+}
+
+}  // namespace mobbscope
