@@ -37,7 +37,7 @@ constexpr std::string_view kHint =
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool is_latin_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
 std::string_view without_blanks(std::string_view text) {
     while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
@@ -53,7 +53,8 @@ struct LineLabel {
 
 /// None if the line begins otherwise.
 std::optional<LineLabel> read_label(std::string_view line) {
-    const std::size_t word_end = static_cast<std::size_t>(std::ranges::find_if_not(line, is_letter) - line.begin());
+    const std::size_t word_end =
+        static_cast<std::size_t>(std::ranges::find_if_not(line, is_latin_letter) - line.begin());
     const auto* const word =
         std::ranges::find(kWords, lower(line.substr(0, word_end)), &decltype(kWords)::value_type::first);
     if (word == kWords.end()) return std::nullopt;
@@ -74,8 +75,8 @@ std::optional<std::string_view> key_of(std::string_view line) {
     const std::size_t end = line.find('=');
     if (end == std::string_view::npos || end == 0) return std::nullopt;
     const std::string_view key = line.substr(0, end);
-    const bool is_word = std::ranges::all_of(key, [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
-    return is_word && is_letter(key.front()) ? std::optional(key) : std::nullopt;
+    const bool is_word = std::ranges::all_of(key, [](char c) { return is_latin_letter(c) || is_digit(c) || c == '_'; });
+    return is_word && is_latin_letter(key.front()) ? std::optional(key) : std::nullopt;
 }
 
 /// MAPF-LNS numbers the cells: the number of agents, then "12,13,45," for each.
