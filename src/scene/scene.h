@@ -43,7 +43,7 @@ struct SceneClip {
     SourceFacts facts{};                         ///< of the source; of inline samples the warnings alone
     std::shared_ptr<const Skeleton> skeleton{};  ///< null where the source has no joints, see import/skeleton/motion.h
     double start = 0;  ///< seconds: when it starts among the tracks of its source, see SourceFacts::t0
-    std::shared_ptr<const ClipWarp> warp{};      ///< of a part of a motion: `clip` and `skeleton` are warped; null: not
+    std::shared_ptr<const ClipWarp> warp{};  ///< of a part of a motion: `clip` and `skeleton` are warped; null: not
     std::optional<ClipTurn> turn{};  ///< of one with a source: by which clip and skeleton were bent after the import
 };
 
@@ -105,10 +105,10 @@ std::vector<PlacedAgent> placed_agents(const Scene& scene);
 using Progress = std::function<void(std::size_t done, std::size_t all)>;
 
 /// Reads a scene, a capture, a clip file (a scene with its clips and no agents), or a file of tracks (a scene with an
-/// agent for each, which starts when the track does; global time 0 is the file's earliest point, whatever trim takes). `overrides` go
-/// over the import keys of every clip with a source; their motion goes over that of every clip. `progress` is told
-/// before each clip; a clip file is read in one go. `importer` reads a scene's sources, and knows them then. Throws
-/// InputError; all files are checked before it returns.
+/// agent for each, which starts when the track does; global time 0 is the file's earliest point, whatever trim takes).
+/// `overrides` go over the import keys of every clip with a source; their motion goes over that of every clip.
+/// `progress` is told before each clip; a clip file is read in one go. `importer` reads a scene's sources, and knows
+/// them then. Throws InputError; all files are checked before it returns.
 Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides = {}, const Progress& progress = {},
                  Importer* importer = nullptr);
 

@@ -265,7 +265,7 @@ CrowdAnswer answer_of(const std::string& file, const std::vector<std::string>& o
     return out;
 }
 
-void expect_same(const CrowdAnswer& a, const CrowdAnswer& b) {
+void expect_same_crowd(const CrowdAnswer& a, const CrowdAnswer& b) {
     ASSERT_EQ(a.starts.size(), b.starts.size());
     for (const auto& [name, start] : a.starts) EXPECT_NEAR(start, b.starts.at(name), 1e-9) << name;
     ASSERT_EQ(a.meetings.size(), b.meetings.size());
@@ -296,7 +296,7 @@ TEST(Tracks, EveryTrajectoryFileIsTheSameThroughConvert) {
             if (from == file) convert.insert(convert.end(), radius.begin(), radius.end());
             ASSERT_EQ(run_program(convert).status, 0);
             from = folder.path() / to;
-            expect_same(here, answer_of(from, {}));
+            expect_same_crowd(here, answer_of(from, {}));
         }
         EXPECT_TRUE(slurp(folder.path() / "b.csv") == slurp(folder.path() / "d.csv"));
         met += here.meetings.size();
