@@ -11,9 +11,10 @@ namespace mobbscope {
 class InputError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
-    /// "file: place: message"; an empty place is left out.
+    /// "file: place: message"; an empty place is left out, and the file "-" is called standard input.
     InputError(const std::string& file, const std::string& place, const std::string& message)
-        : std::runtime_error(file + ": " + (place.empty() ? "" : place + ": ") + message) {}
+        : std::runtime_error((file == "-" ? "standard input" : file) + ": " + (place.empty() ? "" : place + ": ") +
+                             message) {}
 };
 
 /// What `work` gives. A std::invalid_argument that it throws becomes an InputError at this place of the file.

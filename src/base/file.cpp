@@ -6,6 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <zlib.h>
+
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdint>
@@ -20,12 +23,82 @@ namespace {
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 31;
 
+constexpr std::string_view kPackedMark = "\x1f\x8b";
+// Tables become a fiftieth at most, and a bomb a thousandth.
+constexpr std::uintmax_t kMostGrowth = 200;
+constexpr std::uintmax_t kAlwaysUnpacked = std::uintmax_t{64} << 20;  // bytes
+
 struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
 using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
 
 std::string system_message(int error) { return std::generic_category().message(error); }
+
+/// All that is left to read, up to kLargestFile and a little more. False if reading fails: errno says why.
+bool read_on(std::FILE* in, std::string& bytes) {
+    std::vector<char> buffer(1 << 16);
+    std::size_t count = 0;
+    while (bytes.size() <= kLargestFile && (count = std::fread(buffer.data(), 1, buffer.size(), in)) > 0)
+        bytes.append(buffer.data(), count);
+    return std::ferror(in) == 0;
+}
+
+void check_size(std::uintmax_t size, const std::string& name) {
+    if (size > kLargestFile) throw InputError(name, "", "is larger than 2 GiB; split it");
+}
+
+/// Read at its first use: there is no second time.
+const std::string& standard_input() {
+    static const std::string bytes = [] {
+        std::string read;
+        if (!read_on(stdin, read)) throw InputError("-", "", "cannot be read: " + system_message(errno));
+        check_size(read.size(), "-");
+        return read;
+    }();
+    return bytes;
+}
+
+/// What gzip packed, in one piece or several; the first `most` bytes of it where that is less. Throws InputError.
+std::string unpacked(std::string_view packed, const std::string& name, std::uintmax_t most) {
+    const std::uintmax_t limit = std::min(kLargestFile, std::max(kAlwaysUnpacked, kMostGrowth * packed.size()));
+    z_stream stream{};
+    constexpr int kGzip = 16;
+    if (inflateInit2(&stream, MAX_WBITS + kGzip) != Z_OK) throw std::bad_alloc();
+    const std::unique_ptr<z_stream, decltype(&inflateEnd)> end(&stream, inflateEnd);
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));  // it is not written to
+    stream.avail_in = static_cast<uInt>(packed.size());
+    std::string out;
+    std::vector<char> buffer(1 << 16);
+    for (;;) {
+        stream.next_out = reinterpret_cast<Bytef*>(buffer.data());
+        stream.avail_out = static_cast<uInt>(buffer.size());
+        const int status = inflate(&stream, Z_NO_FLUSH);
+        out.append(buffer.data(), buffer.size() - stream.avail_out);
+        if (out.size() >= most) return out.substr(0, static_cast<std::size_t>(most));
+        if (out.size() > limit) {
+            throw InputError(name, "",
+                             "unpacks to more than " + bytes_text(limit) +
+                                 ", which no table of this size does; unpack it by hand if that is right");
+        }
+        if (status == Z_STREAM_END) {
+            const std::string_view left = packed.substr(packed.size() - stream.avail_in);
+            // What is padded to whole blocks ends in zeros.
+            if (left.find_first_not_of('\0') == std::string_view::npos) return out;
+            if (!left.starts_with(kPackedMark)) {
+                throw InputError(name, "", "other bytes follow what gzip packed; pack the file again");
+            }
+            inflateReset(&stream);
+        } else if (status == Z_BUF_ERROR || (status == Z_OK && stream.avail_in == 0 && stream.avail_out > 0)) {
+            if (most < UINTMAX_MAX) return out;
+            throw InputError(name, "", "ends within what gzip packed; get the whole file");
+        } else if (status == Z_MEM_ERROR) {
+            throw std::bad_alloc();
+        } else if (status != Z_OK) {
+            throw InputError(name, "", "what gzip packed is damaged; get the file again");
+        }
+    }
+}
 
 /// Where a link points, so that writing through it leaves the link in place.
 std::filesystem::path resolved(const std::filesystem::path& file) {
@@ -79,23 +152,42 @@ std::string read_file(const std::filesystem::path& file) {
     if (!in) throw InputError(name, "", "cannot be read: " + system_message(errno));
 
     std::string bytes;
-    const auto check_size = [&name](std::uintmax_t size) {
-        if (size > kLargestFile) throw InputError(name, "", "is larger than 2 GiB; split it");
-    };
     const std::uintmax_t size = std::filesystem::file_size(file, error);
     if (!error) {
-        check_size(size);
+        check_size(size, name);
         // In one piece: as it grew, memory would be asked for again and again.
         bytes.reserve(static_cast<std::size_t>(size));
     }
-    std::vector<char> buffer(1 << 16);
-    std::size_t count = 0;
-    while ((count = std::fread(buffer.data(), 1, buffer.size(), in.get())) > 0) {
-        bytes.append(buffer.data(), count);
-        check_size(bytes.size());  // it may have grown meanwhile
-    }
-    if (std::ferror(in.get())) throw InputError(name, "", "cannot be read: " + system_message(errno));
+    if (!read_on(in.get(), bytes)) throw InputError(name, "", "cannot be read: " + system_message(errno));
+    check_size(bytes.size(), name);  // it may have grown meanwhile
     return bytes;
+}
+
+bool is_standard_input(const std::filesystem::path& file) { return file == "-"; }
+
+std::string read_input(const std::filesystem::path& file) {
+    std::string bytes = is_standard_input(file) ? standard_input() : read_file(file);
+    return bytes.starts_with(kPackedMark) ? unpacked(bytes, file.string(), UINTMAX_MAX) : bytes;
+}
+
+std::string read_beginning(const std::filesystem::path& file, std::size_t most) {
+    std::string bytes;
+    if (is_standard_input(file)) {
+        bytes = standard_input().substr(0, most);
+    } else {
+        std::error_code ignored;
+        if (!std::filesystem::is_regular_file(file, ignored)) return "";
+        const OpenFile in(std::fopen(file.c_str(), "rb"));
+        if (!in) return "";
+        bytes.resize(most);
+        bytes.resize(std::fread(bytes.data(), 1, most, in.get()));
+    }
+    if (!bytes.starts_with(kPackedMark)) return bytes;
+    try {
+        return unpacked(bytes, file.string(), most);
+    } catch (const InputError&) {
+        return "";
+    }
 }
 
 void write_file(const std::filesystem::path& file, std::string_view bytes) {
@@ -148,5 +240,19 @@ std::string own_name(const std::filesystem::path& path) {
 }
 
 std::string lower_extension(const std::filesystem::path& file) { return lower(file.extension().string()); }
+
+std::string unpacked_extension(const std::filesystem::path& file) {
+    const std::string extension = lower_extension(file);
+    return extension == ".gz" ? lower_extension(file.stem()) : extension;
+}
+
+std::string input_stem(const std::filesystem::path& file) {
+    if (is_standard_input(file)) return shown_name(file);
+    return (lower_extension(file) == ".gz" ? file.stem() : file).stem().string();
+}
+
+std::string shown_name(const std::filesystem::path& file) {
+    return is_standard_input(file) ? "standard input" : file.string();
+}
 
 }  // namespace mobbscope

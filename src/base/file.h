@@ -1,6 +1,7 @@
 /// Whole files, read and written.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -13,6 +14,17 @@ void check_file_name(const std::filesystem::path& file);
 /// All bytes of a regular file. Throws InputError if its name is none (check_file_name), or if it is missing,
 /// unreadable, no regular file or beyond 2 GiB.
 std::string read_file(const std::filesystem::path& file);
+
+/// Whether a name stands for standard input: "-", where a command takes a scene or a clip.
+bool is_standard_input(const std::filesystem::path& file);
+
+/// The bytes of a file that a command works on, which may be standard input; those that gzip packed come unpacked.
+/// Standard input is read once and kept. Throws InputError as read_file does, and for packed bytes that are damaged,
+/// cut off, or grow beyond what a table would.
+std::string read_input(const std::filesystem::path& file);
+
+/// At most the first `most` bytes of that; "" if there is no such file, or none that can be read.
+std::string read_beginning(const std::filesystem::path& file, std::size_t most);
 
 /// Writes a file whole or not at all: into a temporary file beside it, which then takes its name. What was there stays
 /// until then, so reading from and writing to one name is safe; a file that is write-protected stays. Throws
@@ -27,5 +39,14 @@ std::string own_name(const std::filesystem::path& path);
 
 /// The extension in lower case, with its dot (".csv"); "" if there is none.
 std::string lower_extension(const std::filesystem::path& file);
+
+/// The same of what a packed file holds: ".csv" of "walk.csv.gz" too.
+std::string unpacked_extension(const std::filesystem::path& file);
+
+/// What the file's clip is called: "walk" of "walk.csv" and of "walk.csv.gz".
+std::string input_stem(const std::filesystem::path& file);
+
+/// A file's name for messages: "standard input" of "-".
+std::string shown_name(const std::filesystem::path& file);
 
 }  // namespace mobbscope

@@ -334,7 +334,9 @@ TextLines::TextLines(std::string_view text, const std::string& file) : rest_(tex
 bool TextLines::next() {
     while (!rest_.empty()) {
         const std::size_t end = rest_.find('\n');
-        line_ = trimmed(rest_.substr(0, end));
+        whole_ = rest_.substr(0, end);
+        if (whole_.ends_with('\r')) whole_.remove_suffix(1);
+        line_ = trimmed(whole_);
         rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
         ++number_;
         if (line_.find('\0') != std::string_view::npos)

@@ -126,7 +126,8 @@ class TextLines {
     bool next();
 
     std::string_view line() const { return line_; }
-    int number() const { return number_; }  ///< of the line, from 1; 0 before the first
+    std::string_view whole_line() const { return whole_; }  ///< with the blanks at its ends
+    int number() const { return number_; }                  ///< of the line, from 1; 0 before the first
 
     /// Throws InputError for this line.
     [[noreturn]] void fail(const std::string& message) const;
@@ -134,7 +135,7 @@ class TextLines {
   private:
     std::string_view rest_;
     const std::string& file_;
-    std::string_view line_;
+    std::string_view line_, whole_;
     int number_ = 0;
 };
 

@@ -34,7 +34,8 @@ struct ConflictsCommandArguments : FittedArguments {
 Scene load_crowd(const ConflictsCommandArguments& arguments) {
     Scene scene = load(arguments.file, arguments.import_options, RadiusOf::every_clip);
     if (scene.crowd) return scene_of_people(scene);
-    if (lower_extension(arguments.file) == ".csv") add_agents_for_clips(scene);
+    if (!is_scene_file(arguments.file) && scene.agents.empty() && scene.clips.front().facts.format == "csv")
+        add_agents_for_clips(scene);
     if (scene.agents.empty())
         throw InputError(arguments.file.string(), "",
                          "there are no agents who could meet; give a scene with agents, "
@@ -100,9 +101,7 @@ struct Findings {
         return {(a.x + b.x) / 2, (a.y + b.y) / 2};
     }
     /// Of tracks: time 0 on their file's own clock, seconds. The agents of a scene start when the scene says.
-    std::optional<double> t0() const {
-        return lower_extension(scene.file) == ".json" ? std::nullopt : scene.clips.front().facts.t0;
-    }
+    std::optional<double> t0() const { return is_scene_file(scene.file) ? std::nullopt : scene.clips.front().facts.t0; }
     int a_sample(const Conflict& conflict) const { return people.sample(conflict.a, conflict.a_sample); }
     int b_sample(const Conflict& conflict) const { return people.sample(conflict.b, conflict.b_sample); }
 
@@ -143,7 +142,7 @@ void write_plan_conflicts(JsonWriter& out, const std::vector<PlanConflict>& foun
 void write_json(const Findings& findings) {
     JsonWriter out(std::cout);
     out.begin_object();
-    out.member("file", findings.scene.file.string());
+    out.member("file", shown_name(findings.scene.file));
     out.member("t0", findings.t0());
     out.member("agents", findings.people.count());
     out.member("radius", common_radius(findings.scene));

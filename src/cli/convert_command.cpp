@@ -97,7 +97,7 @@ void warn_of_lost_dt(const Scene& scene, const std::string& text, const std::fil
     if (lost.empty()) return;
     const std::string others =
         lost.size() > 1 ? " (and " + counted(lost.size() - 1, "more clip", "more clips") + ")" : "";
-    warn(scene.file.string() + ": clip " + in_quotes(lost.front()->name) + others +
+    warn(shown_name(scene.file) + ": clip " + in_quotes(lost.front()->name) + others +
          " has one sample, so the CSV does not tell its dt (" + format_double(lost.front()->clip->dt()) +
          " s); give --dt when reading it");
 }

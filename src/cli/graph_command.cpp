@@ -149,7 +149,7 @@ int info(const InfoArguments& arguments) {
     (arguments.json ? write_graph_info : print_graph_info)(std::cout, scene, figures, transitions, continuity);
     flush_results();
     const std::vector<std::string> broken = broken_bounds(scene, transitions, continuity);
-    for (const std::string& sentence : broken) complain(arguments.file.string() + ": " + sentence);
+    for (const std::string& sentence : broken) complain(shown_name(arguments.file) + ": " + sentence);
     return broken.empty() ? kDone : kFailed;
 }
 

@@ -1,3 +1,4 @@
+#include <base/file.h>
 #include <base/json_writer.h>
 #include <base/text.h>
 #include <cli/continuity_report.h>
@@ -77,7 +78,7 @@ void write_spread(JsonWriter& out, const char* key, const Scene& scene, const Tr
 void print_graph_info(std::ostream& out, const Scene& scene, const GraphFigures& figures,
                       const TransitionMeasures& transitions, const Continuity& continuity) {
     const MotionGraph& graph = *scene.graph;
-    out << cleaned(scene.file.string()) << ": " << counted(graph.hubs.size(), "hub", "hubs") << ", "
+    out << cleaned(shown_name(scene.file)) << ": " << counted(graph.hubs.size(), "hub", "hubs") << ", "
         << counted(figures.moves, "move", "moves") << ", " << seconds_text(figures.seconds) << " s of motion\n"
         << "  a choice        every " << brief(std::round(figures.seconds_between_choices * 100) / 100) << " s, among "
         << brief(std::round(figures.choices * 10) / 10) << " moves on average\n";

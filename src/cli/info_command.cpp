@@ -1,3 +1,4 @@
+#include <base/file.h>
 #include <base/json_writer.h>
 #include <base/text.h>
 #include <cli/command_line.h>
@@ -32,7 +33,7 @@ SourceFacts facts_of(const SceneClip& clip) {
 
 /// Where a clip was read from: the source that its scene names, or the file itself.
 std::string file_of(const Scene& scene, const SceneClip& clip) {
-    return clip.source ? (scene.file.parent_path() / *clip.source).string() : scene.file.string();
+    return shown_name(clip.source ? scene.file.parent_path() / *clip.source : scene.file);
 }
 
 /// Neither a CSV nor a scene has a skeleton: then these are null.
@@ -139,7 +140,7 @@ void print_clips(const Scene& scene) {
     if (scene.clips.size() > 1) {
         common = common_warnings(scene);
         if (!common.empty())
-            std::cout << cleaned(scene.file.string()) << ": all of its " << scene.clips.size() << " clips\n";
+            std::cout << cleaned(shown_name(scene.file)) << ": all of its " << scene.clips.size() << " clips\n";
         list_warnings(common, {});
     }
     for (const SceneClip& clip : scene.clips) print_clip(scene, clip, common);

@@ -1,4 +1,5 @@
 #include <base/error.h>
+#include <base/file.h>
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
@@ -59,7 +60,7 @@ void print_held_warning(const Scene& scene) {
     std::vector<ImportWarning> warnings;
     warn_of_long_held_step(*worst->clip, warnings);
     const std::string others = count > 1 ? " (and " + counted(count - 1, "more clip", "more clips") + ")" : "";
-    warn(scene.file.string() + ": clip " + in_quotes(worst->name) + others + ": " + warnings.front().text);
+    warn(shown_name(scene.file) + ": clip " + in_quotes(worst->name) + others + ": " + warnings.front().text);
 }
 
 /// A warning, and of how many clips.
@@ -92,7 +93,7 @@ void print_warnings(const Scene& scene) {
                         : "of " + std::to_string(scene.clips.size()) + " clips " + std::to_string(each.clips) +
                               ", such as " + in_quotes(each.first->name) + ": ";
         }
-        warn(scene.file.string() + ": " + whose + said(each.warning));
+        warn(shown_name(scene.file) + ": " + whose + said(each.warning));
     }
 }
 
@@ -149,18 +150,22 @@ void add_import_options(Command& command, ImportOptions& options) {
         };
         command.add_option(name, set, help, placeholder).group("Import (over the scene's, for clips with a source)");
     };
-    add("--fps", &ImportOptions::fps, parse_number, "Samples per second (30; trajectories: as stored)", "F");
+    add("--fps", &ImportOptions::fps, parse_number,
+        "Samples per second (30; trajectories: as stored); frames per second of a table with frame numbers", "F");
     add("--unit", &ImportOptions::unit, as_it_is, "m, cm, in, auto or metres per file unit", "U");
     add("--up", &ImportOptions::up, as_it_is, "y or z", "AXIS");
     add("--root", &ImportOptions::root, as_it_is, "The joint whose path is taken", "JOINT");
     add("--trim", &ImportOptions::trim, parse_trim,
         "Only this part, in seconds from the first key, of tracks from the earliest row", "A:B");
     add("--dt", &ImportOptions::dt, parse_number,
-        "Seconds between the rows of a CSV without times, or frames of trajectories", "S");
+        "Seconds between the rows of a table without times, or from one frame number to the next", "S");
     add("--radius", &ImportOptions::radius, radius_from_text,
         "Radius in metres of every sample, the column of a CSV that holds it, or a file (.csv) of ids or classes and "
         "radii",
         "R");
+    add("--columns", &ImportOptions::columns, as_it_is,
+        "Which columns of a table are id, t, frame, x, y and r, or how they are worked out: id=trackId,t=frame/25",
+        "C");
     add("--motion", &ImportOptions::motion, one_of(mobb::motion_from_name, "held, linear"),
         "What a disk does until the next sample: held, linear (tracks of people: linear; else held); inline samples "
         "too",
@@ -231,7 +236,7 @@ Scene load(const std::filesystem::path& file, const ImportOptions& options, Radi
     for_sources.motion.reset();
     print_warnings(scene);
     if (for_sources != ImportOptions{} && std::none_of(scene.clips.begin(), scene.clips.end(), has_source)) {
-        warn(file.string() + ": import options do not apply: every clip has its samples in the scene");
+        warn(shown_name(file) + ": import options do not apply: every clip has its samples in the scene");
     }
     return scene;
 }

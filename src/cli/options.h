@@ -42,8 +42,8 @@ enum class Brute { refused, allowed };
 /// Adds --tree --leaf --levels --axes --time-scale. `arguments` must live until the command has run.
 void add_fit_options(Command& command, FitArguments& arguments, Brute brute = Brute::refused);
 
-/// Adds --fps --unit --up --root --trim --dt --radius --motion --id --animation. `options` must live until the command
-/// has run.
+/// Adds --fps --unit --up --root --trim --dt --radius --columns --motion --id --animation. `options` must live until
+/// the command has run.
 void add_import_options(Command& command, ImportOptions& options);
 
 /// Adds FILE, --json and the options of fits and imports. `arguments` must live until the command has run.

@@ -1,4 +1,5 @@
 #include <base/error.h>
+#include <base/file.h>
 #include <base/text.h>
 #include <cli/command_line.h>
 #include <cli/options.h>
@@ -105,7 +106,7 @@ void run_query(QueryCommandArguments& arguments, int& status) {
     arguments.details.search = arguments.fit.brute ? Search::direct : Search::trees;
     const std::vector<std::string> complaints = answer_all(scene, arguments);
     flush_results();
-    for (const std::string& complaint : complaints) complain(arguments.file.string() + ": " + complaint);
+    for (const std::string& complaint : complaints) complain(shown_name(arguments.file) + ": " + complaint);
     if (!complaints.empty()) status = kFailed;
 }
 

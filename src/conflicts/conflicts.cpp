@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -183,6 +184,7 @@ struct Walked {
     PlacedAgent path;
     int person = 0;  ///< from 0: the agent of the scene or the run, or the clip that stands for one
     int play = -1;   ///< of a run: index into CrowdAgent::plays
+    std::shared_ptr<const mobb::Tree> joint{};  ///< of a run: the path is the joint that leads to the play; else null
 };
 
 std::vector<Walked> walked_in(const FittedScene& fitted) {
@@ -194,10 +196,21 @@ std::vector<Walked> walked_in(const FittedScene& fitted) {
     }
     int person = 0;
     for (const CrowdAgent& agent : scene.crowd->agents) {
-        int number = 0;
-        for (const Play& play : agent.plays) {
+        std::optional<PlayJoint> joint;
+        for (std::size_t i = 0; i < agent.plays.size(); ++i) {
+            const Play& play = agent.plays[i];
             const int clip = scene.graph->moves[static_cast<std::size_t>(play.move)].clip;
-            out.push_back({{agent.name, clip, play.placement, person}, person, number++});
+            const int number = static_cast<int>(i);
+            // A choice is of the way to the move, too.
+            if (joint) {
+                out.push_back({{agent.name, clip, joint->placement, person},
+                               person,
+                               number,
+                               std::make_shared<const mobb::Tree>(joint->clip, fitted.options())});
+            }
+            if (!is_joints_alone(scene, agent, i))
+                out.push_back({{agent.name, clip, play.placement, person}, person, number});
+            joint = joint_behind(scene, agent, i);
         }
         ++person;
     }
@@ -317,14 +330,15 @@ std::vector<SceneConflict> conflicts_in(const FittedScene& fitted, const Progres
     std::vector<mobb::PlacedTree> trees;
     std::vector<int> person_of;
     for (const Walked& one : walked) {
-        trees.push_back(fitted.placed(one.path));
+        trees.push_back(one.joint ? mobb::PlacedTree(*one.joint, one.path.placement) : fitted.placed(one.path));
         person_of.push_back(one.person);
     }
     std::vector<SceneConflict> out;
     for (PeopleConflict& found : find_people_conflicts(trees, person_of, Search::trees, progress).found) {
         const Walked& a = walked[static_cast<std::size_t>(found.begins.a)];
         const Walked& b = walked[static_cast<std::size_t>(found.begins.b)];
-        out.push_back({a.path, b.path, a.play, b.play, std::move(found)});
+        const auto joint_of = [](const Walked& one) { return one.joint ? one.joint->shared_clip() : nullptr; };
+        out.push_back({a.path, b.path, a.play, b.play, joint_of(a), joint_of(b), std::move(found)});
     }
     return out;
 }

@@ -66,6 +66,8 @@ std::string conflict_count(std::size_t conflicts, std::size_t people, double sec
 struct SceneConflict {
     PlacedAgent a, b;              ///< PlacedAgent::agent is the agent's index, of a run in CrowdRun::agents
     int a_play = -1, b_play = -1;  ///< of a run: indices into CrowdAgent::plays
+    /// Of a run: the clip of the joint that leads to the play, if the path is that joint; else null.
+    mobb::ClipPtr a_joint{}, b_joint{};
     PeopleConflict facts;
 
     double begin() const { return facts.worst().t0; }  ///< of that contact, global seconds

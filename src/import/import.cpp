@@ -3,38 +3,59 @@
 #include <base/text.h>
 #include <import/bvh/bvh.h>
 #include <import/clip/held_steps.h>
+#include <import/foreign_files.h>
 #include <import/import.h>
 #include <import/nodes/node_files.h>
 #include <import/skeleton/motion.h>
 #include <import/skeleton/motion_clips.h>
 #include <import/tracks/csv.h>
+#include <import/tracks/mapf_plan.h>
 #include <import/tracks/tracks.h>
 
 #include <algorithm>
 #include <array>
 #include <iterator>
 #include <memory>
+#include <system_error>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 namespace mobbscope {
 
 namespace {
 
-MotionFile read_bvh(const std::filesystem::path& file) { return bvh_motion(parse_bvh(read_file(file), file.string())); }
+MotionFile read_bvh(std::string_view text, const std::string& file) { return bvh_motion(parse_bvh(text, file)); }
+CsvFile read_csv(std::string text, const std::string& file) { return {std::move(text), file}; }
+
+std::vector<ImportedClip> table_clips(const CsvFile& table, const std::filesystem::path& file,
+                                      const ImportOptions& options) {
+    return csv_clips(*table.table(options), file, options);
+}
+
+ImportOffer table_offer(const CsvFile& table, const std::filesystem::path& file, const ImportOptions& options) {
+    return csv_offer(*table.table(options), file, options);
+}
 
 /// What `read` makes of a file, and the clips and the offer of that.
 template <auto read, auto to_clips, auto to_offer>
-ParsedFile parse_once(const std::filesystem::path& file) {
+ParsedFile parse_once(const std::filesystem::path& file, std::string bytes) {
+    constexpr bool kByPath = std::is_invocable_v<decltype(read), const std::filesystem::path&>;
     const auto parse = [&] {
-        if constexpr (std::is_invocable_v<decltype(read), const std::filesystem::path&>) {
+        if constexpr (kByPath) {
             return read(file);
         } else {
-            return read(read_file(file), file.string());
+            return read(std::move(bytes), file.string());
         }
     };
-    const auto parsed = std::make_shared<const decltype(parse())>(parse());
-    const auto checked = [file](const ImportOptions& options) { at_place(file.string(), "", [&] { check(options); }); };
+    using Parsed = decltype(parse());
+    const auto parsed = std::make_shared<const Parsed>(parse());
+    const auto checked = [file](const ImportOptions& options) {
+        at_place(file.string(), "", [&] { check(options); });
+        if (options.columns && !std::is_same_v<Parsed, CsvFile>)
+            throw InputError(file.string(), "",
+                             "columns are for tables with a header, which this is not; leave it out");
+    };
     return {[=](const ImportOptions& options) {
                 checked(options);
                 std::vector<ImportedClip> clips = to_clips(*parsed, file, options);
@@ -47,36 +68,77 @@ ParsedFile parse_once(const std::filesystem::path& file) {
             }};
 }
 
+/// One kind of file, whatever its name.
+struct FileReader {
+    ParsedFile (*parse)(const std::filesystem::path&, std::string bytes);
+    Contents contents;
+    /// Whether bytes are of this kind, by their first kHead of them; null: their name tells.
+    bool (*holds)(std::string_view) = nullptr;
+    bool by_path = false;  ///< it opens the file itself, and others that this names
+};
+
+constexpr std::size_t kHead = std::size_t{1} << 16;  // bytes
+
+bool looks_like_bvh(std::string_view text) { return text.substr(0, text.find_first_of(" \t\r\n")) == "HIERARCHY"; }
+
+constexpr FileReader kBvh{parse_once<read_bvh, motion_clips, motion_offer>, Contents::skeletons, looks_like_bvh};
+constexpr FileReader kGltf{parse_once<read_gltf, motion_clips, motion_offer>, Contents::skeletons, nullptr, true};
+constexpr FileReader kFbx{parse_once<read_fbx, motion_clips, motion_offer>, Contents::skeletons, nullptr, true};
+constexpr FileReader kJupedsim{parse_once<parse_jupedsim, track_clips, track_offer>, Contents::trajectories, is_sqlite};
+constexpr FileReader kTrajnetpp{parse_once<parse_trajnetpp, track_clips, track_offer>, Contents::trajectories,
+                                looks_like_trajnetpp};
+constexpr FileReader kMapfPlan{parse_once<parse_mapf_plan, track_clips, track_offer>, Contents::trajectories,
+                               looks_like_mapf_plan};
+constexpr FileReader kTextPlan{parse_once<parse_mapf_text_plan, track_clips, track_offer>, Contents::trajectories,
+                               looks_like_mapf_text_plan};
+constexpr FileReader kTable{parse_once<read_csv, table_clips, table_offer>, Contents::table, looks_like_table};
+constexpr FileReader kTextTracks{parse_once<parse_text_tracks, track_clips, track_offer>, Contents::trajectories,
+                                 looks_like_text_tracks};
+
+/// Those that are told by content. The first that holds a file reads it.
+constexpr const FileReader* kByContent[] = {&kJupedsim, &kBvh,   &kTrajnetpp, &kMapfPlan,
+                                            &kTextPlan, &kTable, &kTextTracks};
+
 struct Format {
     std::string_view extension;
-    ParsedFile (*parse)(const std::filesystem::path&);
-    Contents contents;
-    bool in_help = true;  ///< false of a second spelling
+    const FileReader* reader;  ///< of tables and trajectories what is taken where the content tells nothing
+    bool in_help = true;       ///< false of a second spelling
 };
 
 /// Every format, in the order of help and messages.
 constexpr Format kFormats[] = {
-    {".bvh", parse_once<read_bvh, motion_clips, motion_offer>, Contents::skeletons},
-    {".gltf", parse_once<read_gltf, motion_clips, motion_offer>, Contents::skeletons},
-    {".glb", parse_once<read_gltf, motion_clips, motion_offer>, Contents::skeletons},
-    {".fbx", parse_once<read_fbx, motion_clips, motion_offer>, Contents::skeletons},
-    {".csv", parse_once<parse_csv, csv_clips, csv_offer>, Contents::table},
-    {".txt", parse_once<parse_text_tracks, track_clips, track_offer>, Contents::trajectories},
-    {".ndjson", parse_once<parse_trajnetpp, track_clips, track_offer>, Contents::trajectories},
-    {".yaml", parse_once<parse_mapf_plan, track_clips, track_offer>, Contents::trajectories},
-    {".yml", parse_once<parse_mapf_plan, track_clips, track_offer>, Contents::trajectories, false},
+    {".bvh", &kBvh},
+    {".gltf", &kGltf},
+    {".glb", &kGltf},
+    {".fbx", &kFbx},
+    {".csv", &kTable},
+    {".tsv", &kTable, false},
+    {".txt", &kTextTracks},
+    {".ndjson", &kTrajnetpp},
+    {".yaml", &kMapfPlan},
+    {".yml", &kMapfPlan, false},
+    {".sqlite", &kJupedsim},
+    {".sqlite3", &kJupedsim, false},
+    {".db", &kJupedsim, false},
 };
 
 const Format* format_of(const std::filesystem::path& file) {
-    const auto found = std::ranges::find(kFormats, lower_extension(file), &Format::extension);
+    const auto found = std::ranges::find(kFormats, unpacked_extension(file), &Format::extension);
     return found == std::end(kFormats) ? nullptr : found;
+}
+
+/// Null where no reader holds them.
+const FileReader* reader_of(std::string_view bytes) {
+    const auto head = bytes.substr(0, kHead);
+    const auto at = std::ranges::find_if(kByContent, [&](const FileReader* reader) { return reader->holds(head); });
+    return at == std::end(kByContent) ? nullptr : *at;
 }
 
 /// ".bvh, .gltf and .fbx": `last` stands before the last one.
 std::string list_formats(bool trajectories, std::string_view separator, std::string_view last) {
     std::vector<std::string_view> names;
     for (const Format& format : kFormats) {
-        if (format.in_help && (format.contents == Contents::trajectories) == trajectories)
+        if (format.in_help && (format.reader->contents == Contents::trajectories) == trajectories)
             names.push_back(format.extension);
     }
     std::string out;
@@ -90,7 +152,13 @@ std::string list_formats(bool trajectories, std::string_view separator, std::str
 
 std::optional<Contents> contents_by_name(const std::filesystem::path& file) {
     const Format* format = format_of(file);
-    return format ? std::optional(format->contents) : std::nullopt;
+    return format ? std::optional(format->reader->contents) : std::nullopt;
+}
+
+std::optional<Contents> contents_of(const std::filesystem::path& file) {
+    if (const std::optional<Contents> by_name = contents_by_name(file)) return by_name;
+    const FileReader* const reader = reader_of(read_beginning(file, kHead));
+    return reader ? std::optional(reader->contents) : std::nullopt;
 }
 
 std::span<const std::string_view> clip_extensions() {
@@ -106,10 +174,27 @@ std::string listed_clip_extensions(std::string_view separator) { return list_for
 std::string listed_trajectory_extensions() { return list_formats(true, " ", " "); }
 
 ParsedFile parse_clip_file(const std::filesystem::path& file) {
-    if (const Format* format = format_of(file)) return format->parse(file);
+    const Format* const format = format_of(file);
+    if (format && format->reader->by_path) {
+        if (lower_extension(file) == ".gz")
+            throw InputError(file.string(), "", "only text is read as gzip packs it; unpack this file first");
+        return format->reader->parse(file, "");
+    }
+    const bool is_motion = format && format->reader->contents == Contents::skeletons;
     std::error_code ignored;
-    if (lower_extension(file).empty() && !std::filesystem::exists(file, ignored)) {
+    const bool is_there = is_standard_input(file) || std::filesystem::exists(file, ignored);
+    if (!format && !is_there && lower_extension(file).empty())
         throw InputError(file.string(), "", "no such file or folder; check the path");
+    if (format || is_there) {
+        std::string bytes = read_input(file);
+        if (bytes.empty() && !format) throw InputError(file.string(), "", "is empty; give a table or tracks");
+        const FileReader* reader = is_motion ? format->reader : reader_of(bytes);
+        // A name that says what it is says so of text that tells nothing: then its reader knows what is wrong.
+        if (!reader) {
+            if (const auto kind = foreign_kind(bytes)) throw InputError(file.string(), "", *kind);
+            if (format) reader = format->reader;
+        }
+        if (reader) return reader->parse(file, std::move(bytes));
     }
     throw InputError(file.string(), "",
                      "no reader for this kind of file; clips can be " + list_formats(false, ", ", " and ") +
@@ -122,6 +207,8 @@ ImportOptions offer_depends_on(const ImportOptions& options) {
     out.root = options.root;
     out.up = options.up;
     out.dt = options.dt;
+    out.fps = options.fps;
+    out.columns = options.columns;
     return out;
 }
 
@@ -153,13 +240,15 @@ std::vector<ImportedClip> import_clips(const std::filesystem::path& file, const 
 }
 
 std::string does_not_apply(const std::string& key, const std::filesystem::path& file) {
+    const std::string extension = unpacked_extension(file);
     // Of the units it is only this one.
-    return (key == "unit" ? "unit auto" : key) + " does not apply to " + lower_extension(file) + " files";
+    return (key == "unit" ? "unit auto" : key) + " does not apply to " +
+           (extension.empty() ? shown_name(file) : extension + " files");
 }
 
 ApplicableOptions applicable(const ImportOptions& options, const std::filesystem::path& file) {
     ApplicableOptions out{options, {}};
-    const Contents contents = contents_by_name(file).value_or(Contents::skeletons);
+    const Contents contents = contents_of(file).value_or(Contents::skeletons);
     for (const ImportOption& option : kImportOptions) {
         // Without a body's height there is nothing to guess the unit from.
         const bool guess =

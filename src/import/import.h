@@ -15,8 +15,12 @@
 
 namespace mobbscope {
 
-/// What the extension of a file tells, whether or not it exists; nothing for what no reader takes.
+/// What the extension of a file tells, whether or not it exists, that of "a.csv.gz" as that of "a.csv"; nothing for
+/// what no reader takes.
 std::optional<Contents> contents_by_name(const std::filesystem::path& file);
+
+/// The same by the content where the extension tells nothing; nothing too if there is no such file.
+std::optional<Contents> contents_of(const std::filesystem::path& file);
 
 /// All extensions that a reader takes, in lower case with their dots.
 std::span<const std::string_view> clip_extensions();
@@ -34,7 +38,8 @@ struct ParsedFile {
     std::function<ImportOffer(const ImportOptions&)> offer;
 };
 
-/// Reads a file by its extension. Throws InputError.
+/// Reads a file, which may be standard input ("-") and packed by gzip. Motion files are told by their extensions,
+/// tables and trajectories by their content. Throws InputError.
 ParsedFile parse_clip_file(const std::filesystem::path& file);
 
 /// Of the options those that an offer depends on.

@@ -170,6 +170,10 @@ bool measure_pair(const A& a, int i, const B& b, int j, [[maybe_unused]] Observe
 /// Tells the pairs of B's samples [first, end), as if each had been measured.
 template <PlacedSamples A, PlacedSamples B, TraversalObserver Observer>
 void report_apart(const A& a, const B& b, int first, int end, const SampleShift& shift, Observer& observer) {
+    if constexpr (requires { observer.sample_pairs(0); }) {
+        observer.sample_pairs((end - first) * shift.partners);
+        return;
+    }
     for (int j = first; j < end; ++j) {
         const Disk disk_b = b.disk(j);
         for (int i = j + shift.shift; i < j + shift.shift + shift.partners; ++i) {

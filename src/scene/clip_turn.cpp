@@ -70,9 +70,10 @@ std::shared_ptr<const Skeleton> turned_skeleton(const Skeleton& skeleton, const 
 }
 
 void bend(SceneClip& clip, const ClipTurn& turn) {
-    if (turn.seconds > clip.clip->duration()) {
+    // Of a linear clip a crowd's turn may go on until the next one begins.
+    if (turn.seconds > clip.clip->until_next()) {
         throw std::invalid_argument("a turn of " + brief(turn.seconds) + " s does not fit into a clip of " +
-                                    brief(clip.clip->duration()) + " s; give fewer seconds, or leave the turn out");
+                                    brief(clip.clip->until_next()) + " s; give fewer seconds, or leave the turn out");
     }
     mobb::ClipPtr bent_clip = bent(*clip.clip, turn);
     if (clip.skeleton) clip.skeleton = turned_skeleton(*clip.skeleton, *clip.clip, turn);

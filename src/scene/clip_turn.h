@@ -15,7 +15,7 @@ struct Stance;     // scene/motion_graph.h
 /// zero at its begin and end and largest in its middle: 1.5 * |deg| / seconds.
 struct ClipTurn {
     double deg = 0;      ///< counter-clockwise, from -180 to 180
-    double seconds = 0;  ///< over 0, at most the clip's duration
+    double seconds = 0;  ///< over 0, at most Clip::until_next
 
     /// Degrees turned so far at a time of the clip, in seconds.
     double at(double time) const;
@@ -36,7 +36,7 @@ Stance bent_exit(const mobb::Clip& clip, const mobb::Clip& bent_clip, const Stan
 std::shared_ptr<const Skeleton> turned_skeleton(const Skeleton& skeleton, const mobb::Clip& clip, const ClipTurn& turn);
 
 /// Bends the clip and turns its skeleton's samples with it; `clip.turn` says by how much. Throws std::invalid_argument
-/// if the turn lasts longer than the clip, or as `bent` does.
+/// if the turn lasts longer than Clip::until_next, or as `bent` does.
 void bend(SceneClip& clip, const ClipTurn& turn);
 
 }  // namespace mobbscope

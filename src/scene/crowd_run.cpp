@@ -120,7 +120,7 @@ class CrowdReader {
             check_turn(turn, to);
             Stance exit = i == 0 ? from.exit : turned_exit(pair, out.back());
             if (run_.turn_rate == kTurnsAtOnce) exit.heading_deg += next.turn_deg;
-            at = following(at, exit, clip_of(from).duration(), to.entry);
+            at = following(at, exit, clip_of(from).until_next(), to.entry);
             if (!mobb::is_valid(at)) pair.fail("leads beyond what can be placed; leave it out");
             last = next.move;
             out.push_back(next);
@@ -135,9 +135,10 @@ class CrowdReader {
             place.fail(brief(turn) + " degrees are no multiple of " + brief(kTurnStep));
         if (turn == 0 || run_.turn_rate == kTurnsAtOnce) return;
         const double seconds = turn_at_rate(turn, run_.turn_rate).seconds;
-        if (seconds <= clip_of(move).duration()) return;
-        place.fail("the move lasts " + brief(clip_of(move).duration()) + " s, but at " + brief(run_.turn_rate) +
-                   " degrees/s a turn by " + brief(turn) + " degrees takes " + brief(seconds) + " s; turn less");
+        const double lasts = clip_of(move).until_next();
+        if (seconds <= lasts) return;
+        place.fail("the move lasts " + brief(lasts) + " s, but at " + brief(run_.turn_rate) + " degrees/s a turn by " +
+                   brief(turn) + " degrees takes " + brief(seconds) + " s; turn less");
     }
 
     /// Where a planned move leads that turns on its way.
@@ -163,8 +164,7 @@ class CrowdReader {
             place.require("move").fail("begins in hub " + hub(to.from) + ", but the move before ends in " +
                                        hub(from.to));
         }
-        const mobb::ClipPtr& clip = scene_.clips[static_cast<std::size_t>(from.clip)].clip;
-        const double end = before.placement.start + clip->duration();
+        const double end = before.placement.start + clip_of(from).until_next();
         if (!(std::abs(play.placement.start - end) <= kJoint)) {
             place.require("start").fail("the play before ends at " + short_double(end) + " s; begin there");
         }

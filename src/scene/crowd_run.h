@@ -58,7 +58,7 @@ struct Play {
 
 struct CrowdAgent {
     std::string name;
-    std::vector<Play> plays;  ///< each begins when the one before ends
+    std::vector<Play> plays;  ///< each begins when the one before ends, dt after its last sample
     friend bool operator==(const CrowdAgent&, const CrowdAgent&) = default;
 };
 

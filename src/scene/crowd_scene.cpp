@@ -3,11 +3,28 @@
 
 #include <algorithm>
 #include <iterator>
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace mobbscope {
 
 namespace {
+
+int clip_of(const Scene& run, const Play& play) { return run.graph->moves[static_cast<std::size_t>(play.move)].clip; }
+
+mobb::PlacedClip placed_in(const Scene& run, const Play& play) {
+    return {*run.clips[static_cast<std::size_t>(clip_of(run, play))].clip, play.placement};
+}
+
+/// The clip with one more sample, which is that disk in the world.
+mobb::ClipPtr with_disk(const mobb::PlacedClip& clip, const mobb::Disk& to) {
+    std::vector<mobb::Disk> samples(clip.clip().samples().begin(), clip.clip().samples().end());
+    const glm::dvec2 at = clip.rotation().inverse()(glm::dvec2(to.x, to.y) - clip.placement().translate);
+    samples.push_back({at.x, at.y, to.r});
+    return std::make_shared<const mobb::Clip>(clip.dt(), std::move(samples), clip.clip().motion());
+}
 
 /// Plays of one person.
 class PlaysOf {
@@ -15,40 +32,44 @@ class PlaysOf {
     PlaysOf(const Scene& run, int run_agent)
         : run_(run), run_agent_(run_agent), agent_(run.crowd->agents[static_cast<std::size_t>(run_agent)]) {}
 
-    double begin(std::size_t play) const { return agent_.plays[play].placement.start; }
-    double end(std::size_t play) const { return begin(play) + clip(play).duration(); }
     std::size_t at(double time) const { return play_at(agent_, time); }
 
-    Agent agent(std::size_t play, std::size_t present) const {
-        Agent out;
-        out.name = agent_.name;
-        if (play < present) out.name += " -" + std::to_string(present - play);
-        if (play > present) out.name += " +" + std::to_string(play - present);
-        out.clip = clip_index(play);
-        out.placement = agent_.plays[play].placement;
-        out.run_agent = run_agent_;
-        out.play = static_cast<int>(play);
-        return out;
+    /// Adds a play to a scene.
+    void add(Scene& out, std::size_t play, std::size_t present) const {
+        Agent agent;
+        agent.name = agent_.name;
+        if (play < present) agent.name += " -" + std::to_string(present - play);
+        if (play > present) agent.name += " +" + std::to_string(play - present);
+        agent.clip = clip_of(run_, agent_.plays[play]);
+        if (const auto joint = joint_behind(run_, agent_, play)) {
+            SceneClip clip = run_.clips[static_cast<std::size_t>(agent.clip)];
+            clip.name += " (" + agent.name + ')';
+            // What no file has.
+            clip.source.reset();
+            clip.clip = with_disk(placed_in(run_, agent_.plays[play]), joint->clip->samples().back());
+            agent.clip = static_cast<int>(out.clips.size());
+            out.clips.push_back(std::move(clip));
+        }
+        agent.placement = agent_.plays[play].placement;
+        agent.run_agent = run_agent_;
+        agent.play = static_cast<int>(play);
+        out.agents.push_back(std::move(agent));
     }
 
     /// The others that are on between two times, by time.
-    void add_around(std::vector<Agent>& out, double time, CrowdWindow window) const {
+    void add_around(Scene& out, double time, CrowdWindow window) const {
         const std::size_t present = at(time);
         std::size_t first = present;
         while (first > 0 && end(first - 1) > time - window.before) --first;
         for (std::size_t play = first;
              play < agent_.plays.size() && (play <= present || begin(play) < time + window.after); ++play) {
-            if (play != present) out.push_back(agent(play, present));
+            if (play != present) add(out, play, present);
         }
     }
 
   private:
-    int clip_index(std::size_t play) const {
-        return run_.graph->moves[static_cast<std::size_t>(agent_.plays[play].move)].clip;
-    }
-    const mobb::Clip& clip(std::size_t play) const {
-        return *run_.clips[static_cast<std::size_t>(clip_index(play))].clip;
-    }
+    double begin(std::size_t play) const { return agent_.plays[play].placement.start; }
+    double end(std::size_t play) const { return begin(play) + placed_in(run_, agent_.plays[play]).clip().until_next(); }
 
     const Scene& run_;
     int run_agent_;
@@ -67,6 +88,25 @@ std::size_t play_at(const CrowdAgent& agent, double time) {
     return static_cast<std::size_t>(std::max<std::ptrdiff_t>(std::distance(agent.plays.begin(), after) - 1, 0));
 }
 
+mobb::Disk runs_on_to(const mobb::PlacedClip& clip, const mobb::PlacedClip& next) {
+    return next.is_linear() ? next.disk(0) : clip.disk(clip.end() - 1);
+}
+
+std::optional<PlayJoint> joint_behind(const Scene& run, const CrowdAgent& agent, std::size_t play) {
+    const mobb::PlacedClip clip = placed_in(run, agent.plays[play]);
+    if (!clip.is_linear() || play + 1 == agent.plays.size()) return std::nullopt;
+    const int last = clip.end() - 1;
+    const std::vector<mobb::Disk> ends{clip.disk(last), runs_on_to(clip, placed_in(run, agent.plays[play + 1]))};
+    return PlayJoint{std::make_shared<const mobb::Clip>(clip.dt(), ends, mobb::Motion::linear),
+                     {{0, 0}, 0, clip.frame().start + last * clip.dt()}};
+}
+
+bool is_joints_alone(const Scene& run, const CrowdAgent& agent, std::size_t play) {
+    const mobb::PlacedClip clip = placed_in(run, agent.plays[play]);
+    if (!clip.is_linear() || clip.count() > 1) return false;
+    return play + 1 < agent.plays.size() || (play > 0 && placed_in(run, agent.plays[play - 1]).is_linear());
+}
+
 std::optional<int> run_agent_by_name(const CrowdRun& crowd, std::string_view name) {
     const auto is_it = [&](const CrowdAgent& agent) { return agent.name == name; };
     const auto at = std::find_if(crowd.agents.begin(), crowd.agents.end(), is_it);
@@ -81,11 +121,10 @@ Scene scene_at(const Scene& run, double time, CrowdWindow window) {
     for (int run_agent = 0; run_agent < people; ++run_agent) {
         const PlaysOf plays(run, run_agent);
         const std::size_t present = plays.at(time);
-        out.agents.push_back(plays.agent(present, present));
+        plays.add(out, present, present);
     }
     if (window.before <= 0 && window.after <= 0) return out;
-    for (int run_agent = 0; run_agent < people; ++run_agent)
-        PlaysOf(run, run_agent).add_around(out.agents, time, window);
+    for (int run_agent = 0; run_agent < people; ++run_agent) PlaysOf(run, run_agent).add_around(out, time, window);
     return out;
 }
 

@@ -54,7 +54,7 @@ void tell_of_clip(const SceneClip& clip, FileSummary& out) {
 
 FileSummary summary_of_file(const std::filesystem::path& file, const Progress& progress) {
     FileSummary out;
-    const bool is_scene = lower_extension(file) == ".json";
+    const bool is_scene = is_scene_file(file);
     const Scene scene = load_scene(file, {}, progress);
     out.title = title_of(scene, is_scene);
     out.clip_count = scene.clips.size();
@@ -82,7 +82,7 @@ FileSummary summary_of_folder(const std::filesystem::path& folder, const Progres
         std::error_code ignored;
         if (at->is_directory(ignored)) {
             ++folders;
-        } else if (lower_extension(at->path()) == ".json") {
+        } else if (is_scene_file(at->path())) {
             ++scenes;
         } else if (contents_by_name(at->path())) {
             ++clips;

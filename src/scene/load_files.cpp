@@ -13,8 +13,6 @@ namespace mobbscope {
 
 namespace {
 
-bool is_scene(const std::filesystem::path& file) { return lower_extension(file) == ".json"; }
-
 template <class Iterator>
 std::vector<std::filesystem::path> clips_by(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> out;
@@ -69,7 +67,7 @@ Scene load_files(const std::vector<std::filesystem::path>& files, const ImportOp
         }
     }
     // A scene's view and fit are what the others join.
-    std::stable_partition(all.begin(), all.end(), is_scene);
+    std::stable_partition(all.begin(), all.end(), is_scene_file);
     Scene scene;
     for (std::size_t i = 0; i < all.size(); ++i) {
         // One scene tells of its clips; of several files the count is of files.
@@ -83,7 +81,7 @@ Scene load_files(const std::vector<std::filesystem::path>& files, const ImportOp
             merge(scene, std::move(loaded));
         }
     }
-    if (std::none_of(all.begin(), all.end(), is_scene)) lay_out_clips(scene);
+    if (std::none_of(all.begin(), all.end(), is_scene_file)) lay_out_clips(scene);
     if (all.size() > 1 && !scene_file_of(files)) {
         // It is named for all of them; sources go on leading from where they did.
         const bool folder = files.size() == 1;
@@ -95,8 +93,8 @@ Scene load_files(const std::vector<std::filesystem::path>& files, const ImportOp
 }
 
 std::optional<std::filesystem::path> scene_file_of(const std::vector<std::filesystem::path>& files) {
-    if (std::count_if(files.begin(), files.end(), is_scene) != 1) return std::nullopt;
-    return *std::find_if(files.begin(), files.end(), is_scene);
+    if (std::count_if(files.begin(), files.end(), is_scene_file) != 1) return std::nullopt;
+    return *std::find_if(files.begin(), files.end(), is_scene_file);
 }
 
 std::filesystem::path demo_scene_file() {

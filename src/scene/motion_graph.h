@@ -95,13 +95,13 @@ struct MoveEnd {
     double heading_deg = 0;
     double time = 0;  ///< global seconds
 };
-/// `duration`: of the move, seconds.
+/// `duration`: seconds until the next move begins, as Clip::until_next.
 MoveEnd end_of(const OrientedPlacement& placed, const Stance& exit, double duration);
 /// The placement of a move that begins there.
 OrientedPlacement beginning_at(const MoveEnd& end, const Stance& entry);
 
-/// The placement of a move that begins where another, placed, ends: one rigid motion of the floor, and the clip's
-/// duration later. `duration` is that of the move before, in seconds.
+/// The placement of a move that begins where another, placed, ends: one rigid motion of the floor, and `duration`
+/// seconds later, which is Clip::until_next of the move before.
 mobb::Placement following(const mobb::Placement& before, const Stance& exit, double duration, const Stance& entry);
 
 /// For each node the number of its strongly connected component, counted from 0 in the order of their first nodes.

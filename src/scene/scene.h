@@ -104,6 +104,9 @@ std::vector<PlacedAgent> placed_agents(const Scene& scene);
 /// passes through. It may be empty.
 using Progress = std::function<void(std::size_t done, std::size_t all)>;
 
+/// Whether a file is a scene: by its name, standard input by its content.
+bool is_scene_file(const std::filesystem::path& file);
+
 /// Reads a scene, a capture, a clip file (a scene with its clips and no agents), or a file of tracks (a scene with an
 /// agent for each, which starts when the track does; global time 0 is the file's earliest point, whatever trim takes).
 /// `overrides` go over the import keys of every clip with a source; their motion goes over that of every clip.

@@ -322,14 +322,16 @@ class SceneReader {
         if (source.string().empty()) source.fail("the source is empty; name a clip file");
         if (source.string().find('\0') != std::string::npos)
             source.fail("the source holds a NUL byte, as no file name does; remove it");
+        if (is_standard_input(source.string()))
+            source.fail("standard input is no source of a scene's clip; name a clip file");
         clip.source = source.string();
         clip.options = read_import_options(place);
-        for (const std::string& key : applicable(clip.options, *clip.source).left_out) {
+        for (const std::string& key : applicable(clip.options, folder_ / *clip.source).left_out) {
             place.require(key).fail(does_not_apply(key, *clip.source) + "; leave it out");
         }
         if (const auto warp = place.find("warp")) clip.warp = read_warp(*warp);
         std::vector<ImportWarning> warnings;
-        const ImportOptions overrides = overrides_for(*clip.source, overrides_, warnings);
+        const ImportOptions overrides = overrides_for(folder_ / *clip.source, overrides_, warnings);
         try {
             const auto import = [&](const ImportOptions& options) {
                 return importer_.clips(folder_ / *clip.source, options);
@@ -484,13 +486,21 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& ove
 
 }  // namespace
 
+bool is_scene_file(const std::filesystem::path& file) {
+    if (!is_standard_input(file)) return unpacked_extension(file) == ".json";
+    constexpr std::size_t kHead = 100;  // bytes
+    const std::string begin = read_beginning(file, kHead);
+    const std::size_t first = begin.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+    return first != std::string::npos && begin[first] == '{' && !contents_of(file);
+}
+
 Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides, const Progress& progress,
                  Importer* importer) {
     check_file_name(file);
-    const bool is_scene = lower_extension(file) == ".json";
+    const bool is_scene = is_scene_file(file);
     if (!is_scene && progress) progress(0, 1);
     Scene scene = is_scene
-                      ? parse_scene(read_file(file), file.string(), file.parent_path(), overrides, progress, importer)
+                      ? parse_scene(read_input(file), file.string(), file.parent_path(), overrides, progress, importer)
                       : scene_of_clips(file, overrides);
     scene.file = file;
     return scene;

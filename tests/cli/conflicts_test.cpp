@@ -1,5 +1,6 @@
 #include "run_program.h"
 
+#include <base/text.h>
 #include <support/json_keys.h>
 #include <support/temp_folder.h>
 
@@ -148,6 +149,104 @@ TEST(Conflicts, OfAPlanNamesWhoSwapCells) {
         run_program({"conflicts", file}).out.find("; swap (edge) conflict from 0 to 1 s between (0, 0) and (1, 0)\n"),
         std::string::npos);
     EXPECT_EQ(run_program({"conflicts", file, "--check"}).status, 1);
+}
+
+/// The conflicts of a plan in the words of path finding, "vertex 4 (2,0); ", as conflicts --json has them.
+std::string named_conflicts(const std::string& file, const std::vector<std::string>& options = {}) {
+    std::vector<std::string> arguments{file};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    std::string out;
+    for (const json& pair : conflicts(arguments)["conflicts"]) {
+        for (const json& found : pair["plan"]) {
+            out += found["kind"].get<std::string>() + ' ' + brief(found["t0"].get<double>()) + " (" +
+                   brief(found["a"][0].get<double>()) + ',' + brief(found["a"][1].get<double>()) + "); ";
+        }
+    }
+    return out;
+}
+
+TEST(Conflicts, AgentsOfAPlanStayAtTheirGoals) {
+    const TempFolder folder;
+    const std::string passes_by =
+        "b: [{t: 0, x: 1, y: 2}, {t: 1, x: 1, y: 1}, {t: 2, x: 1, y: 0}, {t: 3, x: 1, y: -1}]";
+    const std::string ends_there = "b: [{t: 0, x: 1, y: 2}, {t: 1, x: 1, y: 1}, {t: 2, x: 1, y: 0}]";
+    const struct {
+        std::string what, agents, conflicts;
+    } cases[] = {
+        {"a goal that was reached is passed over", "a: [{t: 0, x: 0, y: 0}, {t: 1, x: 1, y: 0}], " + passes_by,
+         "vertex 2 (1,0); "},
+        {"begins at the goal", "a: [{t: 0, x: 1, y: 0}], " + passes_by, "vertex 2 (1,0); "},
+        {"one step, at another time", "a: [{t: 1, x: 1, y: 0}], " + passes_by, "vertex 2 (1,0); "},
+        {"begins late", "a: [{t: 3, x: 1, y: 0}, {t: 4, x: 2, y: 0}], " + passes_by, "vertex 2 (1,0); "},
+        {"one goal, reached at different times", "a: [{t: 0, x: 0, y: 0}, {t: 1, x: 1, y: 0}], " + ends_there,
+         "vertex 2 (1,0); "},
+        {"both arrive at the last step",
+         "a: [{t: 0, x: 3, y: 0}, {t: 1, x: 2, y: 0}, {t: 2, x: 1, y: 0}], " + ends_there, "vertex 2 (1,0); "},
+        {"leaves, comes back and stays",
+         "a: [{t: 0, x: 1, y: 0}, {t: 1, x: 0, y: 0}, {t: 2, x: 0, y: 0}, {t: 3, x: 0, y: 0}, {t: 4, x: 1, y: 0}], " +
+             passes_by,
+         ""},
+        {"waits by a step that is missing",
+         "a: [{t: 0, x: 1, y: 0}, {t: 3, x: 1, y: 0}, {t: 4, x: 2, y: 0}], " + passes_by, "vertex 2 (1,0); "},
+        {"both stay in one cell to the end",
+         "a: [{t: 0, x: 1, y: 0}], " + ends_there + ", c: [{t: 0, x: 9, y: 9}, {t: 1, x: 9, y: 8}, {t: 4, x: 9, y: 5}]",
+         "vertex 2 (1,0); vertex 3 (1,0); vertex 4 (1,0); "},
+        {"swap before the goal",
+         "a: [{t: 0, x: 1, y: 0}, {t: 1, x: 1, y: 1}], b: [{t: 0, x: 1, y: 1}, {t: 1, x: 1, y: 0}]", "swap 0 (1,0); "},
+        {"goals apart", "a: [{t: 0, x: 0, y: 0}], " + ends_there, ""},
+        {"nobody moves", "a: [{t: 0, x: 0, y: 0}], b: [{t: 0, x: 0, y: 0}]", "vertex 0 (0,0); "},
+    };
+    for (const auto& plan : cases) {
+        const std::string file = folder.write("plan.yaml", "schedule: {" + plan.agents + "}\n");
+        EXPECT_EQ(named_conflicts(file), plan.conflicts) << plan.what;
+        EXPECT_EQ(run_program({"conflicts", file, "--check"}).status, plan.conflicts.empty() ? 0 : 1) << plan.what;
+        const json direct = conflicts({file, "--tree", "brute"})["conflicts"];
+        for (const std::string tree : {"mobb", "umobb", "blocks"})
+            EXPECT_EQ(conflicts({file, "--tree", tree})["conflicts"], direct) << plan.what << tree;
+    }
+}
+
+TEST(Conflicts, OfAPlanAreTheSameWhereverItGoes) {
+    const TempFolder folder;
+    const std::string file = folder.write("plan.yaml",
+                                          "schedule: {a: [{t: 0, x: 0, y: 0}, {t: 1, x: 1, y: 0}], b: [{t: 0, x: 1, y: "
+                                          "3}, {t: 3, x: 1, y: 0}, {t: 5, x: 1, y: 2}]}");
+    const json whole = conflicts({file})["conflicts"];
+    ASSERT_EQ(whole.size(), 1u);
+    EXPECT_EQ(named_conflicts(file), "vertex 3 (1,0); ");
+    EXPECT_EQ(named_conflicts(file, {"--trim", "2:5"}), "vertex 3 (1,0); ");
+    EXPECT_EQ(named_conflicts(file, {"--trim", "4:5"}), "");
+    EXPECT_EQ(named_conflicts(file, {"--dt", "0.5", "--unit", "2"}), "vertex 1.5 (2,0); ");
+    for (const char* name : {"plan.csv", "plan.json"}) {
+        const std::string copy = (folder.path() / name).string();
+        ASSERT_EQ(run_program({"convert", file, "-o", copy}).status, 0);
+        const json found = conflicts({copy})["conflicts"];
+        ASSERT_EQ(found.size(), 1u) << name;
+        for (const char* key : {"a", "b", "intervals", "time", "position"})
+            EXPECT_EQ(found[0][key], whole[0][key]) << name << key;
+    }
+}
+
+TEST(Conflicts, OfTextPlansAreNamedToo) {
+    const TempFolder folder;
+    EXPECT_EQ(named_conflicts(
+                  folder.write("lacam.txt", "agents=2\nsolution=\n0:(0,0),(1,2),\n1:(1,0),(1,1),\n2:(1,0),(1,0),\n")),
+              "vertex 2 (1,0); ");
+    EXPECT_EQ(
+        named_conflicts(folder.write("eecbs.txt", "Agent 0: (0,0)->(0,1)->\nAgent 1: (2,1)->(1,1)->(0,1)->(0,2)->\n")),
+        "vertex 2 (1,0); ");
+}
+
+TEST(Conflicts, OfThePublicPlansAreWhatIsExpected) {
+    const std::filesystem::path data = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "public";
+    if (!std::filesystem::exists(data)) GTEST_SKIP() << "no test data at " << data;
+    const std::pair<const char*, const char*> expected[] = {{"mapf_passes_over_reached_goal.yaml", "vertex 4 (2,0); "},
+                                                            {"mapf_starts_at_goal.yaml", "vertex 3 (1,0); "}};
+    for (const auto& [name, found] : expected) {
+        const std::string file = (data / name).string();
+        EXPECT_EQ(named_conflicts(file), found) << name;
+        EXPECT_EQ(run_program({"conflicts", file, "--check"}).status, 1) << name;
+    }
 }
 
 TEST(Conflicts, AHeldCrowdIsWarnedOfOnceByItsLongestStep) {

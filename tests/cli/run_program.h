@@ -13,8 +13,10 @@ struct Result {
     std::string err;
 };
 
-/// Waits for the program to end. `stdout_to`: a file to write results to instead of collecting them.
-Result run_program(const std::vector<std::string>& arguments, const std::filesystem::path& stdout_to = {});
+/// Waits for the program to end. `stdout_to`: a file to write results to instead of collecting them; `stdin_from`: one
+/// that standard input comes from, which is empty else.
+Result run_program(const std::vector<std::string>& arguments, const std::filesystem::path& stdout_to = {},
+                   const std::filesystem::path& stdin_from = "/dev/null");
 
 /// True if `err` is one whole line: what a refusal must be.
 bool is_one_line(const std::string& err);

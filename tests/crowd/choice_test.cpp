@@ -9,13 +9,16 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace mobbscope {
 namespace {
 
 class ChoiceTest : public ::testing::Test {
   protected:
-    const FittedScene fitted{testing::walker_scene(), {}};
+    explicit ChoiceTest(Scene scene = testing::walker_scene()) : fitted(std::move(scene), {}) {}
+
+    const FittedScene fitted;
     const MoveSet moves{fitted};
 
     Simulation run(std::uint64_t seed, double ahead, double plan = 4) const {
@@ -113,7 +116,7 @@ ChoicePoint at_wall(const MoveSet& moves, glm::dvec2 area, double left = 0.7) {
     point.before.placement.rotate_deg = 180;
     const double exit = moves.move(0).exit.position.x;
     point.before.placement.translate = {-area.x / 2 + left + exit, 0};
-    point.time = moves.duration(0);
+    point.time = moves.until_next(0);
     return point;
 }
 
@@ -126,6 +129,22 @@ TEST_F(ChoiceTest, EveryChoiceOfARunWithoutPlansIsMadeAgain) {
     expect_same(simulation);
     EXPECT_EQ(simulation.counts.no_way_on, 0);
 }
+
+class LinearChoiceTest : public ChoiceTest {
+  protected:
+    LinearChoiceTest() : ChoiceTest(testing::with_linear_clips(testing::walker_scene())) {}
+};
+
+class MixedChoiceTest : public ChoiceTest {
+  protected:
+    MixedChoiceTest() : ChoiceTest(testing::with_linear_clips(testing::walker_scene(), 2)) {}
+};
+
+TEST_F(LinearChoiceTest, EveryChoiceOfARunIsMadeAgain) { expect_same(run(1, 0)); }
+TEST_F(LinearChoiceTest, EveryChoiceOfARunWithAHorizonIsMadeAgain) { expect_same(run(2, 3)); }
+TEST_F(LinearChoiceTest, EveryChoiceOfARunWithoutPlansIsMadeAgain) { expect_same(run(1, 0, 0)); }
+TEST_F(MixedChoiceTest, EveryChoiceOfARunIsMadeAgain) { expect_same(run(1, 0)); }
+TEST_F(MixedChoiceTest, EveryChoiceOfARunWithoutPlansIsMadeAgain) { expect_same(run(3, 0, 0)); }
 
 TEST_F(ChoiceTest, WhatWasPlannedStaysFreeUntilTheNextChoice) {
     for (const double ahead : {0.0, 3.0}) {
@@ -157,7 +176,7 @@ TEST_F(ChoiceTest, APlanIsRoomThatIsKept) {
     ReservationTable reservations(moves, crowd.area, 0);
     ChoicePoint point;
     point.play = 1;
-    point.time = moves.duration(0);
+    point.time = moves.until_next(0);
     // Agent 1 ends 3.5 m before agent 0 just then, and plans to go on towards it.
     const double exit = moves.move(0).exit.position.x;
     const Play other{0, {{2 * exit + 3.5, 0}, 180, 0}, 0, PlayKind::chosen, {{0, 0}, {2, 15}}};
@@ -185,9 +204,9 @@ TEST_F(ChoiceTest, AChoiceHasAPlanThatLastsAsLongAsAsked) {
     const Choice choice = testing::choice_at(moves, reservations, crowd, point);
     EXPECT_FALSE(choice.candidates[choice.taken].no_way_on);
     double seconds = 0;
-    for (const PlannedMove& next : choice.plan) seconds += moves.duration(next.move);
+    for (const PlannedMove& next : choice.plan) seconds += moves.until_next(next.move);
     EXPECT_GE(seconds, 4);
-    EXPECT_LT(seconds - moves.duration(choice.plan.back().move), 4);
+    EXPECT_LT(seconds - moves.until_next(choice.plan.back().move), 4);
     // Where the floor leaves no second step the first is taken that there is.
     crowd.area = {2.1, 2.1};
     crowd.grace = 0;
@@ -232,7 +251,7 @@ TEST_F(ChoiceTest, RoomIsKeptWhereOthersEnd) {
     crowd.area = {30, 30};
     ChoicePoint point;
     point.play = 1;
-    point.time = moves.duration(0);
+    point.time = moves.until_next(0);
     // Agent 1 ends 1.5 m before agent 0, when agent 0 has gone half of its next move; it goes on from there.
     const double exit = moves.move(0).exit.position.x;
     const Play other{0, {{2 * exit + 1.5, 0}, 180, -0.8}, -0.8, PlayKind::chosen};

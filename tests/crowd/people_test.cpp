@@ -97,32 +97,76 @@ TEST(People, GoOnAsAnotherAgentWhereTheStepChanges) {
     EXPECT_EQ(people.clips[1].clip->count(), scene.clips[3].clip->count());
 }
 
-TEST(People, WhoPlaysLinearClipsIsAnAgentForEachPlay) {
+/// Plays of held and of linear walks of one dt, and of one of another.
+Scene joining_plays(const std::vector<Play>& plays) {
     Scene scene;
-    const SceneClip held = walk("held", 1.4, 0, 45, 1.0 / 30, 0.4);
-    SceneClip linear = held;
-    linear.name = "linear";
-    const auto samples = held.clip->samples();
-    linear.clip = std::make_shared<const mobb::Clip>(
-        held.clip->dt(), std::vector<mobb::Disk>(samples.begin(), samples.end()), mobb::Motion::linear);
-    scene.clips = {held, linear};
+    scene.clips = {walk("held", 1.4, 0, 45, 1.0 / 30, 0.4), walk("linear", 1.4, 30, 45, 1.0 / 30, 0.3),
+                   walk("linear, slower", 1.4, 0, 30, 0.05, 0.5), walk("linear, one sample", 1.4, 0, 1, 1.5, 0.2)};
+    const Scene linear = testing::with_linear_clips(scene);
+    for (std::size_t i = 1; i < scene.clips.size(); ++i) scene.clips[i] = linear.clips[i];
     scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
     CrowdRun run;
-    run.agents = {{"7",
-                   {{0, {}, 0, PlayKind::chosen},
-                    {0, {{2, 0}, 0, 1.5}, 1.5, PlayKind::chosen},
-                    {1, {{4, 0}, 90, 3}, 3, PlayKind::chosen},
-                    {1, {{4, 2}, 90, 4.5}, 4.5, PlayKind::chosen}}}};
+    run.agents = {{"7", plays}};
     scene.crowd = std::make_shared<CrowdRun>(run);
-    const Scene people = scene_of_people(scene);
-    ASSERT_EQ(people.agents.size(), 3u) << "held plays are one clip; the last disk of a linear one stays by itself";
-    EXPECT_EQ(people.clips[0].clip->count(), 2 * held.clip->count());
-    EXPECT_EQ(people.clips[0].clip->motion(), mobb::Motion::held);
-    EXPECT_EQ(people.agents[1].name, "7 from 3 s");
-    EXPECT_EQ(people.clips[1].clip, linear.clip);
-    EXPECT_EQ(people.agents[1].placement.translate, glm::dvec2(4, 0));
-    EXPECT_EQ(people.agents[1].placement.rotate_deg, 90);
-    EXPECT_EQ(people.agents[2].placement.start, 4.5);
+    return scene;
+}
+
+mobb::Disk disk_of(const Scene& run, const Play& play, bool last) {
+    const mobb::PlacedClip clip(*run.clips[static_cast<std::size_t>(play.move)].clip, play.placement);
+    return clip.disk(last ? clip.count() - 1 : 0);
+}
+
+void expect_equal(const mobb::Disk& found, const mobb::Disk& expected) {
+    EXPECT_EQ(found.x, expected.x);
+    EXPECT_EQ(found.y, expected.y);
+    EXPECT_EQ(found.r, expected.r);
+}
+
+TEST(People, LinearPlaysOfOneStepAreOneClip) {
+    const std::vector<Play> plays{{1, {}, 0}, {1, {{3, 0}, 40, 1.5}, 1.5}, {1, {{4, 1}, 90, 3}, 3}};
+    const Scene run = joining_plays(plays);
+    const Scene people = scene_of_people(run);
+    ASSERT_EQ(people.agents.size(), 1u);
+    const mobb::Clip& whole = *people.clips[0].clip;
+    EXPECT_EQ(whole.motion(), mobb::Motion::linear);
+    ASSERT_EQ(whole.count(), 3 * 45);
+    expect_equal(whole.samples()[44], disk_of(run, plays[0], true));
+    expect_equal(whole.samples()[45], disk_of(run, plays[1], false));
+    expect_equal(whole.samples().back(), disk_of(run, plays[2], true));
+    EXPECT_EQ(whole.duration(), 134 * whole.dt()) << "it ends at the last sample of the last play";
+}
+
+TEST(People, ALinearClipLastsUntilTheNextOneBegins) {
+    const std::vector<Play> plays{{0, {}, 0},
+                                  {1, {{2, 0}, 0, 1.5}, 1.5},
+                                  {1, {{4, 0}, 90, 3}, 3},
+                                  {2, {{4, 2}, 90, 4.5}, 4.5},
+                                  {0, {{5, 2}, 90, 6}, 6}};
+    const Scene run = joining_plays(plays);
+    const Scene people = scene_of_people(run);
+    ASSERT_EQ(people.agents.size(), 4u);
+    EXPECT_EQ(people.agents[1].name, "7 from 1.5 s");
+    EXPECT_EQ(people.agents[2].name, "7 from 4.5 s");
+    EXPECT_EQ(people.clips[0].clip->count(), 45) << "held ones have their last cylinder";
+    ASSERT_EQ(people.clips[1].clip->count(), 91);
+    expect_equal(people.clips[1].clip->samples().back(), disk_of(run, plays[3], false));
+    ASSERT_EQ(people.clips[2].clip->count(), 31);
+    expect_equal(people.clips[2].clip->samples().back(), disk_of(run, plays[3], true));
+    for (std::size_t i = 0; i + 1 < people.agents.size(); ++i) {
+        const mobb::Clip& clip = *people.clips[i].clip;
+        EXPECT_NEAR(people.agents[i].placement.start + clip.duration(), people.agents[i + 1].placement.start, 1e-9);
+    }
+}
+
+TEST(People, OneLinearSampleAtTheEndTakesNoTime) {
+    const Scene joined = scene_of_people(joining_plays({{1, {}, 0}, {3, {{2, 0}, 0, 1.5}, 1.5}}));
+    ASSERT_EQ(joined.agents.size(), 1u);
+    EXPECT_EQ(joined.clips[0].clip->count(), 46);
+    EXPECT_EQ(joined.clips[0].clip->samples().back().r, 0.2);
+    EXPECT_EQ(scene_of_people(joining_plays({{3, {}, 0}})).clips[0].clip->duration(), 1.5) << "by itself it holds";
+    const Scene between = scene_of_people(joining_plays({{3, {}, 0}, {1, {{2, 0}, 0, 1.5}, 1.5}}));
+    ASSERT_EQ(between.agents.size(), 2u);
+    EXPECT_EQ(between.clips[0].clip->count(), 2) << "it runs on to the next";
 }
 
 }  // namespace

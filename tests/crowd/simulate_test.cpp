@@ -26,7 +26,7 @@ class Simulate : public ::testing::Test {
     const MoveSet moves{fitted};
 
     mobb::PlacedClip placed(const Play& play) const { return {moves.clip(play.move).clip(), play.placement}; }
-    double end(const Play& play) const { return play.placement.start + moves.duration(play.move); }
+    double end(const Play& play) const { return play.placement.start + moves.until_next(play.move); }
 
     /// Asks all pairs of plays of different agents that overlap in time; those that collide.
     std::vector<std::pair<const Play*, const Play*>> contacts(const CrowdRun& run) const {

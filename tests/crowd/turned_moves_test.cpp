@@ -86,7 +86,7 @@ TEST(TurnedMoves, TheRoomAfterAMoveHoldsAllThatMayFollow) {
                         const PlayedMove motion =
                             moves.motion(0, 1, next.played, moves.following(before, at, next.planned));
                         const glm::dvec2 end =
-                            end_of(motion.at, moves.exit(next.played), moves.duration(next.played)).position;
+                            end_of(motion.at, moves.exit(next.played), moves.until_next(next.played)).position;
                         EXPECT_TRUE(holds(room, motion.bounds));
                         EXPECT_TRUE(holds(room, {end - next.last.r, end + next.last.r}));
                         EXPECT_LT(room.begin, motion.begin());

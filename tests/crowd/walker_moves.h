@@ -12,6 +12,8 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace mobbscope::testing {
 
@@ -39,12 +41,22 @@ inline Scene walker_scene() {
     return scene;
 }
 
+/// The same clips, of which every `every`-th runs on linearly.
+inline Scene with_linear_clips(Scene scene, std::size_t every = 1) {
+    for (std::size_t i = 0; i < scene.clips.size(); i += every) {
+        const mobb::Clip& held = *scene.clips[i].clip;
+        scene.clips[i].clip = std::make_shared<const mobb::Clip>(
+            held.dt(), std::vector<mobb::Disk>(held.samples().begin(), held.samples().end()), mobb::Motion::linear);
+    }
+    return scene;
+}
+
 /// Where `next` lies if it follows `before`, which is placed. Indices into the moves of the scene's graph.
 inline mobb::Placement following(const Scene& scene, int before, const mobb::Placement& placed, int next) {
     const GraphMove& from = scene.graph->moves[static_cast<std::size_t>(before)];
     const GraphMove& to = scene.graph->moves[static_cast<std::size_t>(next)];
-    const double duration = scene.clips[static_cast<std::size_t>(from.clip)].clip->duration();
-    return mobbscope::following(placed, from.exit, duration, to.entry);
+    const double until_next = scene.clips[static_cast<std::size_t>(from.clip)].clip->until_next();
+    return mobbscope::following(placed, from.exit, until_next, to.entry);
 }
 
 /// What `agents` do with the scene's graph in 20 s on a floor of `area` metres, as its crowd. Without a plan some are

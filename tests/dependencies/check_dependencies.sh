@@ -31,7 +31,7 @@ rule compile
   deps = gcc
   depfile = $out.d
 rule link
-  command = cc $in -o $out -Wl,--no-as-needed -lyaml-cpp
+  command = cc $in -o $out -Wl,--no-as-needed -lyaml
 build build.ninja: phony
 build main.o: compile ../main.c
 build bin/mobbscope: link main.o
@@ -56,19 +56,19 @@ lacks() {
     fail "does not name $1 of $2:"
 }
 
-printf '%s\n' g++ ninja-build libstb-dev libyaml-cpp-dev libegl1 xdotool xvfb >scripts/packages
+printf '%s\n' g++ ninja-build libstb-dev libyaml-dev libegl1 xdotool xvfb >scripts/packages
 expect 0
 
 printf '%s\n' g++ ninja-build >scripts/packages
 expect 1
 lacks 'header /usr/include/stb/stb_image.h, included by main.c,' libstb-dev
-lacks 'libyaml-cpp.so, linked into bin/mobbscope,' libyaml-cpp-dev
+lacks 'libyaml.so, linked into bin/mobbscope,' libyaml-dev
 lacks 'libEGL.so.1, loaded at run time by bin/mobbscope,' libegl1
 lacks 'program /usr/bin/Xvfb, called by scripts/demo,' xvfb
 lacks 'program /usr/bin/xdotool, listed in third_party/run_time.txt,' xdotool
 
 # What no package has, by its place or by its name.
-printf '%s\n' g++ ninja-build libstb-dev libyaml-cpp-dev libegl1 xdotool xvfb >scripts/packages
+printf '%s\n' g++ ninja-build libstb-dev libyaml-dev libegl1 xdotool xvfb >scripts/packages
 outside=$(mktemp -d)
 trap 'rm -rf "$outside"' EXIT
 echo >"$outside/nobodys.h"

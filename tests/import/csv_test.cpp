@@ -12,7 +12,7 @@ using testing::input_error;
 using testing::TempFolder;
 
 std::vector<ImportedClip> clips(std::string_view text, const ImportOptions& options = {}) {
-    return csv_clips(parse_csv(text, "f.csv"), "f.csv", options);
+    return csv_clips(parse_csv(text, "f.csv", options), "f.csv", options);
 }
 
 const mobb::Clip& only(const std::vector<ImportedClip>& clips) {
@@ -174,10 +174,7 @@ TEST(Csv, MessagesNameLineColumnAndRemedy) {
     EXPECT_EQ(csv_refusal("x,y,t,r\n0,0,0,0.4\n0,abc,1,0.4\n"),
               "f.csv: line 3, column 2 (y): 'abc' is no finite number; write it like 0.25");
     EXPECT_EQ(csv_refusal("x,y,t,r\n\n0,0,0,\n"), "f.csv: line 3, column 4 (r): the field is empty; give a number");
-    EXPECT_EQ(csv_refusal("x,y,t,speed\n0,0,0,1\n"),
-              "f.csv: line 1, column 4: the column 'speed' is unknown; the header may name id, t, x, y and r");
-    EXPECT_EQ(csv_refusal("x;y;t;r\n"),
-              "f.csv: line 1: separate fields with commas, not semicolons (and write 0.5, not 0,5)");
+    EXPECT_NE(csv_refusal("x,y,t,speed\n0,0,0,1\n").find("line 1: the header names no column r"), std::string::npos);
     EXPECT_NE(csv_refusal("x,y,x,r\n").find("stands twice"), std::string::npos);
     EXPECT_NE(csv_refusal("t,x,r\n").find("no column y"), std::string::npos);
     EXPECT_NE(csv_refusal("t,x,y,r\n0,0,0,\"0.4\n").find("quote is not closed"), std::string::npos);
@@ -197,19 +194,18 @@ TEST(Csv, AColumnThatTheRadiusNamesHoldsTheRadii) {
     EXPECT_DOUBLE_EQ(read[0].clip->samples()[1].r, 0.4) << "in the file's unit, as r is";
     EXPECT_DOUBLE_EQ(read[1].clip->samples()[0].r, 0.5);
     options.radius = radius_from_text("r");
-    EXPECT_EQ(csv_refusal(text, options),
-              "f.csv: line 1, column 5: the column 'width' is unknown; the header may name id, t, x, y and r");
+    EXPECT_DOUBLE_EQ(clips(text, options)[0].clip->samples()[0].r, 0.01);
     EXPECT_EQ(clips("t,x,y,r\n0,0,0,7\n1,0,0,7\n", options)[0].clip->samples()[0].r, 0.07);
     options.radius = radius_from_text("widht");
     EXPECT_NE(csv_refusal(text, options).find("names no column 'widht' of radii (did you mean 'width'?)"),
               std::string::npos);
     options.radius = radius_from_text("width");
     EXPECT_EQ(csv_refusal("t,x,y,width\n0,0,0,1\n1,0,0,-2\n", options),
-              "f.csv: line 3, column 4 (width): '-2' is no radius; give a number from 0 to 1e+09");
+              "f.csv: line 3, column 4 (width): the radius is negative; give 0 or more");
     EXPECT_NE(csv_refusal("t,x,y,width,width\n0,0,0,1,1\n", options).find("stands twice"), std::string::npos);
-    const ImportOffer offer = csv_offer(parse_csv(text, "f.csv"), "f.csv", options);
+    const ImportOffer offer = csv_offer(parse_csv(text, "f.csv", options), "f.csv", options);
     ASSERT_EQ(offer.find("radius")->choices.size(), 1u);
-    EXPECT_EQ(offer.find("radius")->choices[0].value, "width");
+    EXPECT_EQ(offer.find("radius")->choices[0].value, "r");
 }
 
 TEST(Csv, RadiiByIdAreMetres) {
@@ -252,7 +248,7 @@ TEST(Csv, OtherExtensionsAreRefusedByName) {
     EXPECT_EQ(
         input_error([] { import_clips("walk.xyz", {}); }),
         "walk.xyz: no reader for this kind of file; clips can be .bvh, .gltf, .glb, .fbx and .csv, trajectories .txt, "
-        ".ndjson and .yaml, scenes .json");
+        ".ndjson, .yaml and .sqlite, scenes .json");
 }
 
 }  // namespace

@@ -30,9 +30,9 @@ std::string complaint(const char* key, const char* text) {
 TEST(ImportOption, TextsAreReadBackAsTheyWereWritten) {
     ImportOptions options;
     const std::vector<std::pair<const char*, const char*>> texts{
-        {"animation", "Walk"}, {"root", "Left Hip"}, {"fps", "29.97"},    {"unit", "cm"},
-        {"up", "z"},           {"trim", "0.5 3.2"},  {"id", "17"},        {"origin", "start_heading"},
-        {"radius", "0"},       {"dt", "0.04"},       {"motion", "linear"}};
+        {"animation", "Walk"}, {"root", "Left Hip"}, {"fps", "29.97"},     {"unit", "cm"},
+        {"up", "z"},           {"trim", "0.5 3.2"},  {"id", "17"},         {"origin", "start_heading"},
+        {"radius", "0"},       {"dt", "0.04"},       {"motion", "linear"}, {"columns", "t=frame/25"}};
     ASSERT_EQ(texts.size(), std::size(kImportOptions)) << "every option";
     for (const auto& [key, text] : texts) {
         const ImportOption& option = *import_option(key);
@@ -99,9 +99,12 @@ TEST(ImportOffer, OfASkeletonSaysWhatWasGuessedAndWhy) {
 TEST(ImportOffer, OfATableAsksForWhatTheFileLacks) {
     const TempFolder folder;
     const auto offer_of = [&](const char* text) { return parse_clip_file(folder.write("a.csv", text)).offer({}); };
-    EXPECT_EQ(keys_of(offer_of("t,x,y,r\n0,0,0,1\n1,0,0,1\n")), "unit trim origin radius motion ");
-    EXPECT_EQ(keys_of(offer_of("x,y\n0,0\n1,0\n")), "unit origin radius! dt! motion ");
-    EXPECT_EQ(keys_of(offer_of("t,x,y,r\n0,0,0,1\n1,0,0,1\n5,0,0,1\n")), "fps unit trim origin radius motion ");
+    EXPECT_EQ(keys_of(offer_of("t,x,y,r\n0,0,0,1\n1,0,0,1\n")), "unit trim origin radius columns motion ");
+    EXPECT_EQ(keys_of(offer_of("x,y\n0,0\n1,0\n")), "unit origin radius! dt! columns motion ");
+    EXPECT_EQ(keys_of(offer_of("t,x,y,r\n0,0,0,1\n1,0,0,1\n5,0,0,1\n")), "fps unit trim origin radius columns motion ");
+    EXPECT_EQ(keys_of(offer_of("id,frame,x,y\n1,0,0,0\n1,1,0,1\n")), "fps! unit origin radius columns motion ");
+    EXPECT_EQ(keys_of(offer_of("#fps: 5\nid,frame,x,y\n1,0,0,0\n1,1,0,1\n")),
+              "fps unit trim origin radius columns motion ");
     const ImportOffer several = offer_of("id,t,x,y,r\na,0,0,0,1\na,1,0,0,1\nb,0,0,0,1\nb,3,0,0,1\n");
     EXPECT_EQ(values_of(*several.find("id")), (std::vector<std::string>{"a", "b"}));
     EXPECT_EQ(several.seconds, 3);

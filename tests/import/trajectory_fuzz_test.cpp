@@ -1,6 +1,6 @@
 // Damaged trajectory files give clips or an InputError, nothing else, and soon; and never much more than they hold.
 #include <base/error.h>
-#include <import/tracks/tracks.h>
+#include <import/tracks/mapf_plan.h>
 #include <support/mutate.h>
 
 #include <gtest/gtest.h>
@@ -42,6 +42,9 @@ TEST(TrajectoryFuzz, DamagedTextIsReadOrRefused) {
          {"1.0e+00 1.0e+00 -2.5 0.0 18.5 0.0 0.0 -1.3\n1.1e+01 1.0e+00 -2.5 0.0 18.0 0.0 0.0 -1.3\n",
           "10 1 1.5 2\n20 1 1.5 2.5\n20 2 0 0\n30\t2\t0\t1\n",
           "#framerate: 16 fps\r\n# ID frame X/m Y/m Z/m\r\n3 8 0 0 1.7\r\n3 9 0.5 0 1.7\r\n4 16 1 1 1.8\r\n",
+          "#ID: the agent ID\n#framerate: 8.00\n#X,Y: (in "
+          "metres)\n#ID\tFR\tX\tY\tZ\tA\tB\tANGLE\tCOLOR\n1\t0\t0.5\t0\t0\t0.1\t0.2\t0\t9\t\n1\t1\t0.6\t0\t0\t0.1\t0."
+          "2\t0\t9\t\n",
           "1 43 100 200 183\n1 44 110 200 183\n2 43 0 0 165\n2 46 0 10 165\n",
           "0 10 20 30 60 5 0 0 0 \"Pedestrian\"\n0 12 20 32 60 6 0 0 1 \"Golf Cart\"\n0 0 0 0 0 7 1 0 1 \"Bus\"\n"},
          50'000);
@@ -62,6 +65,14 @@ TEST(TrajectoryFuzz, DamagedPlansAreReadOrRefused) {
           "schedule: {a: [{t: 0, x: 1, y: 2}, &p {t: 1, x: 1, y: 2}], \"b\": [*p], ? c : [{t: 1.5, x: -1, y: .5}]}\n",
           "%YAML 1.2\n---\n# plan\nschedule: !!map\n  'a': |\n    text\n  b: >-\n    text\n"},
          20'000);
+}
+
+TEST(TrajectoryFuzz, DamagedTextPlansAreReadOrRefused) {
+    fuzz(parse_mapf_text_plan,
+         {"agents=2\nsolver=planner\nsolution=\n0:(5,6),(1,2),\n1:(6,6),(1,3),\n", "0:(5,6),(1,2),\n1:(6,6),(1,3),\n",
+          "0:(5,6)->(9,9):0,(1,2)->(1,2):-1,\n1:(6,6)->(9,9):0,(1,3)->(1,2):-1,\n",
+          "Agent 0: (6,5)->(6,6)->\nAgent 1: (2,1)->(3,1)->\n", "2\n12,13,14,\n7,7,7,\n"},
+         50'000);
 }
 
 }  // namespace

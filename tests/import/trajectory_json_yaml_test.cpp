@@ -82,8 +82,8 @@ TEST(MapfPlan, AgentsAreReadByName) {
     EXPECT_EQ(read[0].name, "agent0");
     EXPECT_EQ(read[0].clip->dt(), 1);
     EXPECT_EQ(read[0].clip->samples()[1].x, 1);
-    EXPECT_EQ(read[1].start, 2);
-    EXPECT_EQ(read[1].clip->samples()[1].y, 4);
+    EXPECT_EQ(read[1].start, 0);
+    EXPECT_EQ(read[1].clip->samples()[3].y, 4);
     EXPECT_EQ(read[0].facts.warnings.size(), 3u) << "second, metre, radius";
     ImportOptions options;
     options.unit = "0.5";
@@ -91,15 +91,59 @@ TEST(MapfPlan, AgentsAreReadByName) {
     options.radius = 0.1;
     const auto told = plan(kPlan, options);
     EXPECT_TRUE(told[0].facts.warnings.empty());
-    EXPECT_EQ(told[1].start, 0.5);
-    EXPECT_EQ(told[1].clip->samples()[1].y, 2);
+    EXPECT_EQ(told[1].clip->dt(), 0.25);
+    EXPECT_EQ(told[1].clip->samples()[3].y, 2);
 }
 
 TEST(MapfPlan, WhatStandsBeforeItsDocumentIsNone) {
     for (const std::string before :
-         {"---\n", "\xef\xbb\xbf# by a solver\n---\n", "%YAML 1.2\n--- # plan\n", "  # a\n\n \t\n---\n"}) {
+         {"---\n", "\xef\xbb\xbf# by a solver\n---\n", "%YAML 1.2\n--- # plan\n", "  # a\n\n  \n---\n"}) {
         EXPECT_EQ(plan(before + kPlan).size(), plan(kPlan).size()) << before;
     }
+}
+
+/// Where the agents are: "a (0,0) (1,0); ".
+std::string cells_in(const std::string& text) {
+    std::string out;
+    for (const ImportedClip& clip : plan(text)) {
+        out += clip.id;
+        for (const mobb::Disk& disk : clip.clip->samples()) out += " (" + brief(disk.x) + ',' + brief(disk.y) + ')';
+        out += "; ";
+    }
+    return out;
+}
+
+TEST(MapfPlan, IsReadInEveryStyleOfYaml) {
+    const std::string same = "a (0,0) (1,0); b (2,5) (2,4); ";
+    for (const std::string text :
+         {"schedule:\n  a:\n  - {t: 0, x: 0, y: 0}\n  - {t: 1, x: 1, y: 0}\n  b: [{x: 2, y: 5, t: 0}, {x: 2, y: 4, t: "
+          "1}]\n",
+          "schedule:\n  \"a\":\n    -   t: \"0\"\n        x: '0'\n        y: !!int 0\n    - t: !!float 1\n      x: "
+          "1.0\n"
+          "      y: 0e0\n  b:\n    - {x: +2, y: 5, t: 0, z: 0.5, name: [q, {w: e}]}\n    - {x: 2, y: 4, t: 1}\n",
+          "{schedule: {a: [{t: 0, x: 0, y: 0}, {t: 1, x: 1, y: 0}],\n b: [{t: 1, x: 2, y: 4}, {t: 0, x: 2, y: 5}]}}",
+          "schedule: !!map\n  ? a\n  : - &p {t: &zero 0, x: *zero, y: *zero}\n    - {t: 1, x: 1, y: *zero}\n  b: "
+          "[{t: 0, x: 2, y: 5}, {t: 1, x: 2, y: 4}]\n...\n"}) {
+        EXPECT_EQ(cells_in(text), same) << text;
+    }
+    EXPECT_EQ(cells_in("schedule:\n  a: &path [&p {t: 0, x: 0, y: 0}, {t: 1, x: 1, y: 0}]\n  b: *path\n  c: [*p]\n"),
+              "a (0,0) (1,0); b (0,0) (1,0); c (0,0) (0,0); ")
+        << "as PyYAML writes what stands twice";
+}
+
+TEST(MapfPlan, AgentsWithoutAStepAreLeftOutAndSaid) {
+    const auto read = plan("schedule: {a: [], b: [{t: 0, x: 0, y: 0}], c: []}");
+    ASSERT_EQ(read.size(), 1u);
+    EXPECT_EQ(read[0].facts.warnings.at(0).text, "2 agents have no step, such as 'a'; left out");
+}
+
+TEST(MapfPlan, AliasesMakeNoMoreThanTheFileCanHold) {
+    std::string text = "schedule:\n  a: &a [";
+    for (int t = 0; t < 100; ++t) text += "{t: " + std::to_string(t) + ", x: 0, y: 0}, ";
+    text += "]\n";
+    for (int i = 0; i < 1000; ++i) text += "  b" + std::to_string(i) + ": *a\n";
+    const std::string said = input_error([&] { plan(text); });
+    EXPECT_NE(said.find("there are more steps than the file can hold"), std::string::npos) << said;
 }
 
 TEST(MapfPlan, BadPlansAreRefused) {
@@ -118,10 +162,31 @@ TEST(MapfPlan, BadPlansAreRefused) {
         {"schedule:\n  a:\n  - {t: 0, x: 0, y: 0, x: 7}\n", "line 3: 'x' stands twice in a step"},
         {"schedule:\n  a:\n  - {t: 0, x: 0, y: 0}\nschedule:\n  b: []\n", "line 4: 'schedule' stands twice"},
         {"schedule:\n  a:\n  - {t: 0, x: 0, y: 0}\n---\nschedule: {}\n", "holds several documents"},
-        {"schedule: 3\nschedule:\n  b:\n  - {t: 0, x: 0, y: 0}\n", "line 2: 'schedule' stands twice"},
-        {"schedule: [\n", "is no YAML"},
+        {"schedule: 3\nschedule:\n  b:\n  - {t: 0, x: 0, y: 0}\n", "line 1: there is no schedule"},
+        {"schedule: [\n", "line 1: there is no schedule"},
+        {"schedule: {a: [\n", "line 2: is no YAML: did not find expected node content, while parsing a flow node"},
+        {"schedule: {a: [{t: 0, x: 0, y: 0}]\nb: ", "line 2: is no YAML: did not find expected ',' or '}'"},
+        {"a: 3\n\t\nschedule: {}\n",
+         "line 2: is no YAML: found a tab character that violates indentation (a tab; YAML is indented with blanks)"},
+        {"schedule: {}\n\nb: \x01", "line 3: is no YAML: control characters are not allowed"},
+        {"schedule: {}\n\nb: \xff", "line 3: is no YAML: invalid leading UTF-8 octet"},
+        {"schedule:\n  a: [{t: 0, x: 0, y: 0}]\n  a: [{t: 1, x: 0, y: 0}]\n",
+         "line 3: 'a' stands twice in the schedule"},
+        {"schedule:\n  ? [a]\n  : [{t: 0, x: 0, y: 0}]\n", "line 2: an agent of the schedule needs a name"},
+        {"schedule:\n  '': [{t: 0, x: 0, y: 0}]\n", "line 2: an agent of the schedule needs a name"},
+        {"schedule:\n  a:\n  - &p {t: 0, x: 0, y: 0}\n  - <<: *p\n    t: 1\n",
+         "line 4: merge keys ('<<') are not read"},
+        {"schedule:\n  a:\n  - *p\n", "line 3: the alias '*p' stands for nothing"},
+        {"p: &p {t: 0, x: 0, y: 0}\nschedule:\n  a: [*p]\n", "line 3: the alias '*p' stands for nothing"},
+        {"schedule:\n  a: &a [{t: 0, x: 0, y: 0}]\n  b: [*a]\n",
+         "line 3: the alias '*a' stands for nothing of its kind"},
+        {"schedule:\n  a:\n  - {t: 0, x: [1], y: 0}\n", "line 3: x is no finite number"},
+        {"schedule:\n  a:\n  - {t: .inf, x: 1, y: 0}\n", "line 3: t is no finite number"},
+        {"schedule:\n  a:\n  - {t: 0, x: 1e12, y: 0}\n", "line 3: x is beyond"},
+        {"schedule:\n  a:\n  - {t: 0, x: , y: 0}\n", "line 3: x is no finite number"},
+        {"schedule: {a: [{t: 0, x: 0, y: 0}]}\nz: " + std::string(100000, '['), "line 2: is nested deeper than 100"},
         {std::string("a\0b", 3), "NUL byte"},
-        {std::string(100000, '['), "is no YAML"},
+        {std::string(100000, '['), "line 1: there is no schedule"},
     };
     for (const auto& bad : cases) {
         const std::string said = input_error([&] { plan(bad.text); });

@@ -285,8 +285,6 @@ TEST(TrajectoryText, BadRowsAreNamed) {
         {kTrajnet + "40 2.5 0 0\n", "line 5: column 2: '2.5' is no whole number"},
         {kTrajnet + "40 2 1e12 0\n", "line 5: column 3: '1e12' is beyond 1e+09"},
         {kTrajnet + "20 1 0 0\n", "line 5: '1' is in frame 20 already in line 2"},
-        {"#framerate: fast\n1 2 3 4 5\n", "line 1: the frame rate 'fast'"},
-        {"#framerate: 0\n1 2 3 4 5\n", "line 1: the frame rate '0'"},
         {"# id frame x y\n1 2 3\n", "line 2: has 3 columns but a comment names 4"},
         {std::string("10 1 0 0\n\0", 10), "line 2: holds a NUL byte"},
         {"\xff\xfe\x31", "line 1: is UTF-16 text"},
@@ -294,6 +292,48 @@ TEST(TrajectoryText, BadRowsAreNamed) {
     };
     for (const auto& [text, message] : cases)
         EXPECT_NE(tracks_refusal(text).find(message), std::string::npos) << message << "\n" << tracks_refusal(text);
+}
+
+TEST(TrajectoryText, SemiAxesOfJupedsimAreRadii) {
+    const std::string head =
+        "#description: jpscore (0.8.4)\n#framerate: 8.00\n#ID: the agent ID\n#FR: the current frame\n"
+        "#X,Y,Z: the agents coordinates (in metres)\n#A, B: semi-axes of the ellipse\n#V: speed (in m/s)\n\n";
+    const auto read = text_clips(head +
+                                 "#ID\tFR\tX\tY\tZ\tA\tB\tANGLE\tCOLOR\t\n1\t0\t1\t2\t0\t0.18\t0.25\t-90\t0\t\n"
+                                 "1\t1\t1.5\t2\t0\t0.3\t0.2\t-90\t0\t\n2\t1\t9\t2\t0\t0.2\t0.2\t0\t0\t\n");
+    ASSERT_EQ(read.size(), 2u);
+    EXPECT_EQ(read[0].clip->dt(), 0.125);
+    EXPECT_EQ(read[0].facts.unit, 1);
+    EXPECT_EQ(read[0].clip->samples()[0].r, 0.25);
+    EXPECT_EQ(read[0].clip->samples()[1].r, 0.3);
+    EXPECT_EQ(read[1].clip->samples()[0].r, 0.2);
+    EXPECT_FALSE(track_warns(read[0], "has no radii"));
+    EXPECT_TRUE(track_warns(read[0], "A and B are semi-axes of ellipses: people are disks of the larger one"));
+    // In the file's unit, and only where names say so.
+    EXPECT_DOUBLE_EQ(text_clips("# id frame x/cm y/cm a b\n1 0 0 0 20 30\n1 1 0 0 20 30\n")[0].clip->samples()[0].r,
+                     0.3);
+    EXPECT_EQ(text_clips("# id frame x y radius (all in m)\n1 0 0 0 0.5\n1 1 0 0 0.5\n")[0].facts.unit, 1);
+    EXPECT_EQ(text_clips("# id frame x [m] y [m] r [m]\n1 0 0 0 0.5\n1 1 0 0 0.5\n")[0].clip->samples()[0].r, 0.5);
+    ImportOptions said;
+    said.radius = 0.4;
+    EXPECT_EQ(text_clips("# id frame x y a b\n1 0 0 0 20 30\n1 1 0 0 20 30\n", said)[0].clip->samples()[0].r, 0.4);
+    EXPECT_NE(tracks_refusal("# id frame x y a b\n1 0 0 0 -1 -3\n").find("the radius is negative"), std::string::npos);
+}
+
+TEST(TrajectoryText, RemarksAreNeverRefused) {
+    const std::string rows = "# id frame x/m y/m z/m\n1 0 1 2 1.7\n1 1 1.1 2 1.7\n";
+    EXPECT_EQ(text_clips("# The frame rate was 25 fps.\n" + rows)[0].clip->dt(), 0.04);
+    for (const char* remark : {"#framerate: fast\n", "#framerate: 0\n", "# framerate: unknown\n"}) {
+        const auto read = text_clips(remark + rows);
+        EXPECT_EQ(read[0].clip->dt(), 1.0 / 16) << remark;
+        EXPECT_TRUE(track_warns(read[0], "does not tell a frame rate and is passed over")) << remark;
+        EXPECT_TRUE(track_warns(read[0], "16 a second are assumed")) << remark;
+    }
+    EXPECT_EQ(text_clips("# speed in m/s\n1 0 100 200 170\n1 1 110 200 170\n")[0].facts.unit, 0.01) << "by the heads";
+    // Times in place of frames.
+    const auto timed = text_clips("# id time x y\n1 0.5 0 0\n1 0.75 1 0\n2 1 4 4\n2 1.25 4 5\n");
+    EXPECT_EQ(timed[0].clip->dt(), 0.25);
+    EXPECT_EQ(timed[1].start, 0.5);
 }
 
 TEST(TrajectoryText, OptionsOfSkeletonsAreRefused) {

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <tuple>
 
 namespace mobbscope {
 namespace {
@@ -101,6 +102,43 @@ TEST(Moment, OnlyWhoIsThereHasABody) {
     ViewState view = at(0);
     view.time.reset();
     EXPECT_EQ(who_has_a_disk(build_draw_list(scene, view, kGoldenSize)), std::set<int>{0});
+}
+
+/// A and B walk from step to step, at the places given.
+FittedScene plan(std::vector<mobb::Disk> a, std::vector<mobb::Disk> b) {
+    Scene scene;
+    for (auto* path : {&a, &b}) {
+        const std::string name = path == &a ? "A" : "B";
+        scene.clips.push_back(
+            {name, std::nullopt, {}, std::make_shared<const mobb::Clip>(1, *path, mobb::Motion::linear)});
+        scene.agents.push_back({name, static_cast<int>(scene.agents.size()), {}, std::nullopt});
+    }
+    return {std::move(scene), {}};
+}
+
+TEST(Moment, WhoWaitsIsMarkedAndNamed) {
+    const auto detail_of = [](const FittedScene& scene, double time) {
+        const std::vector<DrawnAgent> people = drawn_agents(scene, at(time));
+        const DrawList list = build_draw_list(scene, at(time), kGoldenSize);
+        EXPECT_EQ(who_has_a_disk(list), (std::set<int>{0, 1})) << time;
+        return moment_caption(list.palette, people, moment(scene, at(time)), people.size()).detail;
+    };
+    const FittedScene scene = plan({{0, 0, 0.2}, {1, 0, 0.2}, {1, 0, 0.2}, {1, 0, 0.2}},
+                                   {{5, 0, 0.2}, {5, 0, 0.2}, {5, 1, 0.2}, {5, 2, 0.2}});
+    const std::tuple<double, int, std::string> cases[] = {
+        {0.5, 1, "B waits"}, {1, 0, "A waits"}, {2.5, 0, "A waits"}, {3, 0, "A waits"}};
+    for (const auto& [time, who, words] : cases) {
+        for (const Body& body : moment(scene, at(time)).bodies) EXPECT_EQ(body.waits, body.agent == who) << time;
+        EXPECT_NE(detail_of(scene, time).find(words), std::string::npos) << time << detail_of(scene, time);
+    }
+    EXPECT_NE(detail_of(plan({{0, 0, 0.2}, {0, 0, 0.2}}, {{5, 0, 0.2}, {5, 0, 0.2}}), 0.5).find("A and B wait"),
+              std::string::npos);
+    EXPECT_EQ(detail_of(plan({{0, 0, 0.2}, {1, 0, 0.2}}, {{5, 0, 0.2}, {6, 0, 0.2}}), 0.5).find("wait"),
+              std::string::npos);
+    // A ring within the disk.
+    const auto lines = [](const FittedScene& of) { return build_draw_list(of, at(0.5), kGoldenSize).lines.size(); };
+    EXPECT_NE(lines(plan({{0, 0, 0.2}, {0, 0, 0.2}}, {{5, 0, 0.2}, {6, 0, 0.2}})),
+              lines(plan({{0, 0, 0.2}, {1e-9, 0, 0.2}}, {{5, 0, 0.2}, {6, 0, 0.2}})));
 }
 
 TEST(Moment, TheFloorDiskIsTheSampleAndCanBePicked) {

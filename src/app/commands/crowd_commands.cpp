@@ -160,8 +160,7 @@ void open_conflict(Session& session, const std::string& text) {
     const int last = static_cast<int>(session.conflicts()->size()) - 1;
     const int index = text.empty() ? session.conflict : whole_number_in(text, "the conflict", 0, last);
     if (index < 0) throw std::invalid_argument("choose a conflict first: click one in the list");
-    const SceneConflict found = (*session.conflicts())[static_cast<std::size_t>(index)];
-    session.open_excerpt(found.a, found.b);
+    session.open_conflict((*session.conflicts())[static_cast<std::size_t>(index)]);
 }
 
 void open_pair(Session& session, const std::string& name) {

@@ -59,7 +59,8 @@ std::vector<FileEntry> entries_in(const std::filesystem::path& folder, std::span
         struct stat facts {};
         if (::stat(at->path().c_str(), &facts) != 0) continue;  // it leads nowhere, or is gone already
         entry.folder = S_ISDIR(facts.st_mode);
-        if (!entry.folder && std::ranges::find(extensions, lower_extension(at->path())) == extensions.end()) continue;
+        if (!entry.folder && std::ranges::find(extensions, unpacked_extension(at->path())) == extensions.end())
+            continue;
         if (!entry.folder) entry.size = static_cast<std::uintmax_t>(facts.st_size);
         entry.written = facts.st_mtime;
         out.push_back(std::move(entry));

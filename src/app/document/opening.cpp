@@ -47,6 +47,11 @@ const std::filesystem::path* missing_of(const std::vector<std::filesystem::path>
     return missing == files.end() ? nullptr : &*missing;
 }
 
+/// What is played on the way to a clip.
+SceneClip joint_to(const SceneClip& to, const mobb::ClipPtr& joint) {
+    return {"joint to " + to.name, std::nullopt, {}, joint};
+}
+
 }  // namespace
 
 bool Session::modified() const {
@@ -326,7 +331,20 @@ void Session::answer_unsaved(Unsaved choice) {
 
 // --- excerpts
 
-void Session::open_excerpt(const PlacedAgent& a, const PlacedAgent& b) { open_excerpt_of(scene(), a, b); }
+void Session::open_excerpt(const PlacedAgent& a, const PlacedAgent& b) {
+    const auto side = [&](const PlacedAgent& who) {
+        return ExcerptSide{who.name, fitted().scene().clips[static_cast<std::size_t>(who.clip)], who.placement};
+    };
+    open_excerpt_of(side(a), side(b));
+}
+
+void Session::open_conflict(const SceneConflict& of) {
+    const auto side = [&](const PlacedAgent& who, const mobb::ClipPtr& joint) {
+        const SceneClip& clip = scene().clips[static_cast<std::size_t>(who.clip)];
+        return ExcerptSide{who.name, joint ? joint_to(clip, joint) : clip, who.placement};
+    };
+    open_excerpt_of(side(of.a, of.a_joint), side(of.b, of.b_joint));
+}
 
 void Session::open_candidate(int candidate) {
     const FollowedChoice* followed = choice();
@@ -341,23 +359,33 @@ void Session::open_candidate(int candidate) {
     // Moves that are turned but not played are none of the run's graph.
     const auto [scene, index] = choosing_.moves->extended(std::array{asked.played, blocker.move});
     const auto clip_of = [&, &run = scene, &at = index](int move) {
-        return run.graph->moves[static_cast<std::size_t>(at[static_cast<std::size_t>(move)])].clip;
+        const int clip = run.graph->moves[static_cast<std::size_t>(at[static_cast<std::size_t>(move)])].clip;
+        return run.clips[static_cast<std::size_t>(clip)];
     };
-    open_excerpt_of(
-        scene, {view().follow, clip_of(asked.played), asked.placement, -1},
-        {crowd()->agents[static_cast<std::size_t>(blocker.agent)].name, clip_of(blocker.move), blocker.placement, -1});
+    ExcerptSide a{view().follow, clip_of(asked.played), asked.placement};
+    if (blocker.before_candidate) {
+        a.clip = joint_to(a.clip, asked.joint->clip);
+        a.placement = asked.joint->placement;
+    }
+    ExcerptSide b{crowd()->agents[static_cast<std::size_t>(blocker.agent)].name, clip_of(blocker.move),
+                  blocker.placement};
+    if (blocker.is_joint) b.clip = joint_to(b.clip, blocker.clip);
+    open_excerpt_of(std::move(a), std::move(b));
 }
 
-void Session::open_excerpt_of(const Scene& of, const PlacedAgent& a, const PlacedAgent& b) {
+void Session::open_excerpt_of(ExcerptSide a, ExcerptSide b) {
     require_no_job();
+    const bool same_clip = a.clip.clip == b.clip.clip;
+    if (b.name == a.name) b.name += " (2)";
+    // Of a run two plays of one move may run on to different ones.
+    if (b.clip.name == a.clip.name) b.clip.name += " (2)";
     Scene excerpt;
     excerpt.file = scene().file;
     excerpt.fit = document().fitted->options();
-    excerpt.clips.push_back(of.clips[static_cast<std::size_t>(a.clip)]);
-    if (b.clip != a.clip) excerpt.clips.push_back(of.clips[static_cast<std::size_t>(b.clip)]);
     excerpt.agents.push_back({a.name, 0, a.placement, std::nullopt});
-    excerpt.agents.push_back(
-        {b.name == a.name ? b.name + " (2)" : b.name, b.clip == a.clip ? 0 : 1, b.placement, std::nullopt});
+    excerpt.agents.push_back({b.name, same_clip ? 0 : 1, b.placement, std::nullopt});
+    excerpt.clips.push_back(std::move(a.clip));
+    if (!same_clip) excerpt.clips.push_back(std::move(b.clip));
     excerpt.view.theme = view().theme;
     excerpt.view.query = 0;
     Document next = document_of(std::move(excerpt), document().fitted.get());

@@ -256,9 +256,11 @@ class Session {
     void find_conflicts();
     int conflict = -1;  ///< that was gone to last; -1: none
 
-    /// Opens two paths as a scene of their own, with the query between them. Undo leads back, and so does
-    /// leave_excerpt.
+    /// Opens two paths of what is drawn as a scene of their own, with the query between them. Undo leads back, and so
+    /// does leave_excerpt.
     void open_excerpt(const PlacedAgent& a, const PlacedAgent& b);
+    /// The same with the two of a conflict.
+    void open_conflict(const SceneConflict& of);
     /// The same with a candidate of `choice` and who rules it out. Throws std::invalid_argument if nobody does.
     void open_candidate(int candidate);
     bool in_excerpt() const { return document().excerpt_of != nullptr; }
@@ -569,8 +571,13 @@ class Session {
         std::shared_ptr<const FittedScene> fitted;
     };
     std::shared_ptr<const FittedScene> shown_at(const SceneView& seen, Shown& kept) const;
-    /// What open_excerpt does; the clips are those of `of`.
-    void open_excerpt_of(const Scene& of, const PlacedAgent& a, const PlacedAgent& b);
+    struct ExcerptSide {
+        std::string name;
+        SceneClip clip;
+        mobb::Placement placement;
+    };
+    /// What open_excerpt does.
+    void open_excerpt_of(ExcerptSide a, ExcerptSide b);
     mutable Shown shown_;  ///< of the active view
     struct PointedOut {
         int agent = -1, play = -1;  ///< of the choice

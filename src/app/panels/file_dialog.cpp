@@ -72,7 +72,7 @@ bool is_folder(const std::filesystem::path& path) {
     return std::filesystem::is_directory(path, ignored);
 }
 
-bool is_clip(const FileEntry& entry) { return !entry.folder && lower_extension(entry.name) != ".json"; }
+bool is_clip(const FileEntry& entry) { return !entry.folder && unpacked_extension(entry.name) != ".json"; }
 
 /// Pictures that are compared must not change with the dates of files.
 std::string date_text(const Session& session, std::time_t when) {

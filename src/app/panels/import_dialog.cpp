@@ -207,6 +207,9 @@ void import_field(Ui& ui, const ImportField& field) {
         trim_field(ui, field);
     } else if (field.option.is_number() && (!field.offer || field.offer->choices.empty())) {
         number_option(ui, field);
+    } else if (field.option.key == std::string_view("columns")) {
+        if (const std::optional<std::string> typed = text_edit(ui, field.mark(), field.text()))
+            set_option(ui, field, *typed);
     } else {
         choice_field(ui, field);
     }

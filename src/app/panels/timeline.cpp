@@ -56,9 +56,9 @@ void play_bars(Ui& ui, ImVec2 corner, ImVec2 size, const ChartAxis& time) {
     const Palette& palette = ui.style.palette;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
-    const auto duration = [&](const Play& play) {
+    const auto until_next = [&](const Play& play) {
         const GraphMove& move = session.scene().graph->moves[static_cast<std::size_t>(play.move)];
-        return session.scene().clips[static_cast<std::size_t>(move.clip)].clip->duration();
+        return session.scene().clips[static_cast<std::size_t>(move.clip)].clip->until_next();
     };
     if (const auto run_agent = current_run_agent(session)) {
         PlacedAgent who;
@@ -66,7 +66,7 @@ void play_bars(Ui& ui, ImVec2 corner, ImVec2 size, const ChartAxis& time) {
         const float gap = ui.px(1);
         for (const Play& play : crowd.agents[static_cast<std::size_t>(*run_agent)].plays) {
             const float left = time.pixel(play.placement.start);
-            const float right = time.pixel(play.placement.start + duration(play));
+            const float right = time.pixel(play.placement.start + until_next(play));
             draw.AddRectFilled({left + 0.5f * gap, corner.y + ui.px(3)},
                                {std::max(right - 0.5f * gap, left + gap), corner.y + size.y - ui.px(3)},
                                to_im(with_alpha(own, play.kind == PlayKind::chosen ? 0.75f : 0.4f)), ui.px(1));

@@ -3,6 +3,8 @@
 #include <app/ui/widgets.h>
 #include <base/text.h>
 #include <render/parts/node_boxes.h>
+#include <scene/crowd_run.h>
+#include <scene/motion_graph.h>
 #include <scene/scene_json.h>
 
 #include <algorithm>
@@ -158,13 +160,22 @@ void shown_levels(Ui& ui, int depth) {
     ui.mark("view.leaves");
 }
 
+/// The clip of the document that one plays: of a run that of the play, which is drawn as one that runs on.
+int clip_of(const Session& session, const PlacedAgent& who) {
+    if (!session.crowd()) return who.clip;
+    const Agent& agent = session.fitted().scene().agents[static_cast<std::size_t>(who.agent)];
+    const CrowdAgent& person = session.crowd()->agents[static_cast<std::size_t>(agent.run_agent)];
+    const int move = person.plays[static_cast<std::size_t>(agent.play)].move;
+    return session.scene().graph->moves[static_cast<std::size_t>(move)].clip;
+}
+
 /// The tree that the bars are about: of what is selected, else the first that is seen.
 int clip_in_focus(const Session& session) {
     if (session.selection.kind == Selection::Kind::clip) return session.selection.index;
     if (session.selection.on_path()) {
-        if (const auto who = placed_agent_of(session.fitted(), session.selection.path)) return who->clip;
+        if (const auto who = placed_agent_of(session.fitted(), session.selection.path)) return clip_of(session, *who);
     }
-    return session.fitted().placed_agents().front().clip;
+    return clip_of(session, session.fitted().placed_agents().front());
 }
 
 /// Volume of each level as a bar, and how much of it the disks fill.

@@ -123,7 +123,7 @@ void warn_of_edited_run(const RenderJob& job) {
     std::vector<ViewState> views;
     for (const RenderPicture& picture : job.pictures) views.push_back(picture.view);
     const std::string text = edited_run_warning(*job.paths->fitted(), views);
-    if (!text.empty()) warn(job.arguments.file.string() + ": " + text);
+    if (!text.empty()) warn(shown_name(job.arguments.file) + ": " + text);
 }
 
 void refuse_other_options(const Command& command) {

@@ -185,7 +185,7 @@ GraphFigures graph_figures(const Scene& scene) {
         const SceneClip& clip = scene.clips[static_cast<std::size_t>(move.clip)];
         const auto from = static_cast<std::size_t>(move.from);
         const auto to = static_cast<std::size_t>(move.to);
-        const double seconds = clip.clip->duration();
+        const double seconds = clip.clip->until_next();
         const EndSpeeds speeds = end_speeds(*clip.clip, move);
         out.hubs[from].begin += 1;
         out.hubs[from].speed += speeds.begin;

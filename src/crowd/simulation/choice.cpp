@@ -66,6 +66,7 @@ class Chooser {
         const std::size_t count = turns * moves_.after(point_.before.move).size();
         choice_.candidates.reserve(count);
         motions_.reserve(count);
+        if (moves_.runs_on(point_.before.move)) joints_.reserve(count);
     }
 
     void add_candidates(double turn) {
@@ -81,6 +82,8 @@ class Chooser {
             choice_.candidates.push_back({moves[i], turn, *played, at->placement, !on_floor});
             auto& motion = motions_.emplace_back();
             if (on_floor) motion.emplace(point_.agent, point_.play, *played, clip, *at, *on_floor);
+            if (moves_.runs_on(point_.before.move))
+                joints_.push_back(moves_.joint(point_.agent, point_.play, point_.before.move, before_, *played, turn));
         }
     }
 
@@ -118,20 +121,24 @@ class Chooser {
 
     /// Of the candidates from `first` on that leave the floor, or of those that do not.
     void check_against_others(std::size_t first, bool off_floor) {
-        const auto against = [&](const Surroundings& others, Met met) {
+        const auto against = [&](const Surroundings& others, Met met, const auto& motion_of) {
             const std::vector<std::size_t> of = those(first, [&](const Candidate& candidate) {
                 return candidate.leaves_floor == off_floor && candidate.met == Met::nobody;
             });
             std::vector<const PlayedMove*> motions;
-            for (const std::size_t i : of) motions.push_back(&*motions_[i]);
+            for (const std::size_t i : of) motions.push_back(&motion_of(i));
             const std::vector<CandidateCheck> checks = others.check_all(motions, asked_);
             for (std::size_t i = 0; i < of.size(); ++i) {
                 if (checks[i].collides) choice_.candidates[of[i]].met = met;
                 choice_.queries += checks[i].asked;
             }
         };
-        against(nearby_.motions, Met::play);
-        against(nearby_.plans, Met::plan);
+        const auto joint_of = [&](std::size_t i) -> const PlayedMove& { return joints_[i]; };
+        const auto motion_of = [&](std::size_t i) -> const PlayedMove& { return *motions_[i]; };
+        if (!joints_.empty()) against(nearby_.motions, Met::play, joint_of);
+        against(nearby_.motions, Met::play, motion_of);
+        if (!joints_.empty()) against(nearby_.plans, Met::plan, joint_of);
+        against(nearby_.plans, Met::plan, motion_of);
     }
 
     /// One of the free candidates that are in nobody's way and have a way on. At most one turn either way has any: the
@@ -249,8 +256,12 @@ class Chooser {
         const PlayedMove& motion = *motions_[index];
         const mobb::PlacedBlocks& way = motion.placed;
         const double beyond = beyond_wall(way.disk(way.end() - 1), run_.area);
-        const ContactTimes contact =
-            choice_.candidates[index].met == Met::play ? nearby_.motions.contact_times(motion, most) : ContactTimes{};
+        ContactTimes contact;
+        if (choice_.candidates[index].met == Met::play) {
+            if (!joints_.empty()) contact = nearby_.motions.contact_times(joints_[index], most);
+            const ContactTimes then = nearby_.motions.contact_times(motion, most - contact.seconds);
+            contact = {contact.seconds + then.seconds, std::min(contact.first, then.first)};
+        }
         return {contact.seconds, beyond, -contact.first};
     }
 
@@ -269,6 +280,7 @@ class Chooser {
     Choice choice_;
     ReservationTable::Nearby nearby_;                 ///< what is near the candidates
     std::vector<std::optional<PlayedMove>> motions_;  ///< by candidate; none: it leaves the floor
+    std::vector<PlayedMove> joints_;                  ///< by candidate; none behind a held move
     /// Who stands has a way on nearly always, in front of a wall too: nobody would leave it again.
     bool stood_ = run_.plan > 0 && !travels(point_.before.move);
     std::optional<std::size_t> longest_;  ///< of the candidates without a way on, the one whose plan is longest
@@ -284,7 +296,9 @@ void reserve_plays(ReservationTable& reservations, const MoveSet& moves, const C
     const auto made_before = [&](const Play& play) {
         return play.chosen_at < point.time || (play.chosen_at == point.time && agent < point.agent);
     };
-    const auto ended = [&](const Play& play) { return play.placement.start + moves.duration(play.move) <= point.time; };
+    const auto ended = [&](const Play& play) {
+        return play.placement.start + moves.until_next(play.move) <= point.time;
+    };
     // First plays come before all choices.
     const auto end = std::partition_point(plays.begin() + 1, plays.end(), made_before);
     const auto begin = std::partition_point(plays.begin(), end - 1, ended);
@@ -293,12 +307,22 @@ void reserve_plays(ReservationTable& reservations, const MoveSet& moves, const C
     }
 }
 
+/// What leads to a candidate; none behind a held move.
+std::optional<PlayedMove> joint_to(const MoveSet& moves, const ChoicePoint& point, const Candidate& candidate) {
+    if (!moves.runs_on(point.before.move)) return std::nullopt;
+    return moves.joint(point.agent, point.play, point.before.move, OrientedPlacement(point.before.placement),
+                       candidate.played, candidate.turn_deg);
+}
+
 std::optional<Blocker> blocker_of(const MoveSet& moves, const ReservationTable& reservations, const ChoicePoint& point,
                                   const Candidate& candidate) {
     if (candidate.met == Met::nobody) return std::nullopt;
+    const ReservationGrid& others = candidate.met == Met::play ? reservations.motions() : reservations.plans();
+    if (const auto joint = joint_to(moves, point, candidate)) {
+        if (auto blocker = others.around(*joint).blocker(*joint)) return blocker;
+    }
     const PlayedMove motion =
         moves.motion(point.agent, point.play, candidate.played, OrientedPlacement(candidate.placement));
-    const ReservationGrid& others = candidate.met == Met::play ? reservations.motions() : reservations.plans();
     return others.around(motion).blocker(motion);
 }
 
@@ -328,6 +352,8 @@ Choice choice_of(const MoveSet& moves, const CrowdRun& run, int agent, int play)
     Choice choice = choose(moves, reservations, run, point, search);
     for (Candidate& candidate : choice.candidates) {
         candidate.clip = clip_of(candidate);
+        if (const auto joint = joint_to(moves, point, candidate))
+            candidate.joint = PlayJoint{joint->playable->blocks.shared_clip(), joint->at.placement};
         candidate.blocker = blocker_of(moves, reservations, point, candidate);
     }
     return choice;

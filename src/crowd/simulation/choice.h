@@ -4,6 +4,7 @@
 #include <crowd/simulation/plan_search.h>
 #include <crowd/simulation/reservation_table.h>
 #include <scene/crowd_run.h>
+#include <scene/crowd_scene.h>
 #include <scene/motion_graph.h>
 
 #include <optional>
@@ -29,6 +30,7 @@ struct Candidate {
     bool in_the_way = false;           ///< free, but see ReservationTable::in_the_way
     bool no_way_on = false;            ///< free and drawn, but no plan was found that could follow it
     mobb::ClipPtr clip{};              ///< of what is played; only where a choice is repeated
+    std::optional<PlayJoint> joint{};  ///< that leads to it from a move before that is linear; likewise
     std::optional<Blocker> blocker{};  ///< who it collides with; likewise
 
     bool is_free() const { return !leaves_floor && met == Met::nobody; }
@@ -51,7 +53,8 @@ struct ChoicePoint {
     double time = 0;
 };
 
-/// Makes a choice. The candidates are the moves that may follow, straight on. One is drawn that stays on the floor, has
+/// Makes a choice. The candidates are the moves that may follow, straight on. A joint that leads to a candidate is part
+/// of it: it is tested before it. One is drawn that stays on the floor, has
 /// no blocker and is not in the way, until one has a way on: a plan that lasts CrowdRun::plan seconds and collides with
 /// nothing that others play or plan. It is taken (`chosen`). If there is none, the moves that turn by 15 degrees on the
 /// way are the candidates too, either way, then those by 30, and so on, until there is one (`pivoted`). An agent whose

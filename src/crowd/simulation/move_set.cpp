@@ -2,6 +2,7 @@
 #include <crowd/simulation/move_set.h>
 #include <mobb/separation.h>
 #include <scene/clip_turn.h>
+#include <scene/crowd_scene.h>
 #include <scene/scene_edits.h>
 
 #include <tbb/parallel_for.h>
@@ -68,7 +69,7 @@ MoveSet::MoveSet(const FittedScene& fitted, std::optional<double> turn_rate, Que
     add_turned();
     const auto room = [this](int move) {
         const FloorRect rect = clip(move).bounds.bounds({});
-        return (rect.high.x - rect.low.x) * (rect.high.y - rect.low.y) * duration(move);
+        return (rect.high.x - rect.low.x) * (rect.high.y - rect.low.y) * until_next(move);
     };
     by_room_ = by_hub_;
     for (std::vector<int>& of_hub : by_room_) {
@@ -85,7 +86,7 @@ MoveSet::Room MoveSet::room_of(const std::vector<Follower>& moves) const {
         const glm::dvec2 end = end_of(at, exit(next.played), 0).position;
         const FloorRect last{end - next.last.r, end + next.last.r};
         out.bounds = out.bounds.with(clip(next.played).bounds.bounds(at)).with(last);
-        out.end = std::max(out.end, duration(next.played));
+        out.end = std::max(out.end, until_next(next.played));
     }
     return out;
 }
@@ -100,7 +101,7 @@ MoveSet::Room MoveSet::room_after(int move, const OrientedPlacement& placed, dou
 }
 
 MoveSet::Room MoveSet::room_after(int move, const OrientedPlacement& placed, const Room& room) const {
-    const MoveEnd end = end_of(placed, exit(move), duration(move));
+    const MoveEnd end = end_of(placed, exit(move), until_next(move));
     const mobb::Rotation heading = placed.rotation * exit_rotation(move);
     const glm::dvec2 half = (room.bounds.high - room.bounds.low) / 2.0;
     const glm::dvec2 center = end.position + heading(room.bounds.low + half);
@@ -108,7 +109,14 @@ MoveSet::Room MoveSet::room_after(int move, const OrientedPlacement& placed, con
     const double margin = 1e-6 + 1e-9 * (std::abs(center.x) + std::abs(center.y) + half.x + half.y);
     const glm::dvec2 reach = mobb::half_in_world(half, heading) + margin;
     const double spare = 1e-6 + 1e-9 * (std::abs(end.time) + room.end);
-    return {{center - reach, center + reach}, end.time - spare, end.time + room.end + spare};
+    Room out{{center - reach, center + reach}, end.time - spare, end.time + room.end + spare};
+    if (runs_on(move)) {
+        const mobb::Disk from = mobb::placed(clip(move).last, placed.rotation, placed.placement.translate);
+        const glm::dvec2 at(from.x, from.y);
+        out.bounds = out.bounds.with({at - from.r - margin, at + from.r + margin});
+        out.begin -= clip(move).clip().dt();
+    }
+    return out;
 }
 
 std::vector<MoveSet::FollowerGroup> MoveSet::turned_each_way(const std::vector<int>& moves) const {
@@ -161,7 +169,7 @@ std::optional<MoveSet::Move> MoveSet::turned_move(const PlannedMove& origin) con
     const SceneClip& clip = fitted_->scene().clips[static_cast<std::size_t>(move.clip)];
     const ClipTurn turn = turn_at_rate(origin.turn_deg, turn_rate_);
     // A clip in a file has one turn.
-    if (clip.turn || turn.seconds > clip.clip->duration()) return std::nullopt;
+    if (clip.turn || turn.seconds > clip.clip->until_next()) return std::nullopt;
     try {
         const mobb::ClipPtr turned = bent(*clip.clip, turn);
         return Move(origin, playable(turned), bent_exit(*clip.clip, *turned, move.exit, turn), turn_rate_);
@@ -184,21 +192,56 @@ std::optional<int> MoveSet::turned(const PlannedMove& wanted) const {
 OrientedPlacement MoveSet::following(int before, const OrientedPlacement& placed, const PlannedMove& next) const {
     Stance exit = this->exit(before);
     if (turns_at_once()) exit.heading_deg += next.turn_deg;
-    return beginning_at(end_of(placed, exit, duration(before)), move(next.move).entry);
+    return beginning_at(end_of(placed, exit, until_next(before)), move(next.move).entry);
+}
+
+const PlayableClip& MoveSet::joint_of(int before, const PlannedMove& next) const {
+    const std::lock_guard lock(joints_->mutex);
+    const std::tuple key(before, next.move, turns_at_once() ? next.turn_deg : 0);
+    const auto known = joints_->made.find(key);
+    if (known != joints_->made.end()) return known->second;
+    const mobb::PlacedClip from(clip(before).clip(), {});
+    // However far a move turns on its way, its first disk stays.
+    const mobb::PlacedClip to(clip(next.move).clip(), following(before, {}, next).placement);
+    const std::vector<mobb::Disk> ends{from.disk(from.end() - 1), runs_on_to(from, to)};
+    const auto made = std::make_shared<const mobb::Clip>(from.dt(), ends, mobb::Motion::linear);
+    return joints_->made.emplace(key, playable(made)).first->second;
+}
+
+PlayedMove MoveSet::joint(int agent, int play, int before, const OrientedPlacement& placed, int next,
+                          double turn_deg) const {
+    OrientedPlacement at = placed;
+    at.placement.start += until_joint(before);
+    PlayedMove out(agent, play, next, joint_of(before, {origin(next).move, turn_deg}), at);
+    out.is_joint = true;
+    return out;
+}
+
+PlayedMove MoveSet::joint(int agent, int play, const Play& before, const Play& next) const {
+    // A play does not say how far its agent turned at once.
+    const double heading = next.placement.rotate_deg + move(next.move).entry.heading_deg;
+    const double turn = heading - before.placement.rotate_deg - exit(before.move).heading_deg;
+    const double step = kTurnStep * std::round(std::remainder(turn, 360.0) / kTurnStep);
+    return joint(agent, play, before.move, OrientedPlacement(before.placement), next.move, step);
 }
 
 std::vector<PlayedMove> MoveSet::planned(int agent, int index, const Play& play) const {
     std::vector<PlayedMove> out;
-    int last = play.move;
+    int last = play.move, number = 0;
     OrientedPlacement at(play.placement);
     for (const PlannedMove& next : play.plan) {
         const std::optional<int> move = turned(next);
         // Where a clip was edited since, the rest of a plan may not be there any more.
         if (!move) break;
+        ++number;
+        if (runs_on(last)) {
+            out.push_back(joint(agent, index, last, at, *move, next.turn_deg));
+            out.back().planned = number;
+        }
         at = following(last, at, next);
         last = *move;
         out.push_back(motion(agent, index, last, at));
-        out.back().planned = static_cast<int>(out.size());
+        out.back().planned = number;
     }
     return out;
 }

@@ -9,9 +9,12 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace mobbscope {
@@ -68,7 +71,15 @@ class MoveSet {
     /// Metres: of the circle that an agent walks who goes on as fast as the move ends and turns as fast as the turn
     /// rate allows from move to move. None where agents turn at once, or never.
     std::optional<double> turning_radius(int move) const { return at(move).turning_radius; }
-    double duration(int move) const { return clip(move).clip().duration(); }
+    /// Seconds from a move's begin until the next one begins.
+    double until_next(int move) const { return clip(move).clip().until_next(); }
+    /// Whether it is linear: from its last sample it runs on to the next move, over one dt.
+    bool runs_on(int move) const { return clip(move).blocks.is_linear(); }
+    /// Seconds from a move's begin until it runs on, or if it does not until the next one begins.
+    double until_joint(int move) const {
+        const mobb::Clip& clip = this->clip(move).clip();
+        return runs_on(move) ? (clip.count() - 1) * clip.dt() : clip.until_next();
+    }
     /// The moves that begin in the hub where `move` ends, none of them turned.
     const std::vector<int>& after(int move) const { return by_hub_[static_cast<std::size_t>(this->move(move).to)]; }
     /// The same, those first that take least room: floor times seconds.
@@ -82,7 +93,7 @@ class MoveSet {
         std::size_t number;  ///< of the move itself among those of after_by_room
         mobb::Disk last;     ///< of the clip
     };
-    /// What holds moves that may follow, for as long as they last: each disk, and the disk that stands where a move
+    /// What holds moves that may follow, until what follows them: each disk, and the disk that stands where a move
     /// ends.
     struct Room {
         FloorRect bounds;
@@ -99,7 +110,7 @@ class MoveSet {
     const std::vector<FollowerGroup>& followers(int move) const {
         return followers_[static_cast<std::size_t>(this->move(move).to)];
     }
-    /// The room of a group of followers where the move before is placed.
+    /// The room of a group of followers where the move before is placed, and of the joints that lead to them.
     Room room_after(int move, const OrientedPlacement& placed, const Room& room) const;
     /// Of all followers that turn by no more than that.
     Room room_after(int move, const OrientedPlacement& placed, double most_turn_deg) const;
@@ -112,7 +123,13 @@ class MoveSet {
     PlayedMove motion(int agent, int play, int move, const OrientedPlacement& placed) const {
         return {agent, play, move, clip(move), placed};
     }
-    /// The moves that are planned to follow an agent's play.
+    /// What a move that runs on, and is placed, does from its last sample until the next one begins: a linear clip of
+    /// two samples, of one dt. `turn_deg` counts where agents turn at once: before `next`. It is made when it is asked
+    /// for first, and kept. Requires runs_on(before).
+    PlayedMove joint(int agent, int play, int before, const OrientedPlacement& placed, int next, double turn_deg) const;
+    /// The same in front of a play.
+    PlayedMove joint(int agent, int play, const Play& before, const Play& next) const;
+    /// The moves that are planned to follow an agent's play, each behind the joint that leads to it, if there is one.
     std::vector<PlayedMove> planned(int agent, int index, const Play& play) const;
 
     /// The scene with those of `used` that its graph has not behind the graph's moves, in order, each with a clip of
@@ -137,7 +154,15 @@ class MoveSet {
     static constexpr std::size_t kHeadings = 25;  ///< from -180 to 180 degrees
     using ByHeading = std::array<int, kHeadings>;
 
+    /// Joints that were asked for, by the move before, the one that they lead to and, where agents turn at once, the
+    /// turn.
+    struct Joints {
+        std::mutex mutex;
+        std::map<std::tuple<int, int, double>, PlayableClip> made;
+    };
+
     const Move& at(int move) const { return moves_[static_cast<std::size_t>(move)]; }
+    const PlayableClip& joint_of(int before, const PlannedMove& next) const;
     void add_turned();
     Room room_of(const std::vector<Follower>& moves) const;
     std::vector<FollowerGroup> turned_each_way(const std::vector<int>& moves) const;
@@ -152,6 +177,7 @@ class MoveSet {
     std::vector<std::vector<int>> by_hub_;
     std::vector<std::vector<int>> by_room_;
     std::vector<std::vector<FollowerGroup>> followers_;
+    std::unique_ptr<Joints> joints_ = std::make_unique<Joints>();
 };
 
 /// Where the moves that may follow another are placed, each worked out when it is asked for first. Refers to what it is

@@ -3,6 +3,7 @@
 #include <crowd/simulation/simulate.h>
 #include <mobb/chain.h>
 #include <scene/crowd_run.h>
+#include <scene/crowd_scene.h>
 #include <scene/motion_graph.h>
 
 #include <algorithm>
@@ -33,12 +34,10 @@ const mobb::ChainPartPtr& part_of(const Scene& run, const std::vector<mobb::Chai
     return parts[static_cast<std::size_t>(run.graph->moves[static_cast<std::size_t>(play.move)].clip)];
 }
 
-/// How many of the plays, from the first, one clip can hold: those of one dt whose disks are held. The last disk of a
-/// linear play stays until the next play begins, as no disk within a linear clip does: it is a clip by itself.
+/// How many of the plays, from the first, one clip can hold: those of one dt and motion.
 std::size_t plays_of_one_clip(const Scene& run, const std::vector<mobb::ChainPartPtr>& parts,
                               std::span<const Play> plays) {
     const mobb::Clip& first = part_of(run, parts, plays.front())->clip();
-    if (first.motion() == mobb::Motion::linear) return 1;
     const auto other = std::ranges::find_if(plays, [&](const Play& play) {
         const mobb::Clip& clip = part_of(run, parts, play)->clip();
         return clip.dt() != first.dt() || clip.motion() != first.motion();
@@ -46,14 +45,24 @@ std::size_t plays_of_one_clip(const Scene& run, const std::vector<mobb::ChainPar
     return static_cast<std::size_t>(std::distance(plays.begin(), other));
 }
 
+/// `next`: the play behind them; null: there is none.
 mobb::ClipPtr whole_motion(const Scene& run, const std::vector<mobb::ChainPartPtr>& parts, std::span<const Play> plays,
-                           const std::string& name) {
+                           const Play* next, const std::string& name) {
     std::vector<mobb::ChainLink> links;
     for (const Play& play : plays) {
         links.push_back({part_of(run, parts, play), play.placement.translate, play.placement.rotate_deg});
     }
+    const auto placed = [&](const Play& play) {
+        return mobb::PlacedClip(part_of(run, parts, play)->clip(), play.placement);
+    };
     try {
-        return std::make_shared<const mobb::Clip>(flattened(mobb::Chain(links)));
+        mobb::Clip whole = flattened(mobb::Chain(links));
+        if (next && whole.motion() == mobb::Motion::linear) {
+            std::vector<mobb::Disk> samples(whole.samples().begin(), whole.samples().end());
+            samples.push_back(runs_on_to(placed(plays.back()), placed(*next)));
+            whole = mobb::Clip(whole.dt(), std::move(samples), whole.motion());
+        }
+        return std::make_shared<const mobb::Clip>(std::move(whole));
     } catch (const std::invalid_argument& error) {
         throw InputError(run.file.string(), "", "what " + in_quotes(name) + " plays is no chain: " + error.what());
     }
@@ -72,16 +81,16 @@ Scene scene_of_people(const Scene& run) {
         for (std::span<const Play> rest = agent.plays; !rest.empty();) {
             const std::span<const Play> plays = rest.first(plays_of_one_clip(run, parts, rest));
             const double begin = plays.front().placement.start;
-            std::string name = agent.name;
-            if (rest.size() < agent.plays.size()) name += " from " + brief(begin) + " s";
-            const int clip = static_cast<int>(out.clips.size());
-            const mobb::ClipPtr& first = part_of(run, parts, plays.front())->tree().shared_clip();
-            const bool is_linear = first->motion() == mobb::Motion::linear;
-            out.clips.push_back(
-                {name, std::nullopt, {}, is_linear ? first : whole_motion(run, parts, plays, agent.name)});
-            const mobb::Placement at = is_linear ? plays.front().placement : mobb::Placement{{0, 0}, 0, begin};
-            out.agents.push_back({std::move(name), clip, at, std::nullopt, run_agent});
+            const std::size_t first = agent.plays.size() - rest.size();
             rest = rest.subspan(plays.size());
+            // What the clip before runs on to is part of that.
+            if (plays.size() == 1 && rest.empty() && is_joints_alone(run, agent, first)) break;
+            std::string name = agent.name;
+            if (first > 0) name += " from " + brief(begin) + " s";
+            const int clip = static_cast<int>(out.clips.size());
+            const Play* const next = rest.empty() ? nullptr : &rest.front();
+            out.clips.push_back({name, std::nullopt, {}, whole_motion(run, parts, plays, next, agent.name)});
+            out.agents.push_back({std::move(name), clip, {{0, 0}, 0, begin}, std::nullopt, run_agent});
         }
         ++run_agent;
     }

@@ -15,6 +15,13 @@ constexpr int kMostLookedAt = 100;  // moves: what has no way on among those tha
 
 }  // namespace
 
+void PlanSearch::Level::find_first(const std::vector<PlayedMove>& of) {
+    candidates.clear();
+    for (const PlayedMove& motion : of) candidates.push_back(&motion);
+    motions.find_first(candidates, found);
+    plans.find_first(candidates, found);
+}
+
 bool PlanSearch::look(int move, const OrientedPlacement& placed, std::span<const PlannedMove> kept) {
     plan_.clear();
     longest_.clear();
@@ -30,7 +37,7 @@ bool PlanSearch::look(int move, const OrientedPlacement& placed, std::span<const
             if (!turned) break;
             at = moves_.following(last, at, next);
             last = *turned;
-            add(next, reach_ + moves_.duration(last));
+            add(next, reach_ + moves_.until_next(last));
         }
         if (extend(last, at, reach_)) return true;
         plan_.clear();
@@ -67,6 +74,9 @@ bool PlanSearch::extend(int before, const OrientedPlacement& placed, double seco
                 if (!bounds) continue;
                 level.looked_at.emplace_back(agent_, play_, next->played, clip, *at, *bounds);
                 level.followers.push_back(&*next);
+                if (!moves_.runs_on(before)) continue;
+                level.joints.push_back(
+                    moves_.joint(agent_, play_, before, placed, next->played, next->planned.turn_deg));
             }
             if (level.looked_at.empty()) break;
             if (left_ <= 0) return false;
@@ -78,18 +88,22 @@ bool PlanSearch::extend(int before, const OrientedPlacement& placed, double seco
                 is_looked_up = true;
             }
             level.found.assign(level.looked_at.size(), {});
-            for (const PlayedMove& motion : level.looked_at) level.candidates.push_back(&motion);
-            level.motions.find_first(level.candidates, level.found);
-            level.plans.find_first(level.candidates, level.found);
+            if (!level.joints.empty()) level.find_first(level.joints);
+            level.find_first(level.looked_at);
             for (std::size_t i = 0; i < level.looked_at.size(); ++i) {
                 if (--left_ < 0) return false;
                 const PlayedMove& motion = level.looked_at[i];
                 const FirstMet& met = level.found[i];
                 queries_ += met.asked;
-                if (asked_) level.plans.append(motion, level.motions.append(motion, met.asked, *asked_), *asked_);
+                if (asked_) {
+                    const auto append = [&](const PlayedMove& of, int count) {
+                        return level.plans.append(of, level.motions.append(of, count, *asked_), *asked_);
+                    };
+                    append(motion, level.joints.empty() ? met.asked : append(level.joints[i], met.asked));
+                }
                 collides_ = met.collides();
                 if (collides_) continue;
-                const double seconds_then = seconds + moves_.duration(motion.move);
+                const double seconds_then = seconds + moves_.until_next(motion.move);
                 add(level.followers[i]->planned, seconds_then);
                 if (extend(motion.move, motion.at, seconds_then)) return true;
                 plan_.pop_back();

@@ -44,15 +44,18 @@ class PlanSearch {
         FollowingPlacements placements;
         Surroundings motions, plans;
         std::vector<PlayedMove> looked_at;
-        std::vector<const MoveSet::Follower*> followers;  ///< of those, as the next two
-        std::vector<const PlayedMove*> candidates;
+        std::vector<PlayedMove> joints;  ///< that lead to those, as the next two; none: of a held move
+        std::vector<const MoveSet::Follower*> followers;
         std::vector<FirstMet> found;
+        std::vector<const PlayedMove*> candidates;
 
         void clear() {
             looked_at.clear();
+            joints.clear();
             followers.clear();
-            candidates.clear();
         }
+        /// Goes on from what is found.
+        void find_first(const std::vector<PlayedMove>& of);
     };
 
     bool extend(int before, const OrientedPlacement& placed, double seconds);

@@ -103,9 +103,10 @@ struct PlayedMove {
     mobb::PlacedTree placed_tree() const { return {*playable->tree, at.placement}; }
 
     int agent;
-    int play;         ///< a Blocker repeats it
-    int move;         ///< likewise
-    int planned = 0;  ///< 0: the play itself; else which of the moves that are planned to follow it, from 1
+    int play;               ///< a Blocker repeats it
+    int move;               ///< likewise; of a joint the move that it leads to
+    int planned = 0;        ///< 0: the play itself; else which of the moves that are planned to follow it, from 1
+    bool is_joint = false;  ///< what a linear move runs on by to that one (MoveSet::joint)
     const PlayableClip* playable;
     OrientedPlacement at;
     mobb::PlacedBlocks placed;

@@ -36,7 +36,7 @@ ReservationTable::ReservationTable(const MoveSet& moves, glm::dvec2 area, double
 PlayedMove ReservationTable::stand(const PlayedMove& motion) const {
     // A turned clip's last disk is as large as the clip's itself.
     const PlayableClip& standing = stand_of_clip_[static_cast<std::size_t>(moves_.move(motion.move).clip)];
-    const MoveEnd end = end_of(motion.at, moves_.exit(motion.move), moves_.duration(motion.move));
+    const MoveEnd end = end_of(motion.at, moves_.exit(motion.move), moves_.until_joint(motion.move));
     OrientedPlacement at;
     at.placement.translate = end.position;
     at.placement.start = end.time;
@@ -45,9 +45,15 @@ PlayedMove ReservationTable::stand(const PlayedMove& motion) const {
 
 void ReservationTable::reserve(int agent, int index, const Play& play) {
     const PlayedMove motion = moves_.motion(agent, index, play.move, OrientedPlacement(play.placement));
-    motions_.reserve(motion);
     const auto place = static_cast<std::size_t>(agent);
-    if (place >= plan_of_agent_.size()) plan_of_agent_.resize(place + 1);
+    if (place >= plan_of_agent_.size()) {
+        plan_of_agent_.resize(place + 1);
+        runs_on_.resize(place + 1);
+    }
+    if (runs_on_[place]) motions_.reserve(moves_.joint(agent, index, *runs_on_[place], play));
+    runs_on_[place].reset();
+    if (moves_.runs_on(play.move)) runs_on_[place] = play;
+    motions_.reserve(motion);
     // A plan begins with the play that takes its place, and is not yet forgotten.
     for (const std::size_t planned : plan_of_agent_[place]) plans_.withdraw(planned);
     plan_of_agent_[place].clear();

@@ -18,8 +18,9 @@ class ReservationTable {
     /// The floor of `area` metres; room is kept for `grace` seconds, 0: none.
     ReservationTable(const MoveSet& moves, glm::dvec2 area, double grace);
 
-    /// Reserves an agent's play, which must begin after all that the agent has reserved, and in place of what the agent
-    /// had planned before what is planned to follow the play.
+    /// Reserves an agent's play, which must begin after all that the agent has reserved, the joint that leads to it
+    /// from the play reserved before, and in place of what the agent had planned before what is planned to follow the
+    /// play.
     void reserve(int agent, int index, const Play& play);
     /// Drops what ends at `now` or before.
     void forget_before(double now);
@@ -48,7 +49,7 @@ class ReservationTable {
     bool faces_wall(int move, const OrientedPlacement& placed) const;
 
   private:
-    /// A disk that stands, for the grace, where a move of the set ends.
+    /// A disk that stands, for the grace, where a move of the set ends, from when it runs on.
     PlayedMove stand(const PlayedMove& motion) const;
 
     const MoveSet& moves_;
@@ -58,6 +59,7 @@ class ReservationTable {
     ReservationGrid motions_;
     ReservationGrid plans_;
     ReservationGrid stands_;
+    std::vector<std::optional<Play>> runs_on_;                ///< the agent's last play, if it does
     std::vector<std::vector<std::size_t>> plan_of_agent_;     ///< what plans_ gave for the agent's last plan
     std::vector<std::optional<std::size_t>> stand_of_agent_;  ///< what stands_ gave for the agent's last play
 };

@@ -67,11 +67,11 @@ class Simulator {
         const std::string file = moves_.fitted().scene().file.string();
         if (moves_.unturned().empty()) throw InputError(file, "", "the graph has no move; add one");
         for (const int move : moves_.unturned()) {
-            if (moves_.duration(move) < kLeastMove) {
+            if (moves_.until_next(move) < kLeastMove) {
                 throw InputError(file, "",
                                  "move " + std::to_string(move) + " of the graph lasts " +
-                                     brief(moves_.duration(move)) + " s; a crowd plays moves of " + brief(kLeastMove) +
-                                     " s and more: remove it");
+                                     brief(moves_.until_next(move)) + " s; a crowd plays moves of " +
+                                     brief(kLeastMove) + " s and more: remove it");
             }
             if (!moves_.after(move).empty()) continue;
             const GraphMove& last = moves_.move(move);
@@ -89,7 +89,7 @@ class Simulator {
             const int move = moves_.unturned()[random.below(static_cast<std::uint32_t>(moves_.unturned().size()))];
             mobb::Placement placement;
             placement.rotate_deg = 360 * random.unit() - 180;
-            placement.start = -moves_.duration(move) * random.unit();
+            placement.start = -moves_.until_joint(move) * random.unit();
             // The clip's bounds, wherever its own origin is, come to lie anywhere on the floor.
             OrientedPlacement at(placement);
             const FloorRect bounds = moves_.clip(move).bounds.bounds(at);
@@ -168,7 +168,8 @@ class Simulator {
         plays.push_back(play);
         ++counts().plays;
         counts().most_held = std::max(counts().most_held, reservations_.motions().size());
-        const double end = play.placement.start + moves_.duration(play.move);
+        // The joint is part of the choice: it is made before that.
+        const double end = play.placement.start + moves_.until_joint(play.move);
         if (end < options_.seconds) turns_.push({std::max(0.0, end - options_.ahead), agent});
     }
 
@@ -212,6 +213,7 @@ Simulation simulate(const MoveSet& moves, const SimulateOptions& options, QueryS
 
 void QuerySample::offer(std::span<const AskedPair> pairs) {
     for (const AskedPair& pair : pairs) {
+        if (pair.candidate.is_joint || pair.reserved.is_joint) continue;
         const std::uint64_t number = offered_++;
         if (size_ == 0 || kept_.size() < size_) {
             kept_.push_back({number, pair});

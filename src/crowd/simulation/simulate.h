@@ -15,7 +15,7 @@
 
 namespace mobbscope {
 
-/// Which queries a workload is drawn from.
+/// Which queries a workload is drawn from. Joints, of two samples, are left out.
 enum class Recorded {
     asked,  ///< those that the trees were asked: the pairs that are near each other in space and time
     all,    ///< candidate against every motion that another agent has reserved, near or far, at any time
@@ -60,10 +60,10 @@ struct SimulateOptions {
     glm::dvec2 area{30, 40};  ///< metres, each over 0: the floor is centred on the origin
     double seconds = 120;     ///< over 0: simulated
     std::uint64_t seed = 1;   ///< at most kMaxSeed
-    double ahead = 0;         ///< seconds, >= 0: each move is chosen so long before it begins; the paper's is 0
-    double grace = 1;         ///< seconds, >= 0: room kept where moves end, see choose; the paper's is 0
-    double plan = 8;          ///< seconds, >= 0, for which each choice plans how to go on, see choose; the paper's is 0
-    int threads = 0;          ///< at most kMaxThreads; 0: as many as the machine has. The run does not depend on it
+    double ahead = 0;  ///< seconds, >= 0: each move is chosen so long before the one before it ends; the paper's is 0
+    double grace = 1;  ///< seconds, >= 0: room kept where moves end, see choose; the paper's is 0
+    double plan = 8;   ///< seconds, >= 0, for which each choice plans how to go on, see choose; the paper's is 0
+    int threads = 0;   ///< at most kMaxThreads; 0: as many as the machine has. The run does not depend on it
 };
 
 inline constexpr int kMaxAgents = 1'000'000;
@@ -116,10 +116,11 @@ Simulation simulate(const MoveSet& moves, const SimulateOptions& options, QueryS
                     const SimulationProgress& progress = {});
 
 /// The people of a run as agents of an ordinary scene: one for each person, whose clip is the chain of all that the
-/// person plays, from the begin of the first play. A chain has one dt: where a person goes on with a clip of another, a
-/// further agent begins, called "17 from 4.2 s". Each play of a linear clip is an agent of its own. Agent::run_agent
-/// says who it is, counting those who play anything. Names and the fit are the run's. The scene must have a crowd and
-/// its graph. Throws InputError if a person plays more than a chain can hold.
+/// person plays, from the begin of the first play. A chain has one dt, and is held or linear: where a person goes on
+/// with a clip of another dt or motion, a further agent begins, called "17 from 4.2 s", and a linear clip before it has
+/// one more sample, what its last one runs on to. Agent::run_agent says who it is, counting those who play anything.
+/// Names and the fit are the run's. The scene must have a crowd and its graph. Throws InputError if a person plays more
+/// than a chain can hold.
 Scene scene_of_people(const Scene& run);
 
 }  // namespace mobbscope

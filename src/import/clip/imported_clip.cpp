@@ -1,4 +1,5 @@
 #include <base/text.h>
+#include <import/clip/column_choice.h>
 #include <import/clip/imported_clip.h>
 
 #include <array>
@@ -37,6 +38,7 @@ void check(const ImportOptions& options) {
             "radius must be from 0 to " + short_double(mobb::kMaxLength) + " metres");
     require(!options.dt || (*options.dt >= mobb::kLeastDt && *options.dt <= mobb::kMaxTime),
             "dt must be from " + short_double(mobb::kLeastDt) + " to " + short_double(mobb::kMaxTime) + " seconds");
+    if (options.columns) chosen_columns(*options.columns);
 }
 
 std::optional<double> metres_per_unit(const std::string& unit) {

@@ -31,8 +31,10 @@ struct ImportOptions {
     std::optional<Origin> origin;                   ///< default keep
     std::optional<std::string> id;                  ///< of a file of tracks: the one to take
     std::optional<Radius> radius;                   ///< metres from 0 to kMaxLength; overrides r of every sample
-    /// Seconds, over 0 to kMaxTime, between rows of a CSV without a time column, or frame numbers of a trajectory file.
+    /// Seconds, over 0 to kMaxTime, between rows of a CSV without a time column, or frame numbers of a file.
     std::optional<double> dt;
+    /// Which columns of a table are id, t, frame, x, y and r, or how they are worked out: "id=trackId,t=frame/25".
+    std::optional<std::string> columns{};
     /// What a disk does until the next sample; default linear for trajectories, plans and CSV with ids, else held.
     std::optional<mobb::Motion> motion{};
 

@@ -16,12 +16,12 @@ namespace {
 constexpr std::string_view kRadiusForms =
     "give metres like 0.25, a column of the CSV, or a file (.csv) of ids and radii";
 
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c & 0x80) != 0; }
+bool may_begin_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c & 0x80) != 0; }
 
 /// What begins like a word, so that a mistyped number is none.
 bool is_column_name(std::string_view text) {
     const std::string word = lower(text);
-    return !text.empty() && is_letter(text.front()) && trimmed(text) == text && is_utf8(text) && word != "nan" &&
+    return !text.empty() && may_begin_name(text.front()) && trimmed(text) == text && is_utf8(text) && word != "nan" &&
            word != "inf" && word != "infinity";
 }
 

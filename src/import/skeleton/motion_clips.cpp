@@ -1,4 +1,5 @@
 #include <base/error.h>
+#include <base/file.h>
 #include <base/text.h>
 #include <import/clip/sampling.h>
 #include <import/skeleton/disk_sampler.h>
@@ -252,7 +253,7 @@ std::vector<ImportedClip> motion_clips(const MotionFile& motions, const std::fil
             return MotionImport(*motion, motions.unit, options).make(motions.format);
         }));
         clip.facts.animation = names[i];
-        clip.name = names.size() > 1 ? names[i] : file.stem().string();
+        clip.name = names.size() > 1 ? names[i] : input_stem(file);
         if (names.size() == 1) continue;
         clip.animation = animation_key(names, i);
         if (clip.animation != names[i]) clip.name += " #" + std::to_string(i);

@@ -1,4 +1,4 @@
-/// Comma-separated tracks: a header row naming t,x,y,r or x,y,r (any order), optionally id; one disk a row.
+/// Tables of text: a header row names columns, and one disk stands in each row after it.
 #pragma once
 
 #include <import/clip/import_options.h>
@@ -6,35 +6,64 @@
 #include <import/clip/sampling.h>
 
 #include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace mobbscope {
 
-/// The rows of one id, in the file's order; times increase.
+/// The rows of one id; times increase.
 struct CsvTrack {
     std::string id;  ///< empty without an id column
     std::vector<TimedDisk> rows;
-    std::vector<int> lines;                        ///< of each row in the file, from 1
-    std::vector<std::vector<std::string>> others;  ///< of each row: what stands in CsvTable::others
+    std::vector<int> lines;  ///< of each row in the file, from 1
 
     int first_line() const { return lines.front(); }
 };
 
-/// A file as it stands: nothing scaled, nothing sampled.
+/// The rows of a file: nothing scaled, nothing sampled.
 struct CsvTable {
+    int header_line = 1;  ///< in the file, from 1
     bool has_id = false;
-    bool has_time = false;    ///< else t of every row is 0
+    bool has_time = false;    ///< seconds in t of each row
+    bool has_frame = false;   ///< frame numbers there; without either t is 0
     bool has_radius = false;  ///< else r of every row is 0
-    /// Columns that mean nothing unless the radius is in one of them: name, and number from 0.
-    std::vector<std::pair<std::string, std::size_t>> others;
-    std::vector<CsvTrack> tracks;  ///< at least one, each with at least one row; in order of first appearance
+
+    std::optional<double> rate{};           ///< frames per second, where a comment tells
+    double unit = 1;                        ///< metres per unit of x, y and r
+    std::string unit_why{};                 ///< who says so: "the column x/cm"; empty: nobody
+    std::vector<ImportWarning> warnings{};  ///< what was passed over or taken for something
+    std::vector<std::string> others{};      ///< names of columns that were passed over, each once
+    std::vector<CsvTrack> tracks{};         ///< at least one, each with at least one row; in order of first appearance
 };
 
-/// `file` stands for the file in messages. Throws InputError naming line and column.
-CsvTable parse_csv(std::string_view text, const std::string& file);
+/// Of the options those that say what columns mean count: columns, and radius where it names one. `file` stands for the
+/// file in messages. Throws InputError naming line and column.
+CsvTable parse_csv(std::string_view text, const std::string& file, const ImportOptions& options = {});
+
+/// A file that is read anew where the options choose other columns than they did before. Safe from any number of
+/// threads.
+class CsvFile {
+  public:
+    CsvFile(std::string text, const std::string& file);
+    CsvFile(CsvFile&& other) noexcept : text_(std::move(other.text_)), file_(std::move(other.file_)) {}
+
+    /// Throws InputError.
+    std::shared_ptr<const CsvTable> table(const ImportOptions& options) const;
+
+  private:
+    std::string text_;
+    std::string file_;
+    mutable std::mutex mutex_;
+    mutable std::shared_ptr<const CsvTable> last_;
+    mutable std::string last_choice_;
+};
+
+/// Whether a text begins like a table: with a line that names columns, or with numbers apart by commas.
+bool looks_like_table(std::string_view text);
 
 /// The clips of a table. Throws InputError.
 std::vector<ImportedClip> csv_clips(const CsvTable& table, const std::filesystem::path& file,

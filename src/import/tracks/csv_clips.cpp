@@ -3,81 +3,62 @@
 #include <import/tracks/track_steps.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace mobbscope {
 
 namespace {
 
-/// Metres per file unit. A CSV has no skeleton whose height would tell, so "auto" says nothing.
-double unit_scale(const ImportOptions& options) {
-    const std::string unit = options.unit.value_or("m");
-    const std::optional<double> scale = metres_per_unit(unit);
+/// Metres per unit of x, y and r. A table has no skeleton whose height would tell, so "auto" says nothing.
+double unit_scale(const CsvTable& table, const ImportOptions& options) {
+    if (!options.unit) return table.unit;
+    const std::optional<double> scale = metres_per_unit(*options.unit);
     if (!scale)
-        throw std::invalid_argument("unit " + in_quotes(unit) +
+        throw std::invalid_argument("unit " + in_quotes(*options.unit) +
                                     " does not apply to CSV; give m, cm, in or metres per file unit");
     return *scale;
 }
 
-/// Which of CsvTable::others has the radii; none: r, or metres. Every other such column is an error.
-std::optional<std::size_t> radius_column(const CsvTable& table, const ImportOptions& options) {
-    const RadiusColumn* const wanted = options.radius ? std::get_if<RadiusColumn>(&*options.radius) : nullptr;
-    std::optional<std::size_t> found;
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < table.others.size(); ++i) {
-        names.push_back(table.others[i].first);
-        if (wanted && names.back() == wanted->name) found = i;
-    }
-    if (table.has_radius) names.emplace_back("r");
-    if (wanted && !found && !(table.has_radius && wanted->name == "r")) {
-        throw std::invalid_argument("line 1: the header names no column " + in_quotes(wanted->name) + " of radii" +
-                                    did_you_mean(wanted->name, names) + "; give metres, or a column that it names");
-    }
-    for (std::size_t i = 0; i < table.others.size(); ++i) {
-        if (i == found) continue;
-        throw std::invalid_argument("line 1, column " + std::to_string(table.others[i].second + 1) + ": the column " +
-                                    in_quotes(names[i]) + " is unknown; the header may name id, t, x, y and r");
-    }
-    return found;
+/// What is said where the table tells another unit than metres.
+std::string unit_remark(const CsvTable& table) {
+    if (table.unit == 1) return "";
+    return "a unit of length is " + short_double(table.unit) + " m, as " + table.unit_why +
+           " says; give unit if that is wrong";
 }
 
-/// The rows of a track with radii from the column of CsvTable::others, if one is named, in r.
-std::vector<TimedDisk> rows_of(const CsvTable& table, const CsvTrack& track, std::optional<std::size_t> column,
-                               const std::string& file) {
-    std::vector<TimedDisk> rows = track.rows;
-    for (std::size_t i = 0; column && i < rows.size(); ++i) {
-        const std::string& field = track.others[i][*column];
-        const std::optional<double> value = parse_double(field);
-        if (value && *value >= 0 && *value <= mobb::kMaxLength) {
-            rows[i].disk.r = *value;
-            continue;
-        }
-        throw InputError(file,
-                         at_line(track.lines[i]) + ", column " + std::to_string(table.others[*column].second + 1) +
-                             " (" + table.others[*column].first + ")",
-                         in_quotes(field) + " is no radius; give a number from 0 to " + short_double(mobb::kMaxLength));
-    }
-    return rows;
+/// Frames per second of a table with frame numbers where no dt is given; fps counts them then.
+std::optional<double> frame_rate(const CsvTable& table, const ImportOptions& options) {
+    return options.fps ? options.fps : table.rate;
 }
 
-/// A table with ids as the crowd that it is. `dt`: seconds between the rows of one without times.
-TrackFile tracks_of(const CsvTable& table, std::optional<std::size_t> radius_column, double dt,
-                    const std::string& file) {
+/// The table's warnings go first.
+void add_warnings(const CsvTable& table, std::vector<ImportWarning>& warnings) {
+    warnings.insert(warnings.begin(), table.warnings.begin(), table.warnings.end());
+}
+
+/// A table with ids as the crowd that it is. `dt`: seconds between the rows of one without times; `rate`: frames per
+/// second of one with frame numbers.
+TrackFile tracks_of(const CsvTable& table, double dt, double rate) {
     TrackFile out;
     out.format = "csv";
-    out.timed = true;
-    out.has_radius = table.has_radius || radius_column;
-    out.least_step.reset();
+    out.timed = !table.has_frame;
+    if (table.has_frame) out.rate = rate;
+    out.has_radius = table.has_radius;
+    out.unit = table.unit;
+    out.unit_assumption = unit_remark(table);
+    if (!table.has_frame) out.least_step.reset();
+    const bool has_when = table.has_time || table.has_frame;
     for (const CsvTrack& track : table.tracks) {
-        const std::vector<TimedDisk> rows = rows_of(table, track, radius_column, file);
         Track& points = out.tracks.emplace_back(Track{track.id, {}});
-        points.points.reserve(rows.size());
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            const double t = table.has_time ? rows[i].t : static_cast<double>(i) * dt;
-            points.points.push_back({t, rows[i].disk.x, rows[i].disk.y, track.lines[i], rows[i].disk.r});
+        points.points.reserve(track.rows.size());
+        for (std::size_t i = 0; i < track.rows.size(); ++i) {
+            const TimedDisk& row = track.rows[i];
+            const double t = has_when ? row.t : static_cast<double>(i) * dt;
+            points.points.push_back({t, row.disk.x, row.disk.y, track.lines[i], row.disk.r});
         }
     }
-    if (!table.has_time) {
+    if (!has_when) {
         out.least_step = dt;
         out.warnings.push_back("the rows have no times: all tracks start together, with a row every " + brief(dt) +
                                " s; name a column t if they do not");
@@ -87,22 +68,43 @@ TrackFile tracks_of(const CsvTable& table, std::optional<std::size_t> radius_col
 
 /// What is refused of a table with ids and of one without.
 void check_columns(const CsvTable& table, const std::string& file, const ImportOptions& options) {
-    if (options.id && !table.has_id) throw InputError(file, "line 1", "the header names no column id; leave id out");
-    if (!table.has_radius && !options.radius)
-        throw InputError(file, "line 1", "the header names no column r; add one or give radius (metres)");
-    if (!table.has_time && !options.dt)
-        throw InputError(file, "line 1", "the header names no column t; name one or give dt (seconds between rows)");
+    const std::string header = at_line(table.header_line);
+    if (options.id && !table.has_id) throw InputError(file, header, "the header names no column id; leave id out");
+    // People have a usual radius.
+    if (!table.has_radius && !options.radius && !table.has_id)
+        throw InputError(file, header, "the header names no column r; add one or give radius (metres)");
+    if (table.has_frame && !options.dt && !frame_rate(table, options)) {
+        throw InputError(file, header,
+                         "the rows have frame numbers in place of times: give fps (frames a second), or dt (seconds "
+                         "from one frame to the next)");
+    }
+    if (!table.has_time && !table.has_frame && !options.dt)
+        throw InputError(file, header, "the header names no column t; name one or give dt (seconds between rows)");
 }
 
 /// Without ids the rows are one motion.
 class MotionMaker {
   public:
-    MotionMaker(const CsvTable& table, std::vector<TimedDisk> rows, const ImportOptions& options)
-        : table_(table), track_(table.tracks.front()), rows_(std::move(rows)), options_(options) {}
+    MotionMaker(const CsvTable& table, const ImportOptions& options)
+        : track_(table.tracks.front()),
+          rows_(track_.rows),
+          options_(options),
+          has_time_(table.has_time || table.has_frame),
+          scale_(unit_scale(table, options)) {
+        if (!options.unit && table.unit != 1) warnings_.push_back({unit_remark(table), "unit"});
+        if (!table.has_frame) return;
+        // What makes seconds of frames is no rate of samples, and no time between rows.
+        for (TimedDisk& row : rows_) row.t = options.dt ? row.t * *options.dt : row.t / *frame_rate(table, options);
+        if (options.dt) {
+            if (rows_.size() > 1) options_.dt.reset();
+        } else {
+            if (rows_.size() == 1) options_.dt = 1 / *frame_rate(table, options);
+            options_.fps.reset();
+        }
+    }
 
     ImportedClip make() {
-        const double scale = unit_scale(options_);
-        SourceFacts facts{"csv", scale, static_cast<int>(rows_.size()), std::nullopt, 0, {}};
+        SourceFacts facts{"csv", scale_, static_cast<int>(rows_.size()), std::nullopt, 0, warnings_};
         const std::optional<double> stored_dt = spacing(facts);
         facts.dt = stored_dt;
         facts.duration = rows_.back().t - rows_.front().t;
@@ -126,7 +128,7 @@ class MotionMaker {
         const bool in_column = !options_.radius || std::holds_alternative<RadiusColumn>(*options_.radius);
         const double radius = in_column ? 0 : metres_of(*options_.radius, "", "");
         for (mobb::Disk& disk : samples) {
-            disk = {disk.x * scale, disk.y * scale, in_column ? disk.r * scale : radius};
+            disk = {disk.x * scale_, disk.y * scale_, in_column ? disk.r * scale_ : radius};
         }
         put_at_origin(samples, options_.origin.value_or(Origin::keep));
         ImportedClip out;
@@ -147,10 +149,10 @@ class MotionMaker {
 
     /// The rows' uniform spacing in seconds, or none. Gives rows without a time column their times.
     std::optional<double> spacing(SourceFacts& facts) {
-        if (options_.fps && (!table_.has_time || rows_.size() == 1 || is_uniform(rows_))) {
+        if (options_.fps && (!has_time_ || rows_.size() == 1 || is_uniform(rows_))) {
             facts.warnings.push_back({"fps does not apply: the rows are uniform in time and are the samples", "fps"});
         }
-        if (!table_.has_time) {
+        if (!has_time_) {
             for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].t = static_cast<double>(i) * *options_.dt;
             return options_.dt;
         }
@@ -163,10 +165,12 @@ class MotionMaker {
         return (rows_.back().t - rows_.front().t) / static_cast<double>(rows_.size() - 1);
     }
 
-    const CsvTable& table_;
     const CsvTrack& track_;
     std::vector<TimedDisk> rows_;
-    const ImportOptions& options_;
+    ImportOptions options_;
+    bool has_time_;
+    double scale_;
+    std::vector<ImportWarning> warnings_;
 };
 
 }  // namespace
@@ -175,25 +179,29 @@ std::vector<ImportedClip> csv_clips(const CsvTable& table, const std::filesystem
                                     const ImportOptions& options) {
     refuse_skeleton_options(options, file, "CSV");
     const std::string name = file.string();
-    const std::optional<std::size_t> radii = at_place(name, "", [&] {
-        unit_scale(options);
-        return radius_column(table, options);
-    });
+    at_place(name, "", [&] { unit_scale(table, options); });
     check_columns(table, name, options);
-    if (!table.has_id) {
-        return clips_by_track(table.tracks, file, options, [&](const CsvTrack& track) {
-            return std::optional(MotionMaker(table, rows_of(table, track, radii, name), options).make());
-        });
+    std::vector<ImportedClip> clips;
+    if (table.has_id) {
+        ImportOptions of_tracks = options;
+        // What these say is in the tracks already.
+        if (options.radius && std::holds_alternative<RadiusColumn>(*options.radius)) of_tracks.radius.reset();
+        if (!table.has_time && !table.has_frame) of_tracks.dt.reset();
+        if (table.has_frame && !options.dt) of_tracks.fps.reset();
+        clips = track_clips(tracks_of(table, options.dt.value_or(0), frame_rate(table, options).value_or(1)), file,
+                            of_tracks);
+    } else {
+        clips = clips_by_track(table.tracks, file, options,
+                               [&](const CsvTrack&) { return std::optional(MotionMaker(table, options).make()); });
     }
-    ImportOptions of_tracks = options;
-    // What these say is in the tracks already.
-    if (options.radius && std::holds_alternative<RadiusColumn>(*options.radius)) of_tracks.radius.reset();
-    if (!table.has_time) of_tracks.dt.reset();
-    return track_clips(tracks_of(table, radii, options.dt.value_or(0), name), file, of_tracks);
+    for (ImportedClip& clip : clips) add_warnings(table, clip.facts.warnings);
+    return clips;
 }
 
-ImportOffer csv_offer(const CsvTable& table, const std::filesystem::path& file, const ImportOptions& options) {
+ImportOffer csv_offer(const CsvTable& table, const std::filesystem::path&, const ImportOptions& options) {
     ImportOffer out;
+    const std::optional<double> rate = options.dt ? std::optional(1 / *options.dt) : frame_rate(table, options);
+    const bool has_when = table.has_time || table.has_frame;
     double first = table.tracks.front().rows.front().t;
     double last = first;
     bool uniform = true;
@@ -201,31 +209,39 @@ ImportOffer csv_offer(const CsvTable& table, const std::filesystem::path& file, 
     for (const CsvTrack& track : table.tracks) {
         const std::size_t rows = track.rows.size();
         first = std::min(first, track.rows.front().t);
-        last = std::max(last,
-                        table.has_time ? track.rows.back().t : static_cast<double>(rows - 1) * options.dt.value_or(0));
+        last = std::max(last, has_when ? track.rows.back().t : static_cast<double>(rows - 1) * options.dt.value_or(0));
         alone = alone && rows == 1;
-        if (table.has_time && !table.has_id) uniform = rows == 1 || is_uniform(track.rows);
+        if (has_when && !table.has_id) uniform = rows == 1 || is_uniform(track.rows);
     }
-    out.seconds = last - first;
-    if (table.has_time && table.has_id && !alone) {
-        const std::vector<Track> tracks = tracks_of(table, std::nullopt, 0, file.string()).tracks;
+    out.seconds =
+        table.has_frame ? (last - first) / rate.value_or(std::numeric_limits<double>::infinity()) : last - first;
+    if (has_when && table.has_id && !alone) {
+        const std::vector<Track> tracks = tracks_of(table, 0, 1).tracks;
         const double usual = *most_frequent_step(tracks);
         uniform = std::ranges::all_of(tracks, [&](const Track& t) { return grid_of(t, usual).in_step; });
     }
     // Rows in step are the samples.
-    if (!uniform)
+    if (table.has_frame && !options.dt) {
+        out.options.push_back({"fps", table.rate ? short_double(*table.rate) : "",
+                               table.rate ? "as a comment says" : "the file does not say its frames a second",
+                               !table.rate});
+    } else if (!uniform) {
         out.options.push_back({"fps", short_double(kDefaultFps), "as usual; the rows are not uniform in time"});
-    out.options.push_back(unit_offer(1, "as usual of CSV files"));
+    }
+    out.options.push_back(unit_offer(table.unit, table.unit == 1 ? "as usual of CSV files" : unit_remark(table)));
     if (out.seconds > 0) out.options.push_back({"trim", "", "all of it"});
     out.options.push_back(origin_offer());
     if (table.tracks.size() > 1) out.options.push_back(id_offer(table.tracks));
-    out.options.push_back(
-        {"radius", "", table.has_radius ? "the column r" : "the file has no column r", !table.has_radius});
-    for (const auto& [name, column] : table.others) out.options.back().choices.push_back({name, "the column " + name});
-    if (!table.has_time || alone) {
+    const bool is_usual = table.has_id && !table.has_radius;
+    out.options.push_back({"radius", is_usual ? short_double(kDefaultTrackRadius) : "",
+                           table.has_radius ? "the column r" : "the file has no column r",
+                           !table.has_radius && !table.has_id});
+    for (const std::string& name : table.others) out.options.back().choices.push_back({name, "the column " + name});
+    if (!has_when || (alone && !table.has_frame)) {
         out.options.push_back(
-            {"dt", "", table.has_time ? "one row does not tell how long it lasts" : "the file has no column t", true});
+            {"dt", "", has_when ? "one row does not tell how long it lasts" : "the file has no column t", true});
     }
+    out.options.push_back({"columns", "", "by their names"});
     out.options.push_back(
         motion_option_offer(table.has_id ? kMotionOfTracks : mobb::Motion::held,
                             table.has_id ? "as usual of tables with ids" : "as usual of tables without ids"));

@@ -1,4 +1,6 @@
 // Trajectories in columns: which of four formats a text is, and its rows.
+#include <import/clip/column_names.h>
+#include <import/tracks/remarks.h>
 #include <import/tracks/tracks.h>
 #include <mobb/clip.h>
 
@@ -22,15 +24,13 @@ constexpr double kLowestHead = 0.8;
 constexpr double kHighestHead = 2.5;
 constexpr double kHeadHeight = 1.7;  // metres: the contract's, for the unit "auto"
 
-/// How comments say the unit of the columns.
-constexpr std::array<std::pair<std::string_view, double>, 6> kUnits{
-    {{"x/m", 1}, {"in m", 1}, {"x/cm", 0.01}, {"in cm", 0.01}, {"x/mm", 0.001}, {"in mm", 0.001}}};
-
 /// Which column is which, from 0; -1: there is none.
 struct Columns {
     std::string format;
     std::size_t count = 0;  ///< in a row
     int id = -1, frame = -1, x = -1, y = -1, z = -1;
+    int r = -1, a = -1, b = -1;  ///< a radius, or the semi-axes of an ellipse
+    bool timed = false;          ///< `frame` holds seconds
 };
 
 /// The corners of a box in the image, and whether the annotators had lost it.
@@ -95,8 +95,10 @@ class TextTracksParser {
         TrackFile out;
         out.format = columns_.format;
         out.tracks = tracks_.take(file_);
+        out.warnings = remarks_.warnings();
         tell_rate(out);
         tell_unit(out);
+        tell_radius(out);
         if (lost_ > 0) {
             out.warnings.push_back(counted(lost_, "row is", "rows are") + " marked as lost from view and left out");
         }
@@ -115,51 +117,59 @@ class TextTracksParser {
 
     /// A comment ahead of the rows may tell the frame rate, the unit and the columns.
     void read_comment(std::string_view comment) {
-        const std::string text = lower(comment);
-        for (const std::string_view key : {"framerate", "frame rate"}) {
-            const std::size_t at = text.find(key);
-            if (at == std::string::npos) continue;
-            const std::size_t begin = std::min(text.find_first_not_of(" \t:=", at + key.size()), text.size());
-            const std::string_view value = std::string_view(text).substr(begin);
-            std::string_view word = value.substr(0, value.find_first_of(" \t"));
-            if (word.ends_with("fps")) word.remove_suffix(3);
-            const std::optional<double> rate = parse_double(word);
-            if (!rate || !(*rate > 0 && *rate <= kMaxFrameRate)) {
-                lines_.fail("the frame rate " + in_quotes(word) + " is no number over 0 and up to 1000000");
-            }
-            rate_ = rate;
-        }
-        for (const auto& [said, unit] : kUnits) {
-            const std::size_t at = text.find(said);
-            if (at == std::string::npos) continue;
-            const std::size_t end = at + said.size();
-            // "in m", but not "in motion".
-            if (end == text.size() || text[end] < 'a' || text[end] > 'z') unit_ = unit;
-        }
-        read_names(text);
+        remarks_.read(comment);
+        read_names(comment);
     }
 
     /// "id frame x/m y/m z/m" and the like name the columns; anything else is a remark.
-    void read_names(const std::string& comment) {
+    void read_names(std::string_view comment) {
         split(comment, kMaxColumns, words_);
+        // What stands in brackets is the unit of a name, or a remark.
+        bool bracketed = false;
+        std::erase_if(words_, [&bracketed](const Word& word) {
+            const bool is_name = !bracketed && word.text[0] != '[' && word.text[0] != '(';
+            bracketed = !is_name && word.text.back() != ']' && word.text.back() != ')';
+            return !is_name;
+        });
+        if (words_.size() > kMaxColumns) return;
         Columns named{"petrack", words_.size()};
+        int time = -1;
         for (std::size_t i = 0; i < words_.size(); ++i) {
-            const std::string_view word = words_[i].text.substr(0, words_[i].text.find('/'));
-            const auto is_one_of = [word](std::initializer_list<std::string_view> names) {
-                return std::find(names.begin(), names.end(), word) != names.end();
-            };
-            int* column = is_one_of({"id", "persid", "pedid", "ped", "person", "agent"}) ? &named.id
-                          : is_one_of({"frame", "fr"})                                   ? &named.frame
-                          : word == "x"                                                  ? &named.x
-                          : word == "y"                                                  ? &named.y
-                          : word == "z"                                                  ? &named.z
-                                                                                         : nullptr;
+            const std::string word = plain_name(words_[i].text).word;
+            const std::optional<KnownColumn> known = known_column(words_[i].text);
+            int* column = word == "z"   ? &named.z
+                          : word == "a" ? &named.a
+                          : word == "b" ? &named.b
+                          : !known      ? nullptr
+                                        : column_of(known->column, named, time);
             if (!column) continue;
             if (*column >= 0) return;
             *column = static_cast<int>(i);
         }
-        if (named.id < 0 || named.frame < 0 || named.x < 0 || named.y < 0 || words_.size() > kMaxColumns) return;
+        if (named.frame < 0) {
+            named.frame = time;
+            named.timed = true;
+        }
+        if (named.id < 0 || named.frame < 0 || named.x < 0 || named.y < 0) return;
         columns_ = named;
+    }
+
+    static int* column_of(Column column, Columns& named, int& time) {
+        switch (column) {
+            case Column::id:
+                return &named.id;
+            case Column::t:
+                return &time;
+            case Column::frame:
+                return &named.frame;
+            case Column::x:
+                return &named.x;
+            case Column::y:
+                return &named.y;
+            case Column::r:
+                return &named.r;
+        }
+        return nullptr;
     }
 
     /// Decides by the first row which format this is.
@@ -181,7 +191,7 @@ class TextTracksParser {
         } else if (all_numbers && words_.size() == kPetrack.count) {
             columns_ = kPetrack;
         } else if (all_numbers && words_.size() == kTrajnet.count) {
-            columns_ = rate_ ? kPetrackFlat : kTrajnet;
+            columns_ = remarks_.rate() ? kPetrackFlat : kTrajnet;
         } else {
             const std::string found = all_numbers ? "numbers in " + columns(words_.size())
                                                   : columns(words_.size()) + ", not all of them numbers";
@@ -212,19 +222,31 @@ class TextTracksParser {
         lines_.fail("column " + std::to_string(column + 1) + ": " + message);
     }
 
-    void add(double x, double y, std::string_view label = {}) {
-        const double frame = whole_number(columns_.frame);
+    void add(double x, double y, double r = 0, std::string_view label = {}) {
+        const double frame = columns_.timed ? number(columns_.frame, mobb::kMaxTime) : whole_number(columns_.frame);
         const double id = whole_number(columns_.id);
         if (id != id_) {
             id_ = id;
             id_text_ = std::to_string(static_cast<long long>(id));
         }
-        tracks_.add(id_text_, {frame, x, y, lines_.number()}, label);
+        tracks_.add(id_text_, {frame, x, y, lines_.number(), r}, label);
     }
 
     void read_point() {
-        add(number(columns_.x, mobb::kMaxLength), number(columns_.y, mobb::kMaxLength));
+        add(number(columns_.x, mobb::kMaxLength), number(columns_.y, mobb::kMaxLength), radius());
         if (columns_.z >= 0) heights_.push_back(number(columns_.z, mobb::kMaxLength));
+    }
+
+    /// In file units; of an ellipse that of the disk which holds it.
+    double radius() const {
+        double largest = 0;
+        for (const int column : {columns_.r, columns_.a, columns_.b}) {
+            if (column < 0) continue;
+            const double value = number(column, mobb::kMaxLength);
+            if (value < 0) fail(column, "the radius is negative; give 0 or more");
+            largest = std::max(largest, value);
+        }
+        return largest;
     }
 
     void read_box() {
@@ -235,7 +257,7 @@ class TextTracksParser {
         const auto centre = [this](int low, int high) {
             return (number(low, mobb::kMaxLength) + number(high, mobb::kMaxLength)) / 2;
         };
-        add(centre(kXMin, kXMax), centre(kYMin, kYMax), label());
+        add(centre(kXMin, kXMax), centre(kYMin, kYMax), 0, label());
     }
 
     /// The class, without its quotes.
@@ -247,8 +269,10 @@ class TextTracksParser {
     }
 
     void tell_rate(TrackFile& out) const {
-        if (rate_) {
-            out.rate = *rate_;
+        if (columns_.timed) {
+            out.timed = true;
+        } else if (remarks_.rate()) {
+            out.rate = *remarks_.rate();
         } else if (columns_.format == kSdd.format) {
             out.rate = kDroneRate;
             out.rate_assumption =
@@ -269,6 +293,14 @@ class TextTracksParser {
         }
     }
 
+    void tell_radius(TrackFile& out) const {
+        const bool has_axes = columns_.a >= 0 || columns_.b >= 0;
+        out.has_radius = has_axes || columns_.r >= 0;
+        if (has_axes) {
+            out.warnings.push_back("the columns A and B are semi-axes of ellipses: people are disks of the larger one");
+        }
+    }
+
     /// PeTrack has heads in the third column of space, whose height tells metres from centimetres.
     void tell_unit(TrackFile& out) {
         if (columns_.format == kSdd.format) {
@@ -277,8 +309,8 @@ class TextTracksParser {
                 "unit (metres a pixel)";
         }
         if (columns_.format != kPetrack.format) return;
-        if (unit_) {
-            out.unit = *unit_;
+        if (remarks_.unit()) {
+            out.unit = *remarks_.unit();
             return;
         }
         const std::string otherwise = " give unit if that is wrong";
@@ -313,8 +345,7 @@ class TextTracksParser {
     std::vector<Word> words_;  ///< of the line in hand
     Columns columns_;
     bool seen_row_ = false;
-    std::optional<double> rate_;
-    std::optional<double> unit_;
+    Remarks remarks_;
     std::optional<double> id_;  ///< of the last row
     std::string id_text_;
     TrackCollector tracks_;
@@ -323,6 +354,22 @@ class TextTracksParser {
 };
 
 }  // namespace
+
+bool looks_like_text_tracks(std::string_view text) {
+    constexpr std::size_t kFewest = 3;  // columns: what lacks one is told so
+    while (!text.empty()) {
+        const std::size_t end = text.find('\n');
+        const std::string_view line = trimmed(text.substr(0, end));
+        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+        if (line.empty() || line[0] == '#') continue;
+        std::vector<Word> words;
+        split(line, kMaxColumns, words);
+        const auto numbers =
+            std::ranges::count_if(words, [](const Word& word) { return parse_double(word.text).has_value(); });
+        return words.size() >= kFewest && static_cast<std::size_t>(numbers) + 1 >= words.size();
+    }
+    return false;
+}
 
 TrackFile parse_text_tracks(std::string_view text, const std::string& file) {
     return TextTracksParser(text, file).parse();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <base/error.h>
+#include <base/file.h>
 #include <base/text.h>
 #include <import/clip/import_options.h>
 #include <import/clip/imported_clip.h>
@@ -43,7 +44,7 @@ struct Track {
 /// A file as it stands, with what it or its format says of units and time. An assumption is a sentence that tells the
 /// user what was taken in the file's stead and which option overrules it; empty where the file says it.
 struct TrackFile {
-    std::string format;         ///< "obsmat", "trajnet", "trajnetpp", "petrack", "sdd", "mapf", "csv"
+    std::string format;         ///< "obsmat", "trajnet", "trajnetpp", "petrack", "jupedsim", "sdd", "mapf", "csv"
     std::vector<Track> tracks;  ///< at least one; ids differ; in order of first appearance
 
     bool timed = false;          ///< the points have times in seconds in place of frame numbers; rate is 1
@@ -82,13 +83,30 @@ class TrackCollector {
     std::size_t last_ = 0;  ///< the track that had a point last
 };
 
+/// Whether a text begins like one of those that parse_text_tracks reads: rows of numbers between blanks.
+bool looks_like_text_tracks(std::string_view text);
+
 /// Text, told apart by its content: UCY and ETH `obsmat` (frame id x z y vx vz vy), TrajNet (frame ped x y), PeTrack
-/// and JuPedSim (id frame x y z, or as a comment names the columns), SDD (id xmin ymin xmax ymax frame lost occluded
-/// generated "label"). `file` stands for the file in messages. Throws InputError naming the line.
+/// and JuPedSim's text (id frame x y z, or as a comment names the columns, semi-axes a and b among them), SDD (id xmin
+/// ymin xmax ymax frame lost occluded generated "label"). `file` stands for the file in messages. Throws InputError
+/// naming the line.
 TrackFile parse_text_tracks(std::string_view text, const std::string& file);
+
+/// Whether a text begins like TrajNet++.
+bool looks_like_trajnetpp(std::string_view text);
 
 /// TrajNet++: a JSON object a line, {"scene": {...}} or {"track": {"f", "p", "x", "y"}}. Throws InputError.
 TrackFile parse_trajnetpp(std::string_view text, const std::string& file);
+
+/// Whether the bytes are an SQLite database.
+bool is_sqlite(std::string_view bytes);
+
+/// JuPedSim's: an SQLite database with the tables trajectory_data (frame, id, pos_x, pos_y) and metadata (version,
+/// fps). Throws InputError naming the row.
+TrackFile parse_jupedsim(std::string_view bytes, const std::string& file);
+
+/// Whether a text begins like a plan in YAML: with `schedule:`, or with other keys before it.
+bool looks_like_mapf_plan(std::string_view text);
 
 /// A plan of multi-agent path finding in YAML: `schedule:` with a list of t, x, y for each agent. Throws InputError.
 TrackFile parse_mapf_plan(std::string_view text, const std::string& file);
@@ -136,7 +154,7 @@ std::vector<ImportedClip> clips_by_track(const Tracks& tracks, const std::filesy
             at_line(track.first_line()) + (track.id.empty() ? "" : ", track " + in_quotes(track.id));
         std::optional<ImportedClip> clip = at_place(file.string(), place, [&] { return make(track); });
         if (!clip) continue;
-        clip->name = tracks.size() > 1 ? track.id : file.stem().string();
+        clip->name = tracks.size() > 1 ? track.id : input_stem(file);
         clips.push_back(std::move(*clip));
     }
     if (found) return clips;

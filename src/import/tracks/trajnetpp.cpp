@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace mobbscope {
@@ -107,6 +108,14 @@ class TrajnetppParser {
 };
 
 }  // namespace
+
+bool looks_like_trajnetpp(std::string_view text) {
+    text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n\xef\xbb\xbf"), text.size()));
+    if (!text.starts_with('{')) return false;
+    text.remove_prefix(1);
+    text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+    return text.starts_with("\"track\"") || text.starts_with("\"scene\"");
+}
 
 TrackFile parse_trajnetpp(std::string_view text, const std::string& file) {
     return TrajnetppParser(text, file).parse();

@@ -45,15 +45,19 @@ std::vector<mobb::PlacedClip> clips_of(const FittedScene& fitted, const ViewStat
     return out;
 }
 
-/// Between two samples that of both; before the first and after the last it stands.
+/// Between two samples that of both; before the first and after the last it stands, but for a linear clip in front of
+/// another, which runs on.
 glm::dvec2 place_at(const std::vector<mobb::PlacedClip>& clips, double time) {
     const auto begins_later = [](double t, const mobb::PlacedClip& clip) { return t < clip.time(0); };
     const auto after = std::upper_bound(clips.begin(), clips.end(), time, begins_later);
     const mobb::PlacedClip& clip = after == clips.begin() ? clips.front() : *(after - 1);
-    const double at = std::clamp((time - clip.time(0)) / clip.clip().dt(), 0.0, static_cast<double>(clip.count() - 1));
-    const int first = static_cast<int>(at);
+    const int last = clip.count() - 1;
+    const bool runs_on = clip.is_linear() && after != clips.begin() && after != clips.end();
+    const double at =
+        std::clamp((time - clip.time(0)) / clip.dt(), 0.0, static_cast<double>(runs_on ? last + 1 : last));
+    const int first = std::min(static_cast<int>(at), last);
     const mobb::Disk a = clip.disk(first);
-    const mobb::Disk b = clip.disk(std::min(first + 1, clip.count() - 1));
+    const mobb::Disk b = first < last ? clip.disk(first + 1) : runs_on ? runs_on_to(clip, *after) : a;
     return glm::mix(glm::dvec2(a.x, a.y), glm::dvec2(b.x, b.y), at - first);
 }
 

@@ -90,7 +90,9 @@ class Drawer {
         LineStyle beyond = style;
         beyond.color.a *= kWayBeyond;
         const mobb::PlacedClip way(*candidate.clip, candidate.placement);
-        const int contact = outcome == CandidateOutcome::ruled_out ? candidate.blocker->contact.a_sample : way.count();
+        int contact = way.count();
+        if (outcome == CandidateOutcome::ruled_out)
+            contact = candidate.blocker->before_candidate ? 0 : candidate.blocker->contact.a_sample;
         // Pieces as long as a dash and its gap, or the pattern would be cut short.
         const float pixels = list_.projection.pixels_per_metre(point(way.disk(0), way.time(0)));
         const float pattern = style.dash.x + style.dash.y + style.dash.z + style.dash.w;
@@ -119,7 +121,9 @@ class Drawer {
         const Candidate& candidate = choice_.candidates[index];
         const Blocker& blocker = *candidate.blocker;
         const mobb::Contact& contact = blocker.contact;
-        const mobb::PlacedClip way(*candidate.clip, candidate.placement);
+        const mobb::PlacedClip way = blocker.before_candidate
+                                         ? mobb::PlacedClip(*candidate.joint->clip, candidate.joint->placement)
+                                         : mobb::PlacedClip(*candidate.clip, candidate.placement);
         const mobb::PlacedClip other(*blocker.clip, blocker.placement);
         const mobb::Disk a = mobb::swept(way, contact.a_sample).at(contact.time);
         const mobb::Disk b = mobb::swept(other, contact.b_sample).at(contact.time);

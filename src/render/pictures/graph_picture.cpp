@@ -134,7 +134,7 @@ std::vector<FloorPath> floor_paths_of(const Scene& scene) {
     std::vector<FloorPath> out;
     for (const GraphMove& move : scene.graph->moves) {
         const mobb::Clip& clip = *scene.clips[static_cast<std::size_t>(move.clip)].clip;
-        FloorPath path{move.from, move.to, clip.duration(), 0, {}};
+        FloorPath path{move.from, move.to, clip.until_next(), 0, {}};
         const mobb::Rotation turn = mobb::Rotation::from_degrees(-move.entry.heading_deg);
         const auto add = [&](glm::dvec2 p) {
             const glm::dvec2 ahead = turn(p - move.entry.position);

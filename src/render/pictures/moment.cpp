@@ -93,8 +93,41 @@ std::string radius(const DrawnAgent& agent, const Body& body) {
 }
 
 constexpr std::size_t kMostPairs = 3;
+constexpr std::size_t kMostWaiting = 3;
+
+/// "agent0 waits", "agent0, agent2, agent3 and 4 more wait"; empty if nobody does.
+std::string who_waits(std::span<const DrawnAgent> agents, const Moment& moment) {
+    std::vector<std::string> names;
+    for (const Body& body : moment.bodies) {
+        if (body.waits) names.push_back(agents[static_cast<std::size_t>(body.agent)].label);
+    }
+    if (names.empty()) return "";
+    std::string out = names.front();
+    const std::size_t named = std::min(names.size(), kMostWaiting);
+    for (std::size_t i = 1; i < named; ++i) out += (i + 1 == names.size() ? " and " : ", ") + names[i];
+    if (names.size() > named) out += " and " + std::to_string(names.size() - named) + " more";
+    return out + (names.size() == 1 ? " waits" : " wait");
+}
+
+/// Whether anybody waits at any time.
+bool has_waiting(std::span<const DrawnAgent> agents) {
+    return std::ranges::any_of(agents, [](const DrawnAgent& agent) {
+        for (int i = 0; i < agent.clip().count(); ++i) {
+            if (waits_at(agent.clip(), i)) return true;
+        }
+        return false;
+    });
+}
 
 }  // namespace
+
+bool waits_at(const mobb::PlacedClip& clip, int sample) {
+    if (!clip.is_linear() || clip.count() < 2) return false;
+    const int first = std::min(sample, clip.count() - 2);
+    const mobb::Disk a = clip.disk(first);
+    const mobb::Disk b = clip.disk(first + 1);
+    return a.x == b.x && a.y == b.y;
+}
 
 bool sets_radius(const Body& body) {
     return body.farthest && std::abs(body.farthest->distance - body.disk.r) <= kOnWall;
@@ -118,9 +151,11 @@ Moment moment_of(std::span<const DrawnAgent> agents, std::span<const double> hei
     for (std::size_t i = 0; i < agents.size(); ++i) {
         const std::optional<int> sample = sample_at(agents[i], time);
         if (!sample) continue;
-        Body body{static_cast<int>(i), *sample,      mobb::swept(agents[i].clip(), *sample).at(time),
-                  heights[i],          std::nullopt, false};
-        out.bodies.push_back(body);
+        out.bodies.push_back({.agent = static_cast<int>(i),
+                              .sample = *sample,
+                              .disk = mobb::swept(agents[i].clip(), *sample).at(time),
+                              .height = heights[i],
+                              .waits = waits_at(agents[i].clip(), *sample)});
     }
     // Radii of more are shown by no picture.
     if (out.bodies.size() <= 2) {
@@ -185,7 +220,9 @@ Caption moment_caption(const Palette& palette, std::span<const DrawnAgent> agent
     if (count == 2) {
         add_detail("radii " + with_unit(moment.bodies[0].disk.r, "m") + " and " +
                    with_unit(moment.bodies[1].disk.r, "m"));
-    } else if (out.detail.empty()) {
+    }
+    if (const std::string waiting = who_waits(agents, moment); !waiting.empty()) add_detail(waiting);
+    if (out.detail.empty()) {
         add_detail("all " + std::to_string(count) + " are on the floor then");
     }
     return out;
@@ -206,6 +243,7 @@ std::vector<LegendEntry> moment_legend(const DrawList& list, std::span<const Dra
         out.push_back(entry);
     };
     if (view.disks && agents.size() > 1 && !in_grid) line(palette.hit, 3, "overlap");
+    if (view.disks && !in_grid && has_waiting(paths)) line(palette.quiet_text, 1.3f, "waits (inner ring)");
     if (view.disks && may_show_radii(agents)) line(palette.text, 1.4f, "radius, to the farthest joint");
     const bool is_run = !agents.empty() && agents.front().run_agent >= 0;
     if (view.floor && !(is_run && agents.size() > kMostWithWays)) {

@@ -25,10 +25,15 @@ struct Body {
     double height = 0;                      ///< metres, of the cylinder
     std::optional<FarthestJoint> farthest;  ///< none without a skeleton, and of more than two
     bool overlaps = false;                  ///< with any other
+    bool waits = false;                     ///< see waits_at
 };
 
 /// Whether that joint lies on the cylinder's wall: it does unless the clip was given a radius of its own.
 bool sets_radius(const Body& body);
+
+/// Whether somebody who walks from sample to sample (a linear clip) stays where he is: until the next sample, at the
+/// last one since the one before.
+bool waits_at(const mobb::PlacedClip& clip, int sample);
 
 /// Two of them.
 struct BodyPair {

@@ -122,7 +122,8 @@ class MomentPicture final : public Picture {
         count_ = crowd_ ? crowd_->agents.size() : agents_.size();
         list_.moment = moment_.time;
         bounds_ = moment_bounds(fitted, agents_);
-        outside_ = moment_.time < bounds_.min.z || moment_.time >= bounds_.max.z;
+        const bool someone_is_there = !crowd_ && !moment_.bodies.empty();
+        outside_ = (moment_.time < bounds_.min.z || moment_.time >= bounds_.max.z) && !someone_is_there;
         if (!outside_) choice_ = choice;
         const glm::dvec3 middle = bounds_.middle();
         list_.space = {{middle.x, middle.y, 0}, 1, camera_anchor(fitted, view_, moment_.time)};

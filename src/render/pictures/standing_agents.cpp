@@ -24,6 +24,7 @@ constexpr float kBone = 0.04f;        // metres across
 constexpr float kHead = 0.09f;        // metres, radius
 constexpr float kGlassFront = 0.02f;  // opacity of the wall where it is seen face on
 constexpr float kGlassSide = 0.13f;   // ... and how much more where it is seen edge on
+constexpr float kWaitingRing = 0.5f;  // of the radius: marks who waits
 constexpr std::size_t kFewFigures = 50;  // are all drawn, seen or not
 
 /// For the lines of one body; bodies are drawn from the farthest to the nearest.
@@ -204,12 +205,17 @@ void add_figure(DrawList& list, const Figure& f, BodyParts parts, int rank, bool
         add_body_disk(list, f, parts.walls ? f.height : disk_height(list.projection), f.agent.color);
         const LineStyle style{f.foot_line, width, kSolid, 1};
         if (f.body.overlaps) add_level_ring(pen, f.foot + f.height * up, 1.04f * f.radius, f.pieces, style);
+        if (f.body.waits)
+            add_level_ring(pen, f.foot + f.height * up, kWaitingRing * f.radius, f.pieces, {f.line, thin});
         return;
     }
     const float floor = disk_height(list.projection);
     if (parts.disks) add_body_disk(list, f, floor, with_alpha(f.agent.color, list.palette.dark ? 0.55f : 0.6f));
     const LineStyle on_floor{f.foot_line, width, kSolid, 0.35f};
     if (parts.disks) add_level_ring(pen, f.foot + floor * up, f.radius, f.pieces, on_floor);
+    if (parts.disks && f.body.waits) {
+        add_level_ring(pen, f.foot + floor * up, kWaitingRing * f.radius, f.pieces, {f.line, thin, kSolid, 0.35f});
+    }
     if (parts.walls) add_glass(list, f);
     if (f.agent.skeleton) add_skeleton(list, pen, f, scale);
     if (!parts.walls) return;

@@ -1,0 +1,26 @@
+/// Plans of multi-agent path finding: what their readers share, and those that are plain text. The reader of YAML,
+/// parse_mapf_plan, stands in tracks.h.
+#pragma once
+
+#include <import/tracks/tracks.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope {
+
+/// The plan that tracks make: whoever is in it is where it begins from step 0 on, and where it ended until the plan's
+/// last step. Tracks get points for that, and for steps that are missing between others; `tracks` is not empty. Throws
+/// InputError if that makes far more points than the file has, or more than kMaxSamples.
+TrackFile plan_of(std::vector<Track> tracks, const std::string& file);
+
+/// Whether a text, or its first lines, is a plan that parse_mapf_text_plan reads, or refuses with a hint.
+bool looks_like_mapf_text_plan(std::string_view text);
+
+/// Plans in text: a line a step, "3:(1,2),(4,4),", as LaCAM and PIBT write below "solution=", cells as (x, y); or a
+/// line an agent, "Agent 0: (2,1)->(2,2)->", as EECBS, CBSH2-RTC and MAPF-LNS2 do, cells as (row, column). Throws
+/// InputError naming the line.
+TrackFile parse_mapf_text_plan(std::string_view text, const std::string& file);
+
+}  // namespace mobbscope

@@ -1,0 +1,150 @@
+// Files by their content, whatever their names: packed ones, and those that no reader takes.
+#include <base/error.h>
+#include <base/file.h>
+#include <import/import.h>
+#include <support/bvh_text.h>
+#include <support/gzip.h>
+#include <support/input_error.h>
+#include <support/mutate.h>
+#include <support/temp_folder.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace mobbscope {
+namespace {
+
+using testing::gzipped;
+using testing::input_error;
+using testing::TempFolder;
+
+const std::string kTableText = "id,t,x,y,r\n1,0,0,0,1\n1,1,1,0,1\n2,0,5,5,1\n2,1,5,6,1\n";
+const std::string kTracksText = "10 1 1.5 2\n20 1 1.5 2.5\n20 2 0 0\n30 2 0 1\n";
+const std::string kLinesText =
+    "{\"track\": {\"f\": 0, \"p\": 1, \"x\": 0, \"y\": 0}}\n{\"track\": {\"f\": 1, \"p\": 1, \"x\": 1, \"y\": 0}}\n";
+const std::string kPlanText = "cost: 3\nschedule:\n  a:\n  - {t: 0, x: 0, y: 0}\n  - {t: 1, x: 1, y: 0}\n";
+
+TEST(FileKinds, TextIsToldByItsContentWhateverItsName) {
+    const TempFolder folder;
+    for (const auto& [text, format] : std::initializer_list<std::pair<std::string, const char*>>{
+             {kTableText, "csv"},
+             {kTracksText, "trajnet"},
+             {kLinesText, "trajnetpp"},
+             {kPlanText, "mapf"},
+             {"# framerate: 16\n1 0 0 0 1.7\n1 1 0 1 1.7\n", "petrack"},
+             {"id x y t r\n1 0 0 0 1\n1 1 0 1 1\n", "csv"}}) {
+        for (const char* name : {"a.csv", "a.txt", "a.tsv", "a.dat", "a", "a.ndjson", "a.yaml", "a.CSV", "a.csv.gz"}) {
+            const auto file = folder.write(name, text);
+            EXPECT_EQ(import_clips(file, {}).front().facts.format, format) << name;
+        }
+    }
+    EXPECT_EQ(import_clips(folder.write("walk", testing::kWalker), {}).front().facts.format, "bvh");
+    EXPECT_EQ(contents_of(folder.path() / "walk"), Contents::skeletons);
+    EXPECT_EQ(contents_of(folder.path() / "a.dat"), Contents::table);
+    EXPECT_EQ(contents_of(folder.path() / "none"), std::nullopt);
+    EXPECT_EQ(contents_by_name("x.txt.gz"), Contents::trajectories);
+}
+
+TEST(FileKinds, PackedTextIsReadAsItIs) {
+    const TempFolder folder;
+    for (const auto& [name, text] :
+         std::initializer_list<std::pair<const char*, std::string>>{{"walk.csv.gz", kTableText},
+                                                                    {"walk.txt.gz", kTracksText},
+                                                                    {"walk.ndjson.gz", kLinesText},
+                                                                    {"walk.yaml.gz", kPlanText},
+                                                                    {"walk.bvh.gz", testing::kWalker},
+                                                                    {"walk.gz", kTableText},
+                                                                    {"walk.csv", kTableText}}) {
+        const auto packed = import_clips(folder.write(name, gzipped(text)), {});
+        const auto plain = import_clips(folder.write("plain", text), {});
+        ASSERT_EQ(packed.size(), plain.size()) << name;
+        EXPECT_TRUE(
+            std::ranges::equal(packed[0].clip->samples(), plain[0].clip->samples(), {}, &mobb::Disk::x, &mobb::Disk::x))
+            << name;
+        if (packed.size() == 1) {
+            EXPECT_EQ(packed[0].name, "walk");
+        }
+    }
+    // In several pieces, as parallel packers write it, and padded.
+    const auto pieces = folder.write(
+        "p.csv.gz", gzipped(kTableText.substr(0, 20)) + gzipped(kTableText.substr(20)) + std::string(512, '\0'));
+    EXPECT_EQ(import_clips(pieces, {}).size(), 2u);
+}
+
+TEST(FileKinds, DamagedPackedFilesAreRefusedInOneLine) {
+    const TempFolder folder;
+    std::string text = "t,x,y,r\n";
+    for (int i = 0; i < 2000; ++i) text += std::to_string(i) + ',' + std::to_string(i * i % 977) + ",0,1\n";
+    const std::string packed = gzipped(text);
+    const auto refusal = [&](const std::string& bytes) {
+        const auto file = folder.write("f.csv.gz", bytes);
+        return input_error([&] { import_clips(file, {}); });
+    };
+    for (std::size_t size = 2; size < packed.size(); size += 97)
+        EXPECT_NE(refusal(packed.substr(0, size)).find("ends within what gzip packed; get the whole file"),
+                  std::string::npos)
+            << size;
+    EXPECT_NE(refusal(packed + "more").find("other bytes follow what gzip packed"), std::string::npos);
+    std::string sum = packed;
+    sum[sum.size() - 6] ^= 1;
+    EXPECT_NE(refusal(sum).find("what gzip packed is damaged"), std::string::npos) << "its sum is wrong";
+    std::string length = packed;
+    length[length.size() - 2] ^= 1;
+    EXPECT_NE(refusal(length).find("what gzip packed is damaged"), std::string::npos);
+    // A bomb: a thousandth of what it becomes.
+    const std::string bomb = gzipped("t,x,y,r\n" + std::string(std::size_t{100} << 20, '0'));
+    EXPECT_LT(bomb.size(), std::size_t{1} << 20);
+    EXPECT_NE(refusal(bomb).find("unpacks to more than 67.1 MB"), std::string::npos) << refusal(bomb);
+    EXPECT_NE(refusal(gzipped(gzipped(text))).find("packed by gzip twice"), std::string::npos);
+    for (const char* name : {"a.glb.gz", "a.fbx.gz", "a.gltf.gz"}) {
+        EXPECT_NE(input_error([&] { import_clips(folder.write(name, packed), {}); }).find("unpack this file first"),
+                  std::string::npos);
+    }
+    std::mt19937 random(20240610);
+    for (int round = 0; round < 300; ++round) {
+        const auto file = folder.write("m.csv.gz", testing::mutated(packed, random));
+        try {
+            import_clips(file, {});
+        } catch (const InputError& error) {
+            ASSERT_EQ(std::string_view(error.what()).find('\n'), std::string_view::npos) << error.what();
+        }
+    }
+}
+
+TEST(FileKinds, WhatNoReaderTakesIsToldByItsLooks) {
+    const TempFolder folder;
+    using namespace std::string_literals;
+    for (const auto& [bytes, looks] : std::initializer_list<std::pair<std::string, const char*>>{
+             {"{\"a\": 1}", "looks like JSON"},
+             {"[[1,2],[3,4]]", "looks like JSON"},
+             {"\x89PNG\r\n\x1a\n\0\0"s, "looks like an image (PNG)"},
+             {"\xff\xd8\xff\xe0\0\x10JFIF"s, "looks like an image (JPEG)"},
+             {"PK\x03\x04\x14\0\x06\0"s, "looks like a ZIP archive (as .xlsx"},
+             {"\x89HDF\r\n\x1a\n"s, "looks like an HDF5 file"},
+             {"\x80\x04\x95\0\0"s, "looks like a Python pickle"},
+             {"PAR1\x15\x04"s, "looks like a Parquet file"},
+             {"\x93NUMPY\x01\0v\0{'descr'"s, "looks like a NumPy array"},
+             {"<!DOCTYPE html>\n<html><body>", "looks like an HTML page"},
+             {"  <html>", "looks like an HTML page"},
+             {"<?xml version=\"1.0\"?>\n<trajectories>", "looks like XML"},
+             {"version https://git-lfs.github.com/spec/v1\noid sha256:12\nsize 3\n", "looks like a Git LFS pointer"},
+             {"%PDF-1.5\n", "looks like a PDF"},
+             {"BZh91AY&SY\x01", "looks like packed by bzip2"},
+             {"7z\xbc\xaf\x27\x1c", "looks like a 7-Zip archive"}}) {
+        for (const char* name : {"a.csv", "a.txt", "a.dat", "a.yaml", "a"}) {
+            const auto file = folder.write(name, bytes);
+            const std::string said = input_error([&] { import_clips(file, {}); });
+            EXPECT_NE(said.find(looks), std::string::npos) << name << ' ' << said;
+        }
+    }
+    const std::string said = input_error([&] { import_clips(folder.write("a.dat", "hello world\n"), {}); });
+    EXPECT_NE(said.find("no reader for this kind of file"), std::string::npos) << said;
+    EXPECT_NE(input_error([&] { import_clips(folder.write("b", ""), {}); }).find("is empty"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mobbscope
