@@ -156,7 +156,8 @@ std::string named_conflicts(const std::string& file, const std::vector<std::stri
     std::vector<std::string> arguments{file};
     arguments.insert(arguments.end(), options.begin(), options.end());
     std::string out;
-    for (const json& pair : conflicts(arguments)["conflicts"]) {
+    const json pairs = conflicts(arguments)["conflicts"];
+    for (const json& pair : pairs) {
         for (const json& found : pair["plan"]) {
             out += found["kind"].get<std::string>() + ' ' + brief(found["t0"].get<double>()) + " (" +
                    brief(found["a"][0].get<double>()) + ',' + brief(found["a"][1].get<double>()) + "); ";

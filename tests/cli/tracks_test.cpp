@@ -118,7 +118,8 @@ TEST(Tracks, JsonSaysWhatTimeZeroIsInTheFile) {
         SCOPED_TRACE(name);
         const std::string file = folder.write(name, text);
         EXPECT_EQ(of_command({"conflicts", file})["t0"], t0.at(name));
-        for (const json& clip : of_command({"info", file})["clips"]) EXPECT_EQ(clip["t0"], t0.at(name));
+        const json clips = of_command({"info", file})["clips"];
+        for (const json& clip : clips) EXPECT_EQ(clip["t0"], t0.at(name));
         EXPECT_EQ(of_command({"conflicts", file, "--trim", "0:1"})["t0"], t0.at(name)) << "trim does not change it";
     }
     const json motion = of_command({"info", folder.write("m.csv", "t,x,y,r\n5,0,0,1\n6,0,0,1\n")})["clips"][0];
