@@ -59,8 +59,6 @@ struct Statistics : ObserverBase {
     void time_test(bool) { ++tests[TestKind::time]; }
     void box_test(BoxKind test, const Separation&) { ++tests[test]; }
     void sample_pair(int, int, double) { ++tests[TestKind::samples]; }
-    /// So many pairs that do not collide, in place of sample_pair for each: for observers that only count.
-    void sample_pairs(int count) { tests[TestKind::samples] += count; }
 };
 
 }  // namespace mobb
