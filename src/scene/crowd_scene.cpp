@@ -1,3 +1,4 @@
+#include <import/skeleton/motion.h>
 #include <scene/crowd_scene.h>
 #include <scene/motion_graph.h>
 
@@ -26,6 +27,15 @@ mobb::ClipPtr with_disk(const mobb::PlacedClip& clip, const mobb::Disk& to) {
     return std::make_shared<const mobb::Clip>(clip.dt(), std::move(samples), clip.clip().motion());
 }
 
+/// The skeleton with its last pose once more.
+std::shared_ptr<const Skeleton> with_last_pose(const Skeleton& skeleton) {
+    auto out = std::make_shared<Skeleton>(skeleton);
+    const auto joints = static_cast<std::ptrdiff_t>(skeleton.joints.size());
+    out->positions.insert(out->positions.end(), skeleton.positions.end() - joints, skeleton.positions.end());
+    out->rotations.insert(out->rotations.end(), skeleton.rotations.end() - joints, skeleton.rotations.end());
+    return out;
+}
+
 /// Plays of one person.
 class PlaysOf {
   public:
@@ -46,6 +56,7 @@ class PlaysOf {
             clip.name += " (" + agent.name + ')';
             // What no file has.
             clip.source.reset();
+            if (clip.skeleton) clip.skeleton = with_last_pose(*clip.skeleton);
             clip.clip = with_disk(placed_in(run_, agent_.plays[play]), joint->clip->samples().back());
             agent.clip = static_cast<int>(out.clips.size());
             out.clips.push_back(std::move(clip));

@@ -26,13 +26,20 @@ constexpr std::array<std::uint32_t, 8> kAgentColors{0xE69F00, 0x56B4E9, 0xCC79A7
 DrawnAgent make_drawn_agent(const FittedScene& fitted, const ViewState& view, const PlacedAgent& who, int index,
                             int color_index) {
     const Scene& scene = fitted.scene();
-    return {{fitted.tree(who.clip), shown_placement(fitted, view, who)},
-            who.name,
-            shortened(who.name, kLongestLabel),
-            agent_color(scene, who, color_index),
-            index,
-            scene.clips[static_cast<std::size_t>(who.clip)].skeleton.get(),
-            who.agent >= 0 ? scene.agents[static_cast<std::size_t>(who.agent)].run_agent : -1};
+    DrawnAgent out{{fitted.tree(who.clip), shown_placement(fitted, view, who)},
+                   who.name,
+                   shortened(who.name, kLongestLabel),
+                   agent_color(scene, who, color_index),
+                   index,
+                   scene.clips[static_cast<std::size_t>(who.clip)].skeleton.get()};
+    if (who.agent < 0) return out;
+    const Agent& agent = scene.agents[static_cast<std::size_t>(who.agent)];
+    out.run_agent = agent.run_agent;
+    if (scene.crowd) {
+        const CrowdAgent& person = scene.crowd->agents[static_cast<std::size_t>(agent.run_agent)];
+        out.goes_on = static_cast<std::size_t>(agent.play) + 1 < person.plays.size();
+    }
+    return out;
 }
 
 /// Who is hidden and who is pinned in a view.
@@ -134,7 +141,8 @@ std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState&
 std::optional<int> sample_at(const DrawnAgent& agent, double time) {
     const mobb::PlacedClip& clip = agent.clip();
     // Whoever was last seen at this very moment is there. Times are rounded.
-    if (clip.clip().runs() && std::abs(time - agent.end()) <= mobb::kMinOverlap) return clip.count() - 1;
+    if (!agent.goes_on && clip.clip().runs() && std::abs(time - agent.end()) <= mobb::kMinOverlap)
+        return clip.count() - 1;
     if (time < agent.begin() || time >= agent.end()) return std::nullopt;
     const int i = mobb::first_ending_after(clip, 0, clip.count(), time);
     return i < clip.count() ? std::optional(i) : std::nullopt;

@@ -19,6 +19,7 @@ struct DrawnAgent {
     int index = 0;                       ///< in DrawList::agents
     const Skeleton* skeleton = nullptr;  ///< of the clip; null: none
     int run_agent = -1;                  ///< of a run: who plays it, as Agent::run_agent; else -1
+    bool goes_on = false;                ///< of a run: another play begins when this one ends
     /// Of a run in space-time: the samples within the view's window, maybe none; nothing: all of them.
     std::optional<mobb::SampleRange> window{};
     /// Its cell, if the view lays out a grid: `placed` is where it is drawn there, which answers nothing.
@@ -48,8 +49,8 @@ Rgba agent_color(const Scene& scene, const PlacedAgent& who, int index);
 /// query.
 std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState& view);
 
-/// The sample that holds at a global time, or runs to the next; of a linear clip the last one when the clip ends. None:
-/// nobody is there.
+/// The sample that holds at a global time, or runs to the next; of a linear clip the last one when the clip ends,
+/// unless the agent goes on with another. None: nobody is there.
 std::optional<int> sample_at(const DrawnAgent& agent, double time);
 
 }  // namespace mobbscope

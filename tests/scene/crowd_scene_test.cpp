@@ -1,6 +1,8 @@
 // A run as a scene: who plays what around a time, and whose it is.
+#include <import/skeleton/motion.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
+#include <scene/drawn_agent.h>
 #include <scene/motion_graph.h>
 
 #include <gtest/gtest.h>
@@ -55,6 +57,59 @@ TEST(CrowdScene, AMomentHasThePeopleInTheirOrder) {
     EXPECT_EQ(scene.agents[1].run_agent, 1);
     EXPECT_EQ(scene.graph, run.graph);
     EXPECT_EQ(scene.crowd, run.crowd);
+}
+
+/// The same with linear clips, each with a skeleton of one joint.
+Scene linear_run() {
+    Scene scene = small_run();
+    for (SceneClip& clip : scene.clips) {
+        const auto samples = clip.clip->samples();
+        Skeleton skeleton;
+        skeleton.joints.emplace_back();
+        skeleton.rest.resize(1);
+        skeleton.rotations.resize(samples.size());
+        for (std::size_t i = 0; i < samples.size(); ++i) skeleton.positions.emplace_back(0, 0, 0.01F * static_cast<float>(i));
+        clip.skeleton = std::make_shared<const Skeleton>(skeleton);
+        clip.clip = std::make_shared<const mobb::Clip>(0.1, std::vector<mobb::Disk>(samples.begin(), samples.end()),
+                                                       mobb::Motion::linear);
+    }
+    return scene;
+}
+
+TEST(CrowdScene, ALinearPlayHasAClipThatRunsOnToTheNextOne) {
+    const Scene run = linear_run();
+    const Scene scene = scene_at(run, 0.45, {});
+    ASSERT_EQ(scene.clips.size(), 4u) << "behind those of the run one for each of the two";
+    const SceneClip& clip = scene.clips[static_cast<std::size_t>(scene.agents[0].clip)];
+    ASSERT_EQ(clip.clip->count(), 11);
+    EXPECT_EQ(clip.clip->duration(), 1);
+    EXPECT_NEAR(clip.clip->samples()[10].x, 1, 1e-12);
+    EXPECT_EQ(clip.skeleton->positions.size(), 11u) << "a pose for each sample";
+    EXPECT_EQ(clip.skeleton->rotations.size(), 11u);
+    EXPECT_EQ(clip.skeleton->at(10)[0], clip.skeleton->at(9)[0]);
+    // The last play has nothing behind it.
+    EXPECT_EQ(scene_at(run, 2.6, {}).agents[0].clip, 0);
+}
+
+TEST(CrowdScene, AtTheBorderOfTwoLinearPlaysAPersonIsThereOnce) {
+    const FittedScene run(linear_run(), {});
+    const auto plays_at = [&](double time) {
+        ViewState view;
+        view.show = Show::moment;
+        view.time = time;
+        const FittedScene moment = fitted_at(run, view);
+        std::vector<int> out;
+        for (const DrawnAgent& agent : drawn_agents(moment, view)) {
+            const int play = moment.scene().agents[static_cast<std::size_t>(agent.index)].play;
+            if (agent.run_agent == 0 && sample_at(agent, time)) out.push_back(play);
+        }
+        return out;
+    };
+    EXPECT_EQ(plays_at(0.45), std::vector{0});
+    EXPECT_EQ(plays_at(0.5), std::vector{1});
+    EXPECT_EQ(plays_at(2.5), std::vector{2});
+    EXPECT_EQ(plays_at(3.4), std::vector{2}) << "when it was last seen";
+    EXPECT_EQ(plays_at(3.41), std::vector<int>{});
 }
 
 TEST(CrowdScene, TheWindowAddsThePlaysAroundBehindThePeople) {

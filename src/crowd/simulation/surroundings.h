@@ -25,7 +25,7 @@ struct Blocker {
     int move = -1;          ///< see PlayedMove
     mobb::ClipPtr clip{};   ///< of the reserved motion, and where it is placed
     mobb::Placement placement{};
-    bool is_joint = false;  ///< see PlayedMove
+    bool is_joint = false;          ///< see PlayedMove
     bool before_candidate = false;  ///< met by the joint that leads to the candidate: that is `a` of the contact
 
     friend bool operator==(const Blocker&, const Blocker&) = default;
