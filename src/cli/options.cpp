@@ -155,7 +155,8 @@ void add_import_options(Command& command, ImportOptions& options) {
     add("--unit", &ImportOptions::unit, as_it_is, "m, cm, in, auto or metres per file unit", "U");
     add("--up", &ImportOptions::up, as_it_is, "y or z", "AXIS");
     add("--root", &ImportOptions::root, as_it_is, "The joint whose path is taken", "JOINT");
-    add("--trim", &ImportOptions::trim, parse_trim, "Only this part, in seconds from the first key", "A:B");
+    add("--trim", &ImportOptions::trim, parse_trim,
+        "Only this part, in seconds from the first key, of tracks from the earliest row", "A:B");
     add("--dt", &ImportOptions::dt, parse_number,
         "Seconds between the rows of a table without times, or from one frame number to the next", "S");
     add("--radius", &ImportOptions::radius, radius_from_text,

@@ -118,7 +118,8 @@ TEST(Tracks, JsonSaysWhatTimeZeroIsInTheFile) {
         SCOPED_TRACE(name);
         const std::string file = folder.write(name, text);
         EXPECT_EQ(of_command({"conflicts", file})["t0"], t0.at(name));
-        for (const json& clip : of_command({"info", file})["clips"]) EXPECT_EQ(clip["t0"], t0.at(name));
+        const json clips = of_command({"info", file})["clips"];
+        for (const json& clip : clips) EXPECT_EQ(clip["t0"], t0.at(name));
         EXPECT_EQ(of_command({"conflicts", file, "--trim", "0:1"})["t0"], t0.at(name)) << "trim does not change it";
     }
     const json motion = of_command({"info", folder.write("m.csv", "t,x,y,r\n5,0,0,1\n6,0,0,1\n")})["clips"][0];
@@ -265,7 +266,7 @@ CrowdAnswer answer_of(const std::string& file, const std::vector<std::string>& o
     return out;
 }
 
-void expect_same(const CrowdAnswer& a, const CrowdAnswer& b) {
+void expect_same_crowd(const CrowdAnswer& a, const CrowdAnswer& b) {
     ASSERT_EQ(a.starts.size(), b.starts.size());
     for (const auto& [name, start] : a.starts) EXPECT_NEAR(start, b.starts.at(name), 1e-9) << name;
     ASSERT_EQ(a.meetings.size(), b.meetings.size());
@@ -296,7 +297,7 @@ TEST(Tracks, EveryTrajectoryFileIsTheSameThroughConvert) {
             if (from == file) convert.insert(convert.end(), radius.begin(), radius.end());
             ASSERT_EQ(run_program(convert).status, 0);
             from = folder.path() / to;
-            expect_same(here, answer_of(from, {}));
+            expect_same_crowd(here, answer_of(from, {}));
         }
         EXPECT_TRUE(slurp(folder.path() / "b.csv") == slurp(folder.path() / "d.csv"));
         met += here.meetings.size();

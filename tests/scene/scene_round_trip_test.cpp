@@ -143,7 +143,7 @@ TEST(SceneRoundTrip, CapturesComeBackBitForBit) {
 
 TEST(SceneRoundTrip, SourcesStaySourcesUnlessSamplesAreAskedFor) {
     const TempFolder folder;
-    folder.write("a.csv", "id,t,x,y,r\n1,0,0,0,0\n1,1,0,0,0\n1,5,0,0,0\n");
+    folder.write("a.csv", "id,t,x,y,r\n1,0,0,0,0\n1,1,0,0,0\n1,1.37,0,0,0\n1,5,0,0,0\n");
     const auto file = folder.write("s.json", R"({"clips": {"c": {"source": "a.csv", "id": 1, "fps": 12.5, "unit": 0.1,
         "trim": [0.25, 3], "origin": "start_heading", "radius": 0.1}}})");
     const Scene scene = load_scene(file);

@@ -19,13 +19,13 @@ struct FarthestJoint {
 
 /// Somebody who stands there then.
 struct Body {
-    int agent = 0;                          ///< index into the drawn agents
-    int sample = 0;                         ///< that holds then
-    mobb::Disk disk;                        ///< that sample in the world
-    double height = 0;                      ///< metres, of the cylinder
-    std::optional<FarthestJoint> farthest;  ///< none without a skeleton, and of more than two
-    bool overlaps = false;                  ///< with any other
-    bool waits = false;                     ///< see waits_at
+    int agent = 0;                            ///< index into the drawn agents
+    int sample = 0;                           ///< that holds then
+    mobb::Disk disk;                          ///< that sample in the world
+    double height = 0;                        ///< metres, of the cylinder
+    std::optional<FarthestJoint> farthest{};  ///< none without a skeleton, and of more than two
+    bool overlaps = false;                    ///< with any other
+    bool waits = false;                       ///< see waits_at
 };
 
 /// Whether that joint lies on the cylinder's wall: it does unless the clip was given a radius of its own.
