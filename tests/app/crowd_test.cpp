@@ -244,5 +244,44 @@ TEST_F(CrowdTest, ConflictsAreCountedAsTheCommandCountsThem) {
     EXPECT_EQ(conflict_summary(session), conflict_count(other.found.size(), session.crowd()->agents.size(), seconds));
 }
 
+/// One walks 4 m in steps of 1 m and 0.5 s, twice; another stands for 0.3 s where the first runs on from 3 m to 4 m.
+constexpr const char* kMetBetweenPlays = R"({"mobbscope": 1,
+  "clips": {"walk": {"dt": 0.5, "motion": "linear", "samples": [[0,0,0.1],[1,0,0.1],[2,0,0.1],[3,0,0.1]]},
+            "post": {"dt": 0.3, "samples": [[0,0,0.1]]}},
+  "graph": {"hubs": [{"name": "a"}, {"name": "b"}], "bounds": {"pose_distance": null, "root_speed": null},
+            "moves": [{"clip": "walk", "from": 0, "to": 0, "entry": [0,0,0], "exit": [4,0,0]},
+                      {"clip": "post", "from": 1, "to": 1, "entry": [0,0,0], "exit": [0,0,0]}]},
+  "crowd": {"area": [40, 40], "seconds": 4, "seed": 1, "ahead": 0, "grace": 0, "turn_rate": 0, "agents": [
+    {"name": "17", "plays": [{"move": 0, "translate": [0,0], "rotate_deg": 0, "start": 0},
+      {"move": 0, "translate": [4,0], "rotate_deg": 0, "start": 2, "chosen_at": 1.5, "kind": "forced"}]},
+    {"name": "42", "plays": [{"move": 1, "translate": [3.5,0], "rotate_deg": 0, "start": 1.6, "chosen_at": 0}]}]}})";
+
+TEST_F(CrowdTest, WhoIsMetBetweenTwoLinearPlaysIsOpenedWithTheJoint) {
+    session.open({folder.write("joint.json", kMetBetweenPlays)});
+    ASSERT_TRUE(session.crowd());
+    const auto expect_hit = [&] {
+        ASSERT_TRUE(session.in_excerpt());
+        EXPECT_TRUE(session.answer_of(0).contact);
+        EXPECT_EQ(session.scene().clips[0].clip->count(), 2);
+        EXPECT_EQ(session.scene().clips[0].name, "joint to walk");
+        EXPECT_EQ(session.scene().agents[0].placement.start, 1.5);
+        session.leave_excerpt();
+    };
+    run("conflicts.find");
+    ASSERT_TRUE(session.conflicts());
+    ASSERT_EQ(session.conflicts()->size(), 1u);
+    run("conflicts.open", "0");
+    expect_hit();
+    run("crowd.follow", "17");
+    run("time.at", "1.7");
+    ASSERT_TRUE(session.choice());
+    run("crowd.open_candidate", "0");
+    expect_hit();
+    // What is drawn then runs on, too.
+    run("crowd.open_pair", "42");
+    ASSERT_TRUE(session.in_excerpt());
+    EXPECT_TRUE(session.answer_of(0).contact);
+}
+
 }  // namespace
 }  // namespace mobbscope::app
