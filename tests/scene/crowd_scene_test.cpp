@@ -68,7 +68,8 @@ Scene linear_run() {
         skeleton.joints.emplace_back();
         skeleton.rest.resize(1);
         skeleton.rotations.resize(samples.size());
-        for (std::size_t i = 0; i < samples.size(); ++i) skeleton.positions.emplace_back(0, 0, 0.01F * static_cast<float>(i));
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            skeleton.positions.emplace_back(0, 0, 0.01F * static_cast<float>(i));
         clip.skeleton = std::make_shared<const Skeleton>(skeleton);
         clip.clip = std::make_shared<const mobb::Clip>(0.1, std::vector<mobb::Disk>(samples.begin(), samples.end()),
                                                        mobb::Motion::linear);
