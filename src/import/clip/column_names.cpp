@@ -33,10 +33,13 @@ std::optional<double> size_of(std::span<const Unit> units, std::string_view word
 }
 
 struct Alias {
+    constexpr Alias(std::string_view word_, Column column_, std::string_view unit_ = {}, bool is_weak_ = false)
+        : word(word_), unit(unit_), column(column_), is_weak(is_weak_) {}
+
     std::string_view word;
+    std::string_view unit;  ///< of its values, where the word implies one
     Column column;
-    std::string_view unit{};  ///< of its values, where the word implies one
-    bool is_weak = false;
+    bool is_weak;
 };
 
 /// As PlainName::word.

@@ -213,8 +213,11 @@ class TextPlanParser {
         if (!ids_.insert(id).second) lines_.fail("agent " + id + " has a line already; leave one");
         CellReader reader(label.cells, lines_);
         Track track{id, {}};
-        for (TrackPoint point{0, 0, 0, lines_.number()}; reader.next(point.y, point.x); ++point.frame)
+        TrackPoint point{0, 0, 0, lines_.number()};
+        while (reader.next(point.y, point.x)) {
             add(track, point);
+            ++point.frame;
+        }
         if (track.points.empty()) lines_.fail("agent " + id + " has no cell; " + std::string(kHint));
         tracks_.push_back(std::move(track));
     }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -82,11 +83,11 @@ void fill(Track& track, const PlanSpan& plan, const std::optional<double>& step)
         if (i + 1 == stored.size()) break;
         const TrackPoint& a = stored[i];
         const TrackPoint& b = stored[i + 1];
-        const double steps = std::round((b.frame - a.frame) / *step);
-        for (double k = 1; k < steps; ++k) {
-            const double share = k / steps;
+        const std::int64_t steps = std::llround((b.frame - a.frame) / *step);  // fewer than `count`
+        for (std::int64_t k = 1; k < steps; ++k) {
+            const double share = static_cast<double>(k) / static_cast<double>(steps);
             TrackPoint between = a;
-            between.frame = a.frame + k * *step;
+            between.frame = a.frame + static_cast<double>(k) * *step;
             if (b.x != a.x) between.x = (1 - share) * a.x + share * b.x;
             if (b.y != a.y) between.y = (1 - share) * a.y + share * b.y;
             track.points.push_back(between);

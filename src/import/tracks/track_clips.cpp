@@ -224,8 +224,10 @@ class TrackClipMaker {
             if (at >= first) out.push_back(disk(points[i]));
             if (i + 1 == points.size()) break;
             const double next = steps_between(points[i], points[i + 1], step);
-            for (double k = std::max(first - at, 1.0); k < std::min(next, last - at + 1); ++k)
-                out.push_back(mix(disk(points[i]), disk(points[i + 1]), k / next));
+            const double from = std::max(first - at, 1.0), to = std::min(next, last - at + 1);
+            const auto count = static_cast<std::size_t>(std::max(to - from, 0.0));
+            for (std::size_t k = 0; k < count; ++k)
+                out.push_back(mix(disk(points[i]), disk(points[i + 1]), (from + static_cast<double>(k)) / next));
             at += next;
         }
         return out;
