@@ -34,18 +34,27 @@ struct ConvertCommandArguments {
     ImportOptions import_options;
 };
 
-/// When each clip starts: when its agent does, where every clip has one agent that plays it where it is; else 0.
+/// When each clip starts: when its agent does, where no clip has several agents; else 0.
 std::vector<double> starts_of(const Scene& scene) {
     std::vector<double> starts(scene.clips.size(), 0);
     std::vector<bool> placed(scene.clips.size(), false);
     for (const Agent& agent : scene.agents) {
         const auto clip = static_cast<std::size_t>(agent.clip);
-        if (placed[clip] || agent.placement.translate != glm::dvec2(0) || agent.placement.rotate_deg != 0)
-            return std::vector<double>(scene.clips.size(), 0);
+        if (placed[clip]) return std::vector<double>(scene.clips.size(), 0);
         placed[clip] = true;
         starts[clip] = agent.placement.start;
     }
     return starts;
+}
+
+/// A CSV holds clips as they are, not where agents play them.
+void warn_of_lost_placements(const Scene& scene, const std::filesystem::path& out) {
+    const auto moved = std::ranges::count_if(scene.agents, [](const Agent& agent) {
+        return agent.placement.translate != glm::dvec2(0) || agent.placement.rotate_deg != 0;
+    });
+    if (moved == 0) return;
+    warn(out.string() + ": " + counted(moved, "agent is", "agents are") +
+         " moved or turned, which a CSV does not hold: the clips are written where they are; write a scene (.json)");
 }
 
 /// One row a sample: t,x,y,r, with the clip's name in front where there are several. t is the time of the sample, from
@@ -184,6 +193,7 @@ void run_convert(const ConvertCommandArguments& arguments) {
     write_file(arguments.out, text);
     warn_of_lost_dt(scene, text, arguments.out);
     warn_of_lost_motion(scene, arguments.out);
+    warn_of_lost_placements(scene, arguments.out);
 }
 
 }  // namespace

@@ -174,6 +174,39 @@ TEST(Tracks, ConvertTellsTheDtOfOneSampleWhereItIsAnother) {
               std::string::npos);
 }
 
+TEST(Tracks, StartsStayInACsvOfASceneOfWhichSomebodyIsMoved) {
+    const TempFolder folder;
+    const std::string scene = folder.write("s.json", R"({"clips": {"a": {"dt": 1, "samples": [[0,0,1],[0,0,1]]},
+        "b": {"dt": 1, "samples": [[9,0,1],[9,0,1]]}}, "agents": [{"name": "a", "clip": "a", "start": 0},
+        {"name": "b", "clip": "b", "start": 5, "translate": [1, 0]}]})");
+    const std::string csv = (folder.path() / "s.csv").string();
+    const Result run = run_program({"convert", scene, "-o", csv, "--motion", "linear"});
+    EXPECT_EQ(run.status, 0);
+    EXPECT_NE(run.err.find("1 agent is moved or turned, which a CSV does not hold"), std::string::npos) << run.err;
+    EXPECT_NE(slurp(csv).find("\nb,5,9,0,1\n"), std::string::npos) << slurp(csv);
+}
+
+TEST(Tracks, WhatIsWorkedOutOfNoColumnIsRefusedInOneLine) {
+    const TempFolder folder;
+    const std::string csv = folder.write("b.csv", "id,t,x,y,r\n1,0,0,0,1\n1,1,1,0,1\n");
+    for (const char* const columns : {"r=-1", "t=1/0", "x=0/0"}) {
+        const Result run = run_program({"conflicts", csv, "--columns", columns});
+        EXPECT_EQ(run.status, 2) << columns;
+        EXPECT_NE(run.err.find("b.csv: line 2: "), std::string::npos) << run.err;
+        EXPECT_TRUE(is_one_line(run.err)) << run.err;
+    }
+}
+
+TEST(Tracks, AChosenColumnKeepsTheUnitThatItsNameSays) {
+    const TempFolder folder;
+    const std::string mixed = folder.write("u.csv", "id,t_ms,X_m,y_cm\n1,0,0,0\n1,1000,1,0\n2,0,1,0\n2,1000,0,0\n");
+    for (const char* const columns : {"x=X_m", "t=t_ms", "y=y_cm,x=X_m"}) {
+        const json found = of_command({"conflicts", mixed, "--columns", columns});
+        ASSERT_EQ(found["conflicts"].size(), 1u) << columns;
+        EXPECT_NEAR(found["conflicts"][0]["intervals"][0][0].get<double>(), 0.3, 1e-9) << columns;
+    }
+}
+
 TEST(Tracks, PlacesOfMapsAreToldToTheCentimetre) {
     const TempFolder folder;
     for (const auto& [x, y, place] : std::vector<std::tuple<std::string, std::string, std::string>>{

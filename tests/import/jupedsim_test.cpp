@@ -108,10 +108,12 @@ TEST(Jupedsim, IsToldByItsContentAndLeavesNothingBesideTheFile) {
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(closed), {}), 1);
     std::filesystem::permissions(closed, std::filesystem::perms::owner_all);
     // What is only in the log is not in the file.
-    folder.write("a.sqlite-wal", "pages");
-    EXPECT_NE(
-        input_error([&] { import_clips(folder.path() / "a.sqlite", {}); }).find("a.sqlite-wal; close the program"),
-        std::string::npos);
+    for (const std::string log : {"a.sqlite-wal", "a.sqlite-journal"}) {
+        const std::string written = folder.write(log, "pages");
+        EXPECT_NE(input_error([&] { import_clips(folder.path() / "a.sqlite", {}); }).find(log + "; close the program"),
+                  std::string::npos);
+        std::filesystem::remove(written);
+    }
 }
 
 TEST(Jupedsim, WhatIsMissingOrWrongIsSaid) {

@@ -180,8 +180,9 @@ TEST(TrackClips, TrimIsOfTheFilesTimeAndStartsStay) {
     EXPECT_EQ(trimmed(4.2, 99)[0].clip->count(), 2);
     EXPECT_EQ(trimmed(19.999, 20.1)[0].start, 20);
     EXPECT_EQ(trimmed(19.999, 20.1).size(), 1u);
-    EXPECT_EQ(input_error([&] { trimmed(7, 19); }),
-              "f.csv: nobody is there between 7 and 19 s of trim; the file lasts 20.5 s");
+    EXPECT_EQ(
+        input_error([&] { trimmed(7, 19); }),
+        "f.csv: nobody is there between 7 and 19 s of trim, which counts from the earliest row; the file lasts 20.5 s");
 }
 
 TEST(TrackClips, TrimTakesAPartOfWhatIsResampledToo) {

@@ -245,8 +245,10 @@ TEST(TrajectoryText, TrimTakesATimeOfTheCrowd) {
     EXPECT_NE(tracks_refusal(text, options).find("track '3' has no point between 1 and 3 s"), std::string::npos);
     options.id.reset();
     options.trim = {5, 7};
-    EXPECT_NE(tracks_refusal(text, options).find("nobody is there between 5 and 7 s of trim; the file lasts 10 s"),
-              std::string::npos);
+    EXPECT_NE(
+        tracks_refusal(text, options)
+            .find("nobody is there between 5 and 7 s of trim, which counts from the earliest row; the file lasts 10 s"),
+        std::string::npos);
 }
 
 TEST(TrajectoryText, OneTrackIsTakenById) {

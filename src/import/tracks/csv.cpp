@@ -276,11 +276,19 @@ class CsvParser {
 
     void take_by_name(Column column, std::array<double, std::size(kColumns)>& scales) {
         double& scale = scales[static_cast<std::size_t>(column)];
-        if (formula(column)) return;
         std::vector<std::size_t> found;
         std::vector<KnownColumn> known;
         bool strong = false;
-        for (std::size_t i = 0; i < names_.size(); ++i) {
+        if (const std::optional<ColumnFormula>& chosen = formula(column)) {
+            // A column that was chosen as it is keeps the unit that its name says.
+            const std::optional<std::size_t> only = chosen->only_column();
+            const std::optional<KnownColumn> here = only ? known_column(names_[*only]) : std::nullopt;
+            if (!here || !here->says_unit || (here->column == Column::t) != (column == Column::t)) return;
+            found.push_back(*only);
+            known.push_back(*here);
+        }
+        const bool is_chosen = !found.empty();
+        for (std::size_t i = 0; i < names_.size() && !is_chosen; ++i) {
             const std::optional<KnownColumn> here = known_column(names_[i]);
             if (!here || here->column != column || (strong && here->is_weak)) continue;
             if (!here->is_weak && !strong) {
@@ -416,18 +424,24 @@ class CsvParser {
         if (!made) return 0;
         const double value = made->of([this](std::size_t at) { return number(at); });
         if (std::abs(value) <= largest) return value;
-        const std::size_t at = made->columns().empty() ? 0 : made->columns().front();
+        const std::vector<std::size_t> from = made->columns();
         if (made->only_column())
-            fail(at, in_quotes(fields_[at]) + " is beyond " + short_double(largest) + "; check the units");
-        fail(at, std::string(name(column)) + " becomes " + brief(value) + ", which is no number up to " +
-                     short_double(largest) + "; check the units");
+            fail(from.front(),
+                 in_quotes(fields_[from.front()]) + " is beyond " + short_double(largest) + "; check the units");
+        const std::string message = std::string(name(column)) + " becomes " + brief(value) +
+                                    ", which is no number up to " + short_double(largest) + "; check the ";
+        from.empty() ? fail(message + "option columns") : fail(from.front(), message + "units");
     }
 
     TimedDisk row() const {
         const TimedDisk row{table_.has_frame ? value_of(Column::frame, kMaxFrame) : value_of(Column::t, mobb::kMaxTime),
                             {value_of(Column::x, mobb::kMaxLength), value_of(Column::y, mobb::kMaxLength),
                              value_of(Column::r, mobb::kMaxLength)}};
-        if (row.disk.r < 0) fail(formula(Column::r)->columns().front(), "the radius is negative; give 0 or more");
+        if (row.disk.r < 0) {
+            const std::vector<std::size_t> from = formula(Column::r)->columns();
+            const std::string message = "the radius is negative; give 0 or more";
+            from.empty() ? fail(message) : fail(from.front(), message);
+        }
         return row;
     }
 

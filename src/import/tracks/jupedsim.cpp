@@ -33,11 +33,13 @@ class Database {
     /// Opens a copy in memory: nothing is locked, and nothing is written beside the file.
     Database(std::string_view bytes, const std::string& file)
         : file_(file), steps_left_(static_cast<std::int64_t>(bytes.size()) * kStepsPerByte + kStepsBetweenChecks) {
-        std::error_code none;
-        const std::uintmax_t log = std::filesystem::file_size(file + "-wal", none);
-        if (!none && log > 0) {
-            fail("a part of it is still in " + file +
-                 "-wal; close the program that writes it, or let sqlite3 put both together (PRAGMA wal_checkpoint)");
+        for (const char* const ending : {"-wal", "-journal"}) {
+            std::error_code none;
+            const std::uintmax_t log = std::filesystem::file_size(file + ending, none);
+            if (!none && log > 0) {
+                fail("a part of it is still in " + file + ending +
+                     "; close the program that writes it, or open it once with sqlite3, which puts both together");
+            }
         }
         if (bytes.size() < kSqliteHeader) fail("ends within the header of its SQLite database; get the whole file");
         sqlite3* opened = nullptr;

@@ -260,10 +260,11 @@ std::vector<ImportedClip> track_clips(const TrackFile& tracks, const std::filesy
     std::vector<ImportedClip> clips =
         clips_by_track(tracks.tracks, file, options, [&](const Track& track) { return maker.make(track); });
     if (clips.empty()) {
-        throw InputError(name, "",
-                         (options.id ? "track " + in_quotes(*options.id) + " has no point" : "nobody is there") +
-                             " between " + brief(options.trim->first) + " and " + brief(options.trim->second) +
-                             " s of trim; the file lasts " + brief(maker.duration()) + " s");
+        throw InputError(
+            name, "",
+            (options.id ? "track " + in_quotes(*options.id) + " has no point" : "nobody is there") + " between " +
+                short_double(options.trim->first) + " and " + short_double(options.trim->second) +
+                " s of trim, which counts from the earliest row; the file lasts " + brief(maker.duration()) + " s");
     }
     return clips;
 }
