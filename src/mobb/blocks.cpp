@@ -324,8 +324,7 @@ void Blocks::add_windows(int level) {
 
 MovingDisk bounding_disk(const Clip& clip, int first, int end) {
     const Run run(clip, {0, 0}, first, end);
-    const int steps = std::min(end, clip.steps()) - first;
-    return around<double>(run, run.per_sample(), std::max(steps, 1));
+    return around<double>(run, run.per_sample(), std::max(clip.steps(first, end), 1));
 }
 
 MovingDisk Blocks::bound(const Level& level, int block, int span) const {

@@ -73,7 +73,7 @@ class alignas(64) Blocks {
     int count() const { return count_; }  ///< of samples
     int steps() const { return steps_; }  ///< of the clip: how many dt it lasts
     /// How many dt of them pass in `span` samples from `first` on, at least 0.
-    int steps(int first, int span) const { return std::min(steps_ - first, span); }
+    int steps(int first, int span) const { return clip_->steps(first, std::min(first + span, count_)); }
     double dt() const { return dt_; }
     double per_dt() const { return per_dt_; }  ///< 1 / dt()
     bool is_linear() const { return linear_; }

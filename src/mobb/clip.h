@@ -57,6 +57,8 @@ class Clip {
     /// How many dt the clip lasts: one for each sample, as the last one has its cylinder too (reading of Eq. 1,
     /// "o < t_end"); where samples run, one for each from a sample to the next.
     int steps() const { return runs() ? count() - 1 : count(); }
+    /// Likewise of samples [first, end), 0 <= first < end <= count().
+    int steps(int first, int end) const { return std::min(end, steps()) - first; }
     /// Clip time in seconds at which sample i begins and the one before it ends, 0 <= i <= count(). The last sample of
     /// a clip that runs begins and ends at once.
     double time(int i) const { return std::min(i, steps()) * dt_; }

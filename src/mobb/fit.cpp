@@ -192,9 +192,6 @@ glm::dvec2 drift_per_sample(std::span<const Disk> disks) {
     return disks.size() == 1 ? glm::dvec2(0) : travel(disks) / static_cast<double>(disks.size() - 1);
 }
 
-/// How many dt a range lasts.
-int steps(const Clip& clip, SampleRange range) { return std::min(range.end(), clip.steps()) - range.first; }
-
 /// Where the disks are against a centre that drifts so and passes the origin in the middle of their time: each at the
 /// beginning and at the end of its hold interval, over which it stands still and so falls behind. Those of a linear
 /// clip run straight from one to the next: the range's own come first.
@@ -202,7 +199,7 @@ std::vector<Disk> drifting(const Clip& clip, SampleRange range, glm::dvec2 per_s
     std::vector<Disk> out;
     out.reserve(2 * static_cast<std::size_t>(range.count));
     int i = range.first;
-    const double middle = 0.5 * steps(clip, range);
+    const double middle = 0.5 * clip.steps(range.first, range.end());
     const auto add = [&](const Disk& d, int at) {
         const double samples = at - range.first - middle;
         out.push_back({d.x - samples * per_sample.x, d.y - samples * per_sample.y, d.r});
@@ -323,7 +320,7 @@ Box fit_moving(const Clip& clip, SampleRange range, Axes axes, double time_scale
     const BoundedDisks bounded{seen};
     const Rectangle rectangle = rectangle_around(bounded, axis_2d(own, bounded, travel_axis(all), axes));
     Box box = box_over_time(BoxKind::moving, clip, range, rectangle, time_scale);
-    box.drift = 0.5 * steps(clip, range) * per_sample;
+    box.drift = 0.5 * clip.steps(range.first, range.end()) * per_sample;
     return box;
 }
 
