@@ -312,7 +312,7 @@ TEST(GltfFile, BuffersMayBeDataUris) {
 
 TEST(GltfRefusal, NamesTheJsonPointer) {
     const GltfBytes bytes = mover();
-    const auto with = [&](std::string from, const std::string& to) {
+    const auto with = [&](const std::string& from, const std::string& to) {
         std::string json = bytes.json("[{}]");
         const std::size_t at = json.find(from);
         EXPECT_NE(at, std::string::npos) << from;

@@ -440,7 +440,7 @@ MotionFile bvh_motion(BvhData data) {
     for (const Joint& joint : data.joints) names.push_back(joint.end_site ? "" : joint.name);
     for (std::string& name : distinct_names(std::move(names))) out.joints.push_back({std::move(name), 0});
     out.characters = {out.joints.front().name};
-    const auto motion = std::make_shared<const BvhMotion>(std::move(data));
+    std::shared_ptr<const Motion> motion = std::make_shared<const BvhMotion>(std::move(data));
     out.moved = [](std::size_t) { return MovedCharacters{{0}, ""}; };
     out.motion = [motion](std::size_t, std::size_t) { return motion; };
     out.rooted = [motion](std::size_t, std::size_t joint) { return RootedMotion{motion, static_cast<int>(joint)}; };

@@ -14,7 +14,6 @@
 #include <exception>
 #include <memory>
 #include <set>
-#include <span>
 #include <utility>
 
 namespace mobbscope {
@@ -214,10 +213,10 @@ class SceneBuilder {
         animation.moved.assign(moved.begin(), moved.end());
         animation.pose = gltf_pose(rest_, channels);
         channels_.insert(channels_.end(), channels.begin(), channels.end());
-        const auto [first, last] = std::ranges::equal_range(text_.unread, index, {}, &GltfUnreadPointer::animation);
-        const std::string unread = unread_pointers({first, last});
+        const auto elsewhere = text_.unread.find(index);
+        const std::string unread = elsewhere == text_.unread.end() ? "" : unread_pointers(elsewhere->second);
         if (!unread.empty()) {
-            animation.warnings.push_back(unread + ", which " + (last - first == 1 ? "moves" : "move") +
+            animation.warnings.push_back(unread + ", which " + (elsewhere->second.size() == 1 ? "moves" : "move") +
                                          " no node: passed over");
         }
         if (moves_morph_targets)
@@ -230,16 +229,14 @@ class SceneBuilder {
         scene_.animations.push_back(std::move(animation));
     }
 
-    /// Where channels of KHR_animation_pointer lead that move no node; a few are named. Empty: there are none.
-    static std::string unread_pointers(std::span<const GltfUnreadPointer> unread) {
-        if (unread.empty()) return "";
+    /// Where channels of KHR_animation_pointer lead, of which there is one at least; a few are named.
+    static std::string unread_pointers(const std::vector<std::string>& pointers) {
         constexpr std::size_t kMostNamed = 3;
-        std::string out = "KHR_animation_pointer leads to ";
-        for (const GltfUnreadPointer& one : unread.first(std::min(unread.size(), kMostNamed))) {
-            out += (&one == unread.data() ? "" : ", ") + in_quotes(one.pointer);
+        std::string out = "KHR_animation_pointer leads to " + in_quotes(pointers.front());
+        for (std::size_t i = 1; i < std::min(pointers.size(), kMostNamed); ++i) out += ", " + in_quotes(pointers[i]);
+        if (pointers.size() > kMostNamed) {
+            out += " and " + counted(pointers.size() - kMostNamed, "more place", "more places");
         }
-        if (unread.size() > kMostNamed)
-            out += " and " + counted(unread.size() - kMostNamed, "more place", "more places");
         return out;
     }
 

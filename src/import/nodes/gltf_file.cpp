@@ -241,6 +241,7 @@ class GltfPlace {
     }
     /// The schema allows 4.0 for 4.
     std::uint64_t integer() const {
+        if (!value_) fail("is missing; add it");
         if (value_->is_number_unsigned()) return value_->get<std::uint64_t>();
         const double number = value_->is_number() ? value_->get<double>() : -1;
         if (!(number >= 0 && number <= 1e15) || number != std::floor(number)) fail("must be an integer of 0 or more");
@@ -318,10 +319,7 @@ class GltfChecker {
     bool keep_integer(const GltfPlace& from, Json& to, const char* key, Need need,
                       std::uint64_t most = kMaxInteger) const {
         const GltfPlace value = from[key];
-        if (!value.exists()) {
-            if (need == Need::required) value.fail("is missing; add it");
-            return false;
-        }
+        if (!value.exists() && need == Need::optional) return false;
         const std::uint64_t number = value.integer();
         if (number > most) value.fail(std::to_string(number) + " is beyond " + std::to_string(most));
         to[key] = number;
@@ -546,7 +544,7 @@ class GltfChecker {
             place.fail(in_quotes(pointer) + " must begin with '/', as in '/nodes/0/rotation'");
         const std::optional<NodePointer> of_node = node_pointer(pointer);
         if (!of_node) {
-            unread_.push_back({animations_, pointer});
+            unread_[animations_].push_back(pointer);
             return false;
         }
         if (!of_node->node || *of_node->node >= size_of("nodes")) {
@@ -563,7 +561,7 @@ class GltfChecker {
     std::size_t samplers_ = 0;    ///< of the animation at hand
     std::size_t animations_ = 0;  ///< before the one at hand
     std::vector<GltfOutsideBuffer> outside_;
-    std::vector<GltfUnreadPointer> unread_;
+    std::map<std::size_t, std::vector<std::string>> unread_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,18 +36,14 @@ struct GltfOutsideBuffer {
     std::size_t byte_length = 0;
 };
 
-/// A channel of KHR_animation_pointer that moves no property of a node, and so is taken out.
-struct GltfUnreadPointer {
-    std::size_t animation = 0;
-    std::string pointer;
-};
-
 /// What is left of the text: nodes, skins, animations and what they refer to. A channel of KHR_animation_pointer that
 /// moves a property of a node has it in place of its pointer, with kByPointer in front of the path.
 struct GltfText {
     std::string json;
     std::vector<GltfOutsideBuffer> outside{};  ///< in the text each has a byte in place of what it holds
-    std::vector<GltfUnreadPointer> unread{};   ///< in the order of the file
+    /// By animation: the pointers of the channels of KHR_animation_pointer that lead to no property of a node, and so
+    /// are taken out.
+    std::map<std::size_t, std::vector<std::string>> unread{};
     /// Where the body begins in a file without skins, as VRM's animations say it: the node of the hips.
     std::optional<int> hips{};
 };

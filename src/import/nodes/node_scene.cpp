@@ -33,6 +33,7 @@ struct Rig {
     /// As NodeScene::characters; never empty. One of no joints: no animation moves a node.
     std::vector<std::vector<int>> characters;
     std::vector<int> topmost;        ///< the topmost joint of each; -1 where it has none
+    std::vector<int> character_of;   ///< of each node; -1: it is nobody's
     std::vector<std::size_t> named;  ///< by node: its place among MotionFile::joints
 };
 
@@ -57,6 +58,15 @@ std::vector<int> nodes_below(int top, const Rig& rig) {
         if (parent >= 0 && inside[as_index(parent)]) inside[as_index(node)] = true;
         if (inside[as_index(node)]) out.push_back(node);
     }
+    return out;
+}
+
+/// A node that is nobody's, and what counts below it: joints of characters that the file names, or else all nodes.
+std::vector<int> joints_below(int top, const Rig& rig) {
+    std::vector<int> out = nodes_below(top, rig);
+    const auto is_joint = [&](int node) { return rig.character_of[as_index(node)] >= 0; };
+    if (!rig.scene.characters.empty() && std::ranges::any_of(out, is_joint))
+        std::erase_if(out, [&](int node) { return node != top && !is_joint(node); });
     return out;
 }
 
@@ -205,12 +215,12 @@ std::vector<int> characters_of_nodes(const Rig& rig) {
 }
 
 /// All nodes, those of characters first. Fills rig.named.
-std::vector<NamedJoint> named_joints(Rig& rig, const std::vector<int>& character_of) {
+std::vector<NamedJoint> named_joints(Rig& rig) {
     const std::vector<Node>& nodes = rig.scene.nodes;
     std::vector<int> in_order;
     for (const std::vector<int>& joints : rig.characters) in_order.insert(in_order.end(), joints.begin(), joints.end());
     for (const int node : rig.order) {
-        if (character_of[as_index(node)] < 0) in_order.push_back(node);
+        if (rig.character_of[as_index(node)] < 0) in_order.push_back(node);
     }
     std::vector<std::string> names;
     for (const int node : in_order) names.push_back(nodes[as_index(node)].name);
@@ -219,15 +229,16 @@ std::vector<NamedJoint> named_joints(Rig& rig, const std::vector<int>& character
     rig.named.resize(nodes.size());
     for (std::size_t i = 0; i < in_order.size(); ++i) {
         rig.named[as_index(in_order[i])] = i;
-        out.push_back({std::move(names[i]), character_of[as_index(in_order[i])]});
+        out.push_back({std::move(names[i]), rig.character_of[as_index(in_order[i])]});
     }
     return out;
 }
 
 /// The topmost joint of each character; -1 where it has none. Of several the first in its list, unless that has far
 /// fewer joints below it than another: controls and props stand beside a body.
-std::vector<int> topmost_joints(const Rig& rig, const std::vector<int>& character_of) {
+std::vector<int> topmost_joints(const Rig& rig) {
     const std::vector<Node>& nodes = rig.scene.nodes;
+    const std::vector<int>& character_of = rig.character_of;
     std::vector<int> joint_above(nodes.size(), -1);  // the nearest one, whosever it is
     std::vector<int> top_of(nodes.size(), -1);       // of its character, above a joint or itself
     std::vector<int> joints_from(nodes.size(), 0);   // by topmost joint
@@ -276,20 +287,20 @@ std::vector<int> parents_first(const std::vector<Node>& nodes) {
 }
 
 MotionFile node_motion_file(NodeScene scene) {
-    auto making = std::make_shared<Rig>(Rig{std::move(scene), {}, {}, {}, {}});
+    auto making = std::make_shared<Rig>(Rig{std::move(scene), {}, {}, {}, {}, {}});
     making->order = parents_first(making->scene.nodes);
     making->characters = making->scene.characters;
     if (making->characters.empty()) {
         const int top = making->scene.body.value_or(topmost_animated(making->scene, making->order));
         making->characters.push_back(top < 0 ? std::vector<int>() : nodes_below(top, *making));
     }
-    const std::vector<int> character_of = characters_of_nodes(*making);
-    making->topmost = topmost_joints(*making, character_of);
+    making->character_of = characters_of_nodes(*making);
+    making->topmost = topmost_joints(*making);
     MotionFile out;
     out.format = making->scene.format;
     out.unit = making->scene.unit;
     out.ground = making->scene.ground;
-    out.joints = named_joints(*making, character_of);
+    out.joints = named_joints(*making);
     const std::shared_ptr<const Rig> rig = std::move(making);
     for (const NodeAnimation& animation : rig->scene.animations) out.animations.push_back(animation.name);
     for (const int top : rig->topmost)
@@ -301,14 +312,14 @@ MotionFile node_motion_file(NodeScene scene) {
     };
     std::vector<int> node_of(rig->named.size());
     for (std::size_t node = 0; node < rig->named.size(); ++node) node_of[rig->named[node]] = static_cast<int>(node);
-    out.rooted = [rig, node_of, joints = out.joints](std::size_t animation, std::size_t joint) -> RootedMotion {
+    out.rooted = [rig, node_of](std::size_t animation, std::size_t joint) -> RootedMotion {
         require_moved(*rig, animation);
         const int node = node_of[joint];
-        const int character = joints[joint].character;
+        const int character = rig->character_of[as_index(node)];
         const auto motion = character >= 0
                                 ? std::make_shared<NodeMotion>(rig, animation, rig->characters[as_index(character)],
                                                                rig->topmost[as_index(character)])
-                                : std::make_shared<NodeMotion>(rig, animation, nodes_below(node, *rig), node);
+                                : std::make_shared<NodeMotion>(rig, animation, joints_below(node, *rig), node);
         return {motion, motion->joint_of(node)};
     };
     return out;

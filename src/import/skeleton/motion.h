@@ -104,7 +104,8 @@ struct MotionFile {
     /// One animation of one character, prepared only now: a file may hold many. Throws InputError where the animation
     /// moves nothing.
     std::function<std::shared_ptr<const Motion>(std::size_t animation, std::size_t character)> motion;
-    /// The same with a joint as root: of its character; of a joint that is nobody's, it and all below it.
+    /// The same with a joint as root: of its character; of a joint that is nobody's, it and the joints of skins below
+    /// it, or where there are none, all below it.
     std::function<RootedMotion(std::size_t animation, std::size_t joint)> rooted;
 };
 

@@ -305,7 +305,7 @@ WantedClips wanted_clips(const MotionFile& motions, const std::string& file, con
         if (!why_none.empty()) {
             const std::string place = "animation " + in_quotes(motions.animations[i]);
             if (animations.size() == 1) throw InputError(file, place, why_none);
-            out.left_out.push_back(place + " is left out: it " + why_none);
+            out.left_out.emplace_back(place).append(" is left out: it ").append(why_none);
         } else if (root) {
             const int character = motions.joints[*root].character;
             const auto is_it = [character](std::size_t of) { return static_cast<int>(of) == character; };
@@ -375,6 +375,7 @@ ImportOffer motion_offer(const MotionFile& motions, const std::filesystem::path&
         if (names.size() > 1) {
             OptionOffer animations{"animation", "", "the file has several: name one", true};
             for (std::size_t i = 0; i < names.size(); ++i) {
+                if (!motions.moved(i).nothing.empty()) continue;
                 const std::string key = animation_key(names, i);
                 animations.choices.push_back({key, key == names[i] ? key : key + ": " + names[i]});
             }
