@@ -1,0 +1,16 @@
+/// FBX files, binary and text, of version 7.1 and later: their nodes and animation stacks, no meshes.
+#pragma once
+
+#include <import/skeleton/motion.h>
+
+#include <filesystem>
+#include <string_view>
+
+namespace mobbscope {
+
+/// The whole transform chain is evaluated at each sample: curves with their tangents, layers, pivots and offsets,
+/// rotation orders, inherited scale. Axes and unit are those of GlobalSettings. `file` is named in messages. Throws
+/// InputError.
+MotionFile parse_fbx(std::string_view bytes, const std::filesystem::path& file);
+
+}  // namespace mobbscope
