@@ -52,7 +52,8 @@ class StackReader {
         for (const FbxConnection& connection : objects_.to(stack.id)) {
             const FbxObject* const layer = objects_.find(connection.from);
             // A layer belongs to one stack, a curve node to one layer: otherwise a small file could ask for any work.
-            if (layer && layer->kind == "AnimationLayer" && connection.property.empty() && taken_.insert(layer->id).second)
+            if (layer && layer->kind == "AnimationLayer" && connection.property.empty() &&
+                taken_.insert(layer->id).second)
                 layers.push_back(layer);
         }
         std::vector<bool> is_muted(layers.size());
@@ -165,8 +166,9 @@ glm::dvec3 FbxStack::value(const FbxAnimatedProperty& property, const FbxTransfo
         const FbxLayer& layer = layers[in.layer];
         const glm::dvec3 nothing(property.property == FbxProperty::scaling ? 1 : 0);
         const glm::dvec3 value = in.track.at(seconds, layer.is_base ? out : nothing);
-        out = layer.is_base ? value
-                            : blended(layer, layer.weight_at(seconds), property.property, rest.rotation_order, out, value);
+        out = layer.is_base
+                  ? value
+                  : blended(layer, layer.weight_at(seconds), property.property, rest.rotation_order, out, value);
     }
     return out;
 }

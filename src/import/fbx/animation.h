@@ -57,8 +57,8 @@ struct FbxStack {
     glm::dvec3 value(const FbxAnimatedProperty& property, const FbxTransform& rest, double seconds) const;
 };
 
-/// All stacks, in the order of the file; a layer belongs to one of them. Muted layers are left out, beside solo ones all others. `node_of`: the node of
-/// a Model's id. Throws InputError.
+/// All stacks, in the order of the file; a layer belongs to one of them. Muted layers are left out, beside solo ones
+/// all others. `node_of`: the node of a Model's id. Throws InputError.
 std::vector<FbxStack> fbx_stacks(FbxDocument& document, const FbxObjects& objects,
                                  const std::map<std::int64_t, std::size_t>& node_of, double ticks_per_second);
 

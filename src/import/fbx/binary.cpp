@@ -100,12 +100,24 @@ void FbxBinaryReader::take_value(std::size_t end) {
     switch (type) {
         case 'B':
         case 'C':
-        case 'Z': integer(take<std::uint8_t>(end)); break;
-        case 'Y': integer(take<std::int16_t>(end)); break;
-        case 'I': integer(take<std::int32_t>(end)); break;
-        case 'L': integer(take<std::int64_t>(end)); break;
-        case 'F': real(static_cast<double>(take<float>(end))); break;
-        case 'D': real(take<double>(end)); break;
+        case 'Z':
+            integer(take<std::uint8_t>(end));
+            break;
+        case 'Y':
+            integer(take<std::int16_t>(end));
+            break;
+        case 'I':
+            integer(take<std::int32_t>(end));
+            break;
+        case 'L':
+            integer(take<std::int64_t>(end));
+            break;
+        case 'F':
+            real(static_cast<double>(take<float>(end)));
+            break;
+        case 'D':
+            real(take<double>(end));
+            break;
         case 'S':
         case 'R':
             value.kind = FbxValue::Kind::text;
@@ -116,8 +128,10 @@ void FbxBinaryReader::take_value(std::size_t end) {
         case 'd':
         case 'f':
         case 'i':
-        case 'l': return take_array(type, end);
-        default: fail(place, "a value has no known type");
+        case 'l':
+            return take_array(type, end);
+        default:
+            fail(place, "a value has no known type");
     }
     document_.values_.push_back(value);
 }

@@ -90,12 +90,14 @@ void set_tension_continuity_bias(const FbxKey* before, FbxKey& key, const FbxKey
     const double slope_before = before ? chord(*before, key) : 0;
     const double slope_after = after ? chord(key, *after) : 0;
     const double share = (before && after ? 0.5 : 1.0) * (1 - tension);
-    key.slope_before = share * ((1 + bias) * (1 - continuity) * slope_before + (1 - bias) * (1 + continuity) * slope_after);
-    key.slope_after = share * ((1 + bias) * (1 + continuity) * slope_before + (1 - bias) * (1 - continuity) * slope_after);
+    key.slope_before =
+        share * ((1 + bias) * (1 - continuity) * slope_before + (1 - bias) * (1 + continuity) * slope_after);
+    key.slope_after =
+        share * ((1 + bias) * (1 + continuity) * slope_before + (1 - bias) * (1 - continuity) * slope_after);
 }
 
-/// Tangents of key `i`, whose slope_before and weight_before are what the key before says of it; and what it says of the
-/// next key.
+/// Tangents of key `i`, whose slope_before and weight_before are what the key before says of it; and what it says of
+/// the next key.
 void set_tangents(std::vector<FbxKey>& keys, std::size_t i, const Attributes& attributes) {
     FbxKey& key = keys[i];
     FbxKey* const next = i + 1 < keys.size() ? &keys[i + 1] : nullptr;
@@ -129,14 +131,16 @@ void set_tangents(std::vector<FbxKey>& keys, std::size_t i, const Attributes& at
         const double bias_before = -key.slope_before;
         const double bias_after = key.slope_after;
         const bool is_broken = before && after && std::abs(bias_after - bias_before) > 1e-4;
-        key.slope_after = automatic_slope(before, key, after, before && !after ? bias_before : bias_after, attributes.flags);
+        key.slope_after =
+            automatic_slope(before, key, after, before && !after ? bias_before : bias_after, attributes.flags);
         key.slope_before =
             is_broken ? automatic_slope(before, key, after, bias_before, attributes.flags) : key.slope_after;
     }
     say_of_next(attributes.data[1], attributes.weight_before_next());
 }
 
-/// The parameter in [0, 1] at which Bezier's cubic with the ordinates 0, a, b, 1 is `x`; a and b in [0, 1], so it rises.
+/// The parameter in [0, 1] at which Bezier's cubic with the ordinates 0, a, b, 1 is `x`; a and b in [0, 1], so it
+/// rises.
 double bezier_parameter(double a, double b, double x) {
     double low = 0;
     double high = 1;
@@ -174,11 +178,20 @@ FbxExtrapolation extrapolation(const FbxDocument& document, FbxDocument::Index c
     const FbxValue& value = document.values(type)[0];
     const std::int64_t letter = value.text.empty() ? value.integer : value.text[0];
     switch (letter) {
-        case 'A': out.kind = FbxExtrapolation::Kind::repeat_relative; break;
-        case 'K': out.kind = FbxExtrapolation::Kind::slope; break;
-        case 'M': out.kind = FbxExtrapolation::Kind::mirror; break;
-        case 'R': out.kind = FbxExtrapolation::Kind::repeat; break;
-        default: break;
+        case 'A':
+            out.kind = FbxExtrapolation::Kind::repeat_relative;
+            break;
+        case 'K':
+            out.kind = FbxExtrapolation::Kind::slope;
+            break;
+        case 'M':
+            out.kind = FbxExtrapolation::Kind::mirror;
+            break;
+        case 'R':
+            out.kind = FbxExtrapolation::Kind::repeat;
+            break;
+        default:
+            break;
     }
     const FbxDocument::Index times = document.find(record, "Repetition");
     if (times != FbxDocument::kNone && !document.values(times).empty()) out.times = document.values(times)[0].real;
@@ -212,11 +225,14 @@ double FbxCurve::inside(double seconds) const {
     const FbxKey& from = *(next - 1);
     if (next == keys_.end() || from.time == seconds) return from.value;
     switch (from.interpolation) {
-        case FbxInterpolation::constant: return from.value;
-        case FbxInterpolation::constant_next: return next->value;
+        case FbxInterpolation::constant:
+            return from.value;
+        case FbxInterpolation::constant_next:
+            return next->value;
         case FbxInterpolation::linear:
             return from.value + (next->value - from.value) * ((seconds - from.time) / (next->time - from.time));
-        case FbxInterpolation::cubic: return bezier(from, *next, seconds);
+        case FbxInterpolation::cubic:
+            return bezier(from, *next, seconds);
     }
     return from.value;
 }

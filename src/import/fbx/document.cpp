@@ -29,12 +29,16 @@ constexpr std::size_t kStep = std::size_t{1} << 20;  // bytes that an unpacked a
 std::size_t width_of(char type) {
     switch (type) {
         case 'd':
-        case 'l': return 8;
+        case 'l':
+            return 8;
         case 'f':
-        case 'i': return 4;
+        case 'i':
+            return 4;
         case 'b':
-        case 'c': return 1;
-        default: return 0;
+        case 'c':
+            return 1;
+        default:
+            return 0;
     }
 }
 
@@ -148,7 +152,8 @@ std::string_view FbxDocument::unpacked(Index record, const FbxValue& array, std:
         if (status == Z_BUF_ERROR || stream.avail_out > 0) break;
     }
     if (filled != size || (status != Z_OK && status != Z_STREAM_END))
-        fail(record, "does not unpack to the " + std::to_string(count) + " numbers that it claims; export the file again");
+        fail(record,
+             "does not unpack to the " + std::to_string(count) + " numbers that it claims; export the file again");
     unpacked_bytes_ += size;
     return std::string_view(room).substr(0, size);
 }
@@ -156,7 +161,8 @@ std::string_view FbxDocument::unpacked(Index record, const FbxValue& array, std:
 template <class Number>
 std::vector<Number> FbxDocument::read(Index record) {
     std::vector<Number> out;
-    // Before 7.2 text files had the floats in which bits are packed as floats, since then as the integers of these bits.
+    // Before 7.2 text files had the floats in which bits are packed as floats, since then as the integers of these
+    // bits.
     const bool is_real = std::is_same_v<Number, std::uint32_t> && version_ < kBitsAsIntegers;
     const auto add = [&](const FbxValue& value) {
         if (value.kind != FbxValue::Kind::integer && value.kind != FbxValue::Kind::real)
@@ -182,11 +188,21 @@ std::vector<Number> FbxDocument::read(Index record) {
     std::string room;
     const std::string_view bytes = unpacked(record, array, width, room);
     switch (array.type) {
-        case 'd': append<Number, double>(bytes, is_big_endian_, out); break;
-        case 'f': append<Number, float>(bytes, is_big_endian_, out); break;
-        case 'l': append<Number, std::int64_t>(bytes, is_big_endian_, out); break;
-        case 'i': append<Number, std::int32_t>(bytes, is_big_endian_, out); break;
-        default: append<Number, std::uint8_t>(bytes, is_big_endian_, out); break;
+        case 'd':
+            append<Number, double>(bytes, is_big_endian_, out);
+            break;
+        case 'f':
+            append<Number, float>(bytes, is_big_endian_, out);
+            break;
+        case 'l':
+            append<Number, std::int64_t>(bytes, is_big_endian_, out);
+            break;
+        case 'i':
+            append<Number, std::int32_t>(bytes, is_big_endian_, out);
+            break;
+        default:
+            append<Number, std::uint8_t>(bytes, is_big_endian_, out);
+            break;
     }
     return out;
 }

@@ -20,8 +20,8 @@ struct FbxValue {
     std::int64_t integer = 0;  ///< of a real one: towards zero, within the range; array: how many numbers it claims
     double real = 0;           ///< of an integer too
     Kind kind = Kind::integer;
-    char type = 0;            ///< array: 'f', 'd', 'i', 'l', 'b'; 'a' where it is text
-    bool is_packed = false;   ///< array: by zlib
+    char type = 0;           ///< array: 'f', 'd', 'i', 'l', 'b'; 'a' where it is text
+    bool is_packed = false;  ///< array: by zlib
 };
 
 /// "Name: value, value { records }".
@@ -63,8 +63,8 @@ class FbxDocument {
     Index find(Index record, std::string_view name) const;
     Index find_top(std::string_view name) const;
 
-    /// The numbers of a record, an array or values one by one. What is unpacked is bounded for the whole document. Throws
-    /// InputError, naming the place, if the array is damaged or holds another number of elements than it claims.
+    /// The numbers of a record, an array or values one by one. What is unpacked is bounded for the whole document.
+    /// Throws InputError, naming the place, if the array is damaged or holds another number of elements than it claims.
     std::vector<double> numbers(Index record);
     std::vector<std::int64_t> integers(Index record);
     /// The same for 32-bit floats that stand for packed bits: their bits. 64-bit ones are made 32-bit first.

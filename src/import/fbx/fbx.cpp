@@ -21,10 +21,10 @@ constexpr double kCentimetre = 0.01;  // the unit of UnitScaleFactor
 // Time is counted in ticks: those of FBX 7, and those that TCDefinition brings.
 constexpr double kTicksPerSecond = 46'186'158'000;
 constexpr double kNewTicksPerSecond = 141'120'000;
-constexpr std::int64_t kOldTicks = 127;           // of TCDefinition
+constexpr std::int64_t kOldTicks = 127;          // of TCDefinition
 constexpr std::int64_t kHeaderWithTicks = 1004;  // FBXHeaderVersion
-constexpr double kTurn = 0.16;                    // degrees: a joint that turns less stands still
-constexpr std::size_t kFewestJoints = 4;          // of a body
+constexpr double kTurn = 0.16;                   // degrees: a joint that turns less stands still
+constexpr std::size_t kFewestJoints = 4;         // of a body
 
 /// What a file's first record of the names leads to, as an integer.
 std::optional<std::int64_t> integer_at(const FbxDocument& document, std::initializer_list<std::string_view> path) {
@@ -88,10 +88,10 @@ struct PosedScene {
 
     FbxTransform transform_at(std::size_t stack, int node, double seconds) const {
         FbxTransform out = rest[as_index(node)];
-        const auto moved =
-            std::ranges::equal_range(stacks[stack].properties, as_index(node), {}, &FbxAnimatedProperty::node);
-        for (const FbxAnimatedProperty& property : moved) {
-            out[property.property] = stacks[stack].value(property, rest[as_index(node)], seconds);
+        const std::vector<FbxAnimatedProperty>& moved = stacks[stack].properties;
+        for (auto at = std::ranges::lower_bound(moved, as_index(node), {}, &FbxAnimatedProperty::node);
+             at != moved.end() && at->node == as_index(node); ++at) {
+            out[at->property] = stacks[stack].value(*at, rest[as_index(node)], seconds);
         }
         return out;
     }
@@ -101,9 +101,8 @@ struct PosedScene {
         std::vector<FbxGlobal> globals(rest.size());
         for (const int node : wanted) {
             const int parent = parents[as_index(node)];
-            globals[as_index(node)] =
-                fbx_global(seconds ? transform_at(stack, node, *seconds) : rest[as_index(node)],
-                           parent < 0 ? nullptr : &globals[as_index(parent)]);
+            globals[as_index(node)] = fbx_global(seconds ? transform_at(stack, node, *seconds) : rest[as_index(node)],
+                                                 parent < 0 ? nullptr : &globals[as_index(parent)]);
             out[as_index(node)] = globals[as_index(node)].node;
         }
     }
@@ -219,7 +218,8 @@ class FbxSceneBuilder {
             }
             const auto node = static_cast<int>(property.node);
             if (moves && (animation.moved.empty() || animation.moved.back() != node)) animation.moved.push_back(node);
-            if (turns && (animation.turned.empty() || animation.turned.back() != node)) animation.turned.push_back(node);
+            if (turns && (animation.turned.empty() || animation.turned.back() != node))
+                animation.turned.push_back(node);
         }
         std::vector<Numbers> lists;
         for (const auto& [curve, list] : times) lists.push_back(list);
@@ -241,7 +241,7 @@ class FbxSceneBuilder {
         // Where no node is a limb, those that move are.
         const std::vector<bool>& counts = std::ranges::find(is_limb_, true) == is_limb_.end() ? is_moved : is_limb_;
         const std::vector<int> order = parents_first(nodes);
-        std::vector<int> top(nodes.size(), -1);  // of each node, the topmost limb that it is or is below
+        std::vector<int> top(nodes.size(), -1);          // of each node, the topmost limb that it is or is below
         std::vector<std::size_t> size(nodes.size(), 0);  // by that limb
         std::vector<bool> is_body_moved(nodes.size());
         for (const int node : order) {

@@ -75,8 +75,8 @@ const FbxObject* FbxObjects::find(std::int64_t id) const {
 }
 
 std::span<const FbxConnection> FbxObjects::to(std::int64_t id) const {
-    const auto found = std::ranges::equal_range(by_target_, id, {}, &FbxConnection::to);
-    return {found.begin(), found.end()};
+    return {std::ranges::lower_bound(by_target_, id, {}, &FbxConnection::to),
+            std::ranges::upper_bound(by_target_, id, {}, &FbxConnection::to)};
 }
 
 glm::dvec3 fbx_vector(std::span<const FbxValue> values, glm::dvec3 otherwise) {

@@ -26,8 +26,8 @@ struct FbxObject {
 /// From a part to what it belongs to.
 struct FbxConnection {
     std::int64_t from = 0;
-    std::int64_t to = 0;         ///< 0: the scene's root
-    std::string_view property;   ///< of `to`; empty: to the object itself
+    std::int64_t to = 0;        ///< 0: the scene's root
+    std::string_view property;  ///< of `to`; empty: to the object itself
 };
 
 /// Refers to the document, which must outlive it.

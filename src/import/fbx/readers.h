@@ -34,7 +34,8 @@ FbxValue fbx_word(std::string_view word);
 template <class Visit>
 void each_fbx_number(std::string_view list, const Visit& visit) {
     constexpr std::string_view kBetween = " \t\r\n,";
-    for (std::size_t at = list.find_first_not_of(kBetween); at < list.size(); at = list.find_first_not_of(kBetween, at)) {
+    for (std::size_t at = list.find_first_not_of(kBetween); at < list.size();
+         at = list.find_first_not_of(kBetween, at)) {
         if (list[at] == ';') {
             at = std::min(list.find('\n', at), list.size());
             continue;

@@ -178,8 +178,7 @@ void FbxTextReader::take_array(FbxValue& array) {
 
 void FbxTextReader::find_version() const {
     const FbxDocument::Index header = document_.find_top("FBXHeaderExtension");
-    const FbxDocument::Index version =
-        header == FbxDocument::kNone ? header : document_.find(header, "FBXVersion");
+    const FbxDocument::Index version = header == FbxDocument::kNone ? header : document_.find(header, "FBXVersion");
     if (version != FbxDocument::kNone && !document_.values(version).empty()) {
         const std::int64_t number = document_.values(version)[0].integer;
         document_.set_version(static_cast<int>(std::clamp<std::int64_t>(number, 0, 100'000)));

@@ -10,9 +10,9 @@ namespace mobbscope {
 
 namespace {
 
-constexpr std::string_view kPropertyNames[kFbxProperties] = {
-    "Lcl Translation", "Lcl Rotation", "Lcl Scaling",  "RotationOffset", "RotationPivot",
-    "ScalingOffset",   "ScalingPivot", "PreRotation", "PostRotation"};
+constexpr std::string_view kPropertyNames[kFbxProperties] = {"Lcl Translation", "Lcl Rotation",  "Lcl Scaling",
+                                                             "RotationOffset",  "RotationPivot", "ScalingOffset",
+                                                             "ScalingPivot",    "PreRotation",   "PostRotation"};
 
 /// Which axis is turned about first, second and third.
 constexpr std::array<std::array<int, 3>, 6> kOrders{{{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}}};
@@ -44,7 +44,7 @@ glm::dquat fbx_rotation(const glm::dvec3& degrees, int order) {
 
 glm::dvec3 fbx_angles(const glm::dquat& rotation, int order) {
     const auto& [first, second, third] = axes_of(order);
-    const glm::dmat3 m = glm::mat3_cast(rotation);  // m[column][row]
+    const glm::dmat3 m = glm::mat3_cast(rotation);               // m[column][row]
     const double sign = (second - first + 3) % 3 == 1 ? 1 : -1;  // whether the axes follow each other as x, y, z
     glm::dvec3 radians(0);
     radians[second] = std::asin(std::clamp(-sign * m[first][third], -1.0, 1.0));
@@ -65,7 +65,8 @@ TranslationRotationScale FbxTransform::local() const {
     out.rotation = has_rotation_space ? fbx_rotation((*this)[pre_rotation], 0) * fbx_rotation(angles, rotation_order) *
                                             glm::conjugate(fbx_rotation((*this)[post_rotation], 0))
                                       : fbx_rotation(angles, 0);
-    const glm::dvec3 scaled_about = (*this)[scaling_offset] + (*this)[scaling_pivot] - out.scale * (*this)[scaling_pivot];
+    const glm::dvec3 scaled_about =
+        (*this)[scaling_offset] + (*this)[scaling_pivot] - out.scale * (*this)[scaling_pivot];
     out.translation = (*this)[translation] + (*this)[rotation_offset] + (*this)[rotation_pivot] +
                       out.rotation * (scaled_about - (*this)[rotation_pivot]);
     return out;
@@ -79,8 +80,7 @@ FbxGlobal fbx_global(const FbxTransform& transform, const FbxGlobal* parent) {
     if (!parent || transform.inherit == FbxInherit::with_shear) {
         out.unscaled = parent ? parent->node * local.affine() : local.affine();
     } else {
-        out.scale_from_above =
-            transform.inherit == FbxInherit::along_axes ? parent->scale : parent->scale_from_above;
+        out.scale_from_above = transform.inherit == FbxInherit::along_axes ? parent->scale : parent->scale_from_above;
         local.translation *= parent->scale;
         out.unscaled = parent->unscaled * local.affine();
     }

@@ -53,16 +53,17 @@ struct FbxTransform {
     glm::dvec3& operator[](FbxProperty property) { return properties[static_cast<std::size_t>(property)]; }
     const glm::dvec3& operator[](FbxProperty property) const { return properties[static_cast<std::size_t>(property)]; }
 
-    /// Scale, then rotate, then translate (FBX SDK, "Computing transformation matrices"): T Roff Rp Rpre R Rpost^-1 Rp^-1
-    /// Soff Sp S Sp^-1. Geometric transforms move what hangs on a node, not the nodes below it, so they are not here.
+    /// Scale, then rotate, then translate (FBX SDK, "Computing transformation matrices"): T Roff Rp Rpre R Rpost^-1
+    /// Rp^-1 Soff Sp S Sp^-1. Geometric transforms move what hangs on a node, not the nodes below it, so they are not
+    /// here.
     TranslationRotationScale local() const;
 };
 
 /// A node in the file's axes, with what those below it take on of its scale.
 struct FbxGlobal {
-    Affine node;                   ///< from the node's own axes
-    Affine unscaled;               ///< the same without its own scale, and what along_axes takes on
-    glm::dvec3 scale{1};           ///< which along_axes hands on
+    Affine node;                     ///< from the node's own axes
+    Affine unscaled;                 ///< the same without its own scale, and what along_axes takes on
+    glm::dvec3 scale{1};             ///< which along_axes hands on
     glm::dvec3 scale_from_above{1};  ///< of that, what came from above: without_parent hands it on
 };
 
