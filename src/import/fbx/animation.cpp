@@ -1,3 +1,4 @@
+#include <base/text.h>
 #include <import/fbx/animation.h>
 
 #include <algorithm>
@@ -67,7 +68,12 @@ class StackReader {
         const bool some_are_solo = std::ranges::find(is_solo, true) != is_solo.end();
         std::map<std::pair<std::size_t, FbxProperty>, std::vector<FbxAnimatedProperty::InLayer>> found;
         for (std::size_t i = 0; i < layers.size(); ++i) {
-            if (is_muted[i] || (some_are_solo && !is_solo[i])) continue;
+            if (is_muted[i] || (some_are_solo && !is_solo[i])) {
+                out.warnings.push_back(
+                    "the layer " + in_quotes(layers[i]->name) +
+                    (is_muted[i] ? " is muted: it was left out" : " was left out beside a solo one"));
+                continue;
+            }
             FbxLayer layer = read_layer(*layers[i]);
             layer.is_base = i == 0;
             for (const FbxConnection& part : objects_.to(layers[i]->id)) {

@@ -52,6 +52,7 @@ struct FbxStack {
     std::string name;  ///< may be empty
     std::vector<FbxLayer> layers;
     std::vector<FbxAnimatedProperty> properties;  ///< by rising node
+    std::vector<std::string> warnings;            ///< what was left out, one sentence each
 
     /// The value of one of its properties; `rest` is the node where nothing is animated.
     glm::dvec3 value(const FbxAnimatedProperty& property, const FbxTransform& rest, double seconds) const;

@@ -224,6 +224,7 @@ class FbxSceneBuilder {
         std::vector<Numbers> lists;
         for (const auto& [curve, list] : times) lists.push_back(list);
         animation.times = key_times(lists);
+        animation.warnings = stack.warnings;
         if (animation.moved.empty()) animation.moves_nothing = "moves no node; give a clip that does";
         animation.pose = [posed = posed_, index](std::optional<double> seconds, std::span<const int> wanted,
                                                  std::span<Affine> out) { posed->pose(index, seconds, wanted, out); };
