@@ -10,8 +10,10 @@ namespace mobbscope {
 
 namespace {
 
-/// x^exponent for an exponent in [0, 1]; of a negative x with its sign.
-double signed_power(double x, double exponent) { return std::copysign(std::pow(std::abs(x), exponent), x); }
+/// x^exponent for an exponent in [0, 1]; of a negative x with its sign, but 1 for an exponent of 0.
+double signed_power(double x, double exponent) {
+    return exponent > 0 ? std::copysign(std::pow(std::abs(x), exponent), x) : 1;
+}
 
 glm::dvec3 signed_powers(const glm::dvec3& v, double exponent) {
     return {signed_power(v.x, exponent), signed_power(v.y, exponent), signed_power(v.z, exponent)};

@@ -24,7 +24,6 @@ constexpr std::uint32_t kWeightedBeforeNext = 0x2000000;
 
 constexpr double kUnweighted = 1.0 / 3;
 constexpr double kWeightUnit = 1e-4;  // weights are stored as 16-bit fixed point, two in the bits of one float
-constexpr double kCycleTolerance = 1e-9;
 
 /// What one entry of KeyAttrFlags and KeyAttrDataFloat says of a key.
 struct Attributes {
@@ -246,18 +245,20 @@ double FbxCurve::outside(double seconds) const {
     if (rule.kind == Kind::slope)
         return end.value + (seconds - end.time) * (is_before ? end.slope_after : end.slope_before);
 
-    const double duration = keys_.back().time - keys_.front().time;
-    if (!(duration > kCycleTolerance) || rule.times == 0) return end.value;
-    const double beyond = std::abs(seconds - end.time);
-    double cycle = std::floor(beyond / duration + kCycleTolerance);
-    double within = std::clamp(beyond - cycle * duration, 0.0, duration);
+    // In whole ticks, so that a time on a repeated key is on that key.
+    const double begin = std::round(keys_.front().time * ticks_per_second_);
+    const double duration = std::round(keys_.back().time * ticks_per_second_) - begin;
+    if (duration < 1 || rule.times == 0) return end.value;
+    const double beyond = std::round(std::abs(seconds - end.time) * ticks_per_second_);
+    double cycle = std::floor(beyond / duration);
+    double within = beyond - cycle * duration;
     if (rule.times > 0 && cycle >= rule.times) {
         cycle = rule.times - 1;
         within = duration;
     }
     const bool is_mirrored = rule.kind == Kind::mirror && std::fmod(cycle, 2) == 0;
     if (is_mirrored != is_before) within = duration - within;
-    const double value = inside(keys_.front().time + within);
+    const double value = inside((begin + within) / ticks_per_second_);
     if (rule.kind != Kind::repeat_relative) return value;
     const double gain = keys_.back().value - keys_.front().value;
     return value + (cycle + 1) * (is_before ? -gain : gain);
@@ -307,7 +308,8 @@ std::shared_ptr<const FbxCurve> fbx_curve(FbxDocument& document, FbxDocument::In
         document.fail(record, "has tangents for " + std::to_string(key) + " of its " + std::to_string(keys.size()) +
                                   " keys; export the file again");
     }
-    return std::make_shared<const FbxCurve>(std::move(keys), extrapolation(document, record, "Pre-Extrapolation"),
+    return std::make_shared<const FbxCurve>(std::move(keys), ticks_per_second,
+                                            extrapolation(document, record, "Pre-Extrapolation"),
                                             extrapolation(document, record, "Post-Extrapolation"));
 }
 

@@ -32,8 +32,8 @@ struct FbxExtrapolation {
 class FbxCurve {
   public:
     /// Keys with times that never fall; of several at one time the last one counts from there on.
-    FbxCurve(std::vector<FbxKey> keys, FbxExtrapolation before, FbxExtrapolation after)
-        : keys_(std::move(keys)), before_(before), after_(after) {}
+    FbxCurve(std::vector<FbxKey> keys, double ticks_per_second, FbxExtrapolation before, FbxExtrapolation after)
+        : keys_(std::move(keys)), ticks_per_second_(ticks_per_second), before_(before), after_(after) {}
 
     const std::vector<FbxKey>& keys() const { return keys_; }
     /// The distinct times of the keys, seconds.
@@ -48,6 +48,7 @@ class FbxCurve {
     double outside(double seconds) const;
 
     std::vector<FbxKey> keys_;
+    double ticks_per_second_;
     FbxExtrapolation before_, after_;
 };
 
