@@ -45,6 +45,8 @@ void write_skeleton(JsonWriter& out, const SourceFacts& facts) {
     name("animation", facts.animation);
     name("root", facts.root);
     name("root_why", facts.root_why);
+    name("up", facts.up);
+    name("up_why", facts.up_why);
     out.key("joints");
     facts.joints > 0 ? out.value(facts.joints) : out.null();
 }
@@ -88,6 +90,12 @@ std::string guess_of(const SourceFacts& facts) {
     return " (guessed: a body " + brief(std::round(*facts.guessed_from_height * 100) / 100) + " m tall)";
 }
 
+/// Which axis is up, and why: only files with skeletons have one.
+std::string up_of(const SourceFacts& facts) {
+    if (facts.up.empty()) return "";
+    return ", " + facts.up + " up" + (facts.up_why.empty() ? "" : " (" + facts.up_why + ")");
+}
+
 using Warnings = std::vector<ImportWarning>;
 
 bool holds(const Warnings& warnings, const ImportWarning& warning) {
@@ -124,7 +132,7 @@ void print_clip(const Scene& scene, const SceneClip& clip, const Warnings& commo
     }
     std::cout << "  in the file  " << counted(facts.frames, "frame", "frames") << " over " << brief(facts.duration)
               << " s, " << (facts.dt ? brief(*facts.dt) + " s apart" : "not uniform in time") << ", "
-              << brief(facts.unit) << " m per unit" << guess_of(facts) << '\n'
+              << brief(facts.unit) << " m per unit" << guess_of(facts) << up_of(facts) << '\n'
               << "  taken        " << counted(clip.clip->count(), "sample", "samples") << " of "
               << brief(clip.clip->dt()) << " s, " << brief(clip.clip->duration()) << " s in all, "
               << mobb::name(clip.clip->motion())

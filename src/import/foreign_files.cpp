@@ -59,7 +59,6 @@ constexpr ForeignKind kForeign[] = {
     {"rar!"sv, "a RAR archive", kUnpack},
     {"ustar"sv, "a tar archive", "unpack it first", 257},
     {"gltf"sv, "a GLB file", "give it in a file whose name ends with .glb"},
-    {"kaydara fbx"sv, "an FBX file", "give it in a file whose name ends with .fbx"},
     {"#rosbag"sv, "a ROS bag", kExport},
     {"\x7f"
      "elf"sv,

@@ -3,9 +3,10 @@
 #include <base/text.h>
 #include <import/bvh/bvh.h>
 #include <import/clip/held_steps.h>
+#include <import/fbx/fbx.h>
 #include <import/foreign_files.h>
 #include <import/import.h>
-#include <import/nodes/node_files.h>
+#include <import/nodes/gltf.h>
 #include <import/skeleton/motion.h>
 #include <import/skeleton/motion_clips.h>
 #include <import/tracks/csv.h>
@@ -40,16 +41,8 @@ ImportOffer table_offer(const CsvFile& table, const std::filesystem::path& file,
 /// What `read` makes of a file, and the clips and the offer of that.
 template <auto read, auto to_clips, auto to_offer>
 ParsedFile parse_once(const std::filesystem::path& file, std::string bytes) {
-    constexpr bool kByPath = std::is_invocable_v<decltype(read), const std::filesystem::path&>;
-    const auto parse = [&] {
-        if constexpr (kByPath) {
-            return read(file);
-        } else {
-            return read(std::move(bytes), file.string());
-        }
-    };
-    using Parsed = decltype(parse());
-    const auto parsed = std::make_shared<const Parsed>(parse());
+    using Parsed = decltype(read(std::move(bytes), file.string()));
+    const auto parsed = std::make_shared<const Parsed>(read(std::move(bytes), file.string()));
     const auto checked = [file](const ImportOptions& options) {
         at_place(file.string(), "", [&] { check(options); });
         if (options.columns && !std::is_same_v<Parsed, CsvFile>)
@@ -74,16 +67,25 @@ struct FileReader {
     Contents contents;
     /// Whether bytes are of this kind, by their first kHead of them; null: their name tells.
     bool (*holds)(std::string_view) = nullptr;
-    bool by_path = false;  ///< it opens the file itself, and others that this names
 };
 
 constexpr std::size_t kHead = std::size_t{1} << 16;  // bytes
 
 bool looks_like_bvh(std::string_view text) { return text.substr(0, text.find_first_of(" \t\r\n")) == "HIERARCHY"; }
 
+/// Binary FBX begins with its name, text with comments and then the only node that every file has.
+bool looks_like_fbx(std::string_view bytes) {
+    if (bytes.starts_with("Kaydara FBX Binary")) return true;
+    for (bytes = trimmed(bytes); bytes.starts_with(';');) {
+        const std::size_t end = bytes.find_first_of("\r\n");
+        bytes = end == std::string_view::npos ? "" : trimmed(bytes.substr(end));
+    }
+    return bytes.starts_with("FBXHeaderExtension");
+}
+
 constexpr FileReader kBvh{parse_once<read_bvh, motion_clips, motion_offer>, Contents::skeletons, looks_like_bvh};
-constexpr FileReader kGltf{parse_once<read_gltf, motion_clips, motion_offer>, Contents::skeletons, nullptr, true};
-constexpr FileReader kFbx{parse_once<read_fbx, motion_clips, motion_offer>, Contents::skeletons, nullptr, true};
+constexpr FileReader kGltf{parse_once<parse_gltf, motion_clips, motion_offer>, Contents::skeletons};
+constexpr FileReader kFbx{parse_once<parse_fbx, motion_clips, motion_offer>, Contents::skeletons, looks_like_fbx};
 constexpr FileReader kJupedsim{parse_once<parse_jupedsim, track_clips, track_offer>, Contents::trajectories, is_sqlite};
 constexpr FileReader kTrajnetpp{parse_once<parse_trajnetpp, track_clips, track_offer>, Contents::trajectories,
                                 looks_like_trajnetpp};
@@ -96,8 +98,8 @@ constexpr FileReader kTextTracks{parse_once<parse_text_tracks, track_clips, trac
                                  looks_like_text_tracks};
 
 /// Those that are told by content. The first that holds a file reads it.
-constexpr const FileReader* kByContent[] = {&kJupedsim, &kBvh,   &kTrajnetpp, &kMapfPlan,
-                                            &kTextPlan, &kTable, &kTextTracks};
+constexpr const FileReader* kByContent[] = {&kJupedsim, &kBvh,      &kFbx,   &kTrajnetpp,
+                                            &kMapfPlan, &kTextPlan, &kTable, &kTextTracks};
 
 struct Format {
     std::string_view extension;
@@ -127,10 +129,12 @@ const Format* format_of(const std::filesystem::path& file) {
     return found == std::end(kFormats) ? nullptr : found;
 }
 
-/// Null where no reader holds them.
-const FileReader* reader_of(std::string_view bytes) {
+/// Null where no reader holds them, or none of files with skeletons where it has to be one.
+const FileReader* reader_of(std::string_view bytes, bool has_skeletons = false) {
     const auto head = bytes.substr(0, kHead);
-    const auto at = std::ranges::find_if(kByContent, [&](const FileReader* reader) { return reader->holds(head); });
+    const auto at = std::ranges::find_if(kByContent, [&](const FileReader* reader) {
+        return (!has_skeletons || reader->contents == Contents::skeletons) && reader->holds(head);
+    });
     return at == std::end(kByContent) ? nullptr : *at;
 }
 
@@ -175,11 +179,6 @@ std::string listed_trajectory_extensions() { return list_formats(true, " ", " ")
 
 ParsedFile parse_clip_file(const std::filesystem::path& file) {
     const Format* const format = format_of(file);
-    if (format && format->reader->by_path) {
-        if (lower_extension(file) == ".gz")
-            throw InputError(file.string(), "", "only text is read as gzip packs it; unpack this file first");
-        return format->reader->parse(file, "");
-    }
     const bool is_motion = format && format->reader->contents == Contents::skeletons;
     std::error_code ignored;
     const bool is_there = is_standard_input(file) || std::filesystem::exists(file, ignored);
@@ -188,7 +187,8 @@ ParsedFile parse_clip_file(const std::filesystem::path& file) {
     if (format || is_there) {
         std::string bytes = read_input(file);
         if (bytes.empty() && !format) throw InputError(file.string(), "", "is empty; give a table or tracks");
-        const FileReader* reader = is_motion ? format->reader : reader_of(bytes);
+        const FileReader* reader = reader_of(bytes, is_motion);
+        if (!reader && is_motion) reader = format->reader;
         // A name that says what it is says so of text that tells nothing: then its reader knows what is wrong.
         if (!reader) {
             if (const auto kind = foreign_kind(bytes)) throw InputError(file.string(), "", *kind);

@@ -38,8 +38,8 @@ struct ParsedFile {
     std::function<ImportOffer(const ImportOptions&)> offer;
 };
 
-/// Reads a file, which may be standard input ("-") and packed by gzip. Motion files are told by their extensions,
-/// tables and trajectories by their content. Throws InputError.
+/// Reads a file, which may be standard input ("-") and packed by gzip. What it is its content tells; where that tells
+/// nothing, its extension. Throws InputError.
 ParsedFile parse_clip_file(const std::filesystem::path& file);
 
 /// Of the options those that an offer depends on.

@@ -1,6 +1,6 @@
 #include <base/file.h>
 #include <import/bvh/bvh.h>
-#include <import/nodes/node_files.h>
+#include <import/nodes/gltf.h>
 #include <motion_files/bvh_writer.h>
 #include <motion_files/formats.h>
 #include <motion_files/glb_writer.h>

@@ -37,7 +37,7 @@ DiskDifference read_back(std::string_view bytes, const MotionFormat& format, con
     const auto compare = [&] { return difference(*motion_clips(motions, file, options).front().clip, played); };
     const DiskDifference guessed = compare();
     if (guessed.place <= kSameDisk) return guessed;
-    const std::shared_ptr<const Motion> written = motions.motion(0);
+    const std::shared_ptr<const Motion> written = motions.motion(0, 0);
     options.unit = "m";
     options.root = written->joints()[static_cast<std::size_t>(written->topmost())].name;
     DiskDifference told = compare();

@@ -29,7 +29,8 @@ const ImportedClip& one_of(const std::vector<ImportedClip>& all, const ImportOpt
     }
     if (std::count_if(at, all.end(), is_it) > 1) {
         throw InputError(file.string(), "",
-                         at->id.empty() ? "it has several animations: name one" : "it has several tracks: name one");
+                         at->id.empty() ? "it has several animations or characters: name one with animation and root"
+                                        : "it has several tracks: name one");
     }
     return *at;
 }

@@ -367,11 +367,16 @@ class SceneReader {
     }
 
     [[noreturn]] void refuse_several(const std::string& source, const std::vector<ImportedClip>& imported) const {
-        const bool tracks = !imported.front().id.empty();
-        throw InputError((folder_ / source).string(), "",
-                         "has " + std::to_string(imported.size()) +
-                             (tracks ? " tracks; name one with id" : " animations; name one with animation") +
-                             ", such as " + in_quotes(tracks ? imported.front().id : imported.front().animation));
+        const ImportedClip& first = imported.front();
+        const bool of_one_animation =
+            std::ranges::all_of(imported, [&](const ImportedClip& clip) { return clip.animation == first.animation; });
+        const std::string animation = "name one with animation, such as " + in_quotes(first.animation);
+        const std::string root = "name one with root, such as " + in_quotes(first.root);
+        const std::string how = !first.id.empty()    ? " tracks; name one with id, such as " + in_quotes(first.id)
+                                : first.root.empty() ? " animations; " + animation
+                                : of_one_animation   ? " characters; " + root
+                                                     : " clips; " + animation + ", and " + root;
+        throw InputError((folder_ / source).string(), "", "has " + std::to_string(imported.size()) + how);
     }
 
     Agent read_agent(const JsonPlace& place) {
@@ -473,6 +478,7 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& ove
         append(clip.facts.warnings, warnings);
         if (!imported.id.empty()) clip.options.id = imported.id;
         if (!imported.animation.empty()) clip.options.animation = imported.animation;
+        if (!imported.root.empty()) clip.options.root = imported.root;
         name_own_radius(clip);
         if (clip.facts.t0) {
             const auto index = static_cast<int>(scene.clips.size());

@@ -18,7 +18,7 @@ const std::string kFile = "walk.bvh";
 
 /// Where the joints of a text's only animation are at a stored frame.
 std::vector<glm::dvec3> pose(const std::string& text, int frame) {
-    const auto motion = bvh_motion(parse_bvh(text, kFile)).motion(0);
+    const auto motion = bvh_motion(parse_bvh(text, kFile)).motion(0, 0);
     std::vector<glm::dvec3> positions(motion->joints().size());
     motion->pose(frame * *motion->times().dt, positions);
     return positions;

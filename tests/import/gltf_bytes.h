@@ -1,7 +1,7 @@
 /// Small glTF files for tests: floats and bytes in one buffer, the rest as JSON.
 #pragma once
 
-#include <import/nodes/node_files.h>
+#include <import/nodes/gltf.h>
 
 #include <cstdint>
 #include <cstring>

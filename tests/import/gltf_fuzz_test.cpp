@@ -2,7 +2,7 @@
 #include "gltf_bytes.h"
 
 #include <base/error.h>
-#include <import/nodes/node_files.h>
+#include <import/nodes/gltf.h>
 #include <import/skeleton/motion_clips.h>
 #include <support/mutate.h>
 #include <support/temp_folder.h>

@@ -1,7 +1,7 @@
 // The glTF reader: what the specification says of samplers, accessors, nodes and skins, and what is refused.
 #include "gltf_bytes.h"
 
-#include <import/nodes/node_files.h>
+#include <import/nodes/gltf.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 
@@ -29,7 +29,7 @@ std::vector<glm::dvec3> pose_at(const Motion& motion, double seconds) {
 }
 
 std::vector<glm::dvec3> pose_at(const GltfBytes& bytes, const std::string& nodes, double seconds) {
-    return pose_at(*parse(bytes.glb(nodes)).motion(0), seconds);
+    return pose_at(*parse(bytes.glb(nodes)).motion(0, 0), seconds);
 }
 
 void expect_at(const glm::dvec3& place, double x, double y, double z, double tolerance = 1e-6) {
@@ -41,7 +41,7 @@ void expect_at(const glm::dvec3& place, double x, double y, double z, double tol
 std::string gltf_refusal(const std::string& bytes, const std::string& name = "clip.glb") {
     return testing::input_error([&] {
         const auto file = parse_gltf(bytes, name);
-        for (std::size_t i = 0; i < file.animations.size(); ++i) file.motion(i);
+        for (std::size_t i = 0; i < file.animations.size(); ++i) file.motion(i, 0);
     });
 }
 
@@ -116,7 +116,7 @@ TEST(GltfSampler, OutsideItsKeysAChannelStaysAndTheClipRunsFromTheEarliestToTheL
     const int late = bytes.add_floats("SCALAR", {1, 3});
     bytes.channel("0", "translation", early, bytes.add_floats("VEC3", {1, 0, 0, 2, 0, 0}));
     bytes.channel("1", "translation", late, bytes.add_floats("VEC3", {0, 1, 0, 0, 2, 0})).animation();
-    const auto motion = parse(bytes.glb(kArm)).motion(0);
+    const auto motion = parse(bytes.glb(kArm)).motion(0, 0);
     EXPECT_EQ(motion->times().first, 0.5);
     EXPECT_EQ(motion->times().last, 3);
     EXPECT_EQ(motion->times().frames, 3);
@@ -167,7 +167,7 @@ TEST(GltfAccessor, SparseElementsReplaceOthers) {
     const int on_zeros = bytes.add_accessor(sparse);
     const int on_base = bytes.add_accessor("\"bufferView\":" + std::to_string(base) + "," + sparse);
     bytes.channel("0", "translation", times, on_base).channel("1", "translation", times, on_zeros).animation();
-    const auto motion = parse(bytes.glb(kArm)).motion(0);
+    const auto motion = parse(bytes.glb(kArm)).motion(0, 0);
     const double expected_base[] = {0, 10, 2, 30};
     const double expected_zeros[] = {0, 10, 0, 30};
     for (int i = 0; i < 4; ++i) {
@@ -217,8 +217,8 @@ TEST(GltfNodes, NamesAreMadeWhereThereAreNone) {
     EXPECT_EQ(file.animations, (std::vector<std::string>{"#0", "second"}));
     EXPECT_EQ(file.format, "gltf");
     EXPECT_EQ(file.unit, 1);
-    EXPECT_EQ(file.motion(0)->joints()[0].name, "node0");
-    EXPECT_EQ(file.motion(0)->joints()[1].name, "tip");
+    EXPECT_EQ(file.motion(0, 0)->joints()[0].name, "node0");
+    EXPECT_EQ(file.motion(0, 0)->joints()[1].name, "tip");
 }
 
 TEST(GltfSkin, OnlyTheJointsOfSkin0Count) {
@@ -227,7 +227,7 @@ TEST(GltfSkin, OnlyTheJointsOfSkin0Count) {
         R"([{"children":[1]},{"name":"hips","children":[2,4]},{"children":[3]},{"name":"hand","translation":[1,0,0]},)"
         R"({"translation":[9,0,0]}])";
     const auto file = parse(mover().glb(nodes, R"(,"skins":[{"joints":[3,1]},{"joints":[4]}])"));
-    const auto motion = file.motion(0);
+    const auto motion = file.motion(0, 0);
     ASSERT_EQ(motion->joints().size(), 2u);
     EXPECT_EQ(motion->joints()[0].name, "hips");
     EXPECT_EQ(motion->joints()[1].name, "hand");
@@ -240,7 +240,7 @@ TEST(GltfSkin, OnlyTheJointsOfSkin0Count) {
 
 TEST(GltfSkin, OfSeveralTopmostJointsTheSkinsFirstIsTaken) {
     const std::string nodes = R"([{"name":"a"},{"name":"b"},{"name":"c"}])";
-    const auto motion = parse(mover().glb(nodes, R"(,"skins":[{"joints":[2,0,1]}])")).motion(0);
+    const auto motion = parse(mover().glb(nodes, R"(,"skins":[{"joints":[2,0,1]}])")).motion(0, 0);
     EXPECT_EQ(motion->joints()[static_cast<std::size_t>(motion->topmost())].name, "c");
 }
 
@@ -254,7 +254,7 @@ TEST(GltfSkin, WithoutOneTheTopmostAnimatedNodeBegins) {
     const std::string nodes = R"([{"name":"still"},{"children":[2]},{"name":"top","children":[3]},{"name":"leaf"}])";
     const auto file = parse(bytes.glb(nodes));
     for (const std::size_t animation : {0u, 1u}) {
-        const auto motion = file.motion(animation);
+        const auto motion = file.motion(animation, 0);
         ASSERT_EQ(motion->joints().size(), 2u);
         EXPECT_EQ(motion->topmost(), 0);
         EXPECT_EQ(motion->joints()[0].name, "top");
@@ -266,7 +266,7 @@ TEST(GltfFile, WhatIsNotNeededNeedNotBeThere) {
     const std::string rest =
         R"(,"images":[{"uri":"missing.png"},{"bufferView":99}],"materials":[7],"textures":"none","meshes":[{"primitives":)"
         R"([{"attributes":{"POSITION":88}}]}],"scenes":[{"nodes":[55]}],"extensionsRequired":["KHR_materials_unlit"])";
-    expect_at(pose_at(*parse(bytes.glb("[{\"mesh\":0,\"extras\":[1,{}]}]", rest)).motion(0), 1)[0], 2, 0, 0);
+    expect_at(pose_at(*parse(bytes.glb("[{\"mesh\":0,\"extras\":[1,{}]}]", rest)).motion(0, 0), 1)[0], 2, 0, 0);
 }
 
 TEST(GltfFile, ChannelsWithoutATargetNodeAreIgnored) {
@@ -274,7 +274,7 @@ TEST(GltfFile, ChannelsWithoutATargetNodeAreIgnored) {
     const int times = bytes.add_floats("SCALAR", {0, 9});
     bytes.channel("", "translation", times, 1).channel("0", "translation", 0, 1).animation();
     const auto file = parse(bytes.glb("[{}]"));
-    EXPECT_EQ(file.motion(1)->times().last, 1);
+    EXPECT_EQ(file.motion(1, 0)->times().last, 1);
 }
 
 TEST(GltfFile, BuffersLieBesideItOrBelow) {
@@ -283,7 +283,7 @@ TEST(GltfFile, BuffersLieBesideItOrBelow) {
     std::filesystem::create_directory(folder.path() / "the data");
     folder.write("the data/a+b.bin", bytes.binary() + "more than is needed");
     const auto file = folder.write("clip.gltf", bytes.json("[{}]", "", "the%20data/a+b.bin"));
-    expect_at(pose_at(*read_gltf(file).motion(0), 1)[0], 2, 0, 0);
+    expect_at(pose_at(*parse_gltf(testing::slurp(file), file).motion(0, 0), 1)[0], 2, 0, 0);
 
     for (const char* uri :
          {"../clip.bin", "/etc/passwd", "http://host/a.bin", "a/../../b.bin", "%2e%2e/b.bin", "a\\\\b"}) {
@@ -291,12 +291,12 @@ TEST(GltfFile, BuffersLieBesideItOrBelow) {
         EXPECT_NE(message.find("/buffers/0/uri"), std::string::npos) << message;
     }
     const std::string missing =
-        testing::input_error([&] { read_gltf(folder.write("b.gltf", bytes.json("[{}]", "", "gone.bin"))); });
+        testing::input_error([&] { parse_gltf(bytes.json("[{}]", "", "gone.bin"), folder.path() / "b.gltf"); });
     EXPECT_NE(missing.find("b.gltf: buffer 0: "), std::string::npos) << missing;
     EXPECT_NE(missing.find("gone.bin: no such file"), std::string::npos) << missing;
     folder.write("short.bin", bytes.binary().substr(1));
     const std::string cut =
-        testing::input_error([&] { read_gltf(folder.write("c.gltf", bytes.json("[{}]", "", "short.bin"))); });
+        testing::input_error([&] { parse_gltf(bytes.json("[{}]", "", "short.bin"), folder.path() / "c.gltf"); });
     EXPECT_NE(cut.find("buffer 0"), std::string::npos) << cut;
 }
 
@@ -305,7 +305,7 @@ TEST(GltfFile, BuffersMayBeDataUris) {
     const std::string base64 = "AAAAAAAAgD8AAAAAAAAAAAAAAAAAAABAAAAAAAAAAAA=";
     for (const char* type : {"application/octet-stream", "application/gltf-buffer", "", "model/whatever"}) {
         const std::string json = mover().json("[{}]", "", std::string("data:") + type + ";base64," + base64);
-        expect_at(pose_at(*parse_gltf(json, "clip.gltf").motion(0), 1)[0], 2, 0, 0);
+        expect_at(pose_at(*parse_gltf(json, "clip.gltf").motion(0, 0), 1)[0], 2, 0, 0);
     }
     expect_refused(mover().json("[{}]", "", "data:;base64,AAAA"), "buffer 0", "clip.gltf");
     expect_refused(mover().json("[{}]", "", "data:,AAAA"), "/buffers/0/uri", "clip.gltf");

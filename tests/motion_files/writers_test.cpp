@@ -101,7 +101,7 @@ TEST_F(MotionFiles, JointsKeepTheirOwnAxesAndRest) {
     const PlayedMotion motion(scene(R"({"clips": {"w": {"source": "walk.bvh", "fps": 10, "unit": "cm"}}})"), {});
     const MotionFile bvh = written_and_read(motion, motion_formats()[0]);
     const MotionFile glb = written_and_read(motion, motion_formats()[1]);
-    const auto source = bvh_motion(parse_bvh(kWalker, "walk.bvh")).motion(0);
+    const auto source = bvh_motion(parse_bvh(kWalker, "walk.bvh")).motion(0, 0);
     for (const double time : {0.0, 0.1}) {
         std::vector<glm::dvec3> p(source->joints().size());
         std::vector<glm::dquat> q(p.size());
@@ -143,7 +143,7 @@ TEST_F(MotionFiles, TheRestOfAGltfIsThePoseOfZeroAngles) {
     EXPECT_NE(text.find("\n0.000000 1.000000 0.000000 -90.000000 0.000000 0.000000 "), std::string::npos) << text;
     for (const MotionFormat& format : motion_formats()) EXPECT_LT(farthest_off(motion, format), 1e-6);
     const MotionFile glb = written_and_read(motion, motion_formats()[1]);
-    const glm::dquat rest = glb.motion(0)->rest().front();
+    const glm::dquat rest = glb.motion(0, 0)->rest().front();
     EXPECT_NEAR(rest.z, std::sqrt(0.5), 1e-6);
     EXPECT_NEAR(rest.w, std::sqrt(0.5), 1e-6);
 }
@@ -249,9 +249,9 @@ TEST_F(MotionFiles, NamesThatAFormatCannotHoldAreWrittenOtherwise) {
     const PlayedMotion motion(scene(R"({"clips": {"w": {"source": "walk.bvh", "fps": 10, "unit": "cm"}}})"), {});
     const MotionFile bvh = written_and_read(motion, motion_formats()[0]);
     const MotionFile glb = written_and_read(motion, motion_formats()[1]);
-    EXPECT_EQ(bvh.motion(0)->joints().size(), 5u);  // the foot's end is one more
-    EXPECT_EQ(bvh.motion(0)->joints()[3].name, "_");
-    EXPECT_EQ(glb.motion(0)->joints().size(), 4u);
+    EXPECT_EQ(bvh.motion(0, 0)->joints().size(), 5u);  // the foot's end is one more
+    EXPECT_EQ(bvh.motion(0, 0)->joints()[3].name, "_");
+    EXPECT_EQ(glb.motion(0, 0)->joints().size(), 4u);
     for (const MotionFormat& format : motion_formats())
         EXPECT_LT(farthest_off(motion, format), 1e-5) << format.extension;
 }

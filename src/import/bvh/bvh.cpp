@@ -432,9 +432,19 @@ class BvhMotion : public Motion {
 BvhData parse_bvh(std::string_view text, const std::string& file) { return BvhParser(text, file).parse(); }
 
 MotionFile bvh_motion(BvhData data) {
-    return {"bvh", std::nullopt, {"#0"}, [motion = std::make_shared<BvhMotion>(std::move(data))](std::size_t) {
-                return motion;
-            }};
+    MotionFile out;
+    out.format = "bvh";
+    out.guess_up = true;
+    out.animations = {"#0"};
+    std::vector<std::string> names;
+    for (const Joint& joint : data.joints) names.push_back(joint.end_site ? "" : joint.name);
+    for (std::string& name : distinct_names(std::move(names))) out.joints.push_back({std::move(name), 0});
+    out.characters = {out.joints.front().name};
+    const auto motion = std::make_shared<const BvhMotion>(std::move(data));
+    out.moved = [](std::size_t) { return MovedCharacters{{0}, ""}; };
+    out.motion = [motion](std::size_t, std::size_t) { return motion; };
+    out.rooted = [motion](std::size_t, std::size_t joint) { return RootedMotion{motion, static_cast<int>(joint)}; };
+    return out;
 }
 
 }  // namespace mobbscope

@@ -29,7 +29,8 @@ void check(const ImportOptions& options) {
     require(!options.fps || (*options.fps > 0 && *options.fps <= kMaxFps), "fps must be over 0 and at most 1000000");
     require(!options.unit || is_unit(*options.unit),
             "unit must be m, cm, in, auto or metres per file unit (over 0, at most 1000000)");
-    require(!options.up || *options.up == "y" || *options.up == "z", "up must be y or z");
+    require(!options.up || *options.up == "y" || *options.up == "z" || *options.up == "auto",
+            "up must be y, z or auto");
     require(!options.trim || (options.trim->first >= 0 && options.trim->first < options.trim->second &&
                               options.trim->second <= mobb::kMaxTime),
             "trim must be two times A and B in seconds, 0 <= A < B <= " + short_double(mobb::kMaxTime));

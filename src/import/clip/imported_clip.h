@@ -26,7 +26,7 @@ struct ImportOptions {
     std::optional<std::string> root;                ///< joint name
     std::optional<double> fps;                      ///< samples per second, over 0 to 1e6; default 30, or as stored
     std::optional<std::string> unit;                ///< "m", "cm", "in", "auto" or metres per file unit, over 0 to 1e6
-    std::optional<std::string> up;                  ///< "y" or "z"
+    std::optional<std::string> up;                  ///< "y", "z" or "auto"
     std::optional<std::pair<double, double>> trim;  ///< 0 <= A < B <= kMaxTime: file seconds from the first key or row
     std::optional<Origin> origin;                   ///< default keep
     std::optional<std::string> id;                  ///< of a file of tracks: the one to take
@@ -74,12 +74,14 @@ struct SourceFacts {
     std::vector<ImportWarning> warnings;
 
     // Of files with skeletons:
-    std::string animation{};                      ///< its name; "#<index>" if it has none
-    std::string root{};                           ///< the joint in the centre of the disks
-    std::string root_why{};                       ///< why it was taken, where no option names it: "the topmost joint"
-    int joints = 0;                               ///< in the root's subtree, itself included, End Sites not
-    std::size_t rig = 0;                          ///< the same for the same names of root and joints; 0: no skeleton
+    std::string animation{};  ///< its name; "#<index>" if it has none
+    std::string root{};       ///< the joint in the centre of the disks, as MotionFile::joints has it
+    std::string root_why{};   ///< why it was taken, where no option names it: "the topmost joint"
+    int joints = 0;           ///< in the root's subtree, itself included, End Sites not
+    std::size_t rig = 0;      ///< the same for the same names of root and joints; 0: no skeleton
     std::optional<double> guessed_from_height{};  ///< metres: the body's height, where it decided the unit
+    std::string up{};                             ///< the axis of the file that points up: "y", "z", "-y", ...
+    std::string up_why{};                         ///< why it is, where no option names it: "as the file says"
 
     // Of tracks:
     std::string label{};  ///< its class, "Biker"; empty where the file has none
@@ -92,11 +94,12 @@ struct Skeleton;
 
 /// A clip and where it came from.
 struct ImportedClip {
-    std::string name;  ///< the file's stem; of one clip of several, the track's id or the animation's name
+    std::string name;  ///< the file's stem; of one clip of several, the track's id or the animation's name and the root
     std::string id;    ///< of a file of tracks: the track; else empty
     mobb::ClipPtr clip;
     SourceFacts facts;
     std::string animation{};                     ///< of a file with several: ImportOptions::animation for this one
+    std::string root{};                          ///< of a file with several characters: ImportOptions::root likewise
     std::shared_ptr<const Skeleton> skeleton{};  ///< null without joints, and for very long clips
     double start = 0;  ///< seconds: when it starts on the clock of its file's tracks, see SourceFacts::t0
 };

@@ -51,6 +51,10 @@ class StackReader {
     FbxStack read(const FbxObject& stack) {
         FbxStack out;
         out.name = stack.name;
+        objects_.each_property(stack, [&](std::string_view name, std::span<const FbxValue> values) {
+            if (name == "LocalStart") out.begin = values[0].real / ticks_per_second_;
+            if (name == "LocalStop") out.end = values[0].real / ticks_per_second_;
+        });
         std::vector<const FbxObject*> layers;
         for (const FbxConnection& connection : objects_.to(stack.id)) {
             const FbxObject* const layer = objects_.find(connection.from);

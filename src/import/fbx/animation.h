@@ -50,6 +50,9 @@ struct FbxAnimatedProperty {
 
 struct FbxStack {
     std::string name;  ///< may be empty
+    /// The part of time that the file has the stack play, seconds; not after its begin: it does not say.
+    double begin = 0;
+    double end = 0;
     std::vector<FbxLayer> layers;
     std::vector<FbxAnimatedProperty> properties;  ///< by rising node
     std::vector<std::string> warnings;            ///< what was left out, one sentence each

@@ -83,7 +83,6 @@ bool is_limb(std::string_view type) {
 /// The scene without its motion, and the motion; shared by all that pose it.
 struct PosedScene {
     std::vector<FbxTransform> rest;  ///< by node
-    std::vector<int> parents;
     std::vector<FbxStack> stacks;
 
     FbxTransform transform_at(std::size_t stack, int node, double seconds) const {
@@ -96,14 +95,14 @@ struct PosedScene {
         return out;
     }
 
-    void pose(std::size_t stack, std::optional<double> seconds, std::span<const int> wanted,
+    void pose(std::size_t stack, std::optional<double> seconds, std::span<const PosedNode> nodes,
               std::span<Affine> out) const {
-        std::vector<FbxGlobal> globals(rest.size());
-        for (const int node : wanted) {
-            const int parent = parents[as_index(node)];
-            globals[as_index(node)] = fbx_global(seconds ? transform_at(stack, node, *seconds) : rest[as_index(node)],
-                                                 parent < 0 ? nullptr : &globals[as_index(parent)]);
-            out[as_index(node)] = globals[as_index(node)].node;
+        std::vector<FbxGlobal> globals(nodes.size());
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            const auto [node, above] = nodes[i];
+            globals[i] = fbx_global(seconds ? transform_at(stack, node, *seconds) : rest[as_index(node)],
+                                    above < 0 ? nullptr : &globals[as_index(above)]);
+            out[i] = globals[i].node;
         }
     }
 };
@@ -196,7 +195,6 @@ class FbxSceneBuilder {
                              counted(scene_.nodes.size() - reached, "node hangs", "nodes hang") +
                                  " on each other in a circle; export the file again");
         }
-        for (const Node& node : scene_.nodes) posed_->parents.push_back(node.parent);
     }
 
     void add_animation(std::size_t index) {
@@ -224,10 +222,15 @@ class FbxSceneBuilder {
         std::vector<Numbers> lists;
         for (const auto& [curve, list] : times) lists.push_back(list);
         animation.times = key_times(lists);
+        // Before its first key and after its last one a stack may hold a pose.
+        if (stack.begin < stack.end) {
+            animation.times.first = std::min(animation.times.first, stack.begin);
+            animation.times.last = std::max(animation.times.last, stack.end);
+        }
         animation.warnings = stack.warnings;
         if (animation.moved.empty()) animation.moves_nothing = "moves no node; give a clip that does";
-        animation.pose = [posed = posed_, index](std::optional<double> seconds, std::span<const int> wanted,
-                                                 std::span<Affine> out) { posed->pose(index, seconds, wanted, out); };
+        animation.pose = [posed = posed_, index](std::optional<double> seconds, std::span<const PosedNode> nodes,
+                                                 std::span<Affine> out) { posed->pose(index, seconds, nodes, out); };
         scene_.animations.push_back(std::move(animation));
     }
 

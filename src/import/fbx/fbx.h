@@ -9,8 +9,9 @@
 namespace mobbscope {
 
 /// The whole transform chain is evaluated at each sample: curves with their tangents, layers, pivots and offsets,
-/// rotation orders, inherited scale. Axes and unit are those of GlobalSettings. `file` is named in messages. Throws
-/// InputError.
+/// rotation orders, inherited scale. Axes and unit are those of GlobalSettings. An animation is a stack: all of its
+/// keys, and all of the time that the file has it play (LocalStart, LocalStop). Several skeletons are several
+/// characters. `file` is named in messages. Throws InputError.
 MotionFile parse_fbx(std::string_view bytes, const std::filesystem::path& file);
 
 }  // namespace mobbscope

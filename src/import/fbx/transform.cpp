@@ -57,9 +57,9 @@ glm::dvec3 fbx_angles(const glm::dquat& rotation, int order) {
     return glm::degrees(radians);
 }
 
-TranslationRotationScale FbxTransform::local() const {
+FbxLocal FbxTransform::local() const {
     using enum FbxProperty;
-    TranslationRotationScale out;
+    FbxLocal out;
     out.scale = (*this)[scaling];
     const glm::dvec3& angles = (*this)[rotation];
     out.rotation = has_rotation_space ? fbx_rotation((*this)[pre_rotation], 0) * fbx_rotation(angles, rotation_order) *
@@ -73,18 +73,17 @@ TranslationRotationScale FbxTransform::local() const {
 }
 
 FbxGlobal fbx_global(const FbxTransform& transform, const FbxGlobal* parent) {
-    TranslationRotationScale local = transform.local();
-    const glm::dvec3 own_scale = local.scale;
-    local.scale = glm::dvec3(1);
+    const FbxLocal local = transform.local();
+    Affine unscaled{glm::mat3_cast(local.rotation), local.translation};
     FbxGlobal out;
     if (!parent || transform.inherit == FbxInherit::with_shear) {
-        out.unscaled = parent ? parent->node * local.affine() : local.affine();
+        out.unscaled = parent ? parent->node * unscaled : unscaled;
     } else {
         out.scale_from_above = transform.inherit == FbxInherit::along_axes ? parent->scale : parent->scale_from_above;
-        local.translation *= parent->scale;
-        out.unscaled = parent->unscaled * local.affine();
+        unscaled.offset *= parent->scale;
+        out.unscaled = parent->unscaled * unscaled;
     }
-    out.scale = own_scale * out.scale_from_above;
+    out.scale = local.scale * out.scale_from_above;
     out.node = scaled(out.unscaled, out.scale);
     return out;
 }

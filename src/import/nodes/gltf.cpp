@@ -1,15 +1,17 @@
 #include <base/error.h>
 #include <base/file.h>
 #include <base/text.h>
+#include <import/nodes/gltf.h>
 #include <import/nodes/gltf_accessor.h>
+#include <import/nodes/gltf_animation.h>
 #include <import/nodes/gltf_file.h>
-#include <import/nodes/node_files.h>
 #include <tiny_gltf.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <exception>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -94,15 +96,14 @@ class SceneBuilder {
     SceneBuilder(const tinygltf::Model& model, const std::string& file) : model_(model), accessors_(model, file) {
         scene_.file = file;
         scene_.format = "gltf";
-        scene_.unit = 1;  // the specification: metres
+        scene_.unit = 1;  // the specification: metres, y up
+        scene_.ground = kYUp;
     }
 
     NodeScene build() {
         add_nodes();
         link_parents();
-        scene_.skins = static_cast<int>(model_.skins.size());
-        scene_.has_skin = !model_.skins.empty();
-        if (scene_.has_skin) scene_.skin_joints = model_.skins[0].joints;
+        if (!model_.skins.empty()) scene_.characters.push_back(joints_of_skin(0));
         if (model_.animations.empty()) {
             throw InputError(scene_.file, "", "holds no animation; export the clip with its animation");
         }
@@ -118,18 +119,28 @@ class SceneBuilder {
     void add_nodes() {
         for (int i = 0; i < static_cast<int>(model_.nodes.size()); ++i) {
             const tinygltf::Node& from = model_.nodes[as_index(i)];
-            Node node;
-            node.name = name_of(model_, i);
+            GltfRest rest;
             if (!from.matrix.empty()) {
-                node.matrix = matrix_of(i);
+                rest.matrix = matrix_of(i);
             } else {
-                node.rest.translation = vec3(from.translation, glm::dvec3(0));
-                node.rest.scale = vec3(from.scale, glm::dvec3(1));
-                if (!from.rotation.empty()) node.rest.rotation = rotation_of(i);
-                node.matrix = node.rest.affine();
+                rest.parts.translation = vec3(from.translation, glm::dvec3(0));
+                rest.parts.scale = vec3(from.scale, glm::dvec3(1));
+                if (!from.rotation.empty()) rest.parts.rotation = rotation_of(i);
+                rest.matrix = rest.parts.affine();
             }
-            scene_.nodes.push_back(std::move(node));
+            rest_->push_back(rest);
+            scene_.nodes.push_back({name_of(model_, i)});
         }
+    }
+
+    /// A node named twice counts once.
+    std::vector<int> joints_of_skin(std::size_t skin) const {
+        std::vector<int> out;
+        std::set<int> known;
+        for (const int joint : model_.skins[skin].joints) {
+            if (known.insert(joint).second) out.push_back(joint);
+        }
+        return out;
     }
 
     Affine matrix_of(int node) const {
@@ -176,6 +187,9 @@ class SceneBuilder {
         animation.name = from.name.empty() ? "#" + std::to_string(index) : from.name;
         const std::string place = "animation " + in_quotes(animation.name);
         std::vector<Numbers> times;
+        std::vector<GltfChannel> channels;
+        std::set<int> moved;
+        bool moves_morph_targets = false;
         std::set<std::pair<int, std::string>> targets;
         for (const tinygltf::AnimationChannel& channel : from.channels) {
             const std::string& path = channel.target_path;
@@ -188,12 +202,25 @@ class SceneBuilder {
             const tinygltf::AnimationSampler& sampler = from.samplers[as_index(channel.sampler)];
             times.push_back(times_of(sampler.input));
             if (path == "weights") {
-                animation.has_morph_channels = true;
+                moves_morph_targets = true;
             } else {
-                animation.channels.push_back(channel_of(channel, sampler, times.back(), place));
+                channels.push_back(channel_of(channel, sampler, times.back(), place));
+                moved.insert(channel.target_node);
             }
         }
         animation.times = key_times(times);
+        animation.moved.assign(moved.begin(), moved.end());
+        animation.pose = gltf_pose(rest_, channels);
+        if (model_.skins.size() > 1) {
+            animation.warnings.push_back("the file has " + counted(model_.skins.size(), "skin", "skins") +
+                                         "; the joints of skin 0 were taken");
+        }
+        if (moves_morph_targets)
+            animation.warnings.emplace_back("morph targets are animated too; they do not widen the disks");
+        animation.moves_nothing =
+            moves_morph_targets
+                ? "moves morph targets only, so there is no joint to follow; give a clip that moves nodes"
+                : "moves no node; give a clip that does";
         scene_.animations.push_back(std::move(animation));
     }
 
@@ -211,9 +238,9 @@ class SceneBuilder {
         return times;
     }
 
-    Channel channel_of(const tinygltf::AnimationChannel& from, const tinygltf::AnimationSampler& sampler,
-                       const Numbers& times, const std::string& place) {
-        Channel channel;
+    GltfChannel channel_of(const tinygltf::AnimationChannel& from, const tinygltf::AnimationSampler& sampler,
+                           const Numbers& times, const std::string& place) {
+        GltfChannel channel;
         channel.node = from.target_node;
         channel.times = times;
         const auto property = enumerator_named<NodeProperty>(kProperties, from.target_path);
@@ -264,6 +291,7 @@ class SceneBuilder {
 
     const tinygltf::Model& model_;
     NodeScene scene_;
+    std::shared_ptr<std::vector<GltfRest>> rest_ = std::make_shared<std::vector<GltfRest>>();
     GltfAccessors accessors_;
     std::set<int> checked_times_;
     std::set<std::pair<int, bool>> checked_rotations_;
@@ -276,7 +304,5 @@ MotionFile parse_gltf(std::string_view bytes, const std::filesystem::path& file)
     const std::string name = file.string();
     return node_motion_file(SceneBuilder(model, name).build());
 }
-
-MotionFile read_gltf(const std::filesystem::path& file) { return parse_gltf(read_file(file), file); }
 
 }  // namespace mobbscope

@@ -1,6 +1,7 @@
 #include <base/error.h>
 #include <base/text.h>
 #include <import/nodes/gltf_accessor.h>
+#include <import/nodes/node_scene.h>
 #include <tiny_gltf.h>
 
 #include <algorithm>

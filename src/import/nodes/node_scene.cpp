@@ -6,49 +6,14 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <memory>
 #include <set>
+#include <utility>
 
 namespace mobbscope {
 
 namespace {
-
-glm::dquat quaternion(const double* xyzw) { return {xyzw[3], xyzw[0], xyzw[1], xyzw[2]}; }
-
-/// Between two unit quaternions along the shorter arc.
-glm::dquat slerp(const glm::dquat& from, glm::dquat to, double share) {
-    double cosine = glm::dot(from, to);
-    if (cosine < 0) {  // q and -q are one rotation
-        to = -to;
-        cosine = -cosine;
-    }
-    // Near-parallel: the sines vanish, and the chord is as good as the arc.
-    if (cosine > 1 - 1e-12) return glm::normalize(from * (1 - share) + to * share);
-    const double angle = std::acos(cosine);
-    return (from * std::sin((1 - share) * angle) + to * std::sin(share * angle)) / std::sin(angle);
-}
-
-void put(const glm::dquat& q, double* xyzw) {
-    xyzw[0] = q.x;
-    xyzw[1] = q.y;
-    xyzw[2] = q.z;
-    xyzw[3] = q.w;
-}
-
-/// Hermite's cubic between key `k` and the next, `span` seconds apart, at `share` of the way.
-void cubic(const double* values, std::size_t width, std::size_t k, double span, double share, double* out) {
-    const double s2 = share * share;
-    const double s3 = s2 * share;
-    const double* from = values + 3 * k * width;
-    const double* to = from + 3 * width;
-    for (std::size_t i = 0; i < width; ++i) {
-        const double out_tangent = from[2 * width + i];
-        const double in_tangent = to[i];
-        out[i] = (2 * s3 - 3 * s2 + 1) * from[width + i] + span * (s3 - 2 * s2 + share) * out_tangent +
-                 (3 * s2 - 2 * s3) * to[width + i] + span * (s3 - s2) * in_tangent;
-    }
-}
 
 /// The rotation in a matrix that may scale, shear and mirror too; none where it leaves no volume.
 glm::dquat rotation_of(const glm::dmat3& linear) {
@@ -60,14 +25,14 @@ glm::dquat rotation_of(const glm::dmat3& linear) {
     return std::isfinite(out.w + out.x + out.y + out.z) ? out : glm::dquat{1, 0, 0, 0};
 }
 
-/// A node that has to be posed, as a joint lies in it or below it.
-struct PosedNode {
-    int parent = -1;  ///< index into the posed nodes, less than its own
-    int joint = -1;   ///< index into the joints; -1: none
-    TranslationRotationScale rest;
-    Affine matrix;
-    std::array<const Channel*, 3> channels{};  ///< by NodeProperty; null where none
-    bool moves = false;                        ///< at least one channel
+/// A scene, and what all of its motions need of it.
+struct Rig {
+    NodeScene scene;
+    std::vector<int> order;  ///< of the nodes, parents first
+    /// As NodeScene::characters; never empty. One of no joints: no animation moves a node.
+    std::vector<std::vector<int>> characters;
+    std::vector<int> topmost;        ///< the topmost joint of each; -1 where it has none
+    std::vector<std::size_t> named;  ///< by node: its place among MotionFile::joints
 };
 
 /// The node nearest to a scene root that any animation moves: all clips of a file have one root. Of several at one
@@ -75,54 +40,49 @@ struct PosedNode {
 int topmost_animated(const NodeScene& scene, const std::vector<int>& order) {
     std::vector<bool> moved(scene.nodes.size());
     for (const NodeAnimation& animation : scene.animations) {
-        for (const Channel& channel : animation.channels) moved[as_index(channel.node)] = true;
+        for (const int node : animation.moved) moved[as_index(node)] = true;
     }
     const auto first = std::find_if(order.begin(), order.end(), [&](int node) { return moved[as_index(node)]; });
     return first == order.end() ? -1 : *first;
 }
 
-/// True if a rotation is not the same at all keys.
-bool turns(const Channel& channel) {
-    const std::vector<double>& values = *channel.values;
-    const glm::dquat first = glm::normalize(quaternion(values.data()));
-    for (std::size_t i = 4; i < values.size(); i += 4) {
-        // The cosine of half the angle between them; single precision leaves it within 1e-7 of 1.
-        if (std::abs(glm::dot(first, glm::normalize(quaternion(&values[i])))) < 1 - 1e-6) return true;
+/// A node and all below it, parents first.
+std::vector<int> nodes_below(int top, const Rig& rig) {
+    std::vector<bool> inside(rig.scene.nodes.size());
+    inside[as_index(top)] = true;
+    std::vector<int> out;
+    for (const int node : rig.order) {
+        const int parent = rig.scene.nodes[as_index(node)].parent;
+        if (parent >= 0 && inside[as_index(parent)]) inside[as_index(node)] = true;
+        if (inside[as_index(node)]) out.push_back(node);
     }
-    return false;
+    return out;
 }
 
 class NodeMotion : public Motion {
   public:
-    NodeMotion(std::shared_ptr<const NodeScene> scene, std::size_t animation)
-        : scene_(std::move(scene)), animation_(&scene_->animations[animation]) {
-        if (animation_->channels.empty()) {
-            throw InputError(
-                scene_->file, "animation " + in_quotes(animation_->name),
-                animation_->has_morph_channels
-                    ? "moves morph targets only, so there is no joint to follow; give a clip that moves nodes"
-                    : "moves no node; give a clip that does");
-        }
-        const std::vector<int> order = parents_first(scene_->nodes);
-        const std::vector<int> joint_of = choose_joints(order);
-        choose_posed_nodes(order, joint_of);
+    /// `nodes`: those that are joints, among them `topmost`.
+    NodeMotion(std::shared_ptr<const Rig> rig, std::size_t animation, const std::vector<int>& nodes, int topmost)
+        : rig_(std::move(rig)), animation_(&rig_->scene.animations[animation]) {
+        const std::vector<int> joint_of = choose_joints(nodes);
+        topmost_ = joint_of[as_index(topmost)];
+        choose_posed_nodes(joint_of);
         is_pivot_.resize(joints_.size());
-        for (const Channel& channel : animation_->channels) {
-            const int joint = joint_of[as_index(channel.node)];
-            if (scene_->has_pivots && joint >= 0 && channel.property == NodeProperty::rotation && turns(channel)) {
-                is_pivot_[as_index(joint)] = true;
-            }
+        if (!rig_->scene.has_pivots) return;
+        for (const int node : animation_->turned) {
+            const int joint = joint_of[as_index(node)];
+            if (joint >= 0) is_pivot_[as_index(joint)] = true;
         }
     }
 
     std::span<const Joint> joints() const override { return joints_; }
+    std::size_t in_file(int joint) const override { return rig_->named[as_index(nodes_[as_index(joint)])]; }
     int topmost() const override { return topmost_; }
     bool is_pivot(int joint) const override { return is_pivot_[as_index(joint)]; }
     const MotionTimes& times() const override { return animation_->times; }
 
     void pose(double seconds, std::span<glm::dvec3> positions, std::span<glm::dquat> rotations) const override {
-        const auto local = [&](const PosedNode& node) { return node.moves ? local_at(node, seconds) : node.matrix; };
-        each_joint(local, [&](std::size_t joint, const Affine& global) {
+        each_joint(seconds, [&](std::size_t joint, const Affine& global) {
             positions[joint] = global.offset;
             if (!rotations.empty()) rotations[joint] = rotation_of(global.linear);
         });
@@ -130,126 +90,162 @@ class NodeMotion : public Motion {
 
     std::vector<glm::dquat> rest() const override {
         std::vector<glm::dquat> out(joints_.size());
-        const auto local = [](const PosedNode& node) { return node.moves ? node.rest.affine() : node.matrix; };
-        each_joint(local, [&](std::size_t joint, const Affine& global) { out[joint] = rotation_of(global.linear); });
+        each_joint(std::nullopt,
+                   [&](std::size_t joint, const Affine& global) { out[joint] = rotation_of(global.linear); });
         return out;
     }
 
-    std::vector<std::string> warnings() const override {
-        std::vector<std::string> out;
-        if (scene_->skins > 1) {
-            out.push_back("the file has " + counted(scene_->skins, "skin", "skins") +
-                          "; the joints of skin 0 were taken");
-        }
-        if (animation_->has_morph_channels)
-            out.push_back("morph targets are animated too; they do not widen the disks");
-        return out;
+    std::vector<std::string> warnings() const override { return animation_->warnings; }
+
+    /// -1: none.
+    int joint_of(int node) const {
+        const auto at = std::find(nodes_.begin(), nodes_.end(), node);
+        return at == nodes_.end() ? -1 : static_cast<int>(at - nodes_.begin());
     }
 
   private:
-    /// Calls `visit` with each joint and what leads from its own axes to those of the file; `local` gives what leads
-    /// from a posed node to the one above it.
-    template <class Local, class Visit>
-    void each_joint(const Local& local, const Visit& visit) const {
+    /// Calls `visit` with each joint and what leads from its own axes to those of the file.
+    template <class Visit>
+    void each_joint(std::optional<double> seconds, const Visit& visit) const {
         std::vector<Affine> global(posed_.size());
-        for (std::size_t i = 0; i < posed_.size(); ++i) {
-            const PosedNode& node = posed_[i];
-            global[i] = node.parent < 0 ? local(node) : global[as_index(node.parent)] * local(node);
-            if (node.joint >= 0) visit(as_index(node.joint), global[i]);
-        }
+        animation_->pose(seconds, posed_, global);
+        for (std::size_t joint = 0; joint < joints_.size(); ++joint) visit(joint, global[place_[joint]]);
     }
 
-    static Affine local_at(const PosedNode& node, double seconds) {
-        TranslationRotationScale local = node.rest;
-        std::array<double, 4> v{};
-        const auto take = [&](NodeProperty property) {
-            const Channel* channel = node.channels[static_cast<std::size_t>(property)];
-            if (channel) evaluate(*channel, seconds, v.data());
-            return channel != nullptr;
-        };
-        if (take(NodeProperty::translation)) local.translation = {v[0], v[1], v[2]};
-        if (take(NodeProperty::rotation)) local.rotation = {v[3], v[0], v[1], v[2]};
-        if (take(NodeProperty::scale)) local.scale = {v[0], v[1], v[2]};
-        return local.affine();
-    }
-
-    /// Fills joints_ and topmost_; gives the joint of every node, -1 where it is none.
-    std::vector<int> choose_joints(const std::vector<int>& order) {
-        const std::vector<Node>& nodes = scene_->nodes;
+    /// Fills joints_ and nodes_; gives the joint of every node, -1 where it is none.
+    std::vector<int> choose_joints(const std::vector<int>& of) {
+        const std::vector<Node>& nodes = rig_->scene.nodes;
         std::vector<bool> is_joint(nodes.size());
-        if (scene_->has_skin) {
-            for (const int node : scene_->skin_joints) is_joint[as_index(node)] = true;
-        } else {
-            is_joint[as_index(topmost_animated(*scene_, order))] = true;
-            for (const int node : order) {
-                const int parent = nodes[as_index(node)].parent;
-                if (parent >= 0 && is_joint[as_index(parent)]) is_joint[as_index(node)] = true;
-            }
-        }
+        for (const int node : of) is_joint[as_index(node)] = true;
         std::vector<int> joint_of(nodes.size(), -1);
         std::vector<int> joint_above(nodes.size(), -1);  // the nearest one, or the node's own
-        for (const int node : order) {
+        for (const int node : rig_->order) {
             const int parent = nodes[as_index(node)].parent;
             const int above = parent < 0 ? -1 : joint_above[as_index(parent)];
             joint_above[as_index(node)] = above;
             if (!is_joint[as_index(node)]) continue;
             joint_of[as_index(node)] = joint_above[as_index(node)] = static_cast<int>(joints_.size());
             joints_.push_back({nodes[as_index(node)].name, above, false});
-        }
-        // A skin may have several joints without a joint above them: the first that it names.
-        const auto is_top = [&](int node) { return joints_[as_index(joint_of[as_index(node)])].parent < 0; };
-        if (scene_->has_skin) {
-            topmost_ =
-                joint_of[as_index(*std::find_if(scene_->skin_joints.begin(), scene_->skin_joints.end(), is_top))];
+            nodes_.push_back(node);
         }
         return joint_of;
     }
 
-    void choose_posed_nodes(const std::vector<int>& order, const std::vector<int>& joint_of) {
-        const std::vector<Node>& nodes = scene_->nodes;
+    void choose_posed_nodes(const std::vector<int>& joint_of) {
+        const std::vector<Node>& nodes = rig_->scene.nodes;
         std::vector<bool> is_needed(nodes.size());
-        for (auto node = order.rbegin(); node != order.rend(); ++node) {
+        for (auto node = rig_->order.rbegin(); node != rig_->order.rend(); ++node) {
             const int parent = nodes[as_index(*node)].parent;
             if (joint_of[as_index(*node)] >= 0) is_needed[as_index(*node)] = true;
             if (parent >= 0 && is_needed[as_index(*node)]) is_needed[as_index(parent)] = true;
         }
         std::vector<int> posed_of(nodes.size(), -1);
-        for (const int i : order) {
-            if (!is_needed[as_index(i)]) continue;
-            const Node& node = nodes[as_index(i)];
-            posed_of[as_index(i)] = static_cast<int>(posed_.size());
-            posed_.push_back({node.parent < 0 ? -1 : posed_of[as_index(node.parent)],
-                              joint_of[as_index(i)],
-                              node.rest,
-                              node.matrix,
-                              {},
-                              false});
-        }
-        for (const Channel& channel : animation_->channels) {
-            const int posed = posed_of[as_index(channel.node)];
-            if (posed < 0) continue;
-            posed_[as_index(posed)].channels[static_cast<std::size_t>(channel.property)] = &channel;
-            posed_[as_index(posed)].moves = true;
+        place_.resize(joints_.size());
+        for (const int node : rig_->order) {
+            if (!is_needed[as_index(node)]) continue;
+            const int parent = nodes[as_index(node)].parent;
+            posed_of[as_index(node)] = static_cast<int>(posed_.size());
+            const int joint = joint_of[as_index(node)];
+            if (joint >= 0) place_[as_index(joint)] = posed_.size();
+            posed_.push_back({node, parent < 0 ? -1 : posed_of[as_index(parent)]});
         }
     }
 
-    std::shared_ptr<const NodeScene> scene_;
+    std::shared_ptr<const Rig> rig_;
     const NodeAnimation* animation_;
     std::vector<Joint> joints_;
+    std::vector<int> nodes_;  ///< by joint
     int topmost_ = 0;
     std::vector<bool> is_pivot_;  ///< by joint
     std::vector<PosedNode> posed_;
+    std::vector<std::size_t> place_;  ///< by joint: which of the posed nodes it is
 };
 
-}  // namespace
-
-Affine TranslationRotationScale::affine() const {
-    glm::dmat3 linear = glm::mat3_cast(rotation);
-    linear[0] *= scale.x;
-    linear[1] *= scale.y;
-    linear[2] *= scale.z;
-    return {linear, translation};
+/// The nodes that an animation moves, themselves or with a node above them.
+std::vector<bool> carried_nodes(const Rig& rig, const NodeAnimation& animation) {
+    std::vector<bool> out(rig.scene.nodes.size());
+    for (const int node : animation.moved) out[as_index(node)] = true;
+    for (const int node : rig.order) {
+        const int parent = rig.scene.nodes[as_index(node)].parent;
+        if (parent >= 0 && out[as_index(parent)]) out[as_index(node)] = true;
+    }
+    return out;
 }
+
+MovedCharacters moved_characters(const Rig& rig, const NodeAnimation& animation) {
+    MovedCharacters out;
+    if (animation.moved.empty()) {
+        out.nothing = animation.moves_nothing;
+    } else if (rig.characters.size() == 1) {
+        out.characters.push_back(0);
+    } else {
+        const std::vector<bool> carried = carried_nodes(rig, animation);
+        const auto is_carried = [&](int node) { return carried[as_index(node)]; };
+        for (std::size_t i = 0; i < rig.characters.size(); ++i) {
+            if (std::ranges::any_of(rig.characters[i], is_carried)) out.characters.push_back(i);
+        }
+    }
+    return out;
+}
+
+void require_moved(const Rig& rig, std::size_t animation) {
+    const NodeAnimation& it = rig.scene.animations[animation];
+    if (it.moved.empty()) throw InputError(rig.scene.file, "animation " + in_quotes(it.name), it.moves_nothing);
+}
+
+/// The character of each node, -1 where it is nobody's.
+std::vector<int> characters_of_nodes(const Rig& rig) {
+    std::vector<int> out(rig.scene.nodes.size(), -1);
+    for (std::size_t i = 0; i < rig.characters.size(); ++i) {
+        for (const int node : rig.characters[i]) out[as_index(node)] = static_cast<int>(i);
+    }
+    return out;
+}
+
+/// All nodes, those of characters first. Fills rig.named.
+std::vector<NamedJoint> named_joints(Rig& rig, const std::vector<int>& character_of) {
+    const std::vector<Node>& nodes = rig.scene.nodes;
+    std::vector<int> in_order;
+    for (const std::vector<int>& joints : rig.characters) in_order.insert(in_order.end(), joints.begin(), joints.end());
+    for (const int node : rig.order) {
+        if (character_of[as_index(node)] < 0) in_order.push_back(node);
+    }
+    std::vector<std::string> names;
+    for (const int node : in_order) names.push_back(nodes[as_index(node)].name);
+    names = distinct_names(std::move(names));
+    std::vector<NamedJoint> out;
+    rig.named.resize(nodes.size());
+    for (std::size_t i = 0; i < in_order.size(); ++i) {
+        rig.named[as_index(in_order[i])] = i;
+        out.push_back({std::move(names[i]), character_of[as_index(in_order[i])]});
+    }
+    return out;
+}
+
+/// The topmost joint of each character, the first in its list of several; -1 where it has none.
+std::vector<int> topmost_joints(const Rig& rig, const std::vector<int>& character_of) {
+    const std::vector<Node>& nodes = rig.scene.nodes;
+    std::vector<int> joint_above(nodes.size(), -1);
+    for (const int node : rig.order) {
+        const int parent = nodes[as_index(node)].parent;
+        if (parent < 0) continue;
+        joint_above[as_index(node)] = character_of[as_index(parent)] >= 0 ? parent : joint_above[as_index(parent)];
+    }
+    const auto is_top = [&](int node) {
+        int above = joint_above[as_index(node)];
+        while (above >= 0 && character_of[as_index(above)] != character_of[as_index(node)])
+            above = joint_above[as_index(above)];
+        return above < 0;
+    };
+    std::vector<int> out;
+    for (const std::vector<int>& joints : rig.characters) {
+        const auto top = std::ranges::find_if(joints, is_top);
+        out.push_back(top == joints.end() ? -1 : *top);
+    }
+    return out;
+}
+
+}  // namespace
 
 std::vector<int> parents_first(const std::vector<Node>& nodes) {
     const std::size_t count = nodes.size();
@@ -269,37 +265,6 @@ std::vector<int> parents_first(const std::vector<Node>& nodes) {
         order.insert(order.end(), below.begin(), below.end());
     }
     return order;
-}
-
-void evaluate(const Channel& channel, double seconds, double* out) {
-    const std::vector<double>& times = *channel.times;
-    const bool is_rotation = channel.property == NodeProperty::rotation;
-    const bool is_cubic = channel.interpolation == Interpolation::cubic_spline;
-    const std::size_t width = is_rotation ? 4 : 3;
-    const double* values = channel.values->data();
-    const auto value = [&](std::size_t key) { return values + (is_cubic ? 3 * key + 1 : key) * width; };
-
-    const auto after = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), seconds) - times.begin());
-    const std::size_t key = after == 0 ? 0 : after - 1;
-    const bool is_between = after > 0 && after < times.size() && channel.interpolation != Interpolation::step;
-    if (!is_between) {
-        std::copy_n(value(key), width, out);
-    } else {
-        const double span = times[after] - times[key];
-        const double share = (seconds - times[key]) / span;
-        if (is_cubic) {
-            cubic(values, width, key, span, share, out);
-        } else if (is_rotation) {
-            put(slerp(glm::normalize(quaternion(value(key))), glm::normalize(quaternion(value(after))), share), out);
-        } else {
-            for (std::size_t i = 0; i < width; ++i) out[i] = value(key)[i] + share * (value(after)[i] - value(key)[i]);
-        }
-    }
-    if (is_rotation) {
-        const double length = glm::length(quaternion(out));
-        // Tangents may lead a spline through zero, where no rotation is meant; the key before it is.
-        put(length > 0 ? quaternion(out) / length : glm::normalize(quaternion(value(key))), out);
-    }
 }
 
 MotionTimes key_times(const std::vector<Numbers>& lists) {
@@ -327,11 +292,41 @@ MotionTimes key_times(const std::vector<Numbers>& lists) {
 }
 
 MotionFile node_motion_file(NodeScene scene) {
-    const auto shared = std::make_shared<const NodeScene>(std::move(scene));
-    MotionFile out{shared->format, shared->unit, {}, [shared](std::size_t animation) {
-                       return std::make_shared<NodeMotion>(shared, animation);
-                   }};
-    for (const NodeAnimation& animation : shared->animations) out.animations.push_back(animation.name);
+    auto making = std::make_shared<Rig>(Rig{std::move(scene), {}, {}, {}, {}});
+    making->order = parents_first(making->scene.nodes);
+    making->characters = making->scene.characters;
+    if (making->characters.empty()) {
+        const int top = topmost_animated(making->scene, making->order);
+        making->characters.push_back(top < 0 ? std::vector<int>() : nodes_below(top, *making));
+    }
+    const std::vector<int> character_of = characters_of_nodes(*making);
+    making->topmost = topmost_joints(*making, character_of);
+    MotionFile out;
+    out.format = making->scene.format;
+    out.unit = making->scene.unit;
+    out.ground = making->scene.ground;
+    out.joints = named_joints(*making, character_of);
+    const std::shared_ptr<const Rig> rig = std::move(making);
+    for (const NodeAnimation& animation : rig->scene.animations) out.animations.push_back(animation.name);
+    for (const int top : rig->topmost)
+        out.characters.push_back(top < 0 ? "" : out.joints[rig->named[as_index(top)]].name);
+    out.moved = [rig](std::size_t animation) { return moved_characters(*rig, rig->scene.animations[animation]); };
+    out.motion = [rig](std::size_t animation, std::size_t character) {
+        require_moved(*rig, animation);
+        return std::make_shared<NodeMotion>(rig, animation, rig->characters[character], rig->topmost[character]);
+    };
+    std::vector<int> node_of(rig->named.size());
+    for (std::size_t node = 0; node < rig->named.size(); ++node) node_of[rig->named[node]] = static_cast<int>(node);
+    out.rooted = [rig, node_of, joints = out.joints](std::size_t animation, std::size_t joint) -> RootedMotion {
+        require_moved(*rig, animation);
+        const int node = node_of[joint];
+        const int character = joints[joint].character;
+        const auto motion = character >= 0
+                                ? std::make_shared<NodeMotion>(rig, animation, rig->characters[as_index(character)],
+                                                               rig->topmost[as_index(character)])
+                                : std::make_shared<NodeMotion>(rig, animation, nodes_below(node, *rig), node);
+        return {motion, motion->joint_of(node)};
+    };
     return out;
 }
 

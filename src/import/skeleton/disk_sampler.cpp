@@ -3,11 +3,11 @@
 #include <import/skeleton/disk_sampler.h>
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 namespace mobbscope {
@@ -129,11 +129,11 @@ DefaultRoot default_root(const GroundedMotion& motion) {
                 : "the topmost joint that moves: " + above + " stands still"};
 }
 
-int root_by_name(std::span<const Joint> joints, const std::string& name) {
+std::size_t root_by_name(std::span<const NamedJoint> joints, const std::string& name) {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < joints.size(); ++i) {
-        if (joints[i].end_site) continue;
-        if (joints[i].name == name) return static_cast<int>(i);
+        if (joints[i].name.empty()) continue;
+        if (joints[i].name == name) return i;
         names.push_back(joints[i].name);
     }
     throw std::invalid_argument("there is no joint " + in_quotes(name) + " for root; the nearest is " +
@@ -166,28 +166,32 @@ void GroundedMotion::pose(double seconds, std::vector<glm::dvec3>& positions,
     positions.resize(joints().size());
     if (rotations) rotations->resize(joints().size());
     motion_.pose(seconds, positions, rotations ? std::span(*rotations) : std::span<glm::dquat>{});
-    if (rotations) ground(*rotations);
+    if (rotations) turn(*rotations);
     for (std::size_t i = 0; i < positions.size(); ++i) {
         glm::dvec3& p = positions[i];
         if (!std::isfinite(p.x + p.y + p.z)) {
             throw std::invalid_argument("at " + short_double(seconds) + " s the joint " + in_quotes(joints()[i].name) +
                                         " is at no finite place; the file is damaged");
         }
-        // 0 - z, as -z makes a negative zero of a path along an axis.
-        if (up_ == UpAxis::y) p = {p.x, 0 - p.z, p.y};
+        p = ground_ * p;
     }
 }
 
 std::vector<glm::dquat> GroundedMotion::rest() const {
     std::vector<glm::dquat> out = motion_.rest();
-    ground(out);
+    turn(out);
     return out;
 }
 
-void GroundedMotion::ground(std::vector<glm::dquat>& rotations) const {
-    if (up_ != UpAxis::y) return;
-    const glm::dquat stand_up = glm::angleAxis(std::numbers::pi / 2, glm::dvec3(1, 0, 0));  // (x, y, z) -> (x, -z, y)
-    for (glm::dquat& rotation : rotations) rotation = stand_up * rotation;
+void GroundedMotion::turn(std::vector<glm::dquat>& rotations) const {
+    // A mirrored rotation is none: the joints' own axes are mirrored in x then, so that it becomes one again.
+    const bool mirrors = glm::determinant(ground_) < 0;
+    const glm::dmat3 mirror{{mirrors ? -1 : 1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const glm::dquat turned = glm::quat_cast(ground_ * mirror);
+    for (glm::dquat& rotation : rotations) {
+        if (mirrors) rotation = {rotation.w, rotation.x, -rotation.y, -rotation.z};
+        rotation = turned * rotation;
+    }
 }
 
 std::vector<double> GroundedMotion::survey() const {

@@ -13,12 +13,11 @@
 
 namespace mobbscope {
 
-enum class UpAxis { y, z };
-
-/// Poses with x and y on the ground and z up, checked. Refers to the motion, which must outlive it.
+/// Poses with x and y on the ground and z up, checked. Refers to the motion, which must outlive it. `ground` leads from
+/// the file's axes there, see MotionFile::ground.
 class GroundedMotion {
   public:
-    GroundedMotion(const Motion& motion, UpAxis up) : motion_(motion), up_(up) {}
+    GroundedMotion(const Motion& motion, const glm::dmat3& ground) : motion_(motion), ground_(ground) {}
 
     const Motion& motion() const { return motion_; }
     std::span<const Joint> joints() const { return motion_.joints(); }
@@ -36,10 +35,10 @@ class GroundedMotion {
     std::vector<double> survey() const;
 
   private:
-    void ground(std::vector<glm::dquat>& rotations) const;
+    void turn(std::vector<glm::dquat>& rotations) const;
 
     const Motion& motion_;
-    UpAxis up_;
+    glm::dmat3 ground_;
 };
 
 /// A disk and the pose that it bounds, file units.
@@ -89,8 +88,8 @@ struct DefaultRoot {
 /// joint, that child, and so on. A pivot (Motion::is_pivot) ends the search.
 DefaultRoot default_root(const GroundedMotion& motion);
 
-/// The joint with a name, the first of several. Throws std::invalid_argument, naming the nearest.
-int root_by_name(std::span<const Joint> joints, const std::string& name);
+/// The joint with a name. Throws std::invalid_argument, naming the nearest.
+std::size_t root_by_name(std::span<const NamedJoint> joints, const std::string& name);
 
 /// For each joint, whether it is `root` or below it.
 std::vector<bool> subtree(std::span<const Joint> joints, int root);

@@ -1,8 +1,25 @@
 #include <import/skeleton/motion.h>
 
 #include <cmath>
+#include <map>
+#include <set>
+#include <utility>
 
 namespace mobbscope {
+
+std::vector<std::string> distinct_names(std::vector<std::string> names) {
+    std::set<std::string> taken(names.begin(), names.end());
+    std::map<std::string, int> count;
+    for (std::string& name : names) {
+        int& of_name = count[name];
+        if (++of_name == 1 || name.empty()) continue;
+        std::string numbered;
+        do numbered = name + " #" + std::to_string(of_name);
+        while (!taken.insert(numbered).second && ++of_name);
+        name = std::move(numbered);
+    }
+    return names;
+}
 
 glm::dvec3 joint_place(const Skeleton& skeleton, const mobb::PlacedClip& clip, int sample, int joint) {
     const glm::dvec3 p(skeleton.at(sample)[static_cast<std::size_t>(joint)]);

@@ -4,6 +4,7 @@
 #include <mobb/clip.h>
 
 #include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstddef>
@@ -38,9 +39,12 @@ class Motion {
   public:
     virtual ~Motion() = default;
 
-    /// At least one, parents before their children. Every one counts towards the disk (glTF with a skin: the joints of
-    /// skin 0 alone, each below its nearest ancestor among them; without: all nodes below the topmost animated one).
+    /// At least one, parents before their children. Every one counts towards the disk (glTF with skins: the joints of
+    /// one character's skins, each below its nearest ancestor among them; without: all nodes below the topmost animated
+    /// one).
     virtual std::span<const Joint> joints() const = 0;
+    /// Which of MotionFile::joints a joint is.
+    virtual std::size_t in_file(int joint) const { return static_cast<std::size_t>(joint); }
     /// The topmost joint of the contract, where the search for the root begins.
     virtual int topmost() const = 0;
     /// True if the search for the root, which goes down from joints that stand still, ends at this joint at the latest.
@@ -57,16 +61,53 @@ class Motion {
     virtual std::vector<std::string> warnings() const { return {}; }
 };
 
-/// A file of one or more animations, checked as a whole when it was read.
+/// A joint of a file as a user may name it.
+struct NamedJoint {
+    std::string name;  ///< no other has it: "Hips", the second of that name "Hips #2"; "": an End Site, never the root
+    int character = -1;  ///< whose it is; -1: nobody's
+};
+
+/// A motion and the joint of it that is to be the root, none for the default one.
+struct RootedMotion {
+    std::shared_ptr<const Motion> motion;
+    std::optional<int> root{};  ///< index into its joints
+};
+
+/// Whom an animation moves.
+struct MovedCharacters {
+    std::vector<std::size_t> characters;  ///< ascending; of a file with one character that one, though it stands still
+    std::string nothing;  ///< why it moves nothing at all, where it does not: "moves morph targets only"
+};
+
+/// What leads the axes of a file with y up to those of a clip: x and y on the floor, z up.
+inline const glm::dmat3 kYUp{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
+inline const glm::dmat3 kZUp{1};
+
+/// A file of one or more animations of one or more characters, checked as a whole when it was read.
 struct MotionFile {
     std::string format;  ///< "bvh", "gltf", "fbx"
     /// Metres per file unit as the format or the header says; none: to be guessed from the body's height.
     std::optional<double> unit;
+    /// What leads the file's axes to the clip's as the format or the header says: a permutation with signs, which may
+    /// mirror; none: the file does not say, and y is up.
+    std::optional<glm::dmat3> ground;
+    bool guess_up = false;                ///< which axis is up is told by how the body stands
     std::vector<std::string> animations;  ///< at least one name; an unnamed one is "#<index>"
-    /// The animation with that index, prepared only now: a file may hold many. It keeps alive what it needs, so it may
-    /// outlive the file. Throws InputError.
-    std::function<std::shared_ptr<const Motion>(std::size_t)> motion;
+    std::vector<std::string> characters;  ///< at least one: the name of each one's topmost joint, as in `joints`
+    std::vector<NamedJoint> joints;       ///< all that can be root; those of characters first
+
+    // What follows takes indices into these. It keeps alive what it needs, so it may outlive the file.
+
+    std::function<MovedCharacters(std::size_t animation)> moved;
+    /// One animation of one character, prepared only now: a file may hold many. Throws InputError where the animation
+    /// moves nothing.
+    std::function<std::shared_ptr<const Motion>(std::size_t animation, std::size_t character)> motion;
+    /// The same with a joint as root: of its character; of a joint that is nobody's, it and all below it.
+    std::function<RootedMotion(std::size_t animation, std::size_t joint)> rooted;
 };
+
+/// Names of which none is another: the second "Hips" becomes "Hips #2". Empty ones stay.
+std::vector<std::string> distinct_names(std::vector<std::string> names);
 
 /// Joint positions and rotations at every sample of a clip.
 struct Skeleton {

@@ -44,16 +44,40 @@ double body_unit(double height) {
     });
 }
 
-/// One animation to one clip; messages are for import of one file.
+/// How the axes of a file lead to those of its clips.
+struct ChosenUp {
+    glm::dmat3 ground{1};
+    std::string why;  ///< empty where an option says it
+};
+
+ChosenUp chosen_up(const MotionFile& file, const ImportOptions& options) {
+    if (options.up == "y") return {kYUp, ""};
+    if (options.up == "z") return {kZUp, ""};
+    if (file.ground) return {*file.ground, "as the file says"};
+    return {kYUp, "as in most files"};
+}
+
+/// The axis of a file that leads to z: "y", "-x".
+std::string up_axis(const glm::dmat3& ground) {
+    const glm::dvec3 up(ground[0].z, ground[1].z, ground[2].z);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (up[axis] != 0) return std::string(up[axis] < 0 ? "-" : "") + "xyz"[axis];
+    }
+    return "";
+}
+
+/// One animation of one character to one clip; messages are for import of one file.
 class MotionImport {
   public:
-    MotionImport(const Motion& motion, std::optional<double> file_unit, const ImportOptions& options)
-        : motion_(motion),
-          grounded_(motion, options.up == "z" ? UpAxis::z : UpAxis::y),
-          file_unit_(file_unit),
+    MotionImport(const MotionFile& file, const RootedMotion& it, const ImportOptions& options)
+        : file_(file),
+          motion_(*it.motion),
+          up_(chosen_up(file, options)),
+          grounded_(motion_, up_.ground),
+          root_(it.root),
           options_(options) {}
 
-    ImportedClip make(std::string format) {
+    ImportedClip make() {
         const MotionTimes& times = motion_.times();
         const SampleGrid grid = sample_grid(times.first, times.last, options_.trim,
                                             1 / options_.fps.value_or(kDefaultFps), kMaxMotionSamples);
@@ -64,14 +88,16 @@ class MotionImport {
         }
         ImportedClip out;
         SourceFacts& facts = out.facts;
-        const int root = options_.root ? root_by_name(motion_.joints(), *options_.root) : take_default_root(facts);
-        facts.format = std::move(format);
+        const int root = root_ ? *root_ : take_default_root(facts);
+        facts.format = file_.format;
         facts.frames = times.frames;
         facts.dt = times.dt;
         facts.duration = times.last - times.first;
-        facts.root = motion_.joints()[static_cast<std::size_t>(root)].name;
+        facts.root = name_of(root);
         facts.joints = joints_below(root);
-        facts.rig = rig_of(facts.root);
+        facts.rig = rig_of(motion_.joints()[static_cast<std::size_t>(root)].name);
+        facts.up = up_axis(up_.ground);
+        facts.up_why = up_.why;
         choose_unit(root, facts);
         for (std::string& warning : motion_.warnings()) facts.warnings.push_back({std::move(warning)});
 
@@ -101,10 +127,11 @@ class MotionImport {
     ImportOffer offer() {
         const MotionTimes& times = motion_.times();
         const DefaultRoot taken = default_root(grounded_);
-        const auto name_of = [&](int joint) { return motion_.joints()[static_cast<std::size_t>(joint)].name; };
-        OptionOffer roots{"root", name_of(taken.joint), taken.why};
-        for (const Joint& joint : motion_.joints()) {
-            if (!joint.end_site) roots.choices.push_back({joint.name, joint.name});
+        const bool several = file_.characters.size() > 1;
+        OptionOffer roots{"root", several ? "" : name_of(taken.joint),
+                          several ? "the file has several characters: name one" : taken.why, several};
+        for (const NamedJoint& joint : file_.joints) {
+            if (!joint.name.empty()) roots.choices.push_back({joint.name, joint.name});
         }
         const double rate = times.dt ? 1 / *times.dt : 0;
         const std::string frames = rate > 0 ? "the file has " + brief(std::round(rate * 100) / 100) + " frames a second"
@@ -113,8 +140,8 @@ class MotionImport {
         return {seconds,
                 {std::move(roots),
                  {"fps", short_double(kDefaultFps), "as usual; " + frames},
-                 unit_offer(options_.root ? root_by_name(motion_.joints(), *options_.root) : taken.joint),
-                 {"up", "y", "as in most files", false, {{"y", "y"}, {"z", "z"}}},
+                 unit_offer(root_.value_or(taken.joint)),
+                 up_offer(),
                  {"trim", "", "all of it"},
                  origin_offer(),
                  {"radius", "", "up to the joint that is farthest from the root"},
@@ -122,14 +149,24 @@ class MotionImport {
     }
 
   private:
+    std::string name_of(int joint) const { return file_.joints[motion_.in_file(joint)].name; }
+
+    OptionOffer up_offer() const {
+        ImportOptions of_file = options_;
+        of_file.up.reset();
+        const ChosenUp up = chosen_up(file_, of_file);
+        return {"up", up_axis(up.ground), up.why, false, {{"y", "y"}, {"z", "z"}}};
+    }
+
     OptionOffer unit_offer(int root) const {
+        const std::optional<double>& file_unit = file_.unit;
         const double height = median_height(grounded_, root);
         const double guess = body_unit(height);
         const auto tall = [height](double unit) { return "a body " + brief_length(height * unit) + " tall"; };
         OptionOffer out{
-            "unit", unit_word(file_unit_.value_or(guess)),
-            file_unit_ ? "as the file says: " + tall(*file_unit_) : "guessed: " + tall(guess) + " (its median height)"};
-        if (file_unit_) out.choices.push_back({"auto", "auto: " + tall(guess)});
+            "unit", unit_word(file_unit.value_or(guess)),
+            file_unit ? "as the file says: " + tall(*file_unit) : "guessed: " + tall(guess) + " (its median height)"};
+        if (file_unit) out.choices.push_back({"auto", "auto: " + tall(guess)});
         for (const auto& [value, label] : kUnitChoices) {
             out.choices.push_back({value, label + std::string(": ") + tall(*metres_per_unit(value))});
         }
@@ -157,8 +194,8 @@ class MotionImport {
     void choose_unit(int root, SourceFacts& facts) const {
         if (options_.unit && *options_.unit != "auto") {
             facts.unit = *metres_per_unit(*options_.unit);
-        } else if (!options_.unit && file_unit_) {
-            facts.unit = *file_unit_;
+        } else if (!options_.unit && file_.unit) {
+            facts.unit = *file_.unit;
         } else {
             const double height = median_height(grounded_, root);
             facts.unit = body_unit(height);
@@ -192,9 +229,11 @@ class MotionImport {
         return samples;
     }
 
+    const MotionFile& file_;
     const Motion& motion_;
+    ChosenUp up_;
     GroundedMotion grounded_;
-    std::optional<double> file_unit_;
+    std::optional<int> root_;
     const ImportOptions& options_;
 };
 
@@ -231,6 +270,55 @@ std::vector<std::size_t> chosen_animations(const std::vector<std::string>& names
     return out;
 }
 
+/// One clip to be made of a file.
+struct WantedClip {
+    std::size_t animation;
+    std::size_t who;  ///< a character; where an option names the root, that joint
+};
+
+struct WantedClips {
+    std::vector<WantedClip> clips;      ///< at least one
+    std::vector<std::string> left_out;  ///< animations of several that make no clip, and why
+};
+
+/// Throws InputError; std::invalid_argument for options that name what the file has not.
+WantedClips wanted_clips(const MotionFile& motions, const std::string& file, const ImportOptions& options) {
+    const std::vector<std::size_t> animations = chosen_animations(motions.animations, options.animation);
+    std::optional<std::size_t> root;
+    if (options.root) root = root_by_name(motions.joints, *options.root);
+    WantedClips out;
+    for (const std::size_t i : animations) {
+        const MovedCharacters moved = motions.moved(i);
+        std::string why_none = moved.nothing;
+        if (why_none.empty() && !root && moved.characters.empty()) {
+            why_none = "moves none of the file's " + std::to_string(motions.characters.size()) +
+                       " characters; give root to follow another joint";
+        }
+        if (!why_none.empty()) {
+            const std::string place = "animation " + in_quotes(motions.animations[i]);
+            if (animations.size() == 1) throw InputError(file, place, why_none);
+            out.left_out.push_back(place + " is left out: it " + why_none);
+        } else if (root) {
+            const int character = motions.joints[*root].character;
+            const auto is_it = [character](std::size_t of) { return static_cast<int>(of) == character; };
+            // Of several animations only those count that move it.
+            if (character < 0 || animations.size() == 1 || std::ranges::any_of(moved.characters, is_it))
+                out.clips.push_back({i, *root});
+        } else {
+            for (const std::size_t character : moved.characters) out.clips.push_back({i, character});
+        }
+    }
+    if (!out.clips.empty()) return out;
+    if (!out.left_out.empty()) throw InputError(file, "", out.left_out.front() + "; none of the others does more");
+    throw std::invalid_argument("no animation moves " + in_quotes(*options.root) + "; name one with animation");
+}
+
+/// One of the wanted clips, and its root where an option names it.
+RootedMotion motion_of(const MotionFile& motions, const WantedClip& clip, bool rooted) {
+    if (rooted) return motions.rooted(clip.animation, clip.who);
+    return {motions.motion(clip.animation, clip.who), std::nullopt};
+}
+
 }  // namespace
 
 std::vector<ImportedClip> motion_clips(const MotionFile& motions, const std::filesystem::path& file,
@@ -245,18 +333,26 @@ std::vector<ImportedClip> motion_clips(const MotionFile& motions, const std::fil
     refuse(options.dt.has_value(), "dt");
 
     const std::vector<std::string>& names = motions.animations;
+    const WantedClips wanted = at_place(path, "", [&] { return wanted_clips(motions, path, options); });
     std::vector<ImportedClip> clips;
-    for (const std::size_t i : at_place(path, "", [&] { return chosen_animations(names, options.animation); })) {
+    for (const WantedClip& of : wanted.clips) {
+        const std::size_t i = of.animation;
         const std::string place = names.size() > 1 ? "animation " + in_quotes(names[i]) : "";
         ImportedClip& clip = clips.emplace_back(at_place(path, place, [&] {
-            const std::shared_ptr<const Motion> motion = motions.motion(i);
-            return MotionImport(*motion, motions.unit, options).make(motions.format);
+            const RootedMotion it = motion_of(motions, of, options.root.has_value());
+            return MotionImport(motions, it, options).make();
         }));
         clip.facts.animation = names[i];
-        clip.name = names.size() > 1 ? names[i] : input_stem(file);
-        if (names.size() == 1) continue;
-        clip.animation = animation_key(names, i);
-        if (clip.animation != names[i]) clip.name += " #" + std::to_string(i);
+        for (const std::string& warning : wanted.left_out) clip.facts.warnings.push_back({warning});
+        const bool several = motions.characters.size() > 1;
+        clip.name = names.size() > 1 || several ? names[i] : input_stem(file);
+        if (names.size() > 1) {
+            clip.animation = animation_key(names, i);
+            if (clip.animation != names[i]) clip.name += " #" + std::to_string(i);
+        }
+        if (!several) continue;
+        clip.root = clip.facts.root;
+        clip.name += " · " + clip.root;
     }
     return clips;
 }
@@ -264,9 +360,9 @@ std::vector<ImportedClip> motion_clips(const MotionFile& motions, const std::fil
 ImportOffer motion_offer(const MotionFile& motions, const std::filesystem::path& file, const ImportOptions& options) {
     return at_place(file.string(), "", [&] {
         const std::vector<std::string>& names = motions.animations;
-        const std::size_t chosen = chosen_animations(names, options.animation).front();
-        const std::shared_ptr<const Motion> motion = motions.motion(chosen);
-        ImportOffer out = MotionImport(*motion, motions.unit, options).offer();
+        const WantedClip first = wanted_clips(motions, file.string(), options).clips.front();
+        const RootedMotion it = motion_of(motions, first, options.root.has_value());
+        ImportOffer out = MotionImport(motions, it, options).offer();
         if (names.size() > 1) {
             OptionOffer animations{"animation", "", "the file has several: name one", true};
             for (std::size_t i = 0; i < names.size(); ++i) {
