@@ -288,6 +288,7 @@ MotionTimes key_times(const std::vector<Numbers>& lists) {
         std::transform(all.begin(), all.end(), frames.begin(), [](double t) { return TimedDisk{t, {}}; });
         if (is_uniform(frames)) times.dt = (times.last - times.first) / static_cast<double>(all.size() - 1);
     }
+    times.keys = std::make_shared<const std::vector<double>>(std::move(all));
     return times;
 }
 

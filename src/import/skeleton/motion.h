@@ -32,6 +32,7 @@ struct MotionTimes {
     /// True (BVH): poses exist at first + i*dt alone, and disks between them are interpolated; dt is then given, > 0.
     /// False (glTF, FBX): any time has its pose.
     bool frames_only = false;
+    std::shared_ptr<const std::vector<double>> keys{};  ///< glTF, FBX: the distinct key times, ascending; null: none
 };
 
 /// One animation of one skeleton. Const calls are safe from any number of threads.

@@ -214,7 +214,7 @@ class MotionImport {
             skeleton.rotations.reserve(grid.count * joints.size());
             for (const glm::dquat& rotation : grounded_.rest()) skeleton.rest.emplace_back(rotation);
         }
-        DiskSampler sampler(grounded_, root);
+        DiskSampler sampler(grounded_, root, grid.step);
         PosedDisk posed;
         std::vector<mobb::Disk> samples;
         samples.reserve(grid.count);
