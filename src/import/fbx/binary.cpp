@@ -11,7 +11,7 @@ namespace {
 // "Kaydara FBX Binary  ", NUL, 0x1A, then 1 where numbers are big-endian, and the version.
 constexpr std::size_t kEndianByte = 22;
 constexpr std::size_t kVersionByte = 23;
-constexpr std::size_t kHeaderSize = 27;
+constexpr std::size_t kBinaryHeaderSize = 27;
 constexpr int kWideOffsets = 7500;  // from this version on offsets and counts have 64 bits
 constexpr std::string_view kExportAgain = "; the file is damaged, export it again";
 
@@ -43,10 +43,10 @@ std::string_view FbxBinaryReader::take_bytes(std::uint64_t size, std::size_t end
 }
 
 void FbxBinaryReader::read() {
-    if (bytes_.size() < kHeaderSize) fail(bytes_.size(), "is cut off");
+    if (bytes_.size() < kBinaryHeaderSize) fail(bytes_.size(), "is cut off");
     document_.is_big_endian_ = bytes_[kEndianByte] != 0;
     at_ = kVersionByte;
-    const auto version = take<std::uint32_t>(kHeaderSize);
+    const auto version = take<std::uint32_t>(kBinaryHeaderSize);
     if (version > 100'000) fail(kVersionByte, "says no version of FBX");
     document_.set_version(static_cast<int>(version));
 

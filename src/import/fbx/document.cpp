@@ -207,10 +207,6 @@ std::vector<Number> FbxDocument::read(Index record) {
     return out;
 }
 
-bool looks_like_fbx(std::string_view head) {
-    return head.starts_with(kFbxBinaryMark) || head.find("FBXHeaderExtension") != head.npos;
-}
-
 std::string fbx_text(const FbxValue& value) {
     constexpr std::pair<std::string_view, char> kEscapes[] = {{"&quot;", '"'}, {"&cr;", '\r'}, {"&lf;", '\n'}};
     std::string out;

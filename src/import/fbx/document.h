@@ -99,9 +99,6 @@ class FbxDocument {
     std::size_t unpacked_bytes_ = 0;
 };
 
-/// Whether bytes are FBX of any version, by their beginning.
-bool looks_like_fbx(std::string_view head);
-
 /// Text as it stands in a text file ("a &quot;b&quot;") without escapes.
 std::string fbx_text(const FbxValue& value);
 

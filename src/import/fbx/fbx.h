@@ -14,4 +14,8 @@ namespace mobbscope {
 /// characters. `file` is named in messages. Throws InputError.
 MotionFile parse_fbx(std::string_view bytes, const std::filesystem::path& file);
 
+/// Whether bytes are FBX of any version, by their beginning: the name of binary files, or the record that every text
+/// file begins with, behind comments.
+bool looks_like_fbx(std::string_view head);
+
 }  // namespace mobbscope

@@ -1,5 +1,6 @@
 #include <base/error.h>
 #include <base/text.h>
+#include <import/fbx/fbx.h>
 #include <import/fbx/readers.h>
 
 #include <cmath>
@@ -11,6 +12,7 @@ namespace mobbscope {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr std::string_view kFirstRecord = "FBXHeaderExtension";
 constexpr std::string_view kWordEnds = " \t\r\n,;:{}\"";
 constexpr std::size_t kHeadSize = std::size_t{1} << 16;
 
@@ -50,6 +52,15 @@ FbxValue fbx_word(std::string_view word) {
     return out;
 }
 
+bool looks_like_fbx(std::string_view head) {
+    if (head.starts_with(kFbxBinaryMark)) return true;
+    if (head.starts_with(kByteOrderMark)) head.remove_prefix(kByteOrderMark.size());
+    const auto skip_blanks = [&] { head.remove_prefix(std::min(head.find_first_not_of(" \t\r\n"), head.size())); };
+    for (skip_blanks(); head.starts_with(';'); skip_blanks())
+        head.remove_prefix(std::min(head.find('\n'), head.size()));
+    return head.starts_with(kFirstRecord);
+}
+
 void FbxTextReader::fail(const std::string& message) const {
     throw InputError(document_.file_, at_line(static_cast<int>(line_)), message + "; export the file again");
 }
@@ -86,7 +97,7 @@ bool FbxTextReader::begins_record() const {
 }
 
 void FbxTextReader::read() {
-    if (!looks_like_fbx(bytes_.substr(0, kHeadSize))) {
+    if (bytes_.substr(0, kHeadSize).find(kFirstRecord) == bytes_.npos) {
         throw InputError(document_.file_, "header",
                          "is neither binary nor text FBX; the file is damaged or of another kind");
     }
@@ -95,7 +106,7 @@ void FbxTextReader::read() {
     std::vector<FbxDocument::Index> open;
     const auto close = [&](FbxDocument::Index record) {
         records[record].end = static_cast<std::uint32_t>(records.size());
-        if (document_.version_ == 0 && open.empty() && records[record].name == "FBXHeaderExtension") find_version();
+        if (document_.version_ == 0 && open.empty() && records[record].name == kFirstRecord) find_version();
     };
     while (skip_blanks()) {
         if (bytes_[at_] == '}') {
@@ -177,7 +188,7 @@ void FbxTextReader::take_array(FbxValue& array) {
 }
 
 void FbxTextReader::find_version() const {
-    const FbxDocument::Index header = document_.find_top("FBXHeaderExtension");
+    const FbxDocument::Index header = document_.find_top(kFirstRecord);
     const FbxDocument::Index version = header == FbxDocument::kNone ? header : document_.find(header, "FBXVersion");
     if (version != FbxDocument::kNone && !document_.values(version).empty()) {
         const std::int64_t number = document_.values(version)[0].integer;
@@ -185,7 +196,7 @@ void FbxTextReader::find_version() const {
     } else if (const auto told = version_in_comment(bytes_)) {
         document_.set_version(*told);
     } else {
-        throw InputError(document_.file_, "FBXHeaderExtension",
+        throw InputError(document_.file_, std::string(kFirstRecord),
                          "does not say FBXVersion; export the file again as FBX 7.4 (FBX 2014/2015) or newer");
     }
 }
