@@ -107,7 +107,7 @@ TEST_F(MotionFiles, JointsKeepTheirOwnAxesAndRest) {
         std::vector<glm::dquat> q(p.size());
         source->pose(time, p, q);
         for (const MotionFile* file : {&bvh, &glb}) {
-            const auto again = file->motion(0);
+            const auto again = file->motion(0, 0);
             std::vector<glm::dvec3> places(again->joints().size());
             std::vector<glm::dquat> turns(places.size());
             again->pose(time, places, turns);
