@@ -301,6 +301,8 @@ std::shared_ptr<const FbxCurve> fbx_curve(FbxDocument& document, FbxDocument::In
     for (std::size_t entry = 0; entry < flags.size(); ++entry) {
         const std::uint32_t* const bits = &data[4 * entry];
         const auto real = [&](std::size_t i) { return static_cast<double>(std::bit_cast<float>(bits[i])); };
+        if (counts[entry] < 0)
+            document.fail(record, "counts " + std::to_string(counts[entry]) + " keys; export the file again");
         const Attributes attributes{static_cast<std::uint32_t>(flags[entry]), {real(0), real(1), real(2)}, bits[2]};
         for (std::int64_t i = 0; i < counts[entry] && key < keys.size(); ++i) set_tangents(keys, key++, attributes);
     }
