@@ -214,7 +214,8 @@ class SceneBuilder {
         animation.moved.assign(moved.begin(), moved.end());
         animation.pose = gltf_pose(rest_, channels);
         channels_.insert(channels_.end(), channels.begin(), channels.end());
-        const auto [first, last] = std::ranges::equal_range(text_.unread, index, {}, &GltfUnreadPointer::animation);
+        const auto first = std::ranges::lower_bound(text_.unread, index, {}, &GltfUnreadPointer::animation);
+        const auto last = std::ranges::upper_bound(text_.unread, index, {}, &GltfUnreadPointer::animation);
         const std::string unread = unread_pointers({first, last});
         if (!unread.empty()) {
             animation.warnings.push_back(unread + ", which " + (last - first == 1 ? "moves" : "move") +

@@ -48,14 +48,15 @@ double body_unit(double height) {
 /// How the axes of a file lead to those of its clips.
 struct ChosenUp {
     glm::dmat3 ground{1};
-    std::string why;  ///< empty where an option says it
+    std::string why;    ///< empty where an option says it
+    std::string doubt;  ///< see MotionFile::up_doubt
 };
 
 ChosenUp chosen_up(const MotionFile& file, const ImportOptions& options) {
-    if (options.up == "y") return {kYUp, ""};
-    if (options.up == "z") return {kZUp, ""};
-    if (file.ground) return {*file.ground, "as the file says"};
-    return {kYUp, "as in most files"};
+    if (options.up == "y") return {kYUp, "", ""};
+    if (options.up == "z") return {kZUp, "", ""};
+    if (file.ground) return {*file.ground, file.up_why, file.up_doubt};
+    return {kYUp, "as in most files", ""};
 }
 
 /// The axis of a file that leads to z: "y", "-x".
@@ -81,8 +82,7 @@ class MotionImport {
     /// `poses_left`: of joints, for this clip and those after it.
     ImportedClip make(double& poses_left) {
         const MotionTimes& times = motion_.times();
-        const SampleGrid grid = sample_grid(times.first, times.last, options_.trim,
-                                            1 / options_.fps.value_or(kDefaultFps), kMaxMotionSamples);
+        const SampleGrid grid = grid_of(times);
         const std::size_t frames = times.frames_only ? static_cast<std::size_t>(times.frames) : 0;
         const double poses = static_cast<double>(std::max(grid.count, frames)) * static_cast<double>(motion_.posed());
         if (poses > kMaxJointPoses) {
@@ -108,6 +108,8 @@ class MotionImport {
         facts.up_why = up_.why;
         choose_unit(root, facts);
         for (std::string& warning : motion_.warnings()) facts.warnings.push_back({std::move(warning)});
+        if (!times.doubt.empty()) facts.warnings.push_back({times.doubt});
+        if (!up_.doubt.empty()) facts.warnings.push_back({up_.doubt, "up"});
 
         auto skeleton = std::make_shared<Skeleton>();
         std::vector<mobb::Disk> samples = sample(grid, root, facts.unit, *skeleton);
@@ -157,13 +159,24 @@ class MotionImport {
     }
 
   private:
+    SampleGrid grid_of(const MotionTimes& times) const {
+        try {
+            return sample_grid(times.first, times.last, options_.trim, 1 / options_.fps.value_or(kDefaultFps),
+                               kMaxMotionSamples);
+        } catch (const std::invalid_argument& error) {
+            if (times.doubt.empty()) throw;
+            throw std::invalid_argument(times.doubt + "; " + error.what());
+        }
+    }
+
     std::string name_of(int joint) const { return file_.joints[motion_.in_file(joint)].name; }
 
     OptionOffer up_offer() const {
         ImportOptions of_file = options_;
         of_file.up.reset();
         const ChosenUp up = chosen_up(file_, of_file);
-        return {"up", up_axis(up.ground), up.why, false, {{"y", "y"}, {"z", "z"}}};
+        const std::string axis = up_axis(up.ground);
+        return {"up", axis, up.why, false, {{"auto", "auto: " + axis + ", " + up.why}, {"y", "y"}, {"z", "z"}}};
     }
 
     OptionOffer unit_offer(int root) const {
