@@ -34,7 +34,7 @@ constexpr std::int64_t kBroken = 0xC08;
 using Properties = std::vector<std::pair<std::string, std::vector<FbxWritten>>>;
 
 std::vector<FbxWritten> vector(double x, double y, double z) { return {x, y, z}; }
-std::vector<FbxWritten> number(double value) { return {value}; }
+std::vector<FbxWritten> scalar(double value) { return {value}; }
 std::vector<FbxWritten> choice(std::int64_t value) { return {value}; }
 
 FbxWrite properties(const Properties& of) {
@@ -157,11 +157,11 @@ class Scene {
     FbxWrite connections_{"Connections"};
 };
 
-MotionFile parse(const Scene& scene, const FbxForm& form = {}) { return parse_fbx(scene.bytes(form), "clip.fbx"); }
+MotionFile parsed(const Scene& scene, const FbxForm& form = {}) { return parse_fbx(scene.bytes(form), "clip.fbx"); }
 
 /// Where a joint of the first animation and character is, file units.
 glm::dvec3 place(const Scene& scene, const std::string& joint, double seconds, const FbxForm& form = {}) {
-    const auto motion = parse(scene, form).motion(0, 0);
+    const auto motion = parsed(scene, form).motion(0, 0);
     std::vector<glm::dvec3> positions(motion->joints().size());
     motion->pose(seconds, positions);
     for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -279,7 +279,7 @@ TEST(FbxDocuments, EveryBeginningIsReadOrRefusedInOneLine) {
 TEST(FbxDocuments, DamageIsReadOrRefused) {
     std::mt19937 random(20251125);
     Walk walk;
-    walk.scene.animate(walk.scene.layer(walk.stack, {{"Weight", number(50)}}), walk.hand, "Lcl Rotation",
+    walk.scene.animate(walk.scene.layer(walk.stack, {{"Weight", scalar(50)}}), walk.hand, "Lcl Rotation",
                        {{"Y", Keys{{0, 1, 2}, {0, 90, 0}, {kUser, kStepped, kUser}}}});
     for (const FbxForm form : {FbxForm{7400, false, true}, FbxForm{7500}, FbxForm{7400, true}}) {
         const std::string bytes = walk.scene.bytes(form);
@@ -428,7 +428,7 @@ TEST(FbxKeys, OfOtherAxesStayWhereTheFileSays) {
     Scene scene;
     const std::int64_t hips = scene.model("Hips", 0, {{"Lcl Translation", vector(1, 2, 3)}});
     scene.animate(scene.layer(scene.stack("t")), hips, "Lcl Translation", {{"X", line(0, 4)}},
-                  {{"d|X", number(9)}, {"d|Y", number(7)}, {"d|Z", number(8)}});
+                  {{"d|X", scalar(9)}, {"d|Y", scalar(7)}, {"d|Z", scalar(8)}});
     expect_place(place(scene, "Hips", 1), 2, 7, 8, "the curve node's");
 }
 
@@ -456,18 +456,18 @@ TEST(FbxLayers, GoOverEachOther) {
     // The base is at 2 at 1 s, the layer at 10.
     const Case cases[] = {
         {"additive", {}, 12},
-        {"additive at 50 %", {{"Weight", number(50)}}, 7},
+        {"additive at 50 %", {{"Weight", scalar(50)}}, 7},
         {"override", {{"BlendMode", choice(1)}}, 10},
-        {"passthrough at 25 %", {{"BlendMode", choice(2)}, {"Weight", number(25)}}, 4},
+        {"passthrough at 25 %", {{"BlendMode", choice(2)}, {"Weight", scalar(25)}}, 4},
         {"muted", {{"Mute", choice(1)}}, 2},
-        {"of no weight", {{"Weight", number(0)}}, 2},
+        {"of no weight", {{"Weight", scalar(0)}}, 2},
     };
     for (const Case& it : cases) {
         Walk walk;
         walk.scene.animate(walk.scene.layer(walk.stack, it.layer), walk.hips, "Lcl Translation", {{"X", line(0, 20)}});
         EXPECT_NEAR(walk.hips_at(1).x, it.right, 1e-9) << it.what;
         const bool is_muted = std::string_view(it.what) == "muted";
-        EXPECT_EQ(parse(walk.scene).motion(0, 0)->warnings().size(), is_muted ? 1u : 0u) << it.what;
+        EXPECT_EQ(parsed(walk.scene).motion(0, 0)->warnings().size(), is_muted ? 1u : 0u) << it.what;
     }
 }
 
@@ -487,7 +487,7 @@ TEST(FbxLayers, ASoloOneIsAlone) {
     walk.scene.animate(walk.scene.layer(walk.stack, {{"Solo", choice(1)}}), walk.hips, "Lcl Translation",
                        {{"X", line(7, 7)}});
     EXPECT_NEAR(walk.hips_at(1).x, 7, 1e-9);
-    EXPECT_EQ(parse(walk.scene).motion(0, 0)->warnings().size(), 1u);
+    EXPECT_EQ(parsed(walk.scene).motion(0, 0)->warnings().size(), 1u);
 }
 
 TEST(FbxLayers, RotationsAndScalesComposeOrAdd) {
@@ -506,12 +506,12 @@ TEST(FbxLayers, RotationsAndScalesComposeOrAdd) {
     expect_place(hand({}, "Lcl Rotation", line(90, 90), line(0, 0)), 0, 1, 0, "composed");
     expect_place(hand({{"RotationAccumulationMode", choice(1)}}, "Lcl Rotation", line(0, 0), line(45, 45)),
                  -std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2, 0, "angle by angle");
-    expect_place(hand({{"Weight", number(50)}}, "Lcl Rotation", line(0, 0), line(90, 90)), -std::numbers::sqrt2 / 2,
+    expect_place(hand({{"Weight", scalar(50)}}, "Lcl Rotation", line(0, 0), line(90, 90)), -std::numbers::sqrt2 / 2,
                  std::numbers::sqrt2 / 2, 0, "half of a rotation");
     expect_place(hand({}, "Lcl Scaling", line(3, 3), line(1, 1)), 6, 0, 0, "scales multiply");
     expect_place(hand({{"ScaleAccumulationMode", choice(1)}}, "Lcl Scaling", line(3, 3), line(1, 1)), 5, 0, 0,
                  "scales add");
-    expect_place(hand({{"Weight", number(50)}}, "Lcl Scaling", line(4, 4), line(1, 1)), 4, 0, 0, "the root of a scale");
+    expect_place(hand({{"Weight", scalar(50)}}, "Lcl Scaling", line(4, 4), line(1, 1)), 4, 0, 0, "the root of a scale");
 }
 
 TEST(FbxLayers, EachStackHasItsOwn) {
@@ -519,7 +519,7 @@ TEST(FbxLayers, EachStackHasItsOwn) {
     const std::int64_t second = walk.scene.stack("Run");
     walk.scene.animate(walk.scene.layer(second), walk.hips, "Lcl Translation", {{"Z", line(0, 6, 3)}});
     walk.scene.layer(walk.scene.stack("empty"));
-    const MotionFile file = parse(walk.scene);
+    const MotionFile file = parsed(walk.scene);
     EXPECT_EQ(file.animations, (std::vector<std::string>{"Take 001", "Run"})) << "an empty one is left out";
     std::vector<glm::dvec3> positions(2);
     file.motion(1, 0)->pose(1.5, positions);
@@ -534,7 +534,7 @@ TEST(FbxLayers, AStackLastsAsLongAsItPlays) {
         const auto ticks = [](double seconds) { return choice(std::llround(seconds * kTicks)); };
         const std::int64_t stack = scene.stack("t", {{"LocalStart", ticks(start)}, {"LocalStop", ticks(stop)}});
         scene.animate(scene.layer(stack), hips, "Lcl Translation", {{"X", Keys{{1, 2}, {0, 4}}}});
-        const MotionTimes it = parse(scene).motion(0, 0)->times();
+        const MotionTimes it = parsed(scene).motion(0, 0)->times();
         return std::pair(it.first, it.last);
     };
     EXPECT_EQ(times(0, 0), std::pair(1.0, 2.0)) << "it does not say";
@@ -656,7 +656,7 @@ TEST(FbxNodes, UpAxesAndUnitsAreTheFiles) {
         const mobb::Disk disk = clip(axes, unit, to, mesh).clip->samples().back();
         return glm::dvec3(disk.x, disk.y, 0);
     };
-    const Properties flat{{"X", number(300)}, {"Y", number(50)}, {"Z", number(400)}};
+    const Properties flat{{"X", scalar(300)}, {"Y", scalar(50)}, {"Z", scalar(400)}};
     expect_place(end({}, flat), 3, -4, 0, "not said: y up");
     expect_place(end({1, 1, 2, 1, 0, 1}, flat), 3, -4, 0, "y up");
     for (const bool mesh : {false, true}) {
@@ -682,7 +682,7 @@ std::int64_t add_person(Scene& scene, std::int64_t layer, std::int64_t parent, d
         scene.model(name, spine, {{"Lcl Translation", vector(name[0] == 'L' ? 60 : -60, 20, 0)}});
     for (const char* name : {"LeftFoot", "RightFoot"})
         scene.model(name, hips, {{"Lcl Translation", vector(10, -90, 0)}});
-    scene.animate(layer, hips, "Lcl Translation", {{"X", line(from, to)}}, {{"d|Y", number(95)}, {"d|Z", number(z)}});
+    scene.animate(layer, hips, "Lcl Translation", {{"X", line(from, to)}}, {{"d|Y", scalar(95)}, {"d|Z", scalar(z)}});
     return hips;
 }
 
@@ -730,7 +730,7 @@ TEST(FbxPeople, WhatCarriesOneOfThemMovesIt) {
     const std::int64_t layer = scene.layer(scene.stack("Take 001"));
     for (const double z : {0.0, 300.0}) {
         const std::int64_t group = scene.model("Reference", 0, {{"Lcl Translation", vector(0, 0, z)}}, "Null");
-        scene.animate(layer, group, "Lcl Translation", {{"X", line(0, 100)}}, {{"d|Z", number(z)}});
+        scene.animate(layer, group, "Lcl Translation", {{"X", line(0, 100)}}, {{"d|Z", scalar(z)}});
         add_person(scene, layer, group, 0, 0, 0);
     }
     const testing::TempFolder folder;

@@ -316,9 +316,9 @@ WantedClips wanted_clips(const MotionFile& motions, const std::string& file, con
                        " characters; give root to follow another joint";
         }
         if (!why_none.empty()) {
-            const std::string place = "animation " + in_quotes(motions.animations[i]);
+            std::string place = "animation " + in_quotes(motions.animations[i]);
             if (animations.size() == 1) throw InputError(file, place, why_none);
-            out.left_out.push_back(place + " is left out: it " + why_none);
+            out.left_out.push_back(place.append(" is left out: it ").append(why_none));
         } else if (root) {
             const int character = motions.joints[*root].character;
             const auto is_it = [character](std::size_t of) { return static_cast<int>(of) == character; };
