@@ -231,6 +231,19 @@ TEST(BvhUp, WhoMayLieOrStandIsDoubted) {
     EXPECT_EQ(told[0].facts.up_why, "");
 }
 
+TEST(BvhUp, OffsetsAlongZAreNoProofThatZIsUp) {
+    // As skeletons with z up are written into worlds with y up: the ROOT turns them.
+    const auto turned_back = [](double height, double z) {
+        return [=](double t) {
+            // Of a body whose own y is z.
+            return MadePose{{50 * t, z, -height}, 0, -90, 0, 0};
+        };
+    };
+    EXPECT_EQ((MadeBody{Written::z_up}.facts(turned_back(95, 40)).up), "y");
+    const auto lies = [](double) { return MadePose{{10, 200, -15}, 0, 0, 180, 0}; };
+    EXPECT_EQ((MadeBody{Written::z_up}.facts(lies).up), "y");
+}
+
 TEST(BvhUp, AutoIsTheGuessAndTheOfferSaysIt) {
     ImportOptions options;
     options.up = "auto";
@@ -243,9 +256,6 @@ TEST(BvhUp, AutoIsTheGuessAndTheOfferSaysIt) {
         ASSERT_NE(up, nullptr);
         EXPECT_EQ(up->taken, axis);
         EXPECT_EQ(up->why, "guessed: the body stands along " + axis);
-        ASSERT_EQ(up->choices.size(), 3u);
-        EXPECT_EQ(up->choices[0].value, "auto");
-        EXPECT_EQ(up->choices[0].label, "auto: " + axis + ", guessed: the body stands along " + axis);
     }
 }
 

@@ -187,8 +187,7 @@ class MotionImport {
         ImportOptions of_file = options_;
         of_file.up.reset();
         const ChosenUp up = chosen_up(file_, of_file);
-        const std::string axis = up_axis(up.ground);
-        return {"up", axis, up.why, false, {{"auto", "auto: " + axis + ", " + up.why}, {"y", "y"}, {"z", "z"}}};
+        return {"up", up_axis(up.ground), up.why, false, {{"y", "y"}, {"z", "z"}}};
     }
 
     OptionOffer unit_offer(int root) const {
