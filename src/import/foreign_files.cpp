@@ -58,7 +58,6 @@ constexpr ForeignKind kForeign[] = {
     {"7z\xbc\xaf"sv, "a 7-Zip archive", kUnpack},
     {"rar!"sv, "a RAR archive", kUnpack},
     {"ustar"sv, "a tar archive", "unpack it first", 257},
-    {"gltf"sv, "a GLB file", "give it in a file whose name ends with .glb"},
     {"#rosbag"sv, "a ROS bag", kExport},
     {"\x7f"
      "elf"sv,

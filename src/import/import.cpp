@@ -7,6 +7,7 @@
 #include <import/foreign_files.h>
 #include <import/import.h>
 #include <import/nodes/gltf.h>
+#include <import/nodes/gltf_file.h>
 #include <import/skeleton/motion.h>
 #include <import/skeleton/motion_clips.h>
 #include <import/tracks/csv.h>
@@ -84,7 +85,7 @@ bool looks_like_fbx(std::string_view bytes) {
 }
 
 constexpr FileReader kBvh{parse_once<read_bvh, motion_clips, motion_offer>, Contents::skeletons, looks_like_bvh};
-constexpr FileReader kGltf{parse_once<parse_gltf, motion_clips, motion_offer>, Contents::skeletons};
+constexpr FileReader kGltf{parse_once<parse_gltf, motion_clips, motion_offer>, Contents::skeletons, looks_like_gltf};
 constexpr FileReader kFbx{parse_once<parse_fbx, motion_clips, motion_offer>, Contents::skeletons, looks_like_fbx};
 constexpr FileReader kJupedsim{parse_once<parse_jupedsim, track_clips, track_offer>, Contents::trajectories, is_sqlite};
 constexpr FileReader kTrajnetpp{parse_once<parse_trajnetpp, track_clips, track_offer>, Contents::trajectories,
@@ -98,7 +99,7 @@ constexpr FileReader kTextTracks{parse_once<parse_text_tracks, track_clips, trac
                                  looks_like_text_tracks};
 
 /// Those that are told by content. The first that holds a file reads it.
-constexpr const FileReader* kByContent[] = {&kJupedsim, &kBvh,      &kFbx,   &kTrajnetpp,
+constexpr const FileReader* kByContent[] = {&kJupedsim, &kBvh,      &kFbx,   &kGltf,      &kTrajnetpp,
                                             &kMapfPlan, &kTextPlan, &kTable, &kTextTracks};
 
 struct Format {
@@ -112,6 +113,7 @@ constexpr Format kFormats[] = {
     {".bvh", &kBvh},
     {".gltf", &kGltf},
     {".glb", &kGltf},
+    {".vrma", &kGltf, false},
     {".fbx", &kFbx},
     {".csv", &kTable},
     {".tsv", &kTable, false},

@@ -368,14 +368,19 @@ class SceneReader {
 
     [[noreturn]] void refuse_several(const std::string& source, const std::vector<ImportedClip>& imported) const {
         const ImportedClip& first = imported.front();
-        const bool of_one_animation =
-            std::ranges::all_of(imported, [&](const ImportedClip& clip) { return clip.animation == first.animation; });
-        const std::string animation = "name one with animation, such as " + in_quotes(first.animation);
-        const std::string root = "name one with root, such as " + in_quotes(first.root);
-        const std::string how = !first.id.empty()    ? " tracks; name one with id, such as " + in_quotes(first.id)
-                                : first.root.empty() ? " animations; " + animation
-                                : of_one_animation   ? " characters; " + root
-                                                     : " clips; " + animation + ", and " + root;
+        const auto differs = [&](std::string ImportedClip::*key) {
+            return std::ranges::any_of(imported, [&](const ImportedClip& clip) { return clip.*key != first.*key; });
+        };
+        const auto name_one = [](const char* option, const std::string& such) {
+            return "name one with " + std::string(option) + ", such as " + in_quotes(such);
+        };
+        const bool of_animations = differs(&ImportedClip::animation);
+        const std::string animation = name_one("animation", first.animation);
+        const std::string root = name_one("root", first.root);
+        const std::string how = !first.id.empty()              ? " tracks; " + name_one("id", first.id)
+                                : !of_animations               ? " characters; " + root
+                                : differs(&ImportedClip::root) ? " clips; " + animation + ", and " + root
+                                                               : " animations; " + animation;
         throw InputError((folder_ / source).string(), "", "has " + std::to_string(imported.size()) + how);
     }
 

@@ -1,4 +1,6 @@
 // Files by their content, whatever their names: packed ones, and those that no reader takes.
+#include "gltf_bytes.h"
+
 #include <base/error.h>
 #include <base/file.h>
 #include <import/import.h>
@@ -47,6 +49,62 @@ TEST(FileKinds, TextIsToldByItsContentWhateverItsName) {
     EXPECT_EQ(contents_of(folder.path() / "a.dat"), Contents::table);
     EXPECT_EQ(contents_of(folder.path() / "none"), std::nullopt);
     EXPECT_EQ(contents_by_name("x.txt.gz"), Contents::trajectories);
+}
+
+/// A node that goes 2 m along x in a second; its buffer lies in the text.
+std::string gltf_text() {
+    testing::GltfBytes bytes;
+    const int times = bytes.add_floats("SCALAR", {0, 1});
+    bytes.channel("0", "translation", times, bytes.add_floats("VEC3", {0, 0, 0, 2, 0, 0})).animation();
+    return bytes.json(R"([{"name":"hips"}])", "",
+                      "data:application/octet-stream;base64,AAAAAAAAgD8AAAAAAAAAAAAAAAAAAABAAAAAAAAAAAA=");
+}
+
+TEST(FileKinds, GltfIsToldByItsContentWhateverItsName) {
+    const TempFolder folder;
+    const std::string text = gltf_text();
+    const std::string glb = testing::join_glb(text, "");
+    for (const char* name :
+         {"a.gltf", "a.glb", "a.vrma", "a.vrm", "a.VRM", "a.GLB", "a.bin", "a", "a.txt", "a.fbx", "a.bvh"}) {
+        for (const std::string& bytes :
+             {text, glb, " \r\n" + text, "\xef\xbb\xbf" + text, gzipped(text), gzipped(glb)}) {
+            const auto file = folder.write(name, bytes);
+            const ImportedClip clip = import_clips(file, {}).front();
+            EXPECT_EQ(clip.facts.format, "gltf") << name;
+            EXPECT_EQ(clip.facts.root, "hips") << name;
+            EXPECT_NEAR(clip.clip->samples().back().x, 2, 1e-6) << name;
+        }
+    }
+    EXPECT_EQ(contents_of(folder.write("b", glb)), Contents::skeletons);
+    EXPECT_EQ(contents_of(folder.write("b", text)), Contents::skeletons);
+    EXPECT_EQ(contents_by_name("b.vrma"), Contents::skeletons);
+    // What stands first does not matter, nor how long it is.
+    std::string late = text;
+    const std::string asset = R"("asset":{"version":"2.0"},)";
+    ASSERT_EQ(late.find(asset), 1u);
+    late.erase(1, asset.size());
+    late.insert(late.size() - 1, "," + asset.substr(0, asset.size() - 1));
+    EXPECT_EQ(import_clips(folder.write("late", late), {}).front().facts.format, "gltf");
+    late.insert(late.size() - 1, R"(,"extras":")" + std::string(100'000, 'x') + '"');
+    EXPECT_EQ(import_clips(folder.write("late", late), {}).front().facts.format, "gltf");
+    late.insert(late.rfind("\"asset\""), R"("copies":[")" + std::string(100'000, 'x') + "\"],");
+    EXPECT_EQ(import_clips(folder.write("late", late), {}).front().facts.format, "gltf") << "beyond what is looked at";
+}
+
+TEST(FileKinds, WhatIsNearlyGltfIsNot) {
+    const TempFolder folder;
+    const auto refusal = [&](const std::string& name, const std::string& bytes) {
+        return input_error([&] { import_clips(folder.write(name, bytes), {}); });
+    };
+    for (const char* json : {"{}", R"({"asset":"2.0"})", R"({"asset":{"generator":"x"}})", R"({"version":"2.0"})",
+                             R"([{"asset":{"version":"2.0"}}])", R"({"a":{"asset":{"version":"2.0"}}})",
+                             R"({"accessors":[],"bufferViews":[]})"}) {
+        EXPECT_NE(refusal("a", json).find("looks like JSON"), std::string::npos) << json;
+    }
+    EXPECT_NE(refusal("a", R"({"asset":{"version":"1.0"}})").find("/asset/version: is '1.0'"), std::string::npos);
+    EXPECT_NE(refusal("a.vrm", "glTF").find("GLB header: the file ends after 4 bytes"), std::string::npos);
+    EXPECT_NE(refusal("a.glb", "VRM!").find("does not begin with 'glTF'"), std::string::npos);
+    EXPECT_NE(refusal("a.glb", "{\"asset\"").find("line 1, column 8: is not valid JSON"), std::string::npos);
 }
 
 TEST(FileKinds, PackedTextIsReadAsItIs) {

@@ -60,9 +60,20 @@ class GltfBytes {
     /// A channel of the animation that is begun last; `node` "" leaves the target without one.
     GltfBytes& channel(const std::string& node, const std::string& path, int input, int output,
                        const std::string& interpolation = "LINEAR") {
+        return channel_to((node.empty() ? "" : "\"node\":" + node + ",") + "\"path\":\"" + path + "\"", input, output,
+                          interpolation);
+    }
+    /// The same by KHR_animation_pointer.
+    GltfBytes& pointer_channel(const std::string& pointer, int input, int output,
+                               const std::string& interpolation = "LINEAR") {
+        return channel_to(R"("path":"pointer","extensions":{"KHR_animation_pointer":{"pointer":")" + pointer + "\"}}",
+                          input, output, interpolation);
+    }
+    /// The same with the members of its target.
+    GltfBytes& channel_to(const std::string& target, int input, int output,
+                          const std::string& interpolation = "LINEAR") {
         channels_ += (channels_.empty() ? "" : ",") +
-                     ("{\"sampler\":" + std::to_string(channel_count_++) + ",\"target\":{" +
-                      (node.empty() ? "" : "\"node\":" + node + ",") + "\"path\":\"" + path + "\"}}");
+                     ("{\"sampler\":" + std::to_string(channel_count_++) + ",\"target\":{" + target + "}}");
         samplers_ += (samplers_.empty() ? "" : ",") +
                      ("{\"input\":" + std::to_string(input) + ",\"output\":" + std::to_string(output) +
                       ",\"interpolation\":\"" + interpolation + "\"}");

@@ -14,7 +14,7 @@
 namespace mobbscope {
 namespace {
 
-/// A bit of everything: all interpolations, integers, sparse and interleaved elements, a skin, morph targets.
+/// A bit of everything: all interpolations, integers, sparse and interleaved elements, skins, morph targets, pointers.
 testing::GltfBytes everything() {
     testing::GltfBytes bytes;
     const int times = bytes.add_floats("SCALAR", {0, 0.5F, 1});
@@ -29,13 +29,17 @@ testing::GltfBytes everything() {
         std::to_string(indices) + R"(,"componentType":5121},"values":{"bufferView":)" + std::to_string(values) + "}}");
     bytes.channel("1", "translation", times, places).channel("1", "rotation", times, rotations);
     bytes.channel("2", "translation", times, splines, "CUBICSPLINE").channel("2", "scale", times, sparse, "STEP");
-    bytes.channel("0", "weights", times, times).animation("walk");
+    bytes.channel("0", "weights", times, times).pointer_channel("/nodes/0/translation", times, places);
+    bytes.pointer_channel("/nodes/2/weights/0", times, times).pointer_channel("/materials/0/alphaCutoff", times, times);
+    bytes.animation("walk");
     return bytes;
 }
 
 const std::string kNodes =
     R"([{"children":[1],"scale":[1,1,1],"rotation":[0,0,0,1]},{"name":"hips","children":[2,3]},)"
     R"({"name":"hand","translation":[0.3,0,0]},{"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0.1,0.2,0.3,1]}])";
+
+const std::string kSkins = R"(,"skins":[{"joints":[2]},{"joints":[1,2],"skeleton":0},{"joints":[3]}])";
 
 /// One byte, or a number in the text, is another.
 std::string nudged(std::string bytes, std::mt19937& random) {
@@ -75,7 +79,7 @@ void try_to_read(const std::string& bytes, const std::string& name, Outcomes& ou
 TEST(GltfFuzz, DamagedTextIsReadOrRefused) {
     std::mt19937 random(20250302);
     const testing::GltfBytes bytes = everything();
-    const std::string json = bytes.json(kNodes, R"(,"skins":[{"joints":[1,2,3]}])");
+    const std::string json = bytes.json(kNodes, kSkins);
     Outcomes outcomes;
     for (int round = 0; round < 12'000; ++round) {
         // The container stays whole, so that the damage gets past its checks.
@@ -92,7 +96,7 @@ TEST(GltfFuzz, DamagedFilesAreReadOrRefused) {
     const std::string data = "data:application/octet-stream;base64,AAAAAAAAgD8AAAAAAAAAAAAAAAAAAABAAAAAAAAAAAA=";
     const std::array seeds{
         testing::slurp(std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/clips/stand.glb"),
-        bytes.glb(kNodes, R"(,"skins":[{"joints":[1,2,3]}])"),
+        bytes.glb(kNodes, kSkins),
         testing::GltfBytes(bytes).json(kNodes, "", data),
     };
     Outcomes outcomes;

@@ -1,4 +1,5 @@
 // Scenes whose clips come from motion files.
+#include <import/gltf_bytes.h>
 #include <import/skeleton/motion.h>
 #include <scene/scene.h>
 #include <support/bvh_text.h>
@@ -65,6 +66,49 @@ TEST(MotionSource, AClipFileIsASceneOfItsAnimations) {
 
     const auto unclear = folder.write("u.json", R"({"clips": {"c": {"source": "KayKit_Knight.glb"}}})");
     EXPECT_NE(input_error([&] { load_scene(unclear); }).find("has 76 animations; name one with animation, such as "),
+              std::string::npos);
+}
+
+/// Two people, who go along x 4 and 3 m in "walk"; in "wave" one of them turns.
+std::string two_people() {
+    testing::GltfBytes bytes;
+    const int times = bytes.add_floats("SCALAR", {0, 2});
+    bytes.channel("0", "translation", times, bytes.add_floats("VEC3", {0, 1, 0, 4, 1, 0}));
+    bytes.channel("2", "translation", times, bytes.add_floats("VEC3", {0, 1, 3, 3, 1, 3})).animation("walk");
+    bytes.channel("2", "rotation", times, bytes.add_floats("VEC4", {0, 0, 0, 1, 0, 1, 0, 0})).animation("wave");
+    return bytes.glb(R"([{"name":"A","children":[1]},{"name":"AHand","translation":[1,0,0]},)"
+                     R"({"name":"B","children":[3,4]},{"name":"BHand","translation":[0.5,0,0]},{"name":"BHead"}])",
+                     R"(,"skins":[{"joints":[0,1]},{"joints":[2,3,4]}])");
+}
+
+TEST(MotionSource, SeveralCharactersAreSeveralClipsAndRootChoosesOne) {
+    const TempFolder folder;
+    const Scene scene = load_scene(folder.write("two.glb", two_people()));
+    ASSERT_EQ(scene.clips.size(), 3u);
+    EXPECT_EQ(scene.clips[0].name, "walk · A");
+    EXPECT_EQ(scene.clips[1].name, "walk · B");
+    EXPECT_EQ(scene.clips[2].name, "wave · B");
+    EXPECT_EQ(scene.clips[1].options.animation, "walk");
+    EXPECT_EQ(scene.clips[1].options.root, "B");
+    // Written and read again, each clip is the one that it was.
+    const Scene again = load_scene(folder.write("again.json", to_json(scene)));
+    for (std::size_t i = 0; i < scene.clips.size(); ++i) {
+        EXPECT_EQ(again.clips[i].clip->samples().back().x, scene.clips[i].clip->samples().back().x);
+        EXPECT_EQ(again.clips[i].clip->samples().back().y, scene.clips[i].clip->samples().back().y);
+        EXPECT_EQ(again.clips[i].name, scene.clips[i].name);
+    }
+    const auto with = [&](const std::string& keys) {
+        return folder.write("s.json", R"({"clips": {"c": {"source": "two.glb")" + keys + "}}}");
+    };
+    EXPECT_NEAR(load_scene(with(R"(, "animation": "walk", "root": "B")")).clips[0].clip->samples().back().x, 3, 1e-6);
+    EXPECT_NEAR(load_scene(with(R"(, "animation": 0, "root": "AHand")")).clips[0].clip->samples().back().x, 5, 1e-6);
+    EXPECT_EQ(load_scene(with(R"(, "root": "A")")).clips[0].facts.animation, "walk") << "the only one that moves it";
+    const auto refusal = [&](const std::string& keys) { return input_error([&] { load_scene(with(keys)); }); };
+    EXPECT_NE(refusal("").find("has 3 clips; name one with animation, such as 'walk', and name one with root, such as"),
+              std::string::npos);
+    EXPECT_NE(refusal(R"(, "animation": "walk")").find("has 2 characters; name one with root, such as 'A'"),
+              std::string::npos);
+    EXPECT_NE(refusal(R"(, "root": "B")").find("has 2 animations; name one with animation, such as 'walk'"),
               std::string::npos);
 }
 

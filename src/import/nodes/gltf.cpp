@@ -4,6 +4,7 @@
 #include <import/nodes/gltf.h>
 #include <import/nodes/gltf_accessor.h>
 #include <import/nodes/gltf_animation.h>
+#include <import/nodes/gltf_characters.h>
 #include <import/nodes/gltf_file.h>
 #include <tiny_gltf.h>
 
@@ -13,6 +14,7 @@
 #include <exception>
 #include <memory>
 #include <set>
+#include <span>
 #include <utility>
 
 namespace mobbscope {
@@ -56,9 +58,7 @@ std::vector<unsigned char> outside_bytes(const GltfOutsideBuffer& buffer, const 
     return {bytes.begin(), bytes.end()};
 }
 
-tinygltf::Model load_model(std::string_view bytes, const std::filesystem::path& file) {
-    const GltfParts parts = split_gltf(bytes, lower_extension(file) == ".glb", file.string());
-    const GltfText text = checked_gltf_text(parts, file.string());
+tinygltf::Model load_model(const GltfParts& parts, const GltfText& text, const std::filesystem::path& file) {
     std::vector<std::vector<unsigned char>> outside;
     for (const GltfOutsideBuffer& buffer : text.outside) outside.push_back(outside_bytes(buffer, parts, file));
 
@@ -93,7 +93,8 @@ glm::dvec3 vec3(const std::vector<double>& v, const glm::dvec3& otherwise) {
 /// Fills a scene from a model whose indices exist.
 class SceneBuilder {
   public:
-    SceneBuilder(const tinygltf::Model& model, const std::string& file) : model_(model), accessors_(model, file) {
+    SceneBuilder(const tinygltf::Model& model, const GltfText& text, const std::string& file)
+        : model_(model), text_(text), accessors_(model, file) {
         scene_.file = file;
         scene_.format = "gltf";
         scene_.unit = 1;  // the specification: metres, y up
@@ -103,11 +104,14 @@ class SceneBuilder {
     NodeScene build() {
         add_nodes();
         link_parents();
-        if (!model_.skins.empty()) scene_.characters.push_back(joints_of_skin(0));
         if (model_.animations.empty()) {
             throw InputError(scene_.file, "", "holds no animation; export the clip with its animation");
         }
         for (std::size_t i = 0; i < model_.animations.size(); ++i) add_animation(i);
+        std::vector<GltfSkin> skins;
+        for (const tinygltf::Skin& skin : model_.skins) skins.push_back({skin.joints, skin.skeleton});
+        scene_.characters = gltf_characters(scene_, skins, channels_);
+        scene_.body = text_.hips;
         return std::move(scene_);
     }
 
@@ -131,16 +135,6 @@ class SceneBuilder {
             rest_->push_back(rest);
             scene_.nodes.push_back({name_of(model_, i)});
         }
-    }
-
-    /// A node named twice counts once.
-    std::vector<int> joints_of_skin(std::size_t skin) const {
-        std::vector<int> out;
-        std::set<int> known;
-        for (const int joint : model_.skins[skin].joints) {
-            if (known.insert(joint).second) out.push_back(joint);
-        }
-        return out;
     }
 
     Affine matrix_of(int node) const {
@@ -190,38 +184,63 @@ class SceneBuilder {
         std::vector<GltfChannel> channels;
         std::set<int> moved;
         bool moves_morph_targets = false;
-        std::set<std::pair<int, std::string>> targets;
+        std::set<std::pair<int, std::string_view>> targets;
         for (const tinygltf::AnimationChannel& channel : from.channels) {
-            const std::string& path = channel.target_path;
-            if (path == "pointer") continue;  // KHR_animation_pointer: it has no node to move
-            if (!targets.emplace(channel.target_node, path).second) {
+            std::string_view path = channel.target_path;
+            const bool by_pointer = path.starts_with(kByPointer);
+            if (by_pointer) path.remove_prefix(kByPointer.size());
+            const bool is_weights = path == "weights";
+            // Pointers may lead to the weights of one morph target after another.
+            if (!targets.emplace(channel.target_node, path).second && !(is_weights && by_pointer)) {
                 throw InputError(scene_.file, place,
                                  "has two channels for " + in_quotes(path) + " of " +
                                      place_of_node(model_, channel.target_node) + "; keep one");
             }
             const tinygltf::AnimationSampler& sampler = from.samplers[as_index(channel.sampler)];
             times.push_back(times_of(sampler.input));
-            if (path == "weights") {
+            if (is_weights) {
                 moves_morph_targets = true;
-            } else {
-                channels.push_back(channel_of(channel, sampler, times.back(), place));
-                moved.insert(channel.target_node);
+                continue;
             }
+            channels.push_back(channel_of(channel.target_node, path, sampler, times.back(), place));
+            const bool has_matrix = !model_.nodes[as_index(channel.target_node)].matrix.empty();
+            if (has_matrix && !(by_pointer && path == "translation")) {
+                fail_node(channel.target_node,
+                          "is animated, so it needs translation, rotation and scale in place of its matrix");
+            }
+            moved.insert(channel.target_node);
         }
         animation.times = key_times(times);
         animation.moved.assign(moved.begin(), moved.end());
         animation.pose = gltf_pose(rest_, channels);
-        if (model_.skins.size() > 1) {
-            animation.warnings.push_back("the file has " + counted(model_.skins.size(), "skin", "skins") +
-                                         "; the joints of skin 0 were taken");
+        channels_.insert(channels_.end(), channels.begin(), channels.end());
+        const auto [first, last] = std::ranges::equal_range(text_.unread, index, {}, &GltfUnreadPointer::animation);
+        const std::string unread = unread_pointers({first, last});
+        if (!unread.empty()) {
+            animation.warnings.push_back(unread + ", which " + (last - first == 1 ? "moves" : "move") +
+                                         " no node: passed over");
         }
         if (moves_morph_targets)
             animation.warnings.emplace_back("morph targets are animated too; they do not widen the disks");
         animation.moves_nothing =
             moves_morph_targets
                 ? "moves morph targets only, so there is no joint to follow; give a clip that moves nodes"
-                : "moves no node; give a clip that does";
+            : unread.empty() ? "moves no node; give a clip that does"
+                             : "moves no node, as " + unread + "; give a clip that does";
         scene_.animations.push_back(std::move(animation));
+    }
+
+    /// Where channels of KHR_animation_pointer lead that move no node; a few are named. Empty: there are none.
+    static std::string unread_pointers(std::span<const GltfUnreadPointer> unread) {
+        if (unread.empty()) return "";
+        constexpr std::size_t kMostNamed = 3;
+        std::string out = "KHR_animation_pointer leads to ";
+        for (const GltfUnreadPointer& one : unread.first(std::min(unread.size(), kMostNamed))) {
+            out += (&one == unread.data() ? "" : ", ") + in_quotes(one.pointer);
+        }
+        if (unread.size() > kMostNamed)
+            out += " and " + counted(unread.size() - kMostNamed, "more place", "more places");
+        return out;
     }
 
     Numbers times_of(int accessor) {
@@ -238,21 +257,17 @@ class SceneBuilder {
         return times;
     }
 
-    GltfChannel channel_of(const tinygltf::AnimationChannel& from, const tinygltf::AnimationSampler& sampler,
+    GltfChannel channel_of(int node, std::string_view path, const tinygltf::AnimationSampler& sampler,
                            const Numbers& times, const std::string& place) {
         GltfChannel channel;
-        channel.node = from.target_node;
+        channel.node = node;
         channel.times = times;
-        const auto property = enumerator_named<NodeProperty>(kProperties, from.target_path);
+        const auto property = enumerator_named<NodeProperty>(kProperties, path);
         if (!property) {
-            throw InputError(
-                scene_.file, place,
-                "channel path " + in_quotes(from.target_path) + " must be translation, rotation, scale or weights");
+            throw InputError(scene_.file, place,
+                             "channel path " + in_quotes(path) + " must be translation, rotation, scale or weights");
         }
         channel.property = *property;
-        if (!model_.nodes[as_index(channel.node)].matrix.empty()) {
-            fail_node(channel.node, "is animated, so it needs translation, rotation and scale in place of its matrix");
-        }
         const auto interpolation = enumerator_named<Interpolation>(kInterpolations, sampler.interpolation);
         if (!interpolation) {
             throw InputError(
@@ -290,7 +305,9 @@ class SceneBuilder {
     }
 
     const tinygltf::Model& model_;
+    const GltfText& text_;
     NodeScene scene_;
+    std::vector<GltfChannel> channels_;  ///< of all animations
     std::shared_ptr<std::vector<GltfRest>> rest_ = std::make_shared<std::vector<GltfRest>>();
     GltfAccessors accessors_;
     std::set<int> checked_times_;
@@ -300,9 +317,11 @@ class SceneBuilder {
 }  // namespace
 
 MotionFile parse_gltf(std::string_view bytes, const std::filesystem::path& file) {
-    const tinygltf::Model model = load_model(bytes, file);
     const std::string name = file.string();
-    return node_motion_file(SceneBuilder(model, name).build());
+    const GltfParts parts = split_gltf(bytes, lower_extension(file) == ".glb", name);
+    const GltfText text = checked_gltf_text(parts, name);
+    const tinygltf::Model model = load_model(parts, text, file);
+    return node_motion_file(SceneBuilder(model, text, name).build());
 }
 
 }  // namespace mobbscope

@@ -95,6 +95,8 @@ Affine local_at(const GltfRest& rest, const ChannelsOfNode& channels, double sec
         return channel.has_value();
     };
     if (take(NodeProperty::translation)) local.translation = {v[0], v[1], v[2]};
+    // Of a node with a matrix only this can move.
+    if (!channels[1] && !channels[2]) return {rest.matrix.linear, local.translation};
     if (take(NodeProperty::rotation)) local.rotation = {v[3], v[0], v[1], v[2]};
     if (take(NodeProperty::scale)) local.scale = {v[0], v[1], v[2]};
     return local.affine();

@@ -22,8 +22,8 @@ struct TranslationRotationScale {
     Affine affine() const;
 };
 
-/// Where a node stands at rest, relative to its parent: `matrix` where no channel moves it, else `parts` with what the
-/// channels give in its place.
+/// Where a node stands at rest, relative to its parent: `matrix` where no channel moves it, or its translation alone is
+/// moved; else `parts` with what the channels give in its place.
 struct GltfRest {
     TranslationRotationScale parts;
     Affine matrix;

@@ -1,6 +1,7 @@
 #include <base/error.h>
 #include <base/text.h>
 #include <import/nodes/gltf_file.h>
+#include <import/nodes/gltf_pointer.h>
 
 #include <algorithm>
 #include <array>
@@ -71,6 +72,46 @@ GltfParts split_glb(std::string_view bytes, const std::string& file) {
     return parts;
 }
 
+bool begins_as_json(std::string_view text) {
+    const std::size_t first = text.find_first_not_of("\xef\xbb\xbf \t\r\n");
+    return first != std::string_view::npos && text[first] == '{';
+}
+
+/// What the keys of a JSON text, or of its beginning, say about its being glTF.
+struct GltfKeys {
+    bool asset = false;
+    bool version = false;  ///< of the asset
+    bool arrays = false;   ///< accessors or bufferViews
+    bool cut_off = false;  ///< the text ends within its object
+
+    void scan(std::string_view text) {
+        int depth = 0;
+        std::string_view in;      // the key at depth 1 that what stands here belongs to
+        std::string_view string;  // the last one
+        for (std::size_t i = 0; i < text.size(); ++i) {
+            const char c = text[i];
+            if (c == '"') {
+                const std::size_t begin = i + 1;
+                for (++i; i < text.size() && text[i] != '"'; ++i) {
+                    if (text[i] == '\\') ++i;
+                }
+                string = text.substr(begin, i - begin);
+            } else if (c == '{' || c == '[') {
+                ++depth;
+            } else if (c == '}' || c == ']') {
+                --depth;
+            } else if (c == ':' && depth == 1) {
+                in = string;
+                asset = asset || in == "asset";
+                arrays = arrays || in == "accessors" || in == "bufferViews";
+            } else if (c == ':' && depth == 2 && in == "asset") {
+                version = version || string == "version";
+            }
+        }
+        cut_off = depth > 0;
+    }
+};
+
 // ---- its JSON
 
 using Json = nlohmann::json;
@@ -81,11 +122,13 @@ constexpr int kMaxDepth = 100;
 constexpr std::size_t kMaxValues = 10'000'000;
 constexpr std::uint64_t kMaxInteger = std::numeric_limits<int>::max();
 
-// What a file may require and is only about surfaces, lights and the like, which are not looked at.
-constexpr std::array<std::string_view, 6> kHarmlessPrefixes{"KHR_materials_", "KHR_texture_", "EXT_texture_",
-                                                            "KHR_lights_",    "EXT_lights_",  "KHR_xmp"};
-constexpr std::array<std::string_view, 4> kHarmless{"KHR_draco_mesh_compression", "KHR_mesh_quantization",
-                                                    "EXT_mesh_gpu_instancing", "MSFT_texture_dds"};
+// What a file may require: what is read here, and what is only about surfaces, lights and the like, which are not
+// looked at.
+constexpr std::array<std::string_view, 7> kHarmlessPrefixes{
+    "KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "EXT_lights_", "KHR_xmp", "VRMC_vrm"};
+constexpr std::array<std::string_view, 5> kHarmless{"KHR_animation_pointer", "KHR_draco_mesh_compression",
+                                                    "KHR_mesh_quantization", "EXT_mesh_gpu_instancing",
+                                                    "MSFT_texture_dds"};
 
 /// Refuses text that nests too deep or holds too many values, before any memory is spent on it.
 void check_shape(std::string_view text, const std::string& file) {
@@ -246,7 +289,7 @@ class GltfChecker {
         for (const auto& [key, keep] : kSections) {
             if (root_[key].exists()) keep_elements(root_, kept, key, keep);
         }
-        return {kept.dump(), std::move(outside_)};
+        return {kept.dump(), std::move(outside_), std::move(unread_), hips()};
     }
 
   private:
@@ -442,6 +485,23 @@ class GltfChecker {
     void keep_skin(const GltfPlace& from, Json& to) {
         keep_string(from, to, "name", Need::optional);
         keep_nodes(from, to, "joints");
+        keep_index(from, to, "skeleton", "nodes", Need::optional);
+    }
+
+    /// The node of the hips in VRM's description of a body, which need not be there.
+    std::optional<int> hips() const {
+        const Json* at = &root_.value();
+        for (const char* key : {"extensions", "VRMC_vrm_animation", "humanoid", "humanBones", "hips", "node"}) {
+            const auto member = at->find(key);
+            if (member == at->end()) return std::nullopt;
+            at = &*member;
+        }
+        const std::size_t nodes = size_of("nodes");
+        if (!at->is_number_unsigned() || at->get<std::uint64_t>() >= nodes) {
+            root_.fail("VRMC_vrm_animation: its hips refer to " + in_quotes(at->dump()) + ", but there are " +
+                       std::to_string(nodes) + " nodes; export the file again");
+        }
+        return at->get<int>();
     }
 
     void keep_animation(const GltfPlace& from, Json& to) {
@@ -449,6 +509,7 @@ class GltfChecker {
         keep_elements(from, to, "samplers", &GltfChecker::keep_sampler);
         samplers_ = to["samplers"].size();
         keep_elements(from, to, "channels", &GltfChecker::keep_channel);
+        ++animations_;
     }
 
     void keep_sampler(const GltfPlace& from, Json& to) {
@@ -462,26 +523,65 @@ class GltfChecker {
         check_index(from["sampler"], samplers_, "samplers");
         const GltfPlace target = from["target"];
         target.require_object();
-        keep_string(target, to["target"], "path", Need::required);
+        const std::string& path = target["path"].string();
         // Without a node, a channel is to be ignored (the specification's words for extensions to come).
-        if (!keep_index(target, to["target"], "node", "nodes", Need::optional)) to = nullptr;
+        const bool is_kept = path == "pointer" ? keep_pointer(target, to["target"])
+                                               : keep_index(target, to["target"], "node", "nodes", Need::optional);
+        if (!is_kept) {
+            to = nullptr;
+        } else if (path != "pointer") {
+            to["target"]["path"] = path;
+        }
+    }
+
+    /// False if it leads to no property of a node.
+    bool keep_pointer(const GltfPlace& target, Json& to) {
+        const GltfPlace extensions = target["extensions"];
+        extensions.require_object();
+        const GltfPlace extension = extensions["KHR_animation_pointer"];
+        extension.require_object();
+        const GltfPlace place = extension["pointer"];
+        const std::string& pointer = place.string();
+        if (!pointer.starts_with('/'))
+            place.fail(in_quotes(pointer) + " must begin with '/', as in '/nodes/0/rotation'");
+        const std::optional<NodePointer> of_node = node_pointer(pointer);
+        if (!of_node) {
+            unread_.push_back({animations_, pointer});
+            return false;
+        }
+        if (!of_node->node || *of_node->node >= size_of("nodes")) {
+            place.fail(in_quotes(pointer) + " leads to no node; there are " + std::to_string(size_of("nodes")) +
+                       "; export the file again");
+        }
+        to = {{"node", *of_node->node}, {"path", std::string(kByPointer) + std::string(of_node->property)}};
+        return true;
     }
 
     const GltfPlace& root_;
     const GltfParts& parts_;
     std::size_t buffers_ = 0;
-    std::size_t samplers_ = 0;  ///< of the animation at hand
+    std::size_t samplers_ = 0;    ///< of the animation at hand
+    std::size_t animations_ = 0;  ///< before the one at hand
     std::vector<GltfOutsideBuffer> outside_;
+    std::vector<GltfUnreadPointer> unread_;
 };
 
 }  // namespace
 
-GltfParts split_gltf(std::string_view bytes, bool must_be_glb, const std::string& file) {
+GltfParts split_gltf(std::string_view bytes, bool named_glb, const std::string& file) {
     if (bytes.starts_with(kMagic)) return split_glb(bytes, file);
-    if (must_be_glb) {
+    if (named_glb && !begins_as_json(bytes)) {
         throw InputError(file, "GLB header", "does not begin with 'glTF'; this is no GLB file, or a damaged one");
     }
     return {bytes, std::nullopt, false};
+}
+
+bool looks_like_gltf(std::string_view head) {
+    if (head.starts_with(kMagic)) return true;
+    if (!begins_as_json(head)) return false;
+    GltfKeys keys;
+    keys.scan(head);
+    return keys.asset ? keys.version : keys.cut_off && keys.arrays;
 }
 
 GltfText checked_gltf_text(const GltfParts& parts, const std::string& file) {

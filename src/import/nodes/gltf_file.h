@@ -18,9 +18,13 @@ struct GltfParts {
     bool is_glb = false;
 };
 
-/// Checks lengths and order of a GLB's chunks; anything without its magic number is taken for text, unless
-/// `must_be_glb`. `file` stands for the file in messages. Throws InputError.
-GltfParts split_gltf(std::string_view bytes, bool must_be_glb, const std::string& file);
+/// Checks lengths and order of a GLB's chunks. Whatever begins as JSON does is text, and so is all that is no GLB,
+/// unless `named_glb`. `file` stands for the file in messages. Throws InputError.
+GltfParts split_gltf(std::string_view bytes, bool named_glb, const std::string& file);
+
+/// Whether a file is glTF of version 2 or another, as GLB or as text, by its first bytes: a JSON object with a version
+/// in its asset, or, where that lies beyond the bytes, with accessors or bufferViews.
+bool looks_like_gltf(std::string_view head);
 
 /// A buffer whose bytes do not stand in the text.
 struct GltfOutsideBuffer {
@@ -31,11 +35,23 @@ struct GltfOutsideBuffer {
     std::size_t byte_length = 0;
 };
 
-/// What is left of the text: nodes, skins, animations and what they refer to.
+/// A channel of KHR_animation_pointer that moves no property of a node, and so is taken out.
+struct GltfUnreadPointer {
+    std::size_t animation = 0;
+    std::string pointer;
+};
+
+/// What is left of the text: nodes, skins, animations and what they refer to. A channel of KHR_animation_pointer that
+/// moves a property of a node has it in place of its pointer, with kByPointer in front of the path.
 struct GltfText {
     std::string json;
-    std::vector<GltfOutsideBuffer> outside;  ///< in the text each has a byte in place of what it holds
+    std::vector<GltfOutsideBuffer> outside{};  ///< in the text each has a byte in place of what it holds
+    std::vector<GltfUnreadPointer> unread{};   ///< in the order of the file
+    /// Where the body begins in a file without skins, as VRM's animations say it: the node of the hips.
+    std::optional<int> hips{};
 };
+
+inline constexpr std::string_view kByPointer = "pointer/";
 
 /// Every index in the text that remains exists, every integer fits and every value has its type. Throws InputError
 /// naming the JSON pointer.

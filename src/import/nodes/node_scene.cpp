@@ -13,6 +13,9 @@ namespace mobbscope {
 
 namespace {
 
+// How many times as many joints a body has as what stands beside it.
+constexpr int kFarMore = 2;
+
 /// The rotation in a matrix that may scale, shear and mirror too; none where it leaves no volume.
 glm::dquat rotation_of(const glm::dmat3& linear) {
     const glm::dvec3 x = glm::normalize(linear[0]);
@@ -78,6 +81,7 @@ class NodeMotion : public Motion {
     int topmost() const override { return topmost_; }
     bool is_pivot(int joint) const override { return is_pivot_[as_index(joint)]; }
     const MotionTimes& times() const override { return animation_->times; }
+    std::size_t posed() const override { return posed_.size(); }
 
     void pose(double seconds, std::span<glm::dvec3> positions, std::span<glm::dquat> rotations) const override {
         each_joint(seconds, [&](std::size_t joint, const Affine& global) {
@@ -220,25 +224,31 @@ std::vector<NamedJoint> named_joints(Rig& rig, const std::vector<int>& character
     return out;
 }
 
-/// The topmost joint of each character, the first in its list of several; -1 where it has none.
+/// The topmost joint of each character; -1 where it has none. Of several the first in its list, unless that has far
+/// fewer joints below it than another: controls and props stand beside a body.
 std::vector<int> topmost_joints(const Rig& rig, const std::vector<int>& character_of) {
     const std::vector<Node>& nodes = rig.scene.nodes;
-    std::vector<int> joint_above(nodes.size(), -1);
+    std::vector<int> joint_above(nodes.size(), -1);  // the nearest one, whosever it is
+    std::vector<int> top_of(nodes.size(), -1);       // of its character, above a joint or itself
+    std::vector<int> joints_from(nodes.size(), 0);   // by topmost joint
     for (const int node : rig.order) {
         const int parent = nodes[as_index(node)].parent;
-        if (parent < 0) continue;
-        joint_above[as_index(node)] = character_of[as_index(parent)] >= 0 ? parent : joint_above[as_index(parent)];
-    }
-    const auto is_top = [&](int node) {
+        if (parent >= 0)
+            joint_above[as_index(node)] = character_of[as_index(parent)] >= 0 ? parent : joint_above[as_index(parent)];
+        if (character_of[as_index(node)] < 0) continue;
         int above = joint_above[as_index(node)];
         while (above >= 0 && character_of[as_index(above)] != character_of[as_index(node)])
             above = joint_above[as_index(above)];
-        return above < 0;
-    };
+        top_of[as_index(node)] = above < 0 ? node : top_of[as_index(above)];
+        ++joints_from[as_index(top_of[as_index(node)])];
+    }
+    const auto count = [&](int node) { return joints_from[as_index(node)]; };
     std::vector<int> out;
     for (const std::vector<int>& joints : rig.characters) {
-        const auto top = std::ranges::find_if(joints, is_top);
-        out.push_back(top == joints.end() ? -1 : *top);
+        const auto first = std::ranges::find_if(joints, [&](int node) { return count(node) > 0; });
+        const auto largest = std::ranges::max_element(joints, {}, count);
+        const bool is_aside = first != joints.end() && count(*largest) > kFarMore * count(*first);
+        out.push_back(first == joints.end() ? -1 : is_aside ? *largest : *first);
     }
     return out;
 }
@@ -270,7 +280,7 @@ MotionFile node_motion_file(NodeScene scene) {
     making->order = parents_first(making->scene.nodes);
     making->characters = making->scene.characters;
     if (making->characters.empty()) {
-        const int top = topmost_animated(making->scene, making->order);
+        const int top = making->scene.body.value_or(topmost_animated(making->scene, making->order));
         making->characters.push_back(top < 0 ? std::vector<int>() : nodes_below(top, *making));
     }
     const std::vector<int> character_of = characters_of_nodes(*making);

@@ -57,9 +57,10 @@ struct NodeScene {
     std::optional<double> unit;        ///< metres per file unit
     std::optional<glm::dmat3> ground;  ///< as MotionFile::ground
     std::vector<Node> nodes;
-    /// The joints of each character, at least one each, in the file's order; no node twice. None: the file does not say
-    /// what bodies it has, and all nodes from the topmost animated one down are one.
+    /// The joints of each character, at least one each, in the file's order; no node twice. None: all nodes from `body`
+    /// down are one.
     std::vector<std::vector<int>> characters;
+    std::optional<int> body;  ///< none: the topmost animated node
     /// A joint that turns on the spot is the pivot that the body hangs on, so the search for the root ends there. FBX:
     /// unlike a skin, it does not say where the body begins.
     bool has_pivots = false;

@@ -51,6 +51,8 @@ class Motion {
     /// True if the search for the root, which goes down from joints that stand still, ends at this joint at the latest.
     virtual bool is_pivot(int /*joint*/) const { return false; }
     virtual const MotionTimes& times() const = 0;
+    /// How many joints, and what else stands above them, one pose takes.
+    virtual std::size_t posed() const { return joints().size(); }
     /// Where all joints are at a time in file seconds, in file units and axes, with everything above them applied.
     /// Times outside the keys are clamped; with frames_only the nearest stored frame is taken. `positions` has room for
     /// all joints. What comes out may be absurd or not finite: the caller checks. `rotations`, where it has room for

@@ -23,9 +23,10 @@ constexpr double kBodyHeight = 1.7;  // metres: the contract's, for the unit "au
 constexpr std::array<double, 5> kBodyUnits{1, 0.01, 0.001, 0.0254, 0.0564444};
 // More samples of a body than that are a wrong time, and would take minutes to pose.
 constexpr std::size_t kMaxMotionSamples = 1'000'000;
-// Joints times frames or samples. A file of real captures has no room for more; one of names and zeros would take
-// hours.
-constexpr std::size_t kMaxJointPoses = 100'000'000;
+// Joints times frames or samples, of a clip and of all clips of a file. A file of real captures has no room for more;
+// one of names and zeros would take hours.
+constexpr double kMaxJointPoses = 1e8;
+constexpr double kMaxJointPosesOfFile = 1e9;
 constexpr std::size_t kMaxSkeletonPositions = 8'000'000;  // 224 MB; longer clips go without a skeleton
 
 /// Units as options, and what they are called.
@@ -73,11 +74,11 @@ std::optional<double> tallest_height(const MotionFile& file, const ImportOptions
     if (file.unit || file.characters.size() < 2) return std::nullopt;
     const ChosenUp up = chosen_up(file, options);
     double tallest = 0;
-    std::size_t poses = 0;
+    double poses = 0;
     for (std::size_t i = 0; i < file.characters.size(); ++i) {
         const std::shared_ptr<const Motion> motion = file.motion(0, i);
         const GroundedMotion grounded(*motion, up.ground);
-        poses += motion->joints().size() * static_cast<std::size_t>(motion->times().frames);
+        poses += static_cast<double>(motion->posed()) * motion->times().frames;
         if (poses > kMaxJointPoses) return std::nullopt;
         tallest = std::max(tallest, median_height(grounded, motion->topmost()));
     }
@@ -98,13 +99,20 @@ class MotionImport {
           height_(height),
           options_(options) {}
 
-    ImportedClip make() {
+    /// `poses_left`: of joints, for this clip and those after it.
+    ImportedClip make(double& poses_left) {
         const MotionTimes& times = motion_.times();
         const SampleGrid grid = grid_of(times);
         const std::size_t frames = times.frames_only ? static_cast<std::size_t>(times.frames) : 0;
-        if (std::max(grid.count, frames) > kMaxJointPoses / motion_.joints().size()) {
-            throw std::invalid_argument("has " + std::to_string(motion_.joints().size()) +
+        const double poses = static_cast<double>(std::max(grid.count, frames)) * static_cast<double>(motion_.posed());
+        if (poses > kMaxJointPoses) {
+            throw std::invalid_argument("has " + std::to_string(motion_.posed()) +
                                         " joints, too many for so many frames; check the file, or lower fps");
+        }
+        poses_left -= poses;
+        if (poses_left < 0) {
+            throw std::invalid_argument(
+                "its clips together have too many joints and frames; name one with animation or root, or lower fps");
         }
         ImportedClip out;
         SourceFacts& facts = out.facts;
@@ -368,13 +376,14 @@ std::vector<ImportedClip> motion_clips(const MotionFile& motions, const std::fil
     const std::vector<std::string>& names = motions.animations;
     const WantedClips wanted = at_place(path, "", [&] { return wanted_clips(motions, path, options); });
     const std::optional<double> height = at_place(path, "", [&] { return tallest_height(motions, options); });
+    double poses_left = kMaxJointPosesOfFile;
     std::vector<ImportedClip> clips;
     for (const WantedClip& of : wanted.clips) {
         const std::size_t i = of.animation;
         const std::string place = names.size() > 1 ? "animation " + in_quotes(names[i]) : "";
         ImportedClip& clip = clips.emplace_back(at_place(path, place, [&] {
             const RootedMotion it = motion_of(motions, of, options.root.has_value());
-            return MotionImport(motions, it, height, options).make();
+            return MotionImport(motions, it, height, options).make(poses_left);
         }));
         clip.facts.animation = names[i];
         for (const std::string& warning : wanted.left_out) clip.facts.warnings.push_back({warning});
