@@ -207,16 +207,16 @@ Told told_by(const BvhMotion& motion) {
     const auto& [y, z] = *evidence;
     if (y.upright > kHardly) return y.stands >= kHalf ? Told::y : Told::nothing;
     if (z.upright < kHalf) return Told::nothing;
-    if (z.rests) return Told::z;
 
-    // Only the ROOT is turned. This is somebody who stands, z up, or who lies along z, y up.
+    // This is somebody who stands, z up, or who lies along z, y up. Where the offsets stand along z too it hardly lies.
     const double length = z.height;
     const bool rises = y.way >= kRise * length && z.unsteady <= kClimbs * length;
     const bool on_floor =
         z.stands >= kMostly && z.unsteady <= kSteady * length && std::abs(z.lowest) <= kOnFloor * length;
     const bool lies = y.unsteady <= kLyingSteady * length && y.lowest >= kLyingBelow * length &&
                       y.hips >= kLyingHips * length && y.hips <= kMaxLyingHips * length && y.height <= kThick * length;
-    if (rises || (on_floor && !lies)) return Told::z;
+    const bool tells = z.rests ? on_floor || !lies : on_floor && !lies;
+    if (rises || tells) return Told::z;
     return z.stands >= kHalf ? Told::perhaps_z : Told::nothing;
 }
 
