@@ -93,7 +93,7 @@ std::string guess_of(const SourceFacts& facts) {
 /// Which axis is up, and why: only files with skeletons have one.
 std::string up_of(const SourceFacts& facts) {
     if (facts.up.empty()) return "";
-    return ", " + facts.up + " up" + (facts.up_why.empty() ? "" : " (" + facts.up_why + ")");
+    return ", up " + facts.up + (facts.up_why.empty() ? "" : " (" + facts.up_why + ")");
 }
 
 using Warnings = std::vector<ImportWarning>;

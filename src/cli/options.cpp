@@ -153,7 +153,7 @@ void add_import_options(Command& command, ImportOptions& options) {
     add("--fps", &ImportOptions::fps, parse_number,
         "Samples per second (30; trajectories: as stored); frames per second of a table with frame numbers", "F");
     add("--unit", &ImportOptions::unit, as_it_is, "m, cm, in, auto or metres per file unit", "U");
-    add("--up", &ImportOptions::up, as_it_is, "y, z or auto", "AXIS");
+    add("--up", &ImportOptions::up, as_it_is, "y, z or auto (as the file says; BVH: as the body stands)", "AXIS");
     add("--root", &ImportOptions::root, as_it_is, "The joint whose path is taken", "JOINT");
     add("--trim", &ImportOptions::trim, parse_trim,
         "Only this part, in seconds from the first key, of tracks from the earliest row", "A:B");

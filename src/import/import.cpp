@@ -74,16 +74,6 @@ constexpr std::size_t kHead = std::size_t{1} << 16;  // bytes
 
 bool looks_like_bvh(std::string_view text) { return text.substr(0, text.find_first_of(" \t\r\n")) == "HIERARCHY"; }
 
-/// Binary FBX begins with its name, text with comments and then the only node that every file has.
-bool looks_like_fbx(std::string_view bytes) {
-    if (bytes.starts_with("Kaydara FBX Binary")) return true;
-    for (bytes = trimmed(bytes); bytes.starts_with(';');) {
-        const std::size_t end = bytes.find_first_of("\r\n");
-        bytes = end == std::string_view::npos ? "" : trimmed(bytes.substr(end));
-    }
-    return bytes.starts_with("FBXHeaderExtension");
-}
-
 constexpr FileReader kBvh{parse_once<read_bvh, motion_clips, motion_offer>, Contents::skeletons, looks_like_bvh};
 constexpr FileReader kGltf{parse_once<parse_gltf, motion_clips, motion_offer>, Contents::skeletons, looks_like_gltf};
 constexpr FileReader kFbx{parse_once<parse_fbx, motion_clips, motion_offer>, Contents::skeletons, looks_like_fbx};

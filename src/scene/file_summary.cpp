@@ -47,6 +47,8 @@ void tell_of_clip(const SceneClip& clip, FileSummary& out) {
         if (facts.guessed_from_height) {
             out.facts.emplace_back("", formatted("guessed: a body %.2f m tall", *facts.guessed_from_height));
         }
+        if (!facts.up.empty()) out.facts.emplace_back("Up axis", facts.up);
+        if (!facts.up_why.empty()) out.facts.emplace_back("", facts.up_why);
     }
     out.facts.emplace_back("Path", formatted("%.1f m, %.2f m/s", figures.length, figures.mean_speed));
     out.facts.emplace_back("Radius", formatted("%.2f to %.2f m", figures.min_radius, figures.max_radius));

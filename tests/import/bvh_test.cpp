@@ -110,12 +110,116 @@ TEST(Bvh, LayoutDoesNotMatter) {
     }
 }
 
-TEST(Bvh, SeveralRootsStandSideBySide) {
-    std::string text = replaced(kWalker, "MOTION", "ROOT Dog\n{\nOFFSET 5 6 7\nCHANNELS 1 Yposition\n}\nMOTION");
-    text = replaced(text, "0 0 0\n10", "0 0 0 1\n10");
-    text = text.substr(0, text.size() - 1) + " 2\n";
-    EXPECT_EQ(parse_bvh(text, kFile).joints[4].parent, -1);
-    expect_near(pose(text, 1)[4], 5, 2, 7);
+/// kWalker with that many rows; the hips go 10 cm a row.
+std::string walker_of(int rows) {
+    std::string text = kWalker.substr(0, kWalker.find("0 95 30"));
+    for (int i = 0; i < rows; ++i) text += std::to_string(10 * i) + " 95 30 0 0 0 0 0 0 0 0 0\n";
+    return text;
+}
+
+TEST(Bvh, RowsThatAreThereAreBelieved) {
+    const std::string end = ": all that are there are taken";
+    const std::string cut = "; fetch the file again if it was cut off";
+    const struct {
+        int said, rows;
+        std::string warning;
+    } kinds[] = {
+        {60, 61, "Frames says 60, but 61 rows follow" + end + " (line 22)"},
+        {1, 2, "Frames says 1, but 2 rows follow" + end + " (line 22)"},
+        {10, 200, "Frames says 10, but 200 rows follow" + end + " (line 22)"},
+        {61, 60, "Frames says 61, but 60 rows follow" + end + cut + " (line 22)"},
+        {60, 30, "Frames says 60, but 30 rows follow" + end + cut + " (line 22)"},
+        {2, 1, "Frames says 2, but 1 row follows" + end + cut + " (line 22)"},
+        {10'000'000, 3, "Frames says 10000000, but 3 rows follow" + end + cut + " (line 22)"},
+        {7, 7, ""},
+    };
+    for (const auto& [said, rows, warning] : kinds) {
+        const std::string text = replaced(walker_of(rows), "Frames: 2", "Frames: " + std::to_string(said));
+        for (const char* tail : {"", "\n\n", " \n\t\n"}) {
+            const BvhData data = parse_bvh(text + tail, kFile);
+            EXPECT_EQ(data.frames(), static_cast<std::size_t>(rows));
+            EXPECT_EQ(data.warnings, warning.empty() ? std::vector<std::string>{} : std::vector{warning});
+            EXPECT_EQ(data.values[static_cast<std::size_t>(rows - 1) * 12], 10.0 * (rows - 1));
+        }
+        const auto motion = bvh_motion(parse_bvh(text, kFile)).motion(0, 0);
+        EXPECT_EQ(motion->times().frames, rows);
+        EXPECT_EQ(motion->warnings().size(), warning.empty() ? 0u : 1u);
+        // However many rows there are, each is whole.
+        EXPECT_NE(bvh_refusal(text.substr(0, text.size() - 3)), "");
+    }
+}
+
+TEST(Bvh, FrameTimesThatAreNoSecondsAreDoubted) {
+    const auto doubt = [](const std::string& time) {
+        const BvhData data = parse_bvh(replaced(kWalker, "Frame Time: 0.1", "Frame Time: " + time), kFile);
+        EXPECT_EQ(data.frame_time, std::stod(time));  // it is not changed
+        EXPECT_EQ(bvh_motion(data).motion(0, 0)->times().doubt, data.time_doubt);
+        return data.time_doubt;
+    };
+    const auto looks_like = [](const std::string& time, const std::string& what, const std::string& write) {
+        return "Frame Time is " + time + " seconds, which looks like " + what + "; if so, write " + write +
+               " there (line 23)";
+    };
+    for (const auto& [time, write] : {std::pair{"30", "0.0333333"},
+                                      {"24", "0.0416667"},
+                                      {"25", "0.04"},
+                                      {"60", "0.0166667"},
+                                      {"120", "0.00833333"},
+                                      {"29.97", "0.0333667"},
+                                      {"59.94", "0.0166834"},
+                                      {"240", "0.00416667"},
+                                      {"1000", "0.001"}}) {
+        EXPECT_EQ(doubt(time), looks_like(time, "frames a second", write));
+    }
+    for (const auto& [time, write] : {std::pair{"33.3333", "0.0333333"},
+                                      {"33", "0.033"},
+                                      {"16.6667", "0.0166667"},
+                                      {"41.6667", "0.0416667"},
+                                      {"8.33333", "0.00833333"},
+                                      {"40", "0.04"}}) {
+        EXPECT_EQ(doubt(time), looks_like(time, "milliseconds", write));
+    }
+    EXPECT_EQ(doubt("45"),
+              looks_like("45", "frames a second or milliseconds", "the seconds from one frame to the next"));
+    for (const char* time : {"0.0083333", "0.033333", "0.1", "0.5", "1", "2"}) EXPECT_EQ(doubt(time), "") << time;
+}
+
+TEST(Bvh, EveryRootIsACharacter) {
+    const std::string dog = "ROOT Dog\n{\nOFFSET 5 6 7\nCHANNELS 1 Yposition\nJOINT Tail\n{\nOFFSET 0 0 -3\n}\n}\n";
+    std::string text = replaced(kWalker, "MOTION", dog + "ROOT Hips\n{\nOFFSET 1 2 3\nCHANNELS 1 Xposition\n}\nMOTION");
+    text = replaced(text, "0 0 0\n10", "0 0 0 1 70\n10");
+    text = text.substr(0, text.size() - 1) + " 2 80\n";
+    const BvhData data = parse_bvh(text, kFile);
+    EXPECT_EQ(data.joints[4].parent, -1);
+    EXPECT_EQ(data.joints[5].parent, 4);
+    EXPECT_EQ(data.row_length, 14u);
+
+    const MotionFile file = bvh_motion(data);
+    EXPECT_EQ(file.characters, (std::vector<std::string>{"Hips", "Dog", "Hips #2"}));
+    EXPECT_EQ(file.moved(0).characters, (std::vector<std::size_t>{0, 1, 2}));
+    std::vector<int> owners;
+    for (const NamedJoint& joint : file.joints) owners.push_back(joint.character);
+    EXPECT_EQ(owners, (std::vector{0, 0, 0, 0, 1, 1, 2}));
+
+    const auto second = file.motion(0, 1);
+    ASSERT_EQ(second->joints().size(), 2u);
+    EXPECT_EQ(second->joints()[1].parent, 0);
+    EXPECT_EQ(second->in_file(1), 5u);
+    std::vector<glm::dvec3> positions(2);
+    second->pose(0.1, positions);
+    expect_near(positions[0], 5, 2, 7);
+    expect_near(positions[1], 5, 2, 4);
+    const RootedMotion tail = file.rooted(0, 5);
+    EXPECT_EQ(tail.motion, second);
+    EXPECT_EQ(tail.root, 1);
+    positions.resize(1);
+    file.motion(0, 2)->pose(0, positions);
+    expect_near(positions[0], 70, 2, 3);
+}
+
+TEST(Bvh, ARootWithoutChannelsDoesNotMove) {
+    const std::string text = replaced(kWalker, "MOTION", "ROOT Box\n{\nOFFSET 5 6 7\n}\nMOTION");
+    EXPECT_EQ(bvh_motion(parse_bvh(text, kFile)).moved(0).characters, (std::vector<std::size_t>{0}));
 }
 
 TEST(Bvh, DeepHierarchiesNeedNoStack) {
@@ -154,17 +258,18 @@ TEST(Bvh, MessagesNameLineAndRemedy) {
     expect(with("Zposition", "Xposition"), "line 5: 'Xposition' stands twice in CHANNELS; remove one");
     expect(with("Zposition", "Zscale"),
            "line 5: 'Zscale' is no channel; give Xposition, Yposition, Zposition, Xrotation, Yrotation or Zrotation");
-    expect(with("Frames: 2", "Frames: two"), "line 22: Frames needs a whole number from 1 up, but has 'two'");
-    expect(with("Frames: 2", "Frames: 3") + std::string(30, ' '),
-           "line 22: Frames says 3, but 2 rows follow; correct the number, or fetch the file again if it was cut off");
-    expect(with("Frames: 2", "Frames: 1"),
-           "line 22: Frames says 1, but 2 rows follow; correct the number, or fetch the file again if it was cut off");
-    expect(
-        with("Frames: 2", "Frames: 2147483647"),
-        "line 22: Frames says 2147483647, but what follows has no room for more than 2 rows of 12 values; correct the "
-        "number, or fetch the file again if it was cut off");
+    for (const char* count : {"two", "", "0", "-2", "2.5", "10000001", "2147483647", "99999999999999999999"}) {
+        expect(with("Frames: 2", "Frames: " + std::string(count)),
+               "line 22: Frames needs a whole number from 1 to 10000000, but has '" + std::string(count) + "'");
+    }
+    expect(kWalker.substr(0, kWalker.find("0 95 30")),
+           "line 22: Frames says 2, but no row follows; fetch the file again if it was cut off");
+    expect(kWalker + "20 95 30\n", "line 26: the row has 3 values, but there are 12 channels; correct the row");
+    expect(kWalker + "END\n", "line 26: 'END' is no finite number; write it like 12.5");
     expect(with("Frame Time: 0.1", "Frame Time: 0"),
-           "line 23: Frame Time needs seconds, over 0 and at most 60, such as 0.033333, but has '0'");
+           "line 23: Frame Time needs seconds, over 0 and at most 1000, such as 0.033333, but has '0'");
+    expect(with("Frame Time: 0.1", "Frame Time: 33333"),
+           "line 23: Frame Time needs seconds, over 0 and at most 1000, such as 0.033333, but has '33333'");
     expect(with("Frame Time: 0.1\n", ""),
            "line 23: 'Frame Time: <number>' must stand here, but there is '0 95 30 0 0 0 0 0 0 0 0 0'");
     expect(with("0 95 30", "0 nan 30"), "line 24: 'nan' is no finite number; write it like 12.5");

@@ -202,11 +202,11 @@ TEST(GltfNodes, TransformsOfAllParentsApply) {
 }
 
 TEST(GltfNodes, ALongChainIsNoTrouble) {
-    constexpr int kNodes = 20'000;
+    constexpr int kChain = 20'000;
     std::string nodes = "[";
-    for (int i = 0; i + 1 < kNodes; ++i) nodes += "{\"children\":[" + std::to_string(i + 1) + "]},";
+    for (int i = 0; i + 1 < kChain; ++i) nodes += "{\"children\":[" + std::to_string(i + 1) + "]},";
     const auto positions = pose_at(mover(), nodes + "{}]", 1);
-    ASSERT_EQ(positions.size(), static_cast<std::size_t>(kNodes));
+    ASSERT_EQ(positions.size(), static_cast<std::size_t>(kChain));
     expect_at(positions.back(), 2, 0, 0);
 }
 

@@ -224,6 +224,10 @@ TEST(MotionClips, WhatDoesNotApplyOrDoesNotExistIsRefused) {
     options.fps = 1e6;
     EXPECT_EQ(input_error([&] { clip_of(replaced(kWalker, "Time: 0.1", "Time: 2"), options); }),
               "some/walk.bvh: its times make more than 1000000 samples; check them, or lower fps");
+    EXPECT_EQ(input_error([&] { clip_of(replaced(kWalker, "Time: 0.1", "Time: 30"), options); }),
+              "some/walk.bvh: Frame Time is 30 seconds, which looks like frames a second; if so, write 0.0333333 there "
+              "(line 23); its times make more than 1000000 samples; check them, or lower fps");
+    EXPECT_TRUE(warns(clip_of(replaced(kWalker, "Time: 0.1", "Time: 30")), "which looks like frames a second"));
 }
 
 TEST(MotionClips, NamesAndZerosDoNotTakeHours) {

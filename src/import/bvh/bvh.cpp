@@ -2,11 +2,6 @@
 #include <base/text.h>
 #include <import/bvh/bvh.h>
 
-#include <glm/ext/scalar_constants.hpp>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/trigonometric.hpp>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -18,7 +13,8 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kMaxFrameTime = 60;         // seconds; a slower capture is none
+constexpr double kMaxFrameTime = 1000;       // seconds; a frame rate in its place is no larger either
+constexpr int kMaxFrames = 10'000'000;       // a day at 115 frames a second; the rows that are there count, not this
 constexpr std::size_t kMaxJoints = 100'000;  // a file of nothing but names would take many times its size
 constexpr std::array<std::string_view, kMaxBvhChannels> kChannels{"xposition", "yposition", "zposition",
                                                                   "xrotation", "yrotation", "zrotation"};
@@ -150,6 +146,28 @@ struct OpenJoint {
     bool has_offset = false;
     bool has_channels = false;
 };
+
+// Published captures have 24 to 120 frames a second; single poses and key poses may be a second or two apart.
+constexpr double kDoubtfulFrameTime = 3;  // seconds; less than the milliseconds of 300 frames a second
+constexpr double kRates[] = {10, 12, 15,  20,  24,  25,  30,  48,  50,  60,  72,
+                             75, 90, 100, 120, 144, 150, 200, 240, 250, 300, 1000};
+
+/// Whether motion is captured at so many frames a second, that much off; NTSC video is a thousandth slower.
+bool is_rate(double rate, double off) {
+    return std::ranges::any_of(kRates,
+                               [=](double known) { return rate > known * (0.999 - off) && rate < known * (1 + off); });
+}
+
+/// What else a frame time may be that is far too long; empty if it is not.
+std::string doubt_of_frame_time(double seconds) {
+    if (seconds < kDoubtfulFrameTime) return "";
+    const std::string is = "Frame Time is " + short_double(seconds) + " seconds, which looks like ";
+    const auto write = [](double time) { return "write " + formatted("%.6g", time) + " there"; };
+    if (is_rate(seconds, 0.0005)) return is + "frames a second; if so, " + write(1 / seconds);
+    // Rounded to whole milliseconds it may be 5 % off.
+    if (is_rate(1000 / seconds, 0.05)) return is + "milliseconds; if so, " + write(seconds / 1000);
+    return is + "frames a second or milliseconds; if so, write the seconds from one frame to the next there";
+}
 
 /// One pass over the text of a file.
 class BvhParser {
@@ -314,7 +332,10 @@ class BvhParser {
     void read_motion_header() {
         const std::string_view frames = setting("Frames", {"frames"});
         const std::optional<int> count = parse_int(frames);
-        if (!count || *count < 1) in_.fail("Frames needs a whole number from 1 up, but has " + in_quotes(frames));
+        if (!count || *count < 1 || *count > kMaxFrames) {
+            in_.fail("Frames needs a whole number from 1 to " + std::to_string(kMaxFrames) + ", but has " +
+                     in_quotes(frames));
+        }
         frames_ = static_cast<std::size_t>(*count);
         frames_line_ = in_.line();
 
@@ -325,30 +346,23 @@ class BvhParser {
                      ", such as 0.033333, but has " + in_quotes(time));
         }
         data_.frame_time = *seconds;
+        data_.time_doubt = doubt_of_frame_time(*seconds);
+        if (!data_.time_doubt.empty()) data_.time_doubt += " (" + at_line(in_.line()) + ")";
     }
 
-    [[noreturn]] void fail_frames(const std::string& finding) const {
-        in_.fail(frames_line_, "Frames says " + std::to_string(frames_) + ", but " + finding +
-                                   "; correct the number, or fetch the file again if it was cut off");
-    }
-
+    /// What the file has is believed, not what it says of it: exporters count wrong, and files are cut off. So the
+    /// memory is bounded by the size of the text, whatever Frames says.
     void read_rows() {
-        // A value takes two bytes at least, so the file's size bounds the memory, whatever Frames says.
-        const std::size_t most = (in_.bytes_left() + 1) / 2 / data_.row_length;
-        if (frames_ > most) {
-            fail_frames("what follows has no room for more than " + counted(most, "row", "rows") + " of " +
-                        counted(data_.row_length, "value", "values"));
-        }
-        data_.values.reserve(frames_ * data_.row_length);
         std::size_t rows = 0;
-        for (in_.skip_space(); !in_.at_end(); in_.skip_space(), ++rows) {
-            if (rows < frames_) {
-                read_row();
-            } else {
-                in_.rest_of_line();
-            }
-        }
-        if (rows != frames_) fail_frames(counted(rows, "row", "rows") + (rows == 1 ? " follows" : " follow"));
+        for (in_.skip_space(); !in_.at_end(); in_.skip_space(), ++rows) read_row();
+        if (rows == 0)
+            in_.fail(frames_line_, "Frames says " + std::to_string(frames_) +
+                                       ", but no row follows; fetch the file again if it was cut off");
+        if (rows == frames_) return;
+        data_.warnings.push_back("Frames says " + std::to_string(frames_) + ", but " + counted(rows, "row", "rows") +
+                                 (rows == 1 ? " follows" : " follow") + ": all that are there are taken" +
+                                 (rows < frames_ ? "; fetch the file again if it was cut off" : "") + " (" +
+                                 at_line(frames_line_) + ")");
     }
 
     void read_row() {
@@ -369,82 +383,8 @@ class BvhParser {
     BvhData data_;
 };
 
-int axis_of(BvhChannel channel) { return static_cast<int>(channel) % 3; }
-bool is_position(BvhChannel channel) { return channel <= BvhChannel::z_position; }
-
-/// `frame` times the rotation about one of its own axes: two of its columns turn, the third stays.
-void rotate(glm::dmat3& frame, int axis, double degrees) {
-    const double angle = glm::radians(degrees);
-    const double c = std::cos(angle);
-    const double s = std::sin(angle);
-    glm::dvec3& u = frame[(axis + 1) % 3];
-    glm::dvec3& v = frame[(axis + 2) % 3];
-    const glm::dvec3 turned = c * u + s * v;
-    v = c * v - s * u;
-    u = turned;
-}
-
-class BvhMotion : public Motion {
-  public:
-    explicit BvhMotion(BvhData data) : data_(std::move(data)) {
-        times_.frames = static_cast<int>(data_.frames());
-        times_.dt = data_.frame_time;
-        times_.last = static_cast<double>(times_.frames - 1) * data_.frame_time;
-        times_.frames_only = true;
-    }
-
-    std::span<const Joint> joints() const override { return data_.joints; }
-    int topmost() const override { return 0; }
-    const MotionTimes& times() const override { return times_; }
-
-    void pose(double seconds, std::span<glm::dvec3> positions, std::span<glm::dquat> rotations) const override {
-        const double nearest = std::clamp(std::round(seconds / data_.frame_time), 0.0, times_.frames - 1.0);
-        const double* row = data_.values.data() + static_cast<std::size_t>(nearest) * data_.row_length;
-        std::vector<glm::dmat3> frames(data_.joints.size());
-        for (std::size_t i = 0; i < data_.joints.size(); ++i) {
-            const BvhJoint& move = data_.moves[i];
-            const bool below = data_.joints[i].parent >= 0;
-            const auto parent = static_cast<std::size_t>(std::max(data_.joints[i].parent, 0));
-            glm::dmat3& frame = frames[i];
-            frame = below ? frames[parent] : glm::dmat3(1);
-            glm::dvec3 offset = move.offset;
-            const double* value = row + move.first_value;
-            for (std::size_t c = 0; c < move.channel_count; ++c, ++value) {
-                const BvhChannel channel = move.channels[c];
-                if (is_position(channel)) {
-                    offset[axis_of(channel)] = *value;
-                } else {
-                    rotate(frame, axis_of(channel), *value);
-                }
-            }
-            positions[i] = below ? positions[parent] + frames[parent] * offset : offset;
-            if (!rotations.empty()) rotations[i] = glm::quat_cast(frame);
-        }
-    }
-
-  private:
-    BvhData data_;
-    MotionTimes times_;
-};
-
 }  // namespace
 
 BvhData parse_bvh(std::string_view text, const std::string& file) { return BvhParser(text, file).parse(); }
-
-MotionFile bvh_motion(BvhData data) {
-    MotionFile out;
-    out.format = "bvh";
-    out.guess_up = true;
-    out.animations = {"#0"};
-    std::vector<std::string> names;
-    for (const Joint& joint : data.joints) names.push_back(joint.end_site ? "" : joint.name);
-    for (std::string& name : distinct_names(std::move(names))) out.joints.push_back({std::move(name), 0});
-    out.characters = {out.joints.front().name};
-    std::shared_ptr<const Motion> motion = std::make_shared<const BvhMotion>(std::move(data));
-    out.moved = [](std::size_t) { return MovedCharacters{{0}, ""}; };
-    out.motion = [motion](std::size_t, std::size_t) { return motion; };
-    out.rooted = [motion](std::size_t, std::size_t joint) { return RootedMotion{motion, static_cast<int>(joint)}; };
-    return out;
-}
 
 }  // namespace mobbscope

@@ -28,17 +28,20 @@ struct BvhData {
     std::vector<BvhJoint> moves;
     std::size_t row_length = 0;  ///< values in a row, > 0
     double frame_time = 0;       ///< seconds, > 0
+    std::string time_doubt;      ///< why that is hardly meant, and what to do; else empty
     std::vector<double> values;  ///< row after row; at least one row
+    std::vector<std::string> warnings;
 
     std::size_t frames() const { return values.size() / row_length; }
 };
 
 /// Reads the text of a file; `file` stands for it in messages. Takes any channel order, position channels on any
-/// joint, several roots, names with blanks, any kind of line end, keywords in any case. The memory it takes is bounded
-/// by the size of the text, whatever counts stand in it. Throws InputError naming the line.
+/// joint, several roots, names with blanks, any kind of line end, keywords in any case. Takes the rows that are there:
+/// `warnings` tell if Frames says another number. The memory it takes is bounded by the size of the text. Throws
+/// InputError naming the line.
 BvhData parse_bvh(std::string_view text, const std::string& file);
 
-/// The one animation of a file.
+/// The one animation of a file. Every ROOT is a character; those with a channel move. Which axis is up is guessed.
 MotionFile bvh_motion(BvhData data);
 
 }  // namespace mobbscope

@@ -1,6 +1,8 @@
 /// Numbers out of a glTF file's buffers, each access checked.
 #pragma once
 
+#include <import/nodes/node_scene.h>
+
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -13,9 +15,6 @@ struct Accessor;
 }  // namespace tinygltf
 
 namespace mobbscope {
-
-/// Numbers read once and shared by all channels that refer to them.
-using Numbers = std::shared_ptr<const std::vector<double>>;
 
 enum class GltfShape { scalar, vec3, vec4 };
 

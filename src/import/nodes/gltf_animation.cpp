@@ -1,4 +1,3 @@
-#include <import/clip/sampling.h>
 #include <import/nodes/gltf_animation.h>
 
 #include <glm/geometric.hpp>
@@ -7,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <set>
 #include <utility>
 
 namespace mobbscope {
@@ -110,30 +108,6 @@ Affine TranslationRotationScale::affine() const {
     linear[1] *= scale.y;
     linear[2] *= scale.z;
     return {linear, translation};
-}
-
-MotionTimes key_times(const std::vector<Numbers>& lists) {
-    // Exporters write one list for all channels, or equal lists: merging each anew would be slow.
-    std::vector<double> all;
-    std::set<const std::vector<double>*> seen;
-    for (const Numbers& list : lists) {
-        if (!seen.insert(list.get()).second || *list == *lists.front()) continue;
-        all.insert(all.end(), list->begin(), list->end());
-    }
-    if (!lists.empty()) all.insert(all.end(), lists.front()->begin(), lists.front()->end());
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    MotionTimes times;
-    if (all.empty()) return times;
-    times.first = all.front();
-    times.last = all.back();
-    times.frames = static_cast<int>(all.size());
-    if (all.size() > 1) {
-        std::vector<TimedDisk> frames(all.size());
-        std::transform(all.begin(), all.end(), frames.begin(), [](double t) { return TimedDisk{t, {}}; });
-        if (is_uniform(frames)) times.dt = (times.last - times.first) / static_cast<double>(all.size() - 1);
-    }
-    return times;
 }
 
 std::function<void(std::optional<double>, std::span<const PosedNode>, std::span<Affine>)> gltf_pose(

@@ -43,9 +43,6 @@ struct GltfChannel {
     Numbers values;
 };
 
-/// First and last time and the distinct key times of several lists of keys, each strictly increasing.
-MotionTimes key_times(const std::vector<Numbers>& lists);
-
 /// NodeAnimation::pose for channels, at most one for each property of a node.
 std::function<void(std::optional<double>, std::span<const PosedNode>, std::span<Affine>)> gltf_pose(
     std::shared_ptr<const std::vector<GltfRest>> rest, const std::vector<GltfChannel>& channels);

@@ -1,5 +1,6 @@
 #include <base/error.h>
 #include <base/text.h>
+#include <import/clip/sampling.h>
 #include <import/nodes/node_scene.h>
 
 #include <glm/geometric.hpp>
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
 #include <utility>
 
 namespace mobbscope {
@@ -284,6 +286,31 @@ std::vector<int> parents_first(const std::vector<Node>& nodes) {
         order.insert(order.end(), below.begin(), below.end());
     }
     return order;
+}
+
+MotionTimes key_times(const std::vector<Numbers>& lists) {
+    // Exporters write one list for all channels, or equal lists: merging each anew would be slow.
+    std::vector<double> all;
+    std::set<const std::vector<double>*> seen;
+    for (const Numbers& list : lists) {
+        if (!seen.insert(list.get()).second || *list == *lists.front()) continue;
+        all.insert(all.end(), list->begin(), list->end());
+    }
+    if (!lists.empty()) all.insert(all.end(), lists.front()->begin(), lists.front()->end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    MotionTimes times;
+    if (all.empty()) return times;
+    times.first = all.front();
+    times.last = all.back();
+    times.frames = static_cast<int>(all.size());
+    if (all.size() > 1) {
+        std::vector<TimedDisk> frames(all.size());
+        std::transform(all.begin(), all.end(), frames.begin(), [](double t) { return TimedDisk{t, {}}; });
+        if (is_uniform(frames)) times.dt = (times.last - times.first) / static_cast<double>(all.size() - 1);
+    }
+    times.keys = std::make_shared<const std::vector<double>>(std::move(all));
+    return times;
 }
 
 MotionFile node_motion_file(NodeScene scene) {

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -66,6 +67,12 @@ struct NodeScene {
     bool has_pivots = false;
     std::vector<NodeAnimation> animations;
 };
+
+/// Numbers read once and shared by all channels that refer to them.
+using Numbers = std::shared_ptr<const std::vector<double>>;
+
+/// First and last time and the distinct key times of several lists of keys, each strictly increasing.
+MotionTimes key_times(const std::vector<Numbers>& lists);
 
 /// Nodes ordered so that parents come before their children, siblings in the order of their indices.
 std::vector<int> parents_first(const std::vector<Node>& nodes);

@@ -40,12 +40,12 @@ constexpr double kMaxSurvey = 10'000;
 
 }  // namespace
 
-DiskSampler::DiskSampler(const GroundedMotion& motion, int root)
-    : motion_(motion), root_(static_cast<std::size_t>(root)), inside_(subtree(motion.joints(), root)) {}
+DiskSampler::DiskSampler(const GroundedMotion& motion, int root, double step)
+    : motion_(motion), root_(static_cast<std::size_t>(root)), step_(step), inside_(subtree(motion.joints(), root)) {}
 
 void DiskSampler::sample(double t, PosedDisk& out) {
     const MotionTimes& times = motion_.times();
-    if (!times.frames_only) return take(t, out);
+    if (!times.frames_only) return take(on_key(t), out);
     const double frame = std::clamp((t - times.first) / *times.dt, 0.0, times.frames - 1.0);
     const double before = std::floor(frame + kFrameTolerance);
     const double share = frame - before;
@@ -64,6 +64,17 @@ void DiskSampler::sample(double t, PosedDisk& out) {
     for (std::size_t i = 0; i < out.rotations.size(); ++i) {
         out.rotations[i] = glm::slerp(a.rotations[i], b.rotations[i], share);
     }
+}
+
+double DiskSampler::on_key(double t) const {
+    if (!motion_.times().keys) return t;
+    const std::vector<double>& keys = *motion_.times().keys;
+    const auto after = std::ranges::upper_bound(keys, t);
+    const bool is_between = after != keys.begin() && after != keys.end();
+    const double frame = is_between ? std::min(*after - *(after - 1), step_) : step_;
+    if (after != keys.begin() && t - *(after - 1) <= kFrameTolerance * frame) return *(after - 1);
+    if (after != keys.end() && *after - t <= kFrameTolerance * frame) return *after;
+    return t;
 }
 
 void DiskSampler::take(double t, PosedDisk& out) const {

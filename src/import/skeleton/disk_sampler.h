@@ -52,10 +52,12 @@ struct PosedDisk {
 /// motion, which must outlive it. Meant for times that go forward.
 class DiskSampler {
   public:
-    DiskSampler(const GroundedMotion& motion, int root);
+    /// `step`: seconds between the times that are asked for.
+    DiskSampler(const GroundedMotion& motion, int root, double step);
 
-    /// At a time in file seconds. A time within kFrameTolerance of a stored frame takes that frame; between stored
-    /// frames x, y, r and the pose are interpolated where the motion is frames_only, else the pose is evaluated.
+    /// At a time in file seconds. A time within kFrameTolerance of a stored frame takes that frame, a frame being as
+    /// long as the gap between two stored ones or the step, the shorter; between stored frames x, y, r and the pose are
+    /// interpolated where the motion is frames_only, else the pose is evaluated.
     /// Throws std::invalid_argument as GroundedMotion::pose.
     void sample(double t, PosedDisk& out);
 
@@ -66,11 +68,14 @@ class DiskSampler {
     };
 
     void take(double t, PosedDisk& out) const;
+    /// The key that a time is so near to, else the time.
+    double on_key(double t) const;
     /// A stored frame. The last two are kept: a sample lies between two frames, and the next one often too.
     const PosedDisk& stored(std::size_t frame);
 
     const GroundedMotion& motion_;
     std::size_t root_;
+    double step_;
     std::vector<bool> inside_;  ///< of each joint, whether it is the root or below it
     std::array<Slot, 2> slots_;
 };

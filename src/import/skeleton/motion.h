@@ -32,6 +32,8 @@ struct MotionTimes {
     /// True (BVH): poses exist at first + i*dt alone, and disks between them are interpolated; dt is then given, > 0.
     /// False (glTF, FBX): any time has its pose.
     bool frames_only = false;
+    std::shared_ptr<const std::vector<double>> keys{};  ///< glTF, FBX: the distinct key times, ascending; null: none
+    std::string doubt{};  ///< why these times are hardly meant, and what to do; else empty
 };
 
 /// One animation of one skeleton. Const calls are safe from any number of threads.
@@ -90,13 +92,14 @@ struct MotionFile {
     std::string format;  ///< "bvh", "gltf", "fbx"
     /// Metres per file unit as the format or the header says; none: to be guessed from the body's height.
     std::optional<double> unit;
-    /// What leads the file's axes to the clip's as the format or the header says: a permutation with signs, which may
-    /// mirror; none: the file does not say, and y is up.
+    /// What leads the file's axes to the clip's as the format or the header says, of BVH as the body stands: a
+    /// permutation with signs, which may mirror; none: the file does not say, and y is up.
     std::optional<glm::dmat3> ground;
-    bool guess_up = false;                ///< which axis is up is told by how the body stands
-    std::vector<std::string> animations;  ///< at least one name; an unnamed one is "#<index>"
-    std::vector<std::string> characters;  ///< at least one: the name of each one's topmost joint, as in `joints`
-    std::vector<NamedJoint> joints;       ///< all that can be root; those of characters first
+    std::string up_why = "as the file says";  ///< of `ground`; BVH: how it was guessed
+    std::string up_doubt;                     ///< why another axis may be up, and what to do; else empty
+    std::vector<std::string> animations;      ///< at least one name; an unnamed one is "#<index>"
+    std::vector<std::string> characters;      ///< at least one: the name of each one's topmost joint, as in `joints`
+    std::vector<NamedJoint> joints;           ///< all that can be root; those of characters first
 
     // What follows takes indices into these. It keeps alive what it needs, so it may outlive the file.
 

@@ -48,14 +48,15 @@ double body_unit(double height) {
 /// How the axes of a file lead to those of its clips.
 struct ChosenUp {
     glm::dmat3 ground{1};
-    std::string why;  ///< empty where an option says it
+    std::string why;    ///< empty where an option says it
+    std::string doubt;  ///< see MotionFile::up_doubt
 };
 
 ChosenUp chosen_up(const MotionFile& file, const ImportOptions& options) {
-    if (options.up == "y") return {kYUp, ""};
-    if (options.up == "z") return {kZUp, ""};
-    if (file.ground) return {*file.ground, "as the file says"};
-    return {kYUp, "as in most files"};
+    if (options.up == "y") return {kYUp, "", ""};
+    if (options.up == "z") return {kZUp, "", ""};
+    if (file.ground) return {*file.ground, file.up_why, file.up_doubt};
+    return {kYUp, "as in most files", ""};
 }
 
 /// The axis of a file that leads to z: "y", "-x".
@@ -67,22 +68,41 @@ std::string up_axis(const glm::dmat3& ground) {
     return "";
 }
 
+/// The height of the tallest character, file units, where the unit is to be guessed for several: a file has one unit,
+/// and a child or a ball tells less of it. None where it is not needed, or would take hours.
+std::optional<double> tallest_height(const MotionFile& file, const ImportOptions& options) {
+    if (file.unit || file.characters.size() < 2) return std::nullopt;
+    const ChosenUp up = chosen_up(file, options);
+    double tallest = 0;
+    double poses = 0;
+    for (std::size_t i = 0; i < file.characters.size(); ++i) {
+        const std::shared_ptr<const Motion> motion = file.motion(0, i);
+        const GroundedMotion grounded(*motion, up.ground);
+        poses += static_cast<double>(motion->posed()) * motion->times().frames;
+        if (poses > kMaxJointPoses) return std::nullopt;
+        tallest = std::max(tallest, median_height(grounded, motion->topmost()));
+    }
+    return tallest;
+}
+
 /// One animation of one character to one clip; messages are for import of one file.
 class MotionImport {
   public:
-    MotionImport(const MotionFile& file, const RootedMotion& it, const ImportOptions& options)
+    /// `height`: of the body that tells the unit, file units; none: the one below the root.
+    MotionImport(const MotionFile& file, const RootedMotion& it, std::optional<double> height,
+                 const ImportOptions& options)
         : file_(file),
           motion_(*it.motion),
           up_(chosen_up(file, options)),
           grounded_(motion_, up_.ground),
           root_(it.root),
+          height_(height),
           options_(options) {}
 
     /// `poses_left`: of joints, for this clip and those after it.
     ImportedClip make(double& poses_left) {
         const MotionTimes& times = motion_.times();
-        const SampleGrid grid = sample_grid(times.first, times.last, options_.trim,
-                                            1 / options_.fps.value_or(kDefaultFps), kMaxMotionSamples);
+        const SampleGrid grid = grid_of(times);
         const std::size_t frames = times.frames_only ? static_cast<std::size_t>(times.frames) : 0;
         const double poses = static_cast<double>(std::max(grid.count, frames)) * static_cast<double>(motion_.posed());
         if (poses > kMaxJointPoses) {
@@ -108,6 +128,8 @@ class MotionImport {
         facts.up_why = up_.why;
         choose_unit(root, facts);
         for (std::string& warning : motion_.warnings()) facts.warnings.push_back({std::move(warning)});
+        if (!times.doubt.empty()) facts.warnings.push_back({times.doubt});
+        if (!up_.doubt.empty()) facts.warnings.push_back({up_.doubt, "up"});
 
         auto skeleton = std::make_shared<Skeleton>();
         std::vector<mobb::Disk> samples = sample(grid, root, facts.unit, *skeleton);
@@ -157,6 +179,16 @@ class MotionImport {
     }
 
   private:
+    SampleGrid grid_of(const MotionTimes& times) const {
+        try {
+            return sample_grid(times.first, times.last, options_.trim, 1 / options_.fps.value_or(kDefaultFps),
+                               kMaxMotionSamples);
+        } catch (const std::invalid_argument& error) {
+            if (times.doubt.empty()) throw;
+            throw std::invalid_argument(times.doubt + "; " + error.what());
+        }
+    }
+
     std::string name_of(int joint) const { return file_.joints[motion_.in_file(joint)].name; }
 
     OptionOffer up_offer() const {
@@ -168,7 +200,7 @@ class MotionImport {
 
     OptionOffer unit_offer(int root) const {
         const std::optional<double>& file_unit = file_.unit;
-        const double height = median_height(grounded_, root);
+        const double height = height_ ? *height_ : median_height(grounded_, root);
         const double guess = body_unit(height);
         const auto tall = [height](double unit) { return "a body " + brief_length(height * unit) + " tall"; };
         OptionOffer out{
@@ -205,7 +237,7 @@ class MotionImport {
         } else if (!options_.unit && file_.unit) {
             facts.unit = *file_.unit;
         } else {
-            const double height = median_height(grounded_, root);
+            const double height = height_ ? *height_ : median_height(grounded_, root);
             facts.unit = body_unit(height);
             facts.guessed_from_height = height * facts.unit;
         }
@@ -222,7 +254,7 @@ class MotionImport {
             skeleton.rotations.reserve(grid.count * joints.size());
             for (const glm::dquat& rotation : grounded_.rest()) skeleton.rest.emplace_back(rotation);
         }
-        DiskSampler sampler(grounded_, root);
+        DiskSampler sampler(grounded_, root, grid.step);
         PosedDisk posed;
         std::vector<mobb::Disk> samples;
         samples.reserve(grid.count);
@@ -242,6 +274,7 @@ class MotionImport {
     ChosenUp up_;
     GroundedMotion grounded_;
     std::optional<int> root_;
+    std::optional<double> height_;
     const ImportOptions& options_;
 };
 
@@ -342,6 +375,7 @@ std::vector<ImportedClip> motion_clips(const MotionFile& motions, const std::fil
 
     const std::vector<std::string>& names = motions.animations;
     const WantedClips wanted = at_place(path, "", [&] { return wanted_clips(motions, path, options); });
+    const std::optional<double> height = at_place(path, "", [&] { return tallest_height(motions, options); });
     double poses_left = kMaxJointPosesOfFile;
     std::vector<ImportedClip> clips;
     for (const WantedClip& of : wanted.clips) {
@@ -349,7 +383,7 @@ std::vector<ImportedClip> motion_clips(const MotionFile& motions, const std::fil
         const std::string place = names.size() > 1 ? "animation " + in_quotes(names[i]) : "";
         ImportedClip& clip = clips.emplace_back(at_place(path, place, [&] {
             const RootedMotion it = motion_of(motions, of, options.root.has_value());
-            return MotionImport(motions, it, options).make(poses_left);
+            return MotionImport(motions, it, height, options).make(poses_left);
         }));
         clip.facts.animation = names[i];
         for (const std::string& warning : wanted.left_out) clip.facts.warnings.push_back({warning});
@@ -371,7 +405,7 @@ ImportOffer motion_offer(const MotionFile& motions, const std::filesystem::path&
         const std::vector<std::string>& names = motions.animations;
         const WantedClip first = wanted_clips(motions, file.string(), options).clips.front();
         const RootedMotion it = motion_of(motions, first, options.root.has_value());
-        ImportOffer out = MotionImport(motions, it, options).offer();
+        ImportOffer out = MotionImport(motions, it, tallest_height(motions, options), options).offer();
         if (names.size() > 1) {
             OptionOffer animations{"animation", "", "the file has several: name one", true};
             for (std::size_t i = 0; i < names.size(); ++i) {

@@ -1,0 +1,99 @@
+/// The two ways in which a document is stored, and the numbers in them.
+#pragma once
+
+#include <import/fbx/document.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope {
+
+inline constexpr std::string_view kFbxBinaryMark = "Kaydara FBX Binary";
+inline constexpr char kFbxTextArray = 'a';  ///< FbxValue::type of an array that is text
+
+/// The number stored at a place; there are as many bytes.
+template <class Number>
+Number fbx_number(std::string_view bytes, std::size_t at, bool is_big_endian) {
+    std::array<char, sizeof(Number)> raw{};
+    std::memcpy(raw.data(), bytes.data() + at, sizeof(Number));
+    if (is_big_endian != (std::endian::native == std::endian::big)) std::reverse(raw.begin(), raw.end());
+    return std::bit_cast<Number>(raw);
+}
+
+/// A word of a text file as a number, or as text where it is none. "nan" and "inf" are numbers.
+FbxValue fbx_word(std::string_view word);
+
+/// Calls `visit` with each number, as fbx_word reads it, of a list with commas and comments.
+template <class Visit>
+void each_fbx_number(std::string_view list, const Visit& visit) {
+    constexpr std::string_view kBetween = " \t\r\n,";
+    for (std::size_t at = list.find_first_not_of(kBetween); at < list.size();
+         at = list.find_first_not_of(kBetween, at)) {
+        if (list[at] == ';') {
+            at = std::min(list.find('\n', at), list.size());
+            continue;
+        }
+        const std::size_t end = std::min(list.find_first_of(" \t\r\n,;", at), list.size());
+        visit(fbx_word(list.substr(at, end - at)));
+        at = end;
+    }
+}
+
+/// "byte 1234".
+std::string at_byte(std::size_t byte);
+
+/// Fills a document from a binary file.
+class FbxBinaryReader {
+  public:
+    explicit FbxBinaryReader(FbxDocument& document) : document_(document), bytes_(document.bytes_) {}
+    void read();
+
+  private:
+    struct Open {
+        FbxDocument::Index record = 0;
+        std::size_t end = 0;  ///< byte
+    };
+
+    [[noreturn]] void fail(std::size_t place, const std::string& message) const;
+    template <class Number>
+    Number take(std::size_t end);
+    std::uint64_t take_offset(std::size_t end);
+    std::string_view take_bytes(std::uint64_t size, std::size_t end);
+    void take_value(std::size_t end);
+    void take_array(char type, std::size_t end);
+
+    FbxDocument& document_;
+    std::string_view bytes_;
+    std::size_t at_ = 0;
+};
+
+/// Fills a document from a text file.
+class FbxTextReader {
+  public:
+    explicit FbxTextReader(FbxDocument& document) : document_(document), bytes_(document.bytes_) {}
+    void read();
+
+  private:
+    [[noreturn]] void fail(const std::string& message) const;
+    /// Past blanks and comments; false at the end.
+    bool skip_blanks();
+    std::string_view take_word();
+    bool begins_record() const;
+    void take_values(FbxRecord& record);
+    void take_array(FbxValue& array);
+    void find_version() const;
+
+    FbxDocument& document_;
+    std::string_view bytes_;
+    std::size_t at_ = 0;
+    std::size_t line_ = 1;
+};
+
+}  // namespace mobbscope

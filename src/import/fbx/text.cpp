@@ -1,0 +1,204 @@
+#include <base/error.h>
+#include <base/text.h>
+#include <import/fbx/fbx.h>
+#include <import/fbx/readers.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr std::string_view kFirstRecord = "FBXHeaderExtension";
+constexpr std::string_view kWordEnds = " \t\r\n,;:{}\"";
+constexpr std::size_t kHeadSize = std::size_t{1} << 16;
+
+/// "; FBX 7.4.0 project file": 7400.
+std::optional<int> version_in_comment(std::string_view text) {
+    constexpr std::string_view kBegin = "; FBX ";
+    if (!text.starts_with(kBegin)) return {};
+    const std::string_view rest = text.substr(kBegin.size(), 4);
+    if (rest.size() < 3 || rest[1] != '.') return {};
+    const auto major = parse_int(rest.substr(0, 1));
+    const auto minor = parse_int(rest.substr(2, 1));
+    return major && minor ? std::optional(*major * 1000 + *minor * 100) : std::nullopt;
+}
+
+}  // namespace
+
+FbxValue fbx_word(std::string_view word) {
+    FbxValue out;
+    const char* const end = word.data() + word.size();
+    const char* const begin = word.data() + (word.starts_with('+') ? 1 : 0);
+    if (const auto read = std::from_chars(begin, end, out.integer); read.ptr == end && read.ec == std::errc{}) {
+        out.real = static_cast<double>(out.integer);
+        return out;
+    }
+    out.kind = FbxValue::Kind::real;
+    const auto read = std::from_chars(begin, end, out.real);
+    if (read.ptr == end && read.ec == std::errc::result_out_of_range) {
+        // Too near to zero, or too far from it.
+        out.real = parse_double(word).value_or(std::numeric_limits<double>::infinity());
+    } else if (word.find("#I") != word.npos || word.find("#Q") != word.npos) {  // "-1.#IND" of old C libraries
+        out.real = std::numeric_limits<double>::quiet_NaN();
+    } else if (read.ptr != end || read.ec != std::errc{}) {
+        out.kind = FbxValue::Kind::text;
+        out.text = word;
+    }
+    out.integer = std::abs(out.real) < 9e18 ? static_cast<std::int64_t>(out.real) : 0;
+    return out;
+}
+
+bool looks_like_fbx(std::string_view head) {
+    if (head.starts_with(kFbxBinaryMark)) return true;
+    if (head.starts_with(kByteOrderMark)) head.remove_prefix(kByteOrderMark.size());
+    const auto skip_blanks = [&] { head.remove_prefix(std::min(head.find_first_not_of(" \t\r\n"), head.size())); };
+    for (skip_blanks(); head.starts_with(';'); skip_blanks())
+        head.remove_prefix(std::min(head.find('\n'), head.size()));
+    return head.starts_with(kFirstRecord);
+}
+
+void FbxTextReader::fail(const std::string& message) const {
+    throw InputError(document_.file_, at_line(static_cast<int>(line_)), message + "; export the file again");
+}
+
+bool FbxTextReader::skip_blanks() {
+    for (; at_ < bytes_.size(); ++at_) {
+        const char c = bytes_[at_];
+        if (c == ';') {
+            at_ = bytes_.find('\n', at_);
+            if (at_ == bytes_.npos) at_ = bytes_.size();
+            if (at_ == bytes_.size()) return false;
+        }
+        if (bytes_[at_] == '\n') {
+            ++line_;
+        } else if (bytes_[at_] != ' ' && bytes_[at_] != '\t' && bytes_[at_] != '\r') {
+            return true;
+        }
+    }
+    return false;
+}
+
+std::string_view FbxTextReader::take_word() {
+    const std::size_t end = std::min(bytes_.find_first_of(kWordEnds, at_), bytes_.size());
+    const std::string_view word = bytes_.substr(at_, end - at_);
+    at_ = end;
+    return word;
+}
+
+bool FbxTextReader::begins_record() const {
+    const std::size_t end = bytes_.find_first_of(kWordEnds, at_);
+    if (end == bytes_.npos || end == at_) return false;
+    const std::size_t colon = bytes_.find_first_not_of(" \t", end);
+    return colon != bytes_.npos && bytes_[colon] == ':';
+}
+
+void FbxTextReader::read() {
+    if (bytes_.substr(0, kHeadSize).find(kFirstRecord) == bytes_.npos) {
+        throw InputError(document_.file_, "header",
+                         "is neither binary nor text FBX; the file is damaged or of another kind");
+    }
+    if (bytes_.starts_with(kByteOrderMark)) at_ = kByteOrderMark.size();
+    std::vector<FbxRecord>& records = document_.records_;
+    std::vector<FbxDocument::Index> open;
+    const auto close = [&](FbxDocument::Index record) {
+        records[record].end = static_cast<std::uint32_t>(records.size());
+        if (document_.version_ == 0 && open.empty() && records[record].name == kFirstRecord) find_version();
+    };
+    while (skip_blanks()) {
+        if (bytes_[at_] == '}') {
+            if (open.empty()) fail("a brace is closed that none opens");
+            ++at_;
+            const FbxDocument::Index record = open.back();
+            open.pop_back();
+            close(record);
+            continue;
+        }
+        FbxRecord record;
+        record.place = line_;
+        if (!begins_record()) fail("here should be a name and a colon");
+        record.name = take_word();
+        at_ = bytes_.find(':', at_) + 1;
+        take_values(record);
+        records.push_back(record);
+        const auto index = static_cast<FbxDocument::Index>(records.size() - 1);
+        if (at_ < bytes_.size() && bytes_[at_] == '{') {
+            ++at_;
+            open.push_back(index);
+        } else {
+            close(index);
+        }
+    }
+    if (!open.empty()) {
+        fail("the file ends inside " + in_quotes(records[open.back()].name) + " of " +
+             at_line(static_cast<int>(records[open.back()].place)));
+    }
+    if (document_.version_ == 0) find_version();
+}
+
+void FbxTextReader::take_values(FbxRecord& record) {
+    std::vector<FbxValue>& values = document_.values_;
+    record.first_value = static_cast<std::uint32_t>(values.size());
+    while (skip_blanks()) {
+        const char c = bytes_[at_];
+        if (c == ',') {
+            ++at_;
+            continue;
+        }
+        if (c == '{' || c == '}' || begins_record()) break;
+        FbxValue value;
+        if (c == '"') {
+            const std::size_t end = bytes_.find('"', at_ + 1);
+            if (end == bytes_.npos) fail("a quote is not closed");
+            value.kind = FbxValue::Kind::text;
+            value.text = bytes_.substr(at_ + 1, end - at_ - 1);
+            line_ += static_cast<std::size_t>(std::count(value.text.begin(), value.text.end(), '\n'));
+            at_ = end + 1;
+        } else {
+            const std::string_view word = take_word();
+            if (word.empty()) fail(std::string("'") + c + "' begins no value");
+            value = fbx_word(word.starts_with('*') ? word.substr(1) : word);
+            if (word.starts_with('*')) take_array(value);
+        }
+        values.push_back(value);
+    }
+    record.values = static_cast<std::uint32_t>(values.size()) - record.first_value;
+}
+
+void FbxTextReader::take_array(FbxValue& array) {
+    if (array.kind != FbxValue::Kind::integer || array.integer < 0) fail("an array needs a count after its asterisk");
+    array.kind = FbxValue::Kind::array;
+    array.type = kFbxTextArray;
+    if (!skip_blanks() || bytes_[at_] != '{') fail("an array needs its numbers in braces");
+    ++at_;
+    if (!skip_blanks()) fail("the file ends inside an array");
+    if (begins_record()) at_ = bytes_.find(':', at_) + 1;  // "a:"
+    const std::size_t begin = at_;
+    while (at_ < bytes_.size() && bytes_[at_] != '}') {
+        at_ = std::min(bytes_.find_first_of(";}", at_), bytes_.size());
+        if (at_ < bytes_.size() && bytes_[at_] == ';') at_ = std::min(bytes_.find('\n', at_), bytes_.size());
+    }
+    if (at_ == bytes_.size()) fail("the file ends inside an array");
+    array.text = bytes_.substr(begin, at_ - begin);
+    line_ += static_cast<std::size_t>(std::count(array.text.begin(), array.text.end(), '\n'));
+    ++at_;
+}
+
+void FbxTextReader::find_version() const {
+    const FbxDocument::Index header = document_.find_top(kFirstRecord);
+    const FbxDocument::Index version = header == FbxDocument::kNone ? header : document_.find(header, "FBXVersion");
+    if (version != FbxDocument::kNone && !document_.values(version).empty()) {
+        const std::int64_t number = document_.values(version)[0].integer;
+        document_.set_version(static_cast<int>(std::clamp<std::int64_t>(number, 0, 100'000)));
+    } else if (const auto told = version_in_comment(bytes_)) {
+        document_.set_version(*told);
+    } else {
+        throw InputError(document_.file_, std::string(kFirstRecord),
+                         "does not say FBXVersion; export the file again as FBX 7.4 (FBX 2014/2015) or newer");
+    }
+}
+
+}  // namespace mobbscope
