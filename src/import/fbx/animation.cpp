@@ -36,7 +36,7 @@ glm::dvec3 blended(const FbxLayer& layer, double weight, FbxProperty property, i
     return is_sum ? below + weight * value : (1 - weight) * below + weight * value;
 }
 
-/// Finds the curves of stacks, each read once.
+/// Finds the curve nodes and curves of stacks, each read once.
 class StackReader {
   public:
     StackReader(FbxDocument& document, const FbxObjects& objects, const std::map<std::int64_t, std::size_t>& node_of,
@@ -85,7 +85,7 @@ class StackReader {
             for (const FbxConnection& part : objects_.to(layers[i]->id)) {
                 const auto targets = targets_.find(part.from);
                 if (targets == targets_.end() || !taken_.insert(part.from).second) continue;
-                const FbxTrack moved = track(part.from);
+                const FbxTrack& moved = track(part.from);
                 for (const FbxConnection& target : targets->second) {
                     const auto node = node_of_.find(target.to);
                     const std::optional<FbxProperty> property = fbx_property(target.property);
@@ -121,7 +121,13 @@ class StackReader {
         return layer;
     }
 
-    FbxTrack track(std::int64_t curve_node) {
+    const FbxTrack& track(std::int64_t curve_node) {
+        const auto [known, is_new] = tracks_.try_emplace(curve_node);
+        if (is_new) known->second = read_track(curve_node);
+        return known->second;
+    }
+
+    FbxTrack read_track(std::int64_t curve_node) {
         FbxTrack out;
         const FbxObject* const object = objects_.find(curve_node);
         if (!object) return out;
@@ -153,6 +159,7 @@ class StackReader {
     const std::map<std::int64_t, std::size_t>& node_of_;
     double ticks_per_second_;
     std::map<std::int64_t, std::vector<FbxConnection>> targets_;  ///< of curve nodes, the properties that they move
+    std::map<std::int64_t, FbxTrack> tracks_;                     ///< by curve node
     std::map<std::int64_t, std::shared_ptr<const FbxCurve>> curves_;
     std::set<std::int64_t> taken_;  ///< layers and curve nodes
 };

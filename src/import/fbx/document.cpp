@@ -5,12 +5,8 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <new>
 #include <type_traits>
 #include <utility>
@@ -92,20 +88,11 @@ void FbxDocument::set_version(int version) {
     }
 }
 
-FbxDocument::Index FbxDocument::find(Index record, std::string_view name) const {
-    Index found = kNone;
-    each_inside(record, [&](Index at) {
-        if (found == kNone && records_[at].name == name) found = at;
-    });
-    return found;
-}
-
-FbxDocument::Index FbxDocument::find_top(std::string_view name) const {
-    Index found = kNone;
-    each_top([&](Index at) {
-        if (found == kNone && records_[at].name == name) found = at;
-    });
-    return found;
+FbxDocument::Index FbxDocument::find_among(Index first, Index end, std::string_view name) const {
+    for (Index at = first; at < end; at = records_[at].end) {
+        if (records_[at].name == name) return at;
+    }
+    return kNone;
 }
 
 std::string FbxDocument::place_of(Index record) const {

@@ -60,8 +60,8 @@ class FbxDocument {
     }
     /// The first record of that name directly inside `record`, or of the file; kNone if there is none.
     static constexpr Index kNone = UINT32_MAX;
-    Index find(Index record, std::string_view name) const;
-    Index find_top(std::string_view name) const;
+    Index find(Index record, std::string_view name) const { return find_among(record + 1, records_[record].end, name); }
+    Index find_top(std::string_view name) const { return find_among(0, static_cast<Index>(records_.size()), name); }
 
     /// The numbers of a record, an array or values one by one. What is unpacked is bounded for the whole document.
     /// Throws InputError, naming the place, if the array is damaged or holds another number of elements than it claims.
@@ -78,6 +78,7 @@ class FbxDocument {
     friend class FbxBinaryReader;
     friend class FbxTextReader;
 
+    Index find_among(Index first, Index end, std::string_view name) const;
     /// Throws InputError for a version that is too old.
     void set_version(int version);
     template <class Visit>

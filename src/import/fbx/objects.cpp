@@ -33,9 +33,10 @@ FbxObjects::FbxObjects(const FbxDocument& document) : document_(document) {
         if (name == "Definitions") {
             document.each_inside(top, [&](FbxDocument::Index type) {
                 const std::span<const FbxValue> values = document.values(type);
-                const FbxDocument::Index properties = document.find(type, "PropertyTemplate");
-                if (has(values, 0, Kind::text) && properties != FbxDocument::kNone)
-                    templates_.try_emplace(values[0].text, properties);
+                const FbxDocument::Index of = document.find(type, "PropertyTemplate");
+                if (!has(values, 0, Kind::text) || of == FbxDocument::kNone) return;
+                const FbxDocument::Index properties = document.find(of, "Properties70");
+                if (properties != FbxDocument::kNone) templates_.try_emplace(values[0].text, properties);
             });
         } else if (name == "Objects") {
             document.each_inside(top, [&](FbxDocument::Index record) {

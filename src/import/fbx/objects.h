@@ -49,15 +49,21 @@ class FbxObjects {
     void each_property(const FbxObject& object, const Visit& visit) const {
         constexpr std::size_t kMostInTemplate = 1000;  // the longest ones have some hundred, and each object reads them
         const auto from = templates_.find(object.kind);
-        if (from != templates_.end()) each_property_in(from->second, visit, kMostInTemplate);
+        if (from != templates_.end()) each_listed(from->second, visit, kMostInTemplate);
         each_property_in(object.record, visit);
     }
 
-    /// Calls `visit` with each property in the Properties70 of a record, at most `most`.
+    /// Calls `visit` with each property in the Properties70 of a record.
     template <class Visit>
-    void each_property_in(FbxDocument::Index record, const Visit& visit, std::size_t most = SIZE_MAX) const {
+    void each_property_in(FbxDocument::Index record, const Visit& visit) const {
         const FbxDocument::Index properties = document_.find(record, "Properties70");
-        if (properties == FbxDocument::kNone) return;
+        if (properties != FbxDocument::kNone) each_listed(properties, visit, SIZE_MAX);
+    }
+
+  private:
+    /// With each property of a Properties70, at most `most`.
+    template <class Visit>
+    void each_listed(FbxDocument::Index properties, const Visit& visit, std::size_t most) const {
         document_.each_inside(properties, [&](FbxDocument::Index at) {
             // P: name, type, label, flags, values
             constexpr std::size_t kHead = 4;
@@ -69,13 +75,12 @@ class FbxObjects {
         });
     }
 
-  private:
     const FbxDocument& document_;
     std::vector<FbxObject> objects_;
     std::vector<std::size_t> by_id_;  ///< indices of objects, by rising id
     std::vector<FbxConnection> connections_;
     std::vector<FbxConnection> by_target_;
-    std::unordered_map<std::string_view, FbxDocument::Index> templates_;
+    std::unordered_map<std::string_view, FbxDocument::Index> templates_;  ///< by kind, their Properties70
 };
 
 /// The first three numbers of a property; those that it lacks stay as in `otherwise`.

@@ -3,6 +3,8 @@
 #include <import/fbx/fbx.h>
 #include <import/fbx/readers.h>
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
