@@ -195,5 +195,49 @@ TEST(FbxDamage, OneCurveForManyAxesIsReadOnce) {
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
 }
 
+TEST(FbxDamage, SmallFilesTakeLittleMemory) {
+    // Zeros pack to a thousandth, and each key takes some 140 bytes where it is stored as one or two.
+    for (const std::size_t count : {std::size_t{1'000'000}, std::size_t{20'000'000}}) {
+        Scene scene;
+        const std::int64_t hips = scene.model("Hips", 0);
+        scene.animate(scene.layer(scene.stack("t")), hips, "Lcl Translation", {{"X", line(0, 4)}});
+        for (FbxWrite& object : scene.objects().inside) {
+            if (object.name == "AnimationCurve") {
+                object.inside[0].values = {std::vector<std::int64_t>(count, 0)};
+                object.inside[1].values = {std::vector<double>(count, 0)};
+                object.inside.resize(2);
+            }
+        }
+        FbxForm packed{7400};
+        packed.is_packed = true;
+        expect_said(scene.bytes(packed), "too many for this file");
+    }
+}
+
+TEST(FbxDamage, LayersAreWork) {
+    // 2,000 layers over one node for nine hours: minutes, if each joint and sample counted once.
+    Scene scene;
+    const std::int64_t hips = scene.model("Hips", 0);
+    const std::int64_t stack = scene.stack("t", {{"LocalStop", choice(std::llround(33'000 * kTicks))}});
+    for (int i = 0; i < 2000; ++i) scene.animate(scene.layer(stack), hips, "Lcl Translation", {{"X", line(0, 4)}});
+    expect_said(scene.bytes(), "needs 2000 joints and layers of curves for each of 990001 frames, which is too much");
+}
+
+TEST(FbxDamage, CurvesThatManyStacksShareAreBounded) {
+    Scene scene;
+    const std::int64_t hips = scene.model("Hips", 0);
+    Keys keys;
+    for (int i = 0; i < 20'000; ++i) {
+        keys.seconds.push_back(i * 1e-3);
+        keys.values.push_back(0);
+    }
+    const std::int64_t shared = scene.curve(keys);
+    for (int i = 0; i < 600; ++i) {
+        const std::int64_t stack = scene.stack("t");
+        scene.connect(shared, scene.animate(scene.layer(stack), hips, "Lcl Translation", {}), "d|X");
+    }
+    expect_said(scene.bytes(), "its animation stacks share curves of too many keys");
+}
+
 }  // namespace
 }  // namespace mobbscope

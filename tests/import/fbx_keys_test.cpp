@@ -157,5 +157,79 @@ TEST(FbxKeys, MayMoveSeveralNodes) {
     expect_place(place(scene, "Hand", 1), 2, 3, 3);
 }
 
+TEST(FbxKeys, LieOnTheirCurves) {
+    const auto x_at = [](Keys keys, double seconds) {
+        Walk walk;
+        walk.scene.animate(walk.scene.layer(walk.stack, {{"BlendMode", choice(1)}}), walk.hips, "Lcl Translation",
+                           {{"X", std::move(keys)}});
+        return walk.hips_at(seconds).x;
+    };
+    const std::vector<double> two{0, 2};
+    EXPECT_NEAR(x_at({two, {0, 4}}, 0.5), 1, 1e-9) << "linear";
+    EXPECT_NEAR(x_at({two, {0, 4}, {kStepped, 0}}, 1.9), 0, 1e-9) << "stepped";
+    EXPECT_NEAR(x_at({two, {0, 4}, {kStepped, 0}}, 2), 4, 1e-9) << "stepped, on the key";
+    EXPECT_NEAR(x_at({two, {0, 4}, {kSteppedNext, 0}}, 0.1), 4, 1e-9) << "stepped to the next";
+    EXPECT_NEAR(x_at({{1}, {7}}, 0.5), 7, 1e-9) << "one key";
+    // Flat tangents: 4 (3 s^2 - 2 s^3).
+    for (const double t : {0.3, 1.0, 1.7}) {
+        const double s = t / 2;
+        EXPECT_NEAR(x_at({two, {0, 4}, {kUser, kUser}}, t), 4 * (3 * s * s - 2 * s * s * s), 1e-6) << "flat " << t;
+    }
+    // Hermite's cubic: slopes 3 at the beginning and -1 at the end, units a second over 2 s.
+    const double s = 0.25;
+    const double hermite =
+        4 * (3 * s * s - 2 * s * s * s) + 2 * 3 * (s - 2 * s * s + s * s * s) - 2 * (s * s * s - s * s);
+    EXPECT_NEAR(x_at({two, {0, 4}, {kUser, kUser}, {{3, -1}, {0, 0}}}, 0.5), hermite, 1e-6) << "user tangents";
+    // Bezier's with handles of 0.8 and 0.1 of the way: at its parameter u the time is known.
+    const double u = 0.4;
+    const double at = 2 * (3 * (1 - u) * (1 - u) * u * 0.8 + 3 * (1 - u) * u * u * 0.9 + u * u * u);
+    const double value =
+        3 * (1 - u) * (1 - u) * u * (0.8 * 2 * 3) + 3 * (1 - u) * u * u * (4 + 0.1 * 2 * 1) + 4 * u * u * u;
+    EXPECT_NEAR(x_at({two, {0, 4}, {kUser, kUser}, {{3, -1}, {0, 0}}, {{0.8, 0.1}}}, at), value, 1e-5) << "weighted";
+    // A smooth key between two: its tangent is half the chord of both sides and half the parabola's.
+    const Keys smooth{{0, 1, 2}, {0, 1, 4}, {0x108, 0x108, 0x108}};
+    EXPECT_NEAR(x_at(smooth, 1.5), 1 * 0.5 + 4 * 0.5 + (2 - 3) * 0.125, 1e-6) << "automatic: slopes 2 and 3";
+}
+
+TEST(FbxKeys, GoOnAsTheFileSays) {
+    const auto x_at = [](std::int64_t letter, std::int64_t times, double seconds, bool is_text = false) {
+        Walk walk;
+        // The hand's curve lasts 1 s, from 10 to 13; the stack 2 s.
+        walk.scene.animate(walk.base, walk.hand, "Lcl Translation",
+                           {{"Y", Keys{{0, 1}, {10, 13}, {}, {}, {}, {{"Post-Extrapolation", {letter, times}}}}}});
+        return place(walk.scene, "Hand", seconds, {7400, is_text}).y;
+    };
+    EXPECT_NEAR(x_at('C', -1, 1.25), 13, 1e-9) << "constant";
+    EXPECT_NEAR(x_at('R', -1, 1.25), 10.75, 1e-9) << "repeats";
+    EXPECT_NEAR(x_at('M', -1, 1.25), 12.25, 1e-9) << "mirrors";
+    EXPECT_NEAR(x_at('A', -1, 1.25), 13.75, 1e-9) << "repeats and rises";
+    EXPECT_NEAR(x_at('K', -1, 1.25), 13.75, 1e-9) << "goes on with its slope";
+    EXPECT_NEAR(x_at('R', 0, 1.25), 13, 1e-9) << "repeats no time";
+    EXPECT_NEAR(x_at('M', -1, 2, true), 10, 1e-9) << "text";
+}
+
+TEST(FbxKeys, OfOtherAxesStayWhereTheFileSays) {
+    Walk walk({{"Lcl Translation", vector(1, 2, 3)}});
+    expect_place(walk.hips_at(1), 2, 2, 3, "the node's own, where the curve node says nothing");
+    Scene scene;
+    const std::int64_t hips = scene.model("Hips", 0, {{"Lcl Translation", vector(1, 2, 3)}});
+    scene.animate(scene.layer(scene.stack("t")), hips, "Lcl Translation", {{"X", line(0, 4)}},
+                  {{"d|X", scalar(9)}, {"d|Y", scalar(7)}, {"d|Z", scalar(8)}});
+    expect_place(place(scene, "Hips", 1), 2, 7, 8, "the curve node's");
+}
+
+TEST(FbxKeys, ATimeInNewTicksIsKnown) {
+    // 141,120,000 a second where TCDefinition says so.
+    Scene scene = Walk().scene;
+    std::vector<FbxWrite> records = scene.records();
+    for (FbxWrite& object : records[2].inside) {
+        if (object.name == "AnimationCurve") object.inside[0].values = {std::vector<std::int64_t>{0, 2 * 141'120'000}};
+    }
+    std::string text = fbx_bytes(records, {7700, true});
+    const std::string header = "FBXHeaderVersion: 1003";
+    text.replace(text.find(header), header.size(), "FBXHeaderVersion: 1004\nOtherFlags: {\nTCDefinition: 126\n}");
+    EXPECT_NEAR(parse_fbx(text, "clip.fbx").motion(0, 0)->times().last, 2, 1e-12);
+}
+
 }  // namespace
 }  // namespace mobbscope

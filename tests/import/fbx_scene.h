@@ -79,15 +79,16 @@ class Scene {
         return id;
     }
 
-    /// Curves for the axes that `keys` has; `fixed` are the numbers of the others.
-    void animate(std::int64_t layer, std::int64_t object, const std::string& property,
-                 const std::vector<std::pair<std::string, Keys>>& keys, const Properties& fixed = {}) {
+    /// Curves for the axes that `keys` has; `fixed` are the numbers of the others. Gives the curve node.
+    std::int64_t animate(std::int64_t layer, std::int64_t object, const std::string& property,
+                         const std::vector<std::pair<std::string, Keys>>& keys, const Properties& fixed = {}) {
         const std::int64_t node = next_++;
         objects_.add({"AnimationCurveNode", {node, std::string("AnimCurveNode::T"), std::string()}})
             .add(properties(fixed));
         connect(node, layer);
         connect(node, object, property);
         for (const auto& [axis, of] : keys) connect(curve(of), node, "d|" + axis);
+        return node;
     }
 
     std::int64_t curve(const Keys& keys) {

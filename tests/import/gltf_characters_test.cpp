@@ -397,7 +397,9 @@ TEST(GltfCharacters, AFileOfSkinsAloneIsBounded) {
     ImportOptions often;
     often.fps = 5000;
     EXPECT_EQ(testing::input_error([&] { motion_clips(one, "many.glb", often); }),
-              "many.glb: has 40001 joints, too many for so many frames; check the file, or lower fps");
+              "many.glb: needs 40001 joints and layers of curves for each of 10001 frames, which is too much; check "
+              "the file, "
+              "or lower fps");
     EXPECT_EQ(parse_gltf(bytes.glb(nodes + "]", ",\"skins\":[{\"joints\":[" + joints + "]}]"), "many.glb")
                   .joints.front()
                   .name,
@@ -407,7 +409,7 @@ TEST(GltfCharacters, AFileOfSkinsAloneIsBounded) {
                   still.add_floats("VEC4", {0, 0, 0, 1}));
     const std::string many = still.animation("wave").glb(nodes + "]", ",\"skins\":[" + skins + "]");
     EXPECT_EQ(testing::input_error([&] { parse_gltf(many, "many.glb"); }),
-              "many.glb: skins: are those of 20000 characters, but at most 1000 are read; export fewer at a time");
+              "many.glb: holds 20000 characters, but at most 1000 are read; export fewer at a time");
 }
 
 }  // namespace

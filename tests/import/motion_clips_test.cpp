@@ -235,8 +235,10 @@ TEST(MotionClips, NamesAndZerosDoNotTakeHours) {
     for (int i = 0; i < 2000; ++i) text += "JOINT j\n{OFFSET 0 0 0}\n";
     text += "}\nMOTION\nFrames: 60000\nFrame Time: 0.001\n";
     for (int i = 0; i < 60'000; ++i) text += "0\n";
-    EXPECT_EQ(input_error([&] { clip_of(text); }),
-              "some/walk.bvh: has 2001 joints, too many for so many frames; check the file, or lower fps");
+    EXPECT_EQ(
+        input_error([&] { clip_of(text); }),
+        "some/walk.bvh: needs 2001 joints and layers of curves for each of 60000 frames, which is too much; check the "
+        "file, or lower fps");
 }
 
 TEST(MotionClips, WarningsNameTheSamples) {

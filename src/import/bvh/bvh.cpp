@@ -38,6 +38,7 @@ class BvhScanner {
     BvhScanner(std::string_view text, const std::string& file)
         : at_(text.data()), end_(text.data() + text.size()), file_(file) {}
 
+    const std::string& file() const { return file_; }
     int line() const { return line_; }  ///< from 1
     std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
     bool at_end() const { return at_ == end_; }
@@ -200,6 +201,8 @@ class BvhParser {
             }
         }
         if (data_.joints.empty()) in_.fail("there is no ROOT before MOTION");
+        const auto roots = std::ranges::count(data_.joints, -1, &Joint::parent);
+        check_character_count(static_cast<std::size_t>(roots), in_.file());
         if (data_.row_length == 0) in_.fail("no joint has a channel, so nothing moves; give CHANNELS to one");
     }
 

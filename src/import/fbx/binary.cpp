@@ -95,7 +95,7 @@ void FbxBinaryReader::take_value(std::size_t end) {
     const auto real = [&](double number) {
         value.kind = FbxValue::Kind::real;
         value.real = number;
-        value.integer = std::abs(number) < 9e18 ? static_cast<std::int64_t>(number) : 0;
+        value.integer = fbx_whole(number);
     };
     switch (type) {
         case 'B':

@@ -278,6 +278,7 @@ std::shared_ptr<const FbxCurve> fbx_curve(FbxDocument& document, FbxDocument::In
                                   " values; export the file again");
     }
     if (times.empty()) return nullptr;
+    document.charge(record, times.size(), sizeof(FbxKey));
     std::vector<FbxKey> keys(times.size());
     for (std::size_t i = 0; i < keys.size(); ++i) {
         keys[i].time = static_cast<double>(times[i]) / ticks_per_second;

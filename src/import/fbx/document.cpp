@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kOldestVersion = 7100;
 constexpr int kBitsAsIntegers = 7200;
-// Arrays that are unpacked: of curves, a file of this size holds far less.
+// Bytes that numbers may take once they are read. A key takes some 140, stored well packed at least 2.
 constexpr std::size_t kLeastBudget = std::size_t{64} << 20;
 constexpr std::size_t kGrowth = 200;
 constexpr std::size_t kStep = std::size_t{1} << 20;  // bytes that an unpacked array grows by
@@ -43,18 +43,12 @@ std::string version_text(int version) {
     return std::to_string(version / 1000) + "." + std::to_string(version % 1000 / 100);
 }
 
-/// Towards zero, within what the type holds; 0 for what is no number.
-std::int64_t whole(double value) {
-    constexpr double kMost = 9.2e18;
-    return std::isnan(value) ? 0 : static_cast<std::int64_t>(std::clamp(value, -kMost, kMost));
-}
-
 template <class Number, class Stored>
 Number converted(Stored stored) {
     if constexpr (std::is_same_v<Number, std::uint32_t> && std::is_floating_point_v<Stored>) {
         return std::bit_cast<std::uint32_t>(static_cast<float>(stored));
     } else if constexpr (std::is_same_v<Number, std::int64_t> && std::is_floating_point_v<Stored>) {
-        return whole(static_cast<double>(stored));
+        return fbx_whole(static_cast<double>(stored));
     } else {
         return static_cast<Number>(stored);
     }
@@ -107,10 +101,16 @@ std::vector<double> FbxDocument::numbers(Index record) { return read<double>(rec
 std::vector<std::int64_t> FbxDocument::integers(Index record) { return read<std::int64_t>(record); }
 std::vector<std::uint32_t> FbxDocument::float_bits(Index record) { return read<std::uint32_t>(record); }
 
+void FbxDocument::charge(Index record, std::uint64_t count, std::size_t bytes_each) {
+    const std::size_t budget = std::max(kLeastBudget, kGrowth * bytes_.size());
+    if (count > (budget - charged_bytes_) / bytes_each)
+        fail(record, "claims " + std::to_string(count) + " numbers, too many for this file; export it again");
+    charged_bytes_ += count * bytes_each;
+}
+
 std::string_view FbxDocument::unpacked(Index record, const FbxValue& array, std::size_t width, std::string& room) {
     const std::string_view stored = array.text;
     const auto count = static_cast<std::uint64_t>(array.integer);
-    const std::size_t budget = std::max(kLeastBudget, kGrowth * bytes_.size());
     if (!array.is_packed) {
         if (stored.size() / width != count || stored.size() % width != 0) {
             fail(record, "claims " + std::to_string(count) + " numbers, but holds " + std::to_string(stored.size()) +
@@ -118,8 +118,7 @@ std::string_view FbxDocument::unpacked(Index record, const FbxValue& array, std:
         }
         return stored;
     }
-    if (count > (budget - unpacked_bytes_) / width)
-        fail(record, "claims " + std::to_string(count) + " numbers, too many for this file; export it again");
+    charge(record, count, width);
     const std::size_t size = count * width;
 
     z_stream stream{};
@@ -141,7 +140,6 @@ std::string_view FbxDocument::unpacked(Index record, const FbxValue& array, std:
     if (filled != size || (status != Z_OK && status != Z_STREAM_END))
         fail(record,
              "does not unpack to the " + std::to_string(count) + " numbers that it claims; export the file again");
-    unpacked_bytes_ += size;
     return std::string_view(room).substr(0, size);
 }
 
@@ -169,11 +167,13 @@ std::vector<Number> FbxDocument::read(Index record) {
             fail(record, "claims " + std::to_string(array.integer) + " numbers, but holds " +
                              std::to_string(out.size()) + "; export the file again");
         }
+        charge(record, out.size(), sizeof(Number));
         return out;
     }
     const std::size_t width = width_of(array.type);
     std::string room;
     const std::string_view bytes = unpacked(record, array, width, room);
+    charge(record, bytes.size() / width, sizeof(Number));
     switch (array.type) {
         case 'd':
             append<Number, double>(bytes, is_big_endian_, out);

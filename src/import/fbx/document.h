@@ -63,12 +63,16 @@ class FbxDocument {
     Index find(Index record, std::string_view name) const { return find_among(record + 1, records_[record].end, name); }
     Index find_top(std::string_view name) const { return find_among(0, static_cast<Index>(records_.size()), name); }
 
-    /// The numbers of a record, an array or values one by one. What is unpacked is bounded for the whole document.
-    /// Throws InputError, naming the place, if the array is damaged or holds another number of elements than it claims.
+    /// The numbers of a record, an array or values one by one. Throws InputError, naming the place, if the array is
+    /// damaged, holds another number of elements than it claims, or is too much (see `charge`).
     std::vector<double> numbers(Index record);
     std::vector<std::int64_t> integers(Index record);
     /// The same for 32-bit floats that stand for packed bits: their bits. 64-bit ones are made 32-bit first.
     std::vector<std::uint32_t> float_bits(Index record);
+
+    /// Counts what a record's numbers take in memory. Throws InputError, naming the record, once all of them together
+    /// take far more than a file of this size could need.
+    void charge(Index record, std::uint64_t count, std::size_t bytes_each);
 
     /// "byte 1234" or "line 12".
     std::string place_of(Index record) const;
@@ -97,7 +101,7 @@ class FbxDocument {
     bool is_big_endian_ = false;
     std::vector<FbxRecord> records_;
     std::vector<FbxValue> values_;
-    std::size_t unpacked_bytes_ = 0;
+    std::size_t charged_bytes_ = 0;
 };
 
 /// Text as it stands in a text file ("a &quot;b&quot;") without escapes.

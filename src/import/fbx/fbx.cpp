@@ -7,10 +7,14 @@
 #include <import/fbx/transform.h>
 #include <import/nodes/node_scene.h>
 
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
+#include <set>
 #include <utility>
 
 namespace mobbscope {
@@ -24,7 +28,15 @@ constexpr double kNewTicksPerSecond = 141'120'000;
 constexpr std::int64_t kOldTicks = 127;          // of TCDefinition
 constexpr std::int64_t kHeaderWithTicks = 1004;  // FBXHeaderVersion
 constexpr double kTurn = 0.16;                   // degrees: a joint that turns less stands still
-constexpr std::size_t kFewestJoints = 4;         // of a body
+// A skeleton of so many joints is a body, however large others are; one joint alone is a prop.
+constexpr std::size_t kJointsOfBody = 4;
+constexpr std::size_t kMostJointsOfProp = 1;
+constexpr double kMostSeconds = 1e6;  // of a stack; more is what programs write for "without end"
+constexpr double kHeld = 0.5;         // seconds: a pose held beyond the keys for longer is said
+constexpr double kLeastUnit = 1e-5;   // centimetres: what GlobalSettings may say
+constexpr double kMostUnit = 1e7;
+constexpr int kOrders = 6;                       // of rotation about three axes; the next one is spheric
+constexpr std::size_t kMostReused = 10'000'000;  // keys of curves that several stacks share
 
 /// What a file's first record of the names leads to, as an integer.
 std::optional<std::int64_t> integer_at(const FbxDocument& document, std::initializer_list<std::string_view> path) {
@@ -47,31 +59,42 @@ double ticks_per_second(const FbxDocument& document) {
     return is_new ? kNewTicksPerSecond : kTicksPerSecond;
 }
 
-/// The axes that GlobalSettings name.
-struct Axes {
-    int up = 1, up_sign = 1;
-    int front = 2, front_sign = 1;
-    int right = 0, right_sign = 1;
+/// An axis that GlobalSettings name: 0 to 2, or what is none; and its sign.
+struct Axis {
+    std::optional<std::int64_t> index;
+    int sign = 1;
 
-    /// To x (right), y (away from the front) and z (up); where the axes are not three of their own, as `up` has it.
+    bool is_one() const { return index && *index >= 0 && *index < 3; }
+    glm::dvec3 direction() const {
+        glm::dvec3 out(0);
+        out[static_cast<int>(*index)] = sign;
+        return out;
+    }
+};
+
+/// The axes of a file.
+struct Axes {
+    Axis up, front, right;
+
+    /// Whether those that are given are three different ones.
+    bool agree() const {
+        const auto is_apart = [](const Axis& a, const Axis& b) { return !a.index || !b.index || *a.index != *b.index; };
+        const auto is_sound = [](const Axis& axis) { return !axis.index || axis.is_one(); };
+        return is_sound(up) && is_sound(front) && is_sound(right) && is_apart(up, front) && is_apart(up, right) &&
+               is_apart(front, right);
+    }
+
+    /// To x (right), y (away from the front) and z (up), where `up` is an axis. What the others do not say makes the
+    /// axes right-handed.
     glm::dmat3 ground() const {
-        const auto is_axis = [](int axis) { return axis >= 0 && axis < 3; };
-        glm::dmat3 rows(0);
-        const auto row = [&](int index, int axis, int sign) { rows[axis][index] = sign < 0 ? -1 : 1; };
-        const bool is_whole = is_axis(up) && is_axis(front) && is_axis(right) && up + front + right == 3 &&
-                              up != front && front != right && right != up;
-        if (is_whole) {
-            row(0, right, right_sign);
-            row(1, front, -front_sign);
-            row(2, up, up_sign);
-        } else if (up == 2) {
-            rows = glm::dmat3(1);
-        } else {
-            row(0, 0, 1);
-            row(1, 2, -1);
-            row(2, 1, 1);
-        }
-        return rows;
+        const glm::dvec3 z = up.direction();
+        std::optional<glm::dvec3> x, y;
+        if (agree() && right.index) x = right.direction();
+        if (agree() && front.index) y = -front.direction();
+        if (!x && !y) x = *up.index == 0 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+        if (!x) x = glm::cross(*y, z);
+        if (!y) y = glm::cross(z, *x);
+        return glm::transpose(glm::dmat3(*x, *y, z)) + glm::dmat3(0);  // no negative zeros
     }
 };
 
@@ -85,12 +108,26 @@ struct PosedScene {
     std::vector<FbxTransform> rest;  ///< by node
     std::vector<FbxStack> stacks;
 
+    /// Of one animation, by rising node.
+    std::span<const FbxAnimatedProperty> moved(std::size_t stack, int node) const {
+        const std::vector<FbxAnimatedProperty>& all = stacks[stack].properties;
+        return {std::ranges::lower_bound(all, as_index(node), {}, &FbxAnimatedProperty::node),
+                std::ranges::upper_bound(all, as_index(node), {}, &FbxAnimatedProperty::node)};
+    }
+
     FbxTransform transform_at(std::size_t stack, int node, double seconds) const {
         FbxTransform out = rest[as_index(node)];
-        const std::vector<FbxAnimatedProperty>& moved = stacks[stack].properties;
-        for (auto at = std::ranges::lower_bound(moved, as_index(node), {}, &FbxAnimatedProperty::node);
-             at != moved.end() && at->node == as_index(node); ++at) {
-            out[at->property] = stacks[stack].value(*at, rest[as_index(node)], seconds);
+        for (const FbxAnimatedProperty& property : moved(stack, node)) {
+            out[property.property] = stacks[stack].value(property, rest[as_index(node)], seconds);
+        }
+        return out;
+    }
+
+    /// What a pose takes beside the nodes: every layer over another.
+    std::size_t more_steps(std::size_t stack, std::span<const PosedNode> nodes) const {
+        std::size_t out = 0;
+        for (const PosedNode& posed : nodes) {
+            for (const FbxAnimatedProperty& property : moved(stack, posed.node)) out += property.layers.size() - 1;
         }
         return out;
     }
@@ -123,10 +160,8 @@ class FbxSceneBuilder {
         if (posed_->stacks.empty())
             throw InputError(scene_.file, "", "holds no animation; export the clip with its animation");
         for (std::size_t i = 0; i < posed_->stacks.size(); ++i) add_animation(i);
-        // Programs leave empty stacks beside those that count.
-        const auto is_empty = [](const NodeAnimation& animation) { return animation.moved.empty(); };
-        if (!std::ranges::all_of(scene_.animations, is_empty)) std::erase_if(scene_.animations, is_empty);
         find_characters();
+        warn_of_orders();
         return std::move(scene_);
     }
 
@@ -134,21 +169,40 @@ class FbxSceneBuilder {
     void add_settings() {
         const FbxDocument::Index settings = document_.find_top("GlobalSettings");
         Axes axes;
-        double unit = 1;
+        std::optional<FbxValue> unit;
         if (settings != FbxDocument::kNone) {
             objects_.each_property_in(settings, [&](std::string_view name, std::span<const FbxValue> values) {
-                const auto number = static_cast<int>(std::clamp<std::int64_t>(values[0].integer, -9, 9));
-                if (name == "UpAxis") axes.up = number;
-                if (name == "UpAxisSign") axes.up_sign = number;
-                if (name == "FrontAxis") axes.front = number;
-                if (name == "FrontAxisSign") axes.front_sign = number;
-                if (name == "CoordAxis") axes.right = number;
-                if (name == "CoordAxisSign") axes.right_sign = number;
-                if (name == "UnitScaleFactor") unit = values[0].real;
+                const FbxValue& value = values[0];
+                const int sign = value.integer < 0 ? -1 : 1;
+                if (name == "UpAxis") axes.up.index = value.integer;
+                if (name == "UpAxisSign") axes.up.sign = sign;
+                if (name == "FrontAxis") axes.front.index = value.integer;
+                if (name == "FrontAxisSign") axes.front.sign = sign;
+                if (name == "CoordAxis") axes.right.index = value.integer;
+                if (name == "CoordAxisSign") axes.right.sign = sign;
+                if (name == "UnitScaleFactor") unit = value;
             });
         }
-        scene_.ground = axes.ground();
-        scene_.unit = (std::isfinite(unit) && unit > 0 ? unit : 1) * kCentimetre;
+        take_axes(axes);
+        const double centimetres = unit ? unit->real : 1;
+        if (centimetres >= kLeastUnit && centimetres <= kMostUnit) {
+            scene_.unit = centimetres * kCentimetre;
+        } else {
+            const std::string said = unit->kind == FbxValue::Kind::text ? in_quotes(unit->text) : brief(centimetres);
+            scene_.unit_doubt = "GlobalSettings says UnitScaleFactor " + said +
+                                ", which is no unit: the unit was guessed from the body's height";
+        }
+    }
+
+    void take_axes(const Axes& axes) {
+        if (axes.up.is_one()) scene_.ground = axes.ground();
+        if (axes.agree()) return;
+        const auto said = [](const char* name, const Axis& axis) {
+            return axis.index ? std::string(name) + " " + std::to_string(*axis.index) : std::string(name) + " as usual";
+        };
+        scene_.up_doubt = "GlobalSettings says " + said("UpAxis", axes.up) + ", " + said("FrontAxis", axes.front) +
+                          " and " + said("CoordAxis", axes.right) + ", which are not three axes: " +
+                          (scene_.ground ? "the first was believed" : "y was taken as up");
     }
 
     void add_nodes() {
@@ -158,6 +212,7 @@ class FbxSceneBuilder {
             scene_.nodes.push_back({object.name.empty() ? unnamed : object.name, -1});
             is_limb_.push_back(is_limb(object.type));
             posed_->rest.push_back(transform_of(object));
+            if (posed_->rest.back().rotation_order >= kOrders) unordered_.push_back(scene_.nodes.back().name);
         }
     }
 
@@ -189,12 +244,15 @@ class FbxSceneBuilder {
             int& link = scene_.nodes[child->second].parent;
             if (link < 0) link = static_cast<int>(parent->second);
         }
-        const std::size_t reached = parents_first(scene_.nodes).size();
-        if (reached < scene_.nodes.size()) {
-            throw InputError(scene_.file, "Connections",
-                             counted(scene_.nodes.size() - reached, "node hangs", "nodes hang") +
-                                 " on each other in a circle; export the file again");
-        }
+        const std::vector<int> reached = parents_first(scene_.nodes);
+        if (reached.size() == scene_.nodes.size()) return;
+        std::vector<bool> is_reached(scene_.nodes.size());
+        for (const int node : reached) is_reached[as_index(node)] = true;
+        const auto lost = static_cast<std::size_t>(std::ranges::find(is_reached, false) - is_reached.begin());
+        throw InputError(scene_.file, "Connections",
+                         in_quotes(scene_.nodes[lost].name) + ", one of " +
+                             counted(scene_.nodes.size() - reached.size(), "node", "nodes") +
+                             ", hangs on itself in a circle; export the file again");
     }
 
     void add_animation(std::size_t index) {
@@ -211,7 +269,9 @@ class FbxSceneBuilder {
                     moves = true;
                     turns = turns || (property.property == FbxProperty::rotation && !curve->is_constant(kTurn));
                     Numbers& list = times[curve.get()];
-                    if (!list) list = std::make_shared<const std::vector<double>>(curve->times());
+                    if (list) continue;
+                    if (!seen_.insert(curve.get()).second) reuse(*curve);
+                    list = std::make_shared<const std::vector<double>>(curve->times());
                 }
             }
             const auto node = static_cast<int>(property.node);
@@ -222,20 +282,62 @@ class FbxSceneBuilder {
         std::vector<Numbers> lists;
         for (const auto& [curve, list] : times) lists.push_back(list);
         animation.times = key_times(lists);
-        // Before its first key and after its last one a stack may hold a pose.
-        if (stack.begin < stack.end) {
-            animation.times.first = std::min(animation.times.first, stack.begin);
-            animation.times.last = std::max(animation.times.last, stack.end);
-        }
         animation.warnings = stack.warnings;
-        if (animation.moved.empty()) animation.moves_nothing = "moves no node; give a clip that does";
+        hold(stack, animation);
+        if (animation.moved.empty()) {
+            animation.moves_nothing = "moves no node" +
+                                      (stack.warnings.empty() ? "" : ", as " + stack.warnings.front()) +
+                                      "; give a clip that does";
+        }
+        animation.more_steps = [posed = posed_, index](std::span<const PosedNode> nodes) {
+            return posed->more_steps(index, nodes);
+        };
         animation.pose = [posed = posed_, index](std::optional<double> seconds, std::span<const PosedNode> nodes,
                                                  std::span<Affine> out) { posed->pose(index, seconds, nodes, out); };
         scene_.animations.push_back(std::move(animation));
     }
 
+    /// Before its first key and after its last one a stack may hold a pose.
+    static void hold(const FbxStack& stack, NodeAnimation& animation) {
+        MotionTimes& times = animation.times;
+        if (!(stack.begin < stack.end)) return;
+        if (std::max(-stack.begin, stack.end) > kMostSeconds) {
+            animation.warnings.push_back("LocalStart and LocalStop are " + brief(stack.begin) + " s and " +
+                                         brief(stack.end) + " s, which no clip lasts: its keys alone count");
+            return;
+        }
+        if (times.first - stack.begin > kHeld || stack.end - times.last > kHeld) {
+            animation.warnings.push_back("it plays from " + brief(stack.begin) + " s to " + brief(stack.end) +
+                                         " s (LocalStart, LocalStop), but its keys are from " + brief(times.first) +
+                                         " s to " + brief(times.last) +
+                                         " s: a pose is held until there; trim it if that is not meant");
+        }
+        times.first = std::min(times.first, stack.begin);
+        times.last = std::max(times.last, stack.end);
+    }
+
+    /// A curve is read once, but each stack that it moves lists its keys.
+    void reuse(const FbxCurve& curve) {
+        reused_ += curve.keys().size();
+        if (reused_ > kMostReused) {
+            throw InputError(scene_.file, "",
+                             "its animation stacks share curves of too many keys; export fewer stacks at a time");
+        }
+    }
+
+    void warn_of_orders() {
+        if (unordered_.empty()) return;
+        std::string nodes = in_quotes(unordered_.front());
+        if (unordered_.size() > 1) nodes += " and " + counted(unordered_.size() - 1, "more node", "more nodes");
+        warn_all("RotationOrder of " + nodes + " is no order of three axes: read as XYZ");
+    }
+
+    void warn_all(const std::string& warning) {
+        for (NodeAnimation& animation : scene_.animations) animation.warnings.push_back(warning);
+    }
+
     /// Several skeletons are several people: each topmost limb with a body's joints below it, and what is above it and
-    /// above no other. One of them alone is found as in any file.
+    /// above no other. Smaller ones are props, and said.
     void find_characters() {
         const std::vector<Node>& nodes = scene_.nodes;
         std::vector<bool> is_moved(nodes.size());
@@ -243,11 +345,12 @@ class FbxSceneBuilder {
             for (const int node : animation.moved) is_moved[as_index(node)] = true;
         }
         // Where no node is a limb, those that move are.
-        const std::vector<bool>& counts = std::ranges::find(is_limb_, true) == is_limb_.end() ? is_moved : is_limb_;
+        const bool has_limbs = std::ranges::find(is_limb_, true) != is_limb_.end();
+        const std::vector<bool>& counts = has_limbs ? is_limb_ : is_moved;
         const std::vector<int> order = parents_first(nodes);
         std::vector<int> top(nodes.size(), -1);          // of each node, the topmost limb that it is or is below
         std::vector<std::size_t> size(nodes.size(), 0);  // by that limb
-        std::vector<bool> is_body_moved(nodes.size());
+        std::vector<int> first_moved(nodes.size(), -1);  // by that limb
         for (const int node : order) {
             const int parent = nodes[as_index(node)].parent;
             int& own = top[as_index(node)];
@@ -255,39 +358,59 @@ class FbxSceneBuilder {
             if (own < 0 && counts[as_index(node)]) own = node;
             if (own < 0) continue;
             if (counts[as_index(node)]) ++size[as_index(own)];
-            if (is_moved[as_index(node)]) is_body_moved[as_index(own)] = true;
+            int& first = first_moved[as_index(own)];
+            if (first < 0 && is_moved[as_index(node)]) first = node;
         }
-        std::vector<int> bodies;
-        std::vector<int> bodies_below(nodes.size(), 0);
+        std::vector<int> skeletons;  // that move
+        std::size_t largest = 0;
         for (const int node : order) {
-            if (top[as_index(node)] != node || size[as_index(node)] < kFewestJoints || !is_body_moved[as_index(node)])
-                continue;
-            bodies.push_back(node);
-            bodies_below[as_index(node)] = 1;
+            if (top[as_index(node)] != node || first_moved[as_index(node)] < 0) continue;
+            skeletons.push_back(node);
+            largest = std::max(largest, size[as_index(node)]);
         }
-        if (bodies.size() < 2) return;
+        if (largest <= kMostJointsOfProp) return;
+        const auto is_body = [&](int node) { return size[as_index(node)] >= std::min(kJointsOfBody, largest); };
+        std::vector<int> bodies_below(nodes.size(), 0);
+        for (const int node : skeletons) bodies_below[as_index(node)] = is_body(node) ? 1 : 0;
         for (auto node = order.rbegin(); node != order.rend(); ++node) {
             const int parent = nodes[as_index(*node)].parent;
             if (parent >= 0) bodies_below[as_index(parent)] += bodies_below[as_index(*node)];
         }
-        for (const int body : bodies) {
-            int begin = body;
+        std::vector<int> begins;
+        for (const int body : skeletons) {
+            if (!is_body(body)) continue;
+            int begin = first_moved[as_index(body)];
             for (int above = nodes[as_index(body)].parent; above >= 0 && bodies_below[as_index(above)] == 1;
                  above = nodes[as_index(above)].parent) {
                 if (is_moved[as_index(above)]) begin = above;
             }
-            scene_.characters.push_back({begin});
+            begins.push_back(begin);
         }
         // Everything below the topmost joint counts, as in a file of one person.
         std::vector<int> character(nodes.size(), -1);
-        for (std::size_t i = 0; i < scene_.characters.size(); ++i) {
-            character[as_index(scene_.characters[i][0])] = static_cast<int>(i);
-        }
+        std::vector<std::vector<int>> characters(begins.size());
+        for (std::size_t i = 0; i < begins.size(); ++i) character[as_index(begins[i])] = static_cast<int>(i);
         for (const int node : order) {
             const int parent = nodes[as_index(node)].parent;
-            if (parent < 0 || character[as_index(node)] >= 0 || character[as_index(parent)] < 0) continue;
-            character[as_index(node)] = character[as_index(parent)];
-            scene_.characters[as_index(character[as_index(node)])].push_back(node);
+            int& own = character[as_index(node)];
+            if (own < 0 && parent >= 0) own = character[as_index(parent)];
+            if (own >= 0) characters[as_index(own)].push_back(node);
+        }
+        std::vector<std::string> props;
+        for (const int node : skeletons) {
+            if (has_limbs && !is_body(node) && character[as_index(node)] < 0)
+                props.push_back(nodes[as_index(node)].name);
+        }
+        if (props.size() == 1) {
+            warn_all("the small skeleton " + in_quotes(props.front()) + " was left out; give root to follow it");
+        } else if (!props.empty()) {
+            warn_all("the small skeletons " + in_quotes(props.front()) + " and " + std::to_string(props.size() - 1) +
+                     " more were left out; give root to follow one");
+        }
+        if (begins.size() == 1) {
+            scene_.body = begins.front();
+        } else {
+            scene_.characters = std::move(characters);
         }
     }
 
@@ -297,6 +420,9 @@ class FbxSceneBuilder {
     std::shared_ptr<PosedScene> posed_ = std::make_shared<PosedScene>();
     std::map<std::int64_t, std::size_t> node_of_;  ///< by the id of a Model
     std::vector<bool> is_limb_;                    ///< by node
+    std::vector<std::string> unordered_;           ///< nodes with a RotationOrder of their own kind
+    std::set<const FbxCurve*> seen_;               ///< in the stacks that were gone through
+    std::size_t reused_ = 0;                       ///< keys
 };
 
 }  // namespace

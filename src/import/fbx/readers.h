@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <string>
 #include <string_view>
@@ -26,6 +28,17 @@ Number fbx_number(std::string_view bytes, std::size_t at, bool is_big_endian) {
     return std::bit_cast<Number>(raw);
 }
 
+/// A real number as an integer: towards zero, within the range; 0 for what is no number.
+inline std::int64_t fbx_whole(double value) {
+    constexpr double kMost = 9.2e18;
+    return std::isnan(value) ? 0 : static_cast<std::int64_t>(std::clamp(value, -kMost, kMost));
+}
+
+/// Where a line ends, from `at` on: its line feed or carriage return, or the end of the text.
+inline std::size_t fbx_line_end(std::string_view text, std::size_t at) {
+    return std::min(text.find_first_of("\r\n", at), text.size());
+}
+
 /// A word of a text file as a number, or as text where it is none. "nan" and "inf" are numbers.
 FbxValue fbx_word(std::string_view word);
 
@@ -36,7 +49,7 @@ void each_fbx_number(std::string_view list, const Visit& visit) {
     for (std::size_t at = list.find_first_not_of(kBetween); at < list.size();
          at = list.find_first_not_of(kBetween, at)) {
         if (list[at] == ';') {
-            at = std::min(list.find('\n', at), list.size());
+            at = fbx_line_end(list, at);
             continue;
         }
         const std::size_t end = std::min(list.find_first_of(" \t\r\n,;", at), list.size());
@@ -83,6 +96,7 @@ class FbxTextReader {
     [[noreturn]] void fail(const std::string& message) const;
     /// Past blanks and comments; false at the end.
     bool skip_blanks();
+    void count_lines(std::string_view text);
     std::string_view take_word();
     bool begins_record() const;
     void take_values(FbxRecord& record);

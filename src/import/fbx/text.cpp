@@ -50,7 +50,7 @@ FbxValue fbx_word(std::string_view word) {
         out.kind = FbxValue::Kind::text;
         out.text = word;
     }
-    out.integer = std::abs(out.real) < 9e18 ? static_cast<std::int64_t>(out.real) : 0;
+    out.integer = fbx_whole(out.real);
     return out;
 }
 
@@ -58,8 +58,7 @@ bool looks_like_fbx(std::string_view head) {
     if (head.starts_with(kFbxBinaryMark)) return true;
     if (head.starts_with(kByteOrderMark)) head.remove_prefix(kByteOrderMark.size());
     const auto skip_blanks = [&] { head.remove_prefix(std::min(head.find_first_not_of(" \t\r\n"), head.size())); };
-    for (skip_blanks(); head.starts_with(';'); skip_blanks())
-        head.remove_prefix(std::min(head.find('\n'), head.size()));
+    for (skip_blanks(); head.starts_with(';'); skip_blanks()) head.remove_prefix(fbx_line_end(head, 0));
     return head.starts_with(kFirstRecord);
 }
 
@@ -68,20 +67,19 @@ void FbxTextReader::fail(const std::string& message) const {
 }
 
 bool FbxTextReader::skip_blanks() {
-    for (; at_ < bytes_.size(); ++at_) {
-        const char c = bytes_[at_];
-        if (c == ';') {
-            at_ = bytes_.find('\n', at_);
-            if (at_ == bytes_.npos) at_ = bytes_.size();
-            if (at_ == bytes_.size()) return false;
-        }
-        if (bytes_[at_] == '\n') {
-            ++line_;
-        } else if (bytes_[at_] != ' ' && bytes_[at_] != '\t' && bytes_[at_] != '\r') {
-            return true;
-        }
+    const std::size_t begin = at_;
+    do {
+        if (at_ < bytes_.size() && bytes_[at_] == ';') at_ = fbx_line_end(bytes_, at_);
+        at_ = std::min(bytes_.find_first_not_of(" \t\r\n", at_), bytes_.size());
+    } while (at_ < bytes_.size() && bytes_[at_] == ';');
+    count_lines(bytes_.substr(begin, at_ - begin));
+    return at_ < bytes_.size();
+}
+
+void FbxTextReader::count_lines(std::string_view text) {
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '\n' || (text[i] == '\r' && !text.substr(i + 1).starts_with('\n'))) ++line_;
     }
-    return false;
 }
 
 std::string_view FbxTextReader::take_word() {
@@ -157,7 +155,7 @@ void FbxTextReader::take_values(FbxRecord& record) {
             if (end == bytes_.npos) fail("a quote is not closed");
             value.kind = FbxValue::Kind::text;
             value.text = bytes_.substr(at_ + 1, end - at_ - 1);
-            line_ += static_cast<std::size_t>(std::count(value.text.begin(), value.text.end(), '\n'));
+            count_lines(value.text);
             at_ = end + 1;
         } else {
             const std::string_view word = take_word();
@@ -181,11 +179,11 @@ void FbxTextReader::take_array(FbxValue& array) {
     const std::size_t begin = at_;
     while (at_ < bytes_.size() && bytes_[at_] != '}') {
         at_ = std::min(bytes_.find_first_of(";}", at_), bytes_.size());
-        if (at_ < bytes_.size() && bytes_[at_] == ';') at_ = std::min(bytes_.find('\n', at_), bytes_.size());
+        if (at_ < bytes_.size() && bytes_[at_] == ';') at_ = fbx_line_end(bytes_, at_);
     }
     if (at_ == bytes_.size()) fail("the file ends inside an array");
     array.text = bytes_.substr(begin, at_ - begin);
-    line_ += static_cast<std::size_t>(std::count(array.text.begin(), array.text.end(), '\n'));
+    count_lines(array.text);
     ++at_;
 }
 
@@ -193,7 +191,14 @@ void FbxTextReader::find_version() const {
     const FbxDocument::Index header = document_.find_top(kFirstRecord);
     const FbxDocument::Index version = header == FbxDocument::kNone ? header : document_.find(header, "FBXVersion");
     if (version != FbxDocument::kNone && !document_.values(version).empty()) {
-        const std::int64_t number = document_.values(version)[0].integer;
+        const FbxValue& said = document_.values(version)[0];
+        const std::int64_t number = said.integer;
+        if (number < 1000) {
+            throw InputError(document_.file_, document_.place_of(version),
+                             "FBXVersion is " +
+                                 (said.kind == FbxValue::Kind::text ? in_quotes(said.text) : std::to_string(number)) +
+                                 ", which is no version; export the file again as FBX 7.4 (FBX 2014/2015) or newer");
+        }
         document_.set_version(static_cast<int>(std::clamp<std::int64_t>(number, 0, 100'000)));
     } else if (const auto told = version_in_comment(bytes_)) {
         document_.set_version(*told);

@@ -1,18 +1,13 @@
-#include <base/error.h>
 #include <import/nodes/gltf_characters.h>
 
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <string>
 #include <utility>
 
 namespace mobbscope {
 
 namespace {
-
-// Each is a clip of every animation that moves it; a crowd is no file of skins.
-constexpr std::size_t kMostCharacters = 1000;
 
 /// Whether the numbers of channels are not the same at all keys, or may not be between them. Looks at each list once.
 class Changes {
@@ -85,7 +80,7 @@ class SkinnedNodes {
         }
     }
 
-    std::vector<std::vector<int>> characters(const std::string& file) {
+    std::vector<std::vector<int>> characters() {
         join_nested();
         join_hanging();
         std::map<std::size_t, std::vector<int>> joints;  // by the first skin of each
@@ -96,11 +91,6 @@ class SkinnedNodes {
                 is_taken[as_index(joint)] = true;
                 joints[sets_.of(skin)].push_back(joint);
             }
-        }
-        if (joints.size() > kMostCharacters) {
-            throw InputError(file, "skins",
-                             "are those of " + std::to_string(joints.size()) + " characters, but at most " +
-                                 std::to_string(kMostCharacters) + " are read; export fewer at a time");
         }
         std::map<std::size_t, std::vector<int>> tops = topmost_joints_of_sets();
         std::vector<std::vector<int>> out;
@@ -225,7 +215,7 @@ class SkinnedNodes {
 
 std::vector<std::vector<int>> gltf_characters(const NodeScene& scene, const std::vector<GltfSkin>& skins,
                                               const std::vector<GltfChannel>& channels) {
-    return SkinnedNodes(scene, skins, channels).characters(scene.file);
+    return SkinnedNodes(scene, skins, channels).characters();
 }
 
 }  // namespace mobbscope

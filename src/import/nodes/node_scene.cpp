@@ -80,6 +80,7 @@ class NodeMotion : public Motion {
         const std::vector<int> joint_of = choose_joints(nodes);
         topmost_ = joint_of[as_index(topmost)];
         choose_posed_nodes(joint_of);
+        steps_ = posed_.size() + (animation_->more_steps ? animation_->more_steps(posed_) : 0);
         is_pivot_.resize(joints_.size());
         if (!rig_->scene.has_pivots) return;
         for (const int node : animation_->turned) {
@@ -93,7 +94,7 @@ class NodeMotion : public Motion {
     int topmost() const override { return topmost_; }
     bool is_pivot(int joint) const override { return is_pivot_[as_index(joint)]; }
     const MotionTimes& times() const override { return animation_->times; }
-    std::size_t posed() const override { return posed_.size(); }
+    std::size_t posed() const override { return steps_; }
 
     void pose(double seconds, std::span<glm::dvec3> positions, std::span<glm::dquat> rotations) const override {
         each_joint(seconds, [&](std::size_t joint, const Affine& global) {
@@ -173,6 +174,7 @@ class NodeMotion : public Motion {
     std::vector<bool> is_pivot_;  ///< by joint
     std::vector<PosedNode> posed_;
     std::vector<std::size_t> place_;  ///< by joint: which of the posed nodes it is
+    std::size_t steps_ = 0;           ///< of one pose
 };
 
 /// The nodes that an animation moves, themselves or with a node above them.
@@ -314,6 +316,7 @@ MotionTimes key_times(const std::vector<Numbers>& lists) {
 }
 
 MotionFile node_motion_file(NodeScene scene) {
+    check_character_count(scene.characters.size(), scene.file);
     auto making = std::make_shared<Rig>(Rig{std::move(scene), {}, {}, {}, {}, {}});
     making->order = parents_first(making->scene.nodes);
     making->characters = making->scene.characters;
@@ -326,7 +329,9 @@ MotionFile node_motion_file(NodeScene scene) {
     MotionFile out;
     out.format = making->scene.format;
     out.unit = making->scene.unit;
+    out.unit_doubt = making->scene.unit_doubt;
     out.ground = making->scene.ground;
+    out.up_doubt = making->scene.up_doubt;
     out.joints = named_joints(*making);
     const std::shared_ptr<const Rig> rig = std::move(making);
     for (const NodeAnimation& animation : rig->scene.animations) out.animations.push_back(animation.name);

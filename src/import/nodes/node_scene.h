@@ -49,6 +49,8 @@ struct NodeAnimation {
     /// What leads from each node's own axes to the file's, into the same place of `out`. No time: where nothing is
     /// animated. Times outside the keys are clamped. Safe from any number of threads.
     std::function<void(std::optional<double> seconds, std::span<const PosedNode> nodes, std::span<Affine> out)> pose;
+    /// What such a pose takes beside one step a node, in steps; null: nothing.
+    std::function<std::size_t(std::span<const PosedNode> nodes)> more_steps;
 };
 
 /// A file's nodes and animations. Parent links are free of cycles.
@@ -56,7 +58,9 @@ struct NodeScene {
     std::string file;  ///< for messages
     std::string format;
     std::optional<double> unit;        ///< metres per file unit
+    std::string unit_doubt{};          ///< as MotionFile::unit_doubt
     std::optional<glm::dmat3> ground;  ///< as MotionFile::ground
+    std::string up_doubt{};            ///< as MotionFile::up_doubt
     std::vector<Node> nodes;
     /// The joints of each character, at least one each, in the file's order; no node twice. None: all nodes from `body`
     /// down are one.

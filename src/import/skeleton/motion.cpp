@@ -1,3 +1,4 @@
+#include <base/error.h>
 #include <import/skeleton/motion.h>
 
 #include <cmath>
@@ -6,6 +7,13 @@
 #include <utility>
 
 namespace mobbscope {
+
+void check_character_count(std::size_t count, const std::string& file) {
+    if (count <= kMostCharacters) return;
+    throw InputError(file, "",
+                     "holds " + std::to_string(count) + " characters, but at most " + std::to_string(kMostCharacters) +
+                         " are read; export fewer at a time");
+}
 
 std::vector<std::string> distinct_names(std::vector<std::string> names) {
     std::set<std::string> taken(names.begin(), names.end());

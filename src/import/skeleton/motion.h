@@ -52,7 +52,7 @@ class Motion {
     /// True if the search for the root, which goes down from joints that stand still, ends at this joint at the latest.
     virtual bool is_pivot(int /*joint*/) const { return false; }
     virtual const MotionTimes& times() const = 0;
-    /// How many joints, and what else stands above them, one pose takes.
+    /// What one pose takes, in joints: these, the nodes above them, and the layers of curves that move them.
     virtual std::size_t posed() const { return joints().size(); }
     /// Where all joints are at a time in file seconds, in file units and axes, with everything above them applied.
     /// Times outside the keys are clamped; with frames_only the nearest stored frame is taken. `positions` has room for
@@ -87,11 +87,18 @@ struct MovedCharacters {
 inline const glm::dmat3 kYUp{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
 inline const glm::dmat3 kZUp{1};
 
+/// Each character is a clip of every animation that moves it; more of them are a crowd, and no file of skeletons.
+inline constexpr std::size_t kMostCharacters = 1000;
+
+/// Throws InputError for more than that, naming the file.
+void check_character_count(std::size_t count, const std::string& file);
+
 /// A file of one or more animations of one or more characters, checked as a whole when it was read.
 struct MotionFile {
     std::string format;  ///< "bvh", "gltf", "fbx"
     /// Metres per file unit as the format or the header says; none: to be guessed from the body's height.
     std::optional<double> unit;
+    std::string unit_doubt;  ///< why what the header says is no unit; else empty
     /// What leads the file's axes to the clip's as the format or the header says, of BVH as the body stands: a
     /// permutation with signs, which may mirror; none: the file does not say, and y is up.
     std::optional<glm::dmat3> ground;

@@ -56,7 +56,7 @@ ChosenUp chosen_up(const MotionFile& file, const ImportOptions& options) {
     if (options.up == "y") return {kYUp, "", ""};
     if (options.up == "z") return {kZUp, "", ""};
     if (file.ground) return {*file.ground, file.up_why, file.up_doubt};
-    return {kYUp, "as in most files", ""};
+    return {kYUp, "as in most files", file.up_doubt};
 }
 
 /// The axis of a file that leads to z: "y", "-x".
@@ -106,8 +106,10 @@ class MotionImport {
         const std::size_t frames = times.frames_only ? static_cast<std::size_t>(times.frames) : 0;
         const double poses = static_cast<double>(std::max(grid.count, frames)) * static_cast<double>(motion_.posed());
         if (poses > kMaxJointPoses) {
-            throw std::invalid_argument("has " + std::to_string(motion_.posed()) +
-                                        " joints, too many for so many frames; check the file, or lower fps");
+            throw std::invalid_argument("needs " + std::to_string(motion_.posed()) +
+                                        " joints and layers of curves for each of " +
+                                        std::to_string(std::max(grid.count, frames)) +
+                                        " frames, which is too much; check the file, or lower fps");
         }
         poses_left -= poses;
         if (poses_left < 0) {
@@ -130,6 +132,7 @@ class MotionImport {
         for (std::string& warning : motion_.warnings()) facts.warnings.push_back({std::move(warning)});
         if (!times.doubt.empty()) facts.warnings.push_back({times.doubt});
         if (!up_.doubt.empty()) facts.warnings.push_back({up_.doubt, "up"});
+        if (!options_.unit && !file_.unit_doubt.empty()) facts.warnings.push_back({file_.unit_doubt, "unit"});
 
         auto skeleton = std::make_shared<Skeleton>();
         std::vector<mobb::Disk> samples = sample(grid, root, facts.unit, *skeleton);
@@ -322,6 +325,15 @@ struct WantedClips {
     std::vector<std::string> left_out;  ///< animations of several that make no clip, and why
 };
 
+/// So many sentences stand for all: a file may have thousands.
+void keep_a_few(std::vector<std::string>& left_out) {
+    constexpr std::size_t kMostNamed = 3;
+    if (left_out.size() <= kMostNamed + 1) return;
+    const std::size_t more = left_out.size() - kMostNamed;
+    left_out.resize(kMostNamed);
+    left_out.push_back(std::to_string(more) + " more animations are left out");
+}
+
 /// Throws InputError; std::invalid_argument for options that name what the file has not.
 WantedClips wanted_clips(const MotionFile& motions, const std::string& file, const ImportOptions& options) {
     const std::vector<std::size_t> animations = chosen_animations(motions.animations, options.animation);
@@ -349,6 +361,7 @@ WantedClips wanted_clips(const MotionFile& motions, const std::string& file, con
             for (const std::size_t character : moved.characters) out.clips.push_back({i, character});
         }
     }
+    keep_a_few(out.left_out);
     if (!out.clips.empty()) return out;
     if (!out.left_out.empty()) throw InputError(file, "", out.left_out.front() + "; none of the others does more");
     throw std::invalid_argument("no animation moves " + in_quotes(*options.root) + "; name one with animation");
@@ -413,7 +426,9 @@ ImportOffer motion_offer(const MotionFile& motions, const std::filesystem::path&
                 const std::string key = animation_key(names, i);
                 animations.choices.push_back({key, key == names[i] ? key : key + ": " + names[i]});
             }
-            out.options.insert(out.options.begin(), std::move(animations));
+            // What has one choice alone is no choice.
+            if (animations.choices.size() > 1 || options.animation)
+                out.options.insert(out.options.begin(), std::move(animations));
         }
         return out;
     });
