@@ -35,7 +35,6 @@ constexpr double kMostSeconds = 1e6;  // of a stack; more is what programs write
 constexpr double kHeld = 0.5;         // seconds: a pose held beyond the keys for longer is said
 constexpr double kLeastUnit = 1e-5;   // centimetres: what GlobalSettings may say
 constexpr double kMostUnit = 1e7;
-constexpr int kOrders = 6;                       // of rotation about three axes; the next one is spheric
 constexpr std::size_t kMostReused = 10'000'000;  // keys of curves that several stacks share
 
 /// What a file's first record of the names leads to, as an integer.
@@ -212,7 +211,8 @@ class FbxSceneBuilder {
             scene_.nodes.push_back({object.name.empty() ? unnamed : object.name, -1});
             is_limb_.push_back(is_limb(object.type));
             posed_->rest.push_back(transform_of(object));
-            if (posed_->rest.back().rotation_order >= kOrders) unordered_.push_back(scene_.nodes.back().name);
+            if (posed_->rest.back().rotation_order >= kFbxRotationOrders)
+                unordered_.push_back(scene_.nodes.back().name);
         }
     }
 

@@ -15,10 +15,11 @@ constexpr std::string_view kPropertyNames[kFbxProperties] = {"Lcl Translation", 
                                                              "ScalingPivot",    "PreRotation",   "PostRotation"};
 
 /// Which axis is turned about first, second and third.
-constexpr std::array<std::array<int, 3>, 6> kOrders{{{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}}};
+constexpr std::array<std::array<int, 3>, kFbxRotationOrders> kOrders{
+    {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}}};
 
 const std::array<int, 3>& axes_of(int order) {
-    return kOrders[order > 0 && order < static_cast<int>(kOrders.size()) ? static_cast<std::size_t>(order) : 0];
+    return kOrders[order > 0 && order < kFbxRotationOrders ? static_cast<std::size_t>(order) : 0];
 }
 
 glm::dquat about_axis(const glm::dvec3& degrees, int axis) {

@@ -37,6 +37,9 @@ enum class FbxInherit {
     without_parent,  ///< Rrs: as along_axes, but not that of the parent itself
 };
 
+/// Rotation orders of three axes; the one after them is spheric.
+inline constexpr int kFbxRotationOrders = 6;
+
 /// Three Euler angles in degrees; `order` is RotationOrder of the FBX SDK: 0 XYZ (x is first), 1 XZY, 2 YZX, 3 YXZ,
 /// 4 ZXY, 5 ZYX; anything else is XYZ.
 glm::dquat fbx_rotation(const glm::dvec3& degrees, int order);
