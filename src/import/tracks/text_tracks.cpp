@@ -1,5 +1,6 @@
 // Trajectories in columns: which of four formats a text is, and its rows.
 #include <import/clip/column_names.h>
+#include <import/clip/sampling.h>
 #include <import/tracks/remarks.h>
 #include <import/tracks/tracks.h>
 #include <mobb/clip.h>
@@ -224,6 +225,7 @@ class TextTracksParser {
 
     void add(double x, double y, double r = 0, std::string_view label = {}) {
         const double frame = columns_.timed ? number(columns_.frame, mobb::kMaxTime) : whole_number(columns_.frame);
+        in_milliseconds_ = in_milliseconds_ && is_in_milliseconds(frame);
         const double id = whole_number(columns_.id);
         if (id != id_) {
             id_ = id;
@@ -271,6 +273,7 @@ class TextTracksParser {
     void tell_rate(TrackFile& out) const {
         if (columns_.timed) {
             out.timed = true;
+            if (in_milliseconds_) out.rounding = kMillisecond;
         } else if (remarks_.rate()) {
             out.rate = *remarks_.rate();
         } else if (columns_.format == kSdd.format) {
@@ -350,6 +353,7 @@ class TextTracksParser {
     std::string id_text_;
     TrackCollector tracks_;
     std::vector<double> heights_;
+    bool in_milliseconds_ = true;  ///< all frames; of use where they are times
     int lost_ = 0;
 };
 
