@@ -200,7 +200,9 @@ TEST(FileKinds, WhatNoReaderTakesIsToldByItsLooks) {
         }
     }
     const std::string said = input_error([&] { import_clips(folder.write("a.dat", "hello world\n"), {}); });
-    EXPECT_NE(said.find("no reader for this kind of file"), std::string::npos) << said;
+    EXPECT_NE(said.find("looks like text, but no table with a header such as id,t,x,y"), std::string::npos) << said;
+    const std::string bytes = input_error([&] { import_clips(folder.write("b.dat", "a\x01"), {}); });
+    EXPECT_NE(bytes.find("no reader for this kind of file"), std::string::npos) << bytes;
     EXPECT_NE(input_error([&] { import_clips(folder.write("b", ""), {}); }).find("is empty"), std::string::npos);
 }
 

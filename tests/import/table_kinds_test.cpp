@@ -254,6 +254,15 @@ TEST(TableKinds, OtherSignsMayPartFields) {
     EXPECT_NE(table_refusal("t;x;y;r\n0;1.000,5;0;1\n").find("'1.000,5' is no finite number"), std::string::npos);
 }
 
+TEST(TableKinds, BlanksPartNamesWhereNumbersStandBelow) {
+    for (const char* text :
+         {"who tick east north\n1 0 0.5 2\n1 1 0.6 2\n", "# made by\nwho\ttick\teast\tnorth\n1\t0\t0.5\t2\n"})
+        EXPECT_TRUE(looks_like_table(text)) << text;
+    for (const char* text : {"who walked where today\nand then went back\n", "who tick east north\n1 0 0.5\n",
+                             "1 0 0.5 2\n1 1 0.6 2\n", "a b\n1 2\n", "who tick east north\n", ""})
+        EXPECT_FALSE(looks_like_table(text)) << text;
+}
+
 TEST(TableKinds, WhatIsMissingIsSaid) {
     EXPECT_EQ(table_refusal("1,0,0,0\n1,1,0,0\n"),
               "f.csv: line 1: there is no header; begin the file with a line that names the columns, such as t,x,y,r");

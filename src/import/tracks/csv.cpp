@@ -578,33 +578,57 @@ std::shared_ptr<const CsvTable> CsvFile::table(const ImportOptions& options) con
     return last_;
 }
 
-bool looks_like_table(std::string_view text) {
-    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+namespace {
+
+/// What stands in the fields of a line.
+struct FieldCounts {
+    std::size_t fields = 0;
+    std::size_t numbers = 0;
+    std::size_t known = 0;  ///< names of columns
+};
+
+FieldCounts counts_of(std::string_view line, char separator) {
+    FieldCounts out;
+    for (std::string_view rest = line; !rest.empty(); ++out.fields) {
+        const std::size_t at =
+            std::min(separator == ' ' ? rest.find_first_of(" \t") : rest.find(separator), rest.size());
+        std::string_view field = trimmed(rest.substr(0, at));
+        if (field.size() > 1 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
+        out.numbers += parse_double(field).has_value();
+        out.known += known_column(field).has_value();
+        rest.remove_prefix(std::min(at + 1, rest.size()));
+        if (separator == ' ') rest = trimmed(rest);
+    }
+    return out;
+}
+
+/// Takes the next line off a text that is neither blank nor a comment; "" at the end.
+std::string_view take_line(std::string_view& text) {
     while (!text.empty()) {
         const std::size_t end = text.find('\n');
         const std::string_view line = trimmed(text.substr(0, end));
         text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-        if (line.empty() || line[0] == '#') continue;
-        const bool is_text = std::ranges::none_of(line, [](char c) { return c >= 0 && c < ' ' && c != '\t'; });
-        if (!is_text || std::string_view("{[<%").find(line[0]) != std::string_view::npos) return false;
-        const char separator = separator_of(line);
-        std::size_t fields = 0, numbers = 0, known = 0;
-        for (std::string_view rest = line; !rest.empty(); ++fields) {
-            const std::size_t at =
-                std::min(separator == ' ' ? rest.find_first_of(" \t") : rest.find(separator), rest.size());
-            std::string_view field = trimmed(rest.substr(0, at));
-            if (field.size() > 1 && field.front() == '"' && field.back() == '"')
-                field = field.substr(1, field.size() - 2);
-            numbers += parse_double(field).has_value();
-            known += known_column(field).has_value();
-            rest.remove_prefix(std::min(at + 1, rest.size()));
-            if (separator == ' ') rest = trimmed(rest);
-        }
-        // Blanks and tabs part trajectories too, and words of sentences.
-        if (separator == ' ' || separator == '\t') return numbers == 0 && known >= 3;
-        return fields >= 2 && (numbers == 0 ? known > 0 || fields > 2 : 2 * numbers >= fields);
+        if (!line.empty() && line[0] != '#') return line;
     }
-    return false;
+    return "";
+}
+
+}  // namespace
+
+bool looks_like_table(std::string_view text) {
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    const std::string_view line = take_line(text);
+    const bool is_text = std::ranges::none_of(line, [](char c) { return c >= 0 && c < ' ' && c != '\t'; });
+    if (line.empty() || !is_text || std::string_view("{[<%").find(line[0]) != std::string_view::npos) return false;
+    const char separator = separator_of(line);
+    const FieldCounts header = counts_of(line, separator);
+    if (separator != ' ' && separator != '\t')
+        return header.fields >= 2 &&
+               (header.numbers == 0 ? header.known > 0 || header.fields > 2 : 2 * header.numbers >= header.fields);
+    // Blanks and tabs part trajectories too, and words of sentences: under those there is no row of as many numbers.
+    if (header.numbers > 0) return false;
+    const FieldCounts row = counts_of(take_line(text), separator);
+    return header.known >= 3 || (header.fields >= 3 && row.fields == header.fields && 2 * row.numbers >= row.fields);
 }
 
 std::string csv_field(std::string_view text) {

@@ -94,9 +94,16 @@ class TextTracksParser {
         }
         if (tracks_.empty()) lines_.fail("the file has no row; " + std::string(kFormats));
         TrackFile out;
-        out.format = columns_.format;
         out.tracks = tracks_.take(file_);
         out.warnings = remarks_.warnings();
+        if (columns_.format == kTrajnet.format && is_id_first(out.tracks)) {
+            columns_ = kPetrackFlat;
+            out.tracks = with_ids_first(out.tracks);
+            out.warnings.emplace_back(
+                "the rows are taken as id frame x y: as frame ped x y, which TrajNet has, people would jump about; a "
+                "comment ahead of them, such as '# frame id x y', says what they are");
+        }
+        out.format = columns_.format;
         tell_rate(out);
         tell_unit(out);
         tell_radius(out);
@@ -200,6 +207,52 @@ class TextTracksParser {
         }
     }
 
+    // ---- four columns of numbers: frame ped x y, as TrajNet has them, or id frame x y
+
+    /// Of the first kind until all rows are read. Rows of one id that follow each other are a walk, which is what
+    /// tells.
+    void look_at_order(double x, double y) {
+        const double first = number(kTrajnet.frame, kMaxFrame), second = number(kTrajnet.id, kMaxFrame);
+        if (rows_++ > 0 && first == last_.first && second > last_.second) {
+            ++steps_below_;
+            length_below_ += std::hypot(x - last_.x, y - last_.y);
+        }
+        last_ = {first, second, x, y};
+    }
+
+    bool is_id_first(const std::vector<Track>& as_trajnet) const {
+        // Where nobody has two points in the other order, who walks takes steps of less than so many metres.
+        constexpr double kLongestStep = 1;
+        constexpr double kClearly = 4;
+        if (2 * steps_below_ < rows_) return false;
+        double length = 0;
+        std::size_t steps = 0;
+        for (const Track& track : as_trajnet) {
+            steps += track.points.size() - 1;
+            for (std::size_t i = 1; i < track.points.size(); ++i)
+                length +=
+                    std::hypot(track.points[i].x - track.points[i - 1].x, track.points[i].y - track.points[i - 1].y);
+        }
+        const double usual = steps > 0 ? length / static_cast<double>(steps) : kClearly * kLongestStep;
+        return kClearly * length_below_ < usual * static_cast<double>(steps_below_);
+    }
+
+    std::vector<Track> with_ids_first(const std::vector<Track>& as_trajnet) const {
+        std::vector<TrackPoint> points;
+        for (const Track& track : as_trajnet) {
+            const double frame = *parse_double(track.id);
+            for (const TrackPoint& point : track.points)
+                points.push_back({frame, point.x, point.y, point.line, point.frame});
+        }
+        std::ranges::sort(points, {}, &TrackPoint::line);
+        TrackCollector out;
+        for (TrackPoint& point : points) {
+            const double id = std::exchange(point.r, 0);
+            out.add(std::to_string(static_cast<long long>(id)), point);
+        }
+        return out.take(file_);
+    }
+
     double number(int column, double largest) const {
         const auto& [word, known] = words_[static_cast<std::size_t>(column)];
         const std::optional<double> value = std::isnan(known) ? parse_double(word) : known;
@@ -235,7 +288,9 @@ class TextTracksParser {
     }
 
     void read_point() {
-        add(number(columns_.x, mobb::kMaxLength), number(columns_.y, mobb::kMaxLength), radius());
+        const double x = number(columns_.x, mobb::kMaxLength), y = number(columns_.y, mobb::kMaxLength);
+        add(x, y, radius());
+        if (columns_.format == kTrajnet.format) look_at_order(x, y);
         if (columns_.z >= 0) heights_.push_back(number(columns_.z, mobb::kMaxLength));
     }
 
@@ -355,6 +410,15 @@ class TextTracksParser {
     std::vector<double> heights_;
     bool in_milliseconds_ = true;  ///< all frames; of use where they are times
     int lost_ = 0;
+
+    /// A row of kTrajnet.
+    struct Row {
+        double first = 0, second = 0, x = 0, y = 0;
+    };
+    Row last_;
+    std::size_t rows_ = 0;
+    std::size_t steps_below_ = 0;  ///< rows that may be the next point of the one in the row before
+    double length_below_ = 0;      ///< of the way from there to here
 };
 
 }  // namespace
