@@ -61,7 +61,6 @@ const std::string& standard_input() {
 
 /// What gzip packed, in one piece or several; the first `most` bytes of it where that is less. Throws InputError.
 std::string unpacked(std::string_view packed, const std::string& name, std::uintmax_t most) {
-    const std::uintmax_t limit = std::min(kLargestFile, std::max(kAlwaysUnpacked, kMostGrowth * packed.size()));
     z_stream stream{};
     constexpr int kGzip = 16;
     if (inflateInit2(&stream, MAX_WBITS + kGzip) != Z_OK) throw std::bad_alloc();
@@ -76,6 +75,9 @@ std::string unpacked(std::string_view packed, const std::string& name, std::uint
         const int status = inflate(&stream, Z_NO_FLUSH);
         out.append(buffer.data(), buffer.size() - stream.avail_out);
         if (out.size() >= most) return out.substr(0, static_cast<std::size_t>(most));
+        // Of what was read so far: a bomb shows long before it has grown.
+        const std::uintmax_t taken = packed.size() - stream.avail_in;
+        const std::uintmax_t limit = std::min(kLargestFile, std::max(kAlwaysUnpacked, kMostGrowth * taken));
         if (out.size() > limit) {
             throw InputError(name, "",
                              "unpacks to more than " + bytes_text(limit) +

@@ -176,6 +176,7 @@ ParsedFile parse_clip_file(const std::filesystem::path& file) {
     const bool is_there = is_standard_input(file) || std::filesystem::exists(file, ignored);
     if (!format && !is_there && lower_extension(file).empty())
         throw InputError(file.string(), "", "no such file or folder; check the path");
+    const char* what = "no reader for this kind of file";
     if (format || is_there) {
         std::string bytes = read_input(file);
         if (bytes.empty() && !format) throw InputError(file.string(), "", "is empty; give a table or tracks");
@@ -187,10 +188,13 @@ ParsedFile parse_clip_file(const std::filesystem::path& file) {
             if (format) reader = format->reader;
         }
         if (reader) return reader->parse(file, std::move(bytes));
+        const auto is_control = [](char c) { return c >= 0 && c < ' ' && c != '\t' && c != '\n' && c != '\r'; };
+        if (is_utf8(bytes) && std::ranges::none_of(bytes, is_control))
+            what = "looks like text, but no table with a header such as id,t,x,y, no rows of numbers and no plan";
     }
     throw InputError(file.string(), "",
-                     "no reader for this kind of file; clips can be " + list_formats(false, ", ", " and ") +
-                         ", trajectories " + list_formats(true, ", ", " and ") + ", scenes .json");
+                     std::string(what) + "; clips can be " + list_formats(false, ", ", " and ") + ", trajectories " +
+                         list_formats(true, ", ", " and ") + ", scenes .json");
 }
 
 ImportOptions offer_depends_on(const ImportOptions& options) {

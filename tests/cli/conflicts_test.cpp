@@ -274,30 +274,6 @@ TEST(Conflicts, WithoutAgentsItIsRefused) {
     EXPECT_EQ(run.out, "");
 }
 
-TEST(Conflicts, EveryTrajectoryFileIsAsTheDirectSearchHasIt) {
-    const std::filesystem::path data = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "trajectories";
-    if (!std::filesystem::exists(data)) GTEST_SKIP() << "no test data at " << data;
-    std::size_t files = 0;
-    std::size_t found = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(data)) {
-        if (!entry.is_regular_file()) continue;
-        const std::string file = entry.path().string();
-        SCOPED_TRACE(entry.path().filename());
-        // Pixels and cells are wider than metres.
-        const std::string radius = file.find("sdd_") != std::string::npos ? "10" : "0.3";
-        const json direct = conflicts({file, "--radius", radius, "--tree", "brute"});
-        for (const std::string tree : {"mobb", "umobb"}) {
-            const json trees = conflicts({file, "--radius", radius, "--tree", tree});
-            EXPECT_EQ(trees["conflicts"], direct["conflicts"]) << tree;
-            EXPECT_LE(trees["pairs_tested"], direct["pairs_tested"]);
-        }
-        found += direct["conflicts"].size();
-        ++files;
-    }
-    EXPECT_EQ(files, 13u);
-    EXPECT_GT(found, 200u);
-}
-
 TEST(Trajectories, ASceneOfThemHasAnAgentForEachTrack) {
     const TempFolder folder;
     const std::string file = folder.write("crowd.txt", kTrajectories);

@@ -28,7 +28,10 @@ TEST(Remarks, TellTheFrameRate) {
                                                                {"The camera took 30 frames per second.", 30},
                                                                {"frame rate is about 15/s", 15},
                                                                {" 1000 frames; the frame rate was set to 5", 5},
-                                                               {"Framerate [fps]: 20", 20}}) {
+                                                               {"Framerate [fps]: 20", 20},
+                                                               {"frame rate [1/s]: 16", 16},
+                                                               {"frame rate (Hz) = 12", 12},
+                                                               {"frames per second: 25", 25}}) {
         const Remarks read = remarks_of(comment);
         EXPECT_EQ(read.rate(), std::optional(rate)) << comment;
         EXPECT_TRUE(read.warnings().empty()) << comment;

@@ -17,6 +17,12 @@ TEST(Sampling, RoundedTimesAreUniformAndLateOnesAreNot) {
     EXPECT_TRUE(is_uniform(frames({0, 0.033333, 0.066667, 0.1})));
     EXPECT_TRUE(is_uniform(frames({0, 1.019, 2})));
     EXPECT_FALSE(is_uniform(frames({0, 1.021, 2})));
+    EXPECT_FALSE(is_uniform(frames({0, 0.017, 0.033, 0.05})));
+    EXPECT_TRUE(is_uniform(frames({0, 0.017, 0.033, 0.05}), kMillisecond));
+    EXPECT_FALSE(is_uniform(frames({0, 0.021, 0.04}), kMillisecond)) << "no rounding of 0.02";
+    EXPECT_FALSE(is_uniform(frames({0, 0.0035, 0.006}), kMillisecond)) << "a millisecond is much of a frame";
+    EXPECT_TRUE(is_in_milliseconds(1.7e9 + 0.017));
+    EXPECT_FALSE(is_in_milliseconds(1.7e9 + 0.0167));
 }
 
 TEST(Sampling, TheLastKeyIsSampledThoughTimesAreRounded) {

@@ -92,7 +92,8 @@ TEST(TableKinds, ColumnsGoByTheirUsualNames) {
          {"id,t,x,y,r", "ID,T,X,Y,R", "trackId,time,xCenter,yCenter,radius", "Track_ID,Time,x_center,y_center,Radius",
           "pedID,time,posX,posY,r", "agent_id,seconds,x_pos,y_pos,radius", "Person ID,time [s],x [m],y [m],r [m]",
           "vehicle_id,timestamp_s,x_m,y_m,radius_m", "objid,sec,centre_x,centre_y,r", "PersID,t/s,X/m,Y/m,r/m",
-          "ped,simTime,position_x,position_y,r"}) {
+          "ped,simTime,position_x,position_y,r", "traj_id,secs,Easting,Northing,r",
+          "uid,elapsed_time_s,world_x,y_world,r", "pid,time,x,y,r"}) {
         const auto read =
             table_clips_of(std::string(header) + "\n7,0,1,2,0.25\n7,0.5,3,4,0.25\n8,1,0,0,0.5\n8,1.5,0,0,0.5\n");
         ASSERT_EQ(read.size(), 2u) << header;
@@ -253,14 +254,30 @@ TEST(TableKinds, OtherSignsMayPartFields) {
     EXPECT_NE(table_refusal("t;x;y;r\n0;1.000,5;0;1\n").find("'1.000,5' is no finite number"), std::string::npos);
 }
 
+TEST(TableKinds, BlanksPartNamesWhereNumbersStandBelow) {
+    for (const char* text :
+         {"who tick east north\n1 0 0.5 2\n1 1 0.6 2\n", "# made by\nwho\ttick\teast\tnorth\n1\t0\t0.5\t2\n"})
+        EXPECT_TRUE(looks_like_table(text)) << text;
+    for (const char* text : {"who walked where today\nand then went back\n", "who tick east north\n1 0 0.5\n",
+                             "1 0 0.5 2\n1 1 0.6 2\n", "a b\n1 2\n", "who tick east north\n", ""})
+        EXPECT_FALSE(looks_like_table(text)) << text;
+}
+
 TEST(TableKinds, WhatIsMissingIsSaid) {
     EXPECT_EQ(table_refusal("1,0,0,0\n1,1,0,0\n"),
               "f.csv: line 1: there is no header; begin the file with a line that names the columns, such as t,x,y,r");
     EXPECT_NE(table_refusal("1,0,0,car\n").find("there is no header"), std::string::npos);
     EXPECT_NE(table_refusal("id,t,lat,lon\n1,0,50,8\n").find("degrees: turn them into metres first"),
               std::string::npos);
-    EXPECT_NE(table_refusal("id,t,east,north\n1,0,50,8\n").find("say what it is by the option columns"),
+    EXPECT_NE(table_refusal("id,t,east,north\n1,0,50,8\n").find("say what it is by the option columns, such as x=east"),
               std::string::npos);
+    EXPECT_NE(table_refusal("id,t,z,x [px],y [px]\n1,0,0,50,8\n").find("such as x=x [px]"), std::string::npos);
+    EXPECT_NE(table_refusal("id,timestep,x,y\n1,0,0,0\n").find("frame numbers in place of times"), std::string::npos);
+    const std::string tracks = "who,t,x,y,r\na,0,0,0,1\na,1,0,0,1\nb,0,0,0,1\n";
+    EXPECT_EQ(table_refusal(tracks),
+              "f.csv: line 4, column 2 (t): the time does not come after 1 of the row before; sort the rows and remove "
+              "doubles, or, if these are several tracks, say which column names them, such as columns id=who");
+    EXPECT_EQ(table_clips_of(tracks, with_columns("id=who")).size(), 2u);
     EXPECT_NE(table_refusal("id,time,x,y\n1,2024-05-01 12:00:00.1,0,0\n").find("is a time of day; give seconds"),
               std::string::npos);
     EXPECT_NE(table_refusal("# a\n# b\n").find("blank lines and comments"), std::string::npos);

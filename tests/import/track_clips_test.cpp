@@ -90,6 +90,37 @@ TEST(TrackClips, TheStepIsFoundHoweverTimesAreRounded) {
     }
 }
 
+/// 60 frames a second are 16 or 17 ms apart: 0.04 of a frame from where they were.
+TEST(TrackClips, TimesInMillisecondsAreInStepFromWhicheverFrame) {
+    for (const double rate : {24.0, 29.97, 30.0, 59.94, 60.0, 120.0}) {
+        for (const double clock : {0.0, 1.7e9}) {
+            std::string text = kTracksHead;
+            for (int first = 0; first < 12; ++first) {
+                const double start = clock + first / rate;
+                text += rows_of_track("whole" + std::to_string(first), start, 1 / rate, steps_up_to(70), "%.3f");
+                text += rows_of_track("gaps" + std::to_string(first), start, 1 / rate,
+                                      {0, 1, 2, 3, 9, 10, 11, 12, 13, 14, 15, 16, 17, 40, 41, 43, 60}, "%.3f");
+            }
+            for (const ImportedClip& clip : table_tracks(text)) {
+                SCOPED_TRACE(std::to_string(rate) + ' ' + clip.id);
+                EXPECT_EQ(all_said(clip).find("not uniform"), std::string::npos) << all_said(clip);
+                ASSERT_EQ(clip.clip->count(), clip.id.starts_with("gaps") ? 61 : 71);
+                EXPECT_NEAR(clip.clip->dt(), 1 / rate, 2e-5);
+                for (int i = 0; i < clip.clip->count(); ++i)
+                    EXPECT_NEAR(clip.clip->samples()[static_cast<std::size_t>(i)].x, i, 1e-9);
+            }
+        }
+    }
+    const auto alone = table_tracks("t,x,y,r\n0,0,0,1\n0.017,1,0,1\n0.033,2,0,1\n0.05,3,0,1\n0.067,4,0,1\n");
+    EXPECT_EQ(alone[0].clip->count(), 5);
+    EXPECT_EQ(all_said(alone[0]).find("not uniform"), std::string::npos) << all_said(alone[0]);
+    // What was not rounded, or is a whole millisecond off, is out of step as ever.
+    for (const char* const late : {"0.0205", "0.021"}) {
+        const auto read = table_tracks(kTracksHead + "a,0,0,0,1\na," + late + ",1,0,1\na,0.04,2,0,1\n");
+        EXPECT_NE(all_said(read[0]).find("not uniform"), std::string::npos) << late;
+    }
+}
+
 TEST(TrackClips, TracksOfOneFileShareItsStepToTheLastBit) {
     const auto read = table_tracks(kTracksHead + rows_of_track("a", 0, 0.1, steps_up_to(50), "%.17g") +
                                    rows_of_track("b", 17.3, 0.1, steps_up_to(9), "%.17g") +

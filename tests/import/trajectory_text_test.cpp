@@ -67,6 +67,37 @@ TEST(TrajectoryText, TrajnetHasFramePedXY) {
     EXPECT_EQ(read[1].clip->dt(), 0.4);
 }
 
+/// Two who walk, a row a point in four columns: by frames, as TrajNet has them, or by ids.
+TEST(TrajectoryText, WhetherIdsComeFirstIsToldByWhoWalks) {
+    for (const bool by_id : {false, true}) {
+        for (const bool frame_first : {false, true}) {
+            for (const int people : {2, 9}) {
+                std::string text;
+                const int rows = 12;
+                for (int row = 0; row < people * rows; ++row) {
+                    const int id = by_id ? row / rows : row % people, frame = by_id ? row % rows : row / people;
+                    const std::string place = std::to_string(0.1 * frame + 2 * id) + ' ' + std::to_string(3 * id % 7);
+                    text += (frame_first ? std::to_string(frame) + ' ' + std::to_string(id)
+                                         : std::to_string(id) + ' ' + std::to_string(frame)) +
+                            ' ' + place + '\n';
+                }
+                SCOPED_TRACE(text.substr(0, 60));
+                const auto read = text_clips(text);
+                // By frames, ids in the first column are no walk from row to row: that is left to a comment.
+                if (!frame_first && !by_id) continue;
+                ASSERT_EQ(read.size(), static_cast<std::size_t>(people));
+                EXPECT_EQ(read[1].clip->count(), rows);
+                EXPECT_NEAR(read[1].clip->samples()[5].x, 2.5, 1e-12);
+                EXPECT_EQ(read[0].facts.format, frame_first ? "trajnet" : "petrack");
+                EXPECT_EQ(track_warns(read[0], "are taken as id frame x y"), !frame_first);
+            }
+        }
+    }
+    EXPECT_EQ(text_clips("1 0 1 2\n1 1 1.1 2\n1 2 1.2 2\n").size(), 1u) << "one who walks";
+    EXPECT_EQ(text_clips("5 1 1 2\n5 2 4.1 2\n5 3 7.2 2\n").size(), 3u) << "three in one frame";
+    EXPECT_EQ(text_clips("#framerate: 5\n# frame id x y\n1 0 1 2\n1 1 1.1 2\n1 2 1.2 2\n").size(), 3u) << "as said";
+}
+
 TEST(TrajectoryText, StepsCountWhateverTheFrameNumbers) {
     // ETH: every sixth frame of 15 a second.
     const auto read = text_clips("780 1 8 3\n786 1 9 3\n786 2 0 0\n792 2 1 0\n");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace mobbscope {
@@ -13,11 +14,24 @@ constexpr double kHeadingDistance = 0.1;  // metres: the contract's least distan
 
 }  // namespace
 
-std::optional<std::size_t> first_out_of_step(std::span<const TimedDisk> frames) {
+bool is_in_milliseconds(double t) {
+    const double count = t / kMillisecond;
+    constexpr double kNoise = 8 * std::numeric_limits<double>::epsilon();
+    return std::abs(count - std::round(count)) <= kNoise * std::abs(count);
+}
+
+double time_tolerance(double step, double rounding) {
+    constexpr double kFewest = 4;         // so many times what times are rounded to, steps are still told apart
+    constexpr double kNearly = 1 - 1e-6;  // a whole one off is no rounding
+    return std::max(kFrameTolerance * step, step >= kFewest * rounding ? kNearly * rounding : 0);
+}
+
+std::optional<std::size_t> first_out_of_step(std::span<const TimedDisk> frames, double rounding) {
     const double begin = frames.front().t;
     const double dt = (frames.back().t - begin) / static_cast<double>(frames.size() - 1);
+    const double tolerance = time_tolerance(dt, rounding);
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        if (std::abs(frames[i].t - (begin + static_cast<double>(i) * dt)) > kFrameTolerance * dt) return i;
+        if (std::abs(frames[i].t - (begin + static_cast<double>(i) * dt)) > tolerance) return i;
     }
     return std::nullopt;
 }

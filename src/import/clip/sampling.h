@@ -28,12 +28,25 @@ inline constexpr double kEndTolerance = 0.001;
 /// The most samples that a file may become.
 inline constexpr std::size_t kMaxSamples = 10'000'000;
 
-/// The first frame whose time is not t0 + i*dt within kFrameTolerance frames, with dt = span/(N-1); none if all are.
-/// Needs two frames at least.
-std::optional<std::size_t> first_out_of_step(std::span<const TimedDisk> frames);
+/// What times in whole milliseconds may have been rounded to, in seconds: 60 frames a second are then 16 or 17 ms
+/// apart.
+inline constexpr double kMillisecond = 0.001;
+
+/// Whether a time in seconds is a whole number of milliseconds.
+bool is_in_milliseconds(double t);
+
+/// How far times may be from where they were in step, in seconds: kFrameTolerance frames, or less than what all of them
+/// are rounded to, unless that is much of a frame. `rounding`: seconds; 0: they are not rounded.
+double time_tolerance(double step, double rounding);
+
+/// The first frame whose time is not t0 + i*dt within time_tolerance, with dt = span/(N-1); none if all are. Needs two
+/// frames at least.
+std::optional<std::size_t> first_out_of_step(std::span<const TimedDisk> frames, double rounding = 0);
 
 /// True if no frame is out of step.
-inline bool is_uniform(std::span<const TimedDisk> frames) { return !first_out_of_step(frames); }
+inline bool is_uniform(std::span<const TimedDisk> frames, double rounding = 0) {
+    return !first_out_of_step(frames, rounding);
+}
 
 /// How many samples lie at begin, begin + step, ... up to and including `end`; at least 1. A frame is `step` long. The
 /// result is a double, as absurd inputs give absurd counts.

@@ -81,6 +81,7 @@ class CsvParser {
         if (table_.has_id) {
             for (CsvTrack& track : table_.tracks) sort(track);
         }
+        if (table_.has_time && in_milliseconds_) table_.rounding = kMillisecond;
         tell();
         return std::move(table_);
     }
@@ -194,9 +195,24 @@ class CsvParser {
 
     // ---- columns
 
-    std::string also_by_option() const {
-        return "; or say what it is by the option columns, such as x=" +
-               (names_.empty() || names_.back().empty() ? "east" : shown(names_.back()));
+    /// The column that is most likely meant where none is known by its name: one whose unit alone is strange, else the
+    /// first of which nothing is known.
+    std::string likely_column(Column needed) const {
+        const auto is_meant = [&](const std::string& name) {
+            const std::optional<KnownColumn> known = known_column(plain_name(name).word);
+            return known && known->column == needed && !known_column(name);
+        };
+        const auto is_strange = [](const std::string& name) { return !name.empty() && !known_column(name); };
+        auto at = std::ranges::find_if(names_, is_meant);
+        if (at == names_.end()) at = std::ranges::find_if(names_, is_strange);
+        return at == names_.end() ? "" : *at;
+    }
+
+    /// "; or say what it is by the option columns, such as x=px".
+    std::string also_by_option(Column needed) const {
+        const std::string likely = likely_column(needed);
+        return "; or say what it is by the option columns, such as " + std::string(name(needed)) + '=' +
+               (likely.empty() ? "east" : shown(likely));
     }
 
     void choose_columns() {
@@ -219,7 +235,7 @@ class CsvParser {
             fail_in_header("the header names no column " + std::string(name(needed)) + "; it needs t,x,y,r or x,y,r" +
                            (has_word("lat") || has_word("latitude")
                                 ? ". Latitudes and longitudes are degrees: turn them into metres first"
-                                : also_by_option()));
+                                : also_by_option(needed)));
         }
         if (formula(Column::t)) formula(Column::frame).reset();
         table_.header_line = header_line_;
@@ -386,6 +402,7 @@ class CsvParser {
         }
         CsvTrack& track = table_.tracks[last_];
         track.rows.push_back(row());
+        in_milliseconds_ = in_milliseconds_ && is_in_milliseconds(track.rows.back().t);
         track.lines.push_back(lines_.number());
         // Tracks may lie across each other in any order, the rows of one motion may not.
         if (!table_.has_id && (table_.has_time || table_.has_frame) && track.rows.size() > 1) check_order(track);
@@ -448,8 +465,14 @@ class CsvParser {
     void check_order(const CsvTrack& track) const {
         const double before = track.rows[track.rows.size() - 2].t;
         if (track.rows.back().t > before) return;
-        fail(column_of_time(), time_word() + " does not come after " + short_double(before) +
-                                   " of the row before; sort the rows and remove doubles");
+        const std::string likely = likely_column(Column::id);
+        fail(column_of_time(),
+             time_word() + " does not come after " + short_double(before) +
+                 " of the row before; sort the rows and remove doubles" +
+                 (likely.empty() || options_.columns
+                      ? ""
+                      : ", or, if these are several tracks, say which column names them, such as columns id=" +
+                            shown(likely)));
     }
 
     /// Rows in order of their times, of which no two are one.
@@ -530,7 +553,8 @@ class CsvParser {
     std::array<std::optional<ColumnFormula>, std::size(kColumns)> formulas_{};  ///< in order of kColumns
     Remarks remarks_;
     std::unordered_map<std::string, std::size_t> track_of_;
-    std::size_t last_ = 0;  ///< the track that had a row last
+    std::size_t last_ = 0;         ///< the track that had a row last
+    bool in_milliseconds_ = true;  ///< all values of t
     mutable bool decimal_commas_ = false;
     CsvTable table_;
 };
@@ -554,33 +578,57 @@ std::shared_ptr<const CsvTable> CsvFile::table(const ImportOptions& options) con
     return last_;
 }
 
-bool looks_like_table(std::string_view text) {
-    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+namespace {
+
+/// What stands in the fields of a line.
+struct FieldCounts {
+    std::size_t fields = 0;
+    std::size_t numbers = 0;
+    std::size_t known = 0;  ///< names of columns
+};
+
+FieldCounts counts_of(std::string_view line, char separator) {
+    FieldCounts out;
+    for (std::string_view rest = line; !rest.empty(); ++out.fields) {
+        const std::size_t at =
+            std::min(separator == ' ' ? rest.find_first_of(" \t") : rest.find(separator), rest.size());
+        std::string_view field = trimmed(rest.substr(0, at));
+        if (field.size() > 1 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
+        out.numbers += parse_double(field).has_value();
+        out.known += known_column(field).has_value();
+        rest.remove_prefix(std::min(at + 1, rest.size()));
+        if (separator == ' ') rest = trimmed(rest);
+    }
+    return out;
+}
+
+/// Takes the next line off a text that is neither blank nor a comment; "" at the end.
+std::string_view take_line(std::string_view& text) {
     while (!text.empty()) {
         const std::size_t end = text.find('\n');
         const std::string_view line = trimmed(text.substr(0, end));
         text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-        if (line.empty() || line[0] == '#') continue;
-        const bool is_text = std::ranges::none_of(line, [](char c) { return c >= 0 && c < ' ' && c != '\t'; });
-        if (!is_text || std::string_view("{[<%").find(line[0]) != std::string_view::npos) return false;
-        const char separator = separator_of(line);
-        std::size_t fields = 0, numbers = 0, known = 0;
-        for (std::string_view rest = line; !rest.empty(); ++fields) {
-            const std::size_t at =
-                std::min(separator == ' ' ? rest.find_first_of(" \t") : rest.find(separator), rest.size());
-            std::string_view field = trimmed(rest.substr(0, at));
-            if (field.size() > 1 && field.front() == '"' && field.back() == '"')
-                field = field.substr(1, field.size() - 2);
-            numbers += parse_double(field).has_value();
-            known += known_column(field).has_value();
-            rest.remove_prefix(std::min(at + 1, rest.size()));
-            if (separator == ' ') rest = trimmed(rest);
-        }
-        // Blanks and tabs part trajectories too, and words of sentences.
-        if (separator == ' ' || separator == '\t') return numbers == 0 && known >= 3;
-        return fields >= 2 && (numbers == 0 ? known > 0 || fields > 2 : 2 * numbers >= fields);
+        if (!line.empty() && line[0] != '#') return line;
     }
-    return false;
+    return "";
+}
+
+}  // namespace
+
+bool looks_like_table(std::string_view text) {
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    const std::string_view line = take_line(text);
+    const bool is_text = std::ranges::none_of(line, [](char c) { return c >= 0 && c < ' ' && c != '\t'; });
+    if (line.empty() || !is_text || std::string_view("{[<%").find(line[0]) != std::string_view::npos) return false;
+    const char separator = separator_of(line);
+    const FieldCounts header = counts_of(line, separator);
+    if (separator != ' ' && separator != '\t')
+        return header.fields >= 2 &&
+               (header.numbers == 0 ? header.known > 0 || header.fields > 2 : 2 * header.numbers >= header.fields);
+    // Blanks and tabs part trajectories too, and words of sentences: under those there is no row of as many numbers.
+    if (header.numbers > 0) return false;
+    const FieldCounts row = counts_of(take_line(text), separator);
+    return header.known >= 3 || (header.fields >= 3 && row.fields == header.fields && 2 * row.numbers >= row.fields);
 }
 
 std::string csv_field(std::string_view text) {

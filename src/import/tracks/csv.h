@@ -31,6 +31,7 @@ struct CsvTable {
     bool has_time = false;    ///< seconds in t of each row
     bool has_frame = false;   ///< frame numbers there; without either t is 0
     bool has_radius = false;  ///< else r of every row is 0
+    double rounding = 0;      ///< seconds: what all times are rounded to; 0: that is not known
 
     std::optional<double> rate{};           ///< frames per second, where a comment tells
     double unit = 1;                        ///< metres per unit of x, y and r

@@ -48,6 +48,7 @@ TrackFile tracks_of(const CsvTable& table, double dt, double rate) {
     out.unit = table.unit;
     out.unit_assumption = unit_remark(table);
     if (!table.has_frame) out.least_step.reset();
+    out.rounding = table.rounding;
     const bool has_when = table.has_time || table.has_frame;
     for (const CsvTrack& track : table.tracks) {
         Track& points = out.tracks.emplace_back(Track{track.id, {}});
@@ -86,7 +87,8 @@ void check_columns(const CsvTable& table, const std::string& file, const ImportO
 class MotionMaker {
   public:
     MotionMaker(const CsvTable& table, const ImportOptions& options)
-        : track_(table.tracks.front()),
+        : table_(table),
+          track_(table.tracks.front()),
           rows_(track_.rows),
           options_(options),
           has_time_(table.has_time || table.has_frame),
@@ -139,7 +141,7 @@ class MotionMaker {
 
   private:
     std::string resampled(double fps) const {
-        const std::size_t row = *first_out_of_step(rows_);
+        const std::size_t row = *first_out_of_step(rows_, table_.rounding);
         const double dt = (rows_.back().t - rows_.front().t) / static_cast<double>(rows_.size() - 1);
         return "the times are not uniform (line " + std::to_string(track_.lines[row]) + ": " +
                to_thousandth(rows_[row].t) + " s, in step would be " +
@@ -149,7 +151,7 @@ class MotionMaker {
 
     /// The rows' uniform spacing in seconds, or none. Gives rows without a time column their times.
     std::optional<double> spacing(SourceFacts& facts) {
-        if (options_.fps && (!has_time_ || rows_.size() == 1 || is_uniform(rows_))) {
+        if (options_.fps && (!has_time_ || rows_.size() == 1 || is_uniform(rows_, table_.rounding))) {
             facts.warnings.push_back({"fps does not apply: the rows are uniform in time and are the samples", "fps"});
         }
         if (!has_time_) {
@@ -161,10 +163,11 @@ class MotionMaker {
             return options_.dt;
         }
         if (options_.dt) facts.warnings.push_back({"dt does not apply: the column t gives the times", "dt"});
-        if (!is_uniform(rows_)) return std::nullopt;
+        if (!is_uniform(rows_, table_.rounding)) return std::nullopt;
         return (rows_.back().t - rows_.front().t) / static_cast<double>(rows_.size() - 1);
     }
 
+    const CsvTable& table_;
     const CsvTrack& track_;
     std::vector<TimedDisk> rows_;
     ImportOptions options_;
@@ -211,14 +214,15 @@ ImportOffer csv_offer(const CsvTable& table, const std::filesystem::path&, const
         first = std::min(first, track.rows.front().t);
         last = std::max(last, has_when ? track.rows.back().t : static_cast<double>(rows - 1) * options.dt.value_or(0));
         alone = alone && rows == 1;
-        if (has_when && !table.has_id) uniform = rows == 1 || is_uniform(track.rows);
+        if (has_when && !table.has_id) uniform = rows == 1 || is_uniform(track.rows, table.rounding);
     }
     out.seconds =
         table.has_frame ? (last - first) / rate.value_or(std::numeric_limits<double>::infinity()) : last - first;
     if (has_when && table.has_id && !alone) {
         const std::vector<Track> tracks = tracks_of(table, 0, 1).tracks;
-        const double usual = *most_frequent_step(tracks);
-        uniform = std::ranges::all_of(tracks, [&](const Track& t) { return grid_of(t, usual).in_step; });
+        const double usual = *most_frequent_step(tracks, table.rounding);
+        uniform =
+            std::ranges::all_of(tracks, [&](const Track& t) { return grid_of(t, usual, table.rounding).in_step; });
     }
     // Rows in step are the samples.
     if (table.has_frame && !options.dt) {

@@ -19,9 +19,10 @@ constexpr int kInProse = 1;   // "The frame rate was 25 fps", "all lengths in cm
 constexpr int kByItself = 2;  // "framerate: 25", "x/cm"
 
 // Between "frame rate" or "unit" and what it is.
-constexpr std::array<std::string_view, 22> kFillers{
-    "was", "is", "are",   "of", "about",  "approx",  "approximately", "ca",        "the",      "all", "set",
-    "to",  "a",  "fixed", "at", "length", "lengths", "coordinates",   "positions", "constant", "fps", "in"};
+constexpr std::array<std::string_view, 25> kFillers{
+    "was",       "is",       "are", "of", "about", "approx", "approximately", "ca",      "the",
+    "all",       "set",      "to",  "a",  "fixed", "at",     "length",        "lengths", "coordinates",
+    "positions", "constant", "fps", "in", "hz",    "1/s",    "s^-1"};
 // What is measured in metres without being where somebody is.
 constexpr std::array<std::string_view, 19> kOtherLengths{
     "height", "heights",  "z",          "width",  "widths",   "radius",   "radii", "size",     "sizes", "speed",
@@ -56,20 +57,23 @@ std::vector<std::string> words_of(std::string_view comment) {
     return out;
 }
 
-/// How many words from `at` on say "frame rate"; 0: none.
-std::size_t rate_key(std::span<const std::string> words, std::size_t at) {
+/// How many words from `at` on count frames by the second; 0: none.
+std::size_t rate_unit(std::span<const std::string> words, std::size_t at) {
+    if (at >= words.size()) return 0;
     const std::string_view word = bare(words[at]);
-    if (word == "framerate" || word == "frame-rate" || word == "frame_rate" || word == "fps") return 1;
-    return word == "frame" && at + 1 < words.size() && bare(words[at + 1]) == "rate" ? 2 : 0;
+    if (word == "fps" || word == "frames/s" || word == "frames/second" || word == "frames/sec") return 1;
+    const bool is_long = word == "frames" && at + 2 < words.size() &&
+                         (bare(words[at + 1]) == "per" || bare(words[at + 1]) == "a") &&
+                         (bare(words[at + 2]) == "second" || bare(words[at + 2]) == "s");
+    return is_long ? 3 : 0;
 }
 
-/// Whether from `at` on frames are counted by the second.
-bool is_rate_unit(std::span<const std::string> words, std::size_t at) {
-    if (at >= words.size()) return false;
+/// How many words from `at` on say "frame rate", or "frames per second" ahead of a number; 0: none.
+std::size_t rate_key(std::span<const std::string> words, std::size_t at) {
     const std::string_view word = bare(words[at]);
-    if (word == "fps" || word == "frames/s" || word == "frames/second" || word == "frames/sec") return true;
-    return word == "frames" && at + 2 < words.size() && (bare(words[at + 1]) == "per" || bare(words[at + 1]) == "a") &&
-           (bare(words[at + 2]) == "second" || bare(words[at + 2]) == "s");
+    if (word == "framerate" || word == "frame-rate" || word == "frame_rate") return 1;
+    if (word == "frame" && at + 1 < words.size() && bare(words[at + 1]) == "rate") return 2;
+    return rate_unit(words, at);
 }
 
 /// A number, with its unit behind it or not: "25", "25fps", "25/s".
@@ -105,7 +109,7 @@ void Remarks::read_rate(const std::vector<std::string>& words, std::string_view 
     int weight = kInProse;
     for (std::size_t at = 0; at < words.size() && !found; ++at) {
         const std::optional<double> number = rate_number(words[at]);
-        if (number && (bare(words[at]).ends_with("fps") || is_rate_unit(words, at + 1))) found = number;
+        if (number && (bare(words[at]).ends_with("fps") || rate_unit(words, at + 1) > 0)) found = number;
         const std::size_t key = rate_key(words, at);
         is_about_rate = is_about_rate || key > 0 || found;
         if (key == 0 || found) continue;

@@ -1,5 +1,6 @@
 // Trajectories in columns: which of four formats a text is, and its rows.
 #include <import/clip/column_names.h>
+#include <import/clip/sampling.h>
 #include <import/tracks/remarks.h>
 #include <import/tracks/tracks.h>
 #include <mobb/clip.h>
@@ -93,9 +94,16 @@ class TextTracksParser {
         }
         if (tracks_.empty()) lines_.fail("the file has no row; " + std::string(kFormats));
         TrackFile out;
-        out.format = columns_.format;
         out.tracks = tracks_.take(file_);
         out.warnings = remarks_.warnings();
+        if (columns_.format == kTrajnet.format && is_id_first(out.tracks)) {
+            columns_ = kPetrackFlat;
+            out.tracks = with_ids_first(out.tracks);
+            out.warnings.emplace_back(
+                "the rows are taken as id frame x y: as frame ped x y, which TrajNet has, people would jump about; a "
+                "comment ahead of them, such as '# frame id x y', says what they are");
+        }
+        out.format = columns_.format;
         tell_rate(out);
         tell_unit(out);
         tell_radius(out);
@@ -199,6 +207,52 @@ class TextTracksParser {
         }
     }
 
+    // ---- four columns of numbers: frame ped x y, as TrajNet has them, or id frame x y
+
+    /// Of the first kind until all rows are read. Rows of one id that follow each other are a walk, which is what
+    /// tells.
+    void look_at_order(double x, double y) {
+        const double first = number(kTrajnet.frame, kMaxFrame), second = number(kTrajnet.id, kMaxFrame);
+        if (rows_++ > 0 && first == last_.first && second > last_.second) {
+            ++steps_below_;
+            length_below_ += std::hypot(x - last_.x, y - last_.y);
+        }
+        last_ = {first, second, x, y};
+    }
+
+    bool is_id_first(const std::vector<Track>& as_trajnet) const {
+        // Where nobody has two points in the other order, who walks takes steps of less than so many metres.
+        constexpr double kLongestStep = 1;
+        constexpr double kClearly = 4;
+        if (2 * steps_below_ < rows_) return false;
+        double length = 0;
+        std::size_t steps = 0;
+        for (const Track& track : as_trajnet) {
+            steps += track.points.size() - 1;
+            for (std::size_t i = 1; i < track.points.size(); ++i)
+                length +=
+                    std::hypot(track.points[i].x - track.points[i - 1].x, track.points[i].y - track.points[i - 1].y);
+        }
+        const double usual = steps > 0 ? length / static_cast<double>(steps) : kClearly * kLongestStep;
+        return kClearly * length_below_ < usual * static_cast<double>(steps_below_);
+    }
+
+    std::vector<Track> with_ids_first(const std::vector<Track>& as_trajnet) const {
+        std::vector<TrackPoint> points;
+        for (const Track& track : as_trajnet) {
+            const double frame = *parse_double(track.id);
+            for (const TrackPoint& point : track.points)
+                points.push_back({frame, point.x, point.y, point.line, point.frame});
+        }
+        std::ranges::sort(points, {}, &TrackPoint::line);
+        TrackCollector out;
+        for (TrackPoint& point : points) {
+            const double id = std::exchange(point.r, 0);
+            out.add(std::to_string(static_cast<long long>(id)), point);
+        }
+        return out.take(file_);
+    }
+
     double number(int column, double largest) const {
         const auto& [word, known] = words_[static_cast<std::size_t>(column)];
         const std::optional<double> value = std::isnan(known) ? parse_double(word) : known;
@@ -224,6 +278,7 @@ class TextTracksParser {
 
     void add(double x, double y, double r = 0, std::string_view label = {}) {
         const double frame = columns_.timed ? number(columns_.frame, mobb::kMaxTime) : whole_number(columns_.frame);
+        in_milliseconds_ = in_milliseconds_ && is_in_milliseconds(frame);
         const double id = whole_number(columns_.id);
         if (id != id_) {
             id_ = id;
@@ -233,7 +288,9 @@ class TextTracksParser {
     }
 
     void read_point() {
-        add(number(columns_.x, mobb::kMaxLength), number(columns_.y, mobb::kMaxLength), radius());
+        const double x = number(columns_.x, mobb::kMaxLength), y = number(columns_.y, mobb::kMaxLength);
+        add(x, y, radius());
+        if (columns_.format == kTrajnet.format) look_at_order(x, y);
         if (columns_.z >= 0) heights_.push_back(number(columns_.z, mobb::kMaxLength));
     }
 
@@ -271,6 +328,7 @@ class TextTracksParser {
     void tell_rate(TrackFile& out) const {
         if (columns_.timed) {
             out.timed = true;
+            if (in_milliseconds_) out.rounding = kMillisecond;
         } else if (remarks_.rate()) {
             out.rate = *remarks_.rate();
         } else if (columns_.format == kSdd.format) {
@@ -350,7 +408,17 @@ class TextTracksParser {
     std::string id_text_;
     TrackCollector tracks_;
     std::vector<double> heights_;
+    bool in_milliseconds_ = true;  ///< all frames; of use where they are times
     int lost_ = 0;
+
+    /// A row of kTrajnet.
+    struct Row {
+        double first = 0, second = 0, x = 0, y = 0;
+    };
+    Row last_;
+    std::size_t rows_ = 0;
+    std::size_t steps_below_ = 0;  ///< rows that may be the next point of the one in the row before
+    double length_below_ = 0;      ///< of the way from there to here
 };
 
 }  // namespace

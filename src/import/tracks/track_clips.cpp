@@ -68,7 +68,7 @@ class FrameClock {
             first_ = std::min(first_, track.points.front().frame);
             last_ = std::max(last_, track.points.back().frame);
         }
-        const std::optional<double> step = most_frequent_step(file.tracks);
+        const std::optional<double> step = most_frequent_step(file.tracks, file.rounding);
         if (!step && !file.least_step && !options.dt) {
             throw std::invalid_argument(
                 "every track has one row, which does not tell how long it lasts; give dt (seconds)");
@@ -95,10 +95,10 @@ class FrameClock {
 };
 
 /// The line of the first point that does not come one step after the one before, or of the only one.
-int line_out_of_step(std::span<const TrackPoint> points, double step) {
+int line_out_of_step(std::span<const TrackPoint> points, double step, double rounding) {
     for (std::size_t i = 1; i < points.size(); ++i) {
         const double between = points[i].frame - points[i - 1].frame;
-        if (std::abs(between - step) > 2 * kFrameTolerance * step) return points[i].line;
+        if (std::abs(between - step) > 2 * time_tolerance(step, rounding)) return points[i].line;
     }
     return points.back().line;
 }
@@ -143,7 +143,7 @@ class TrackClipMaker {
     /// Nothing if the track is not there in the time that is taken.
     std::optional<ImportedClip> make(const Track& track) {
         const std::span<const TrackPoint> points = track.points;
-        TrackGrid grid = grid_of(track, clock_.usual_step());
+        TrackGrid grid = grid_of(track, clock_.usual_step(), file_.rounding);
         SourceFacts facts = common_;
         facts.label = track.label;
         facts.frames = static_cast<int>(points.size());
@@ -194,7 +194,7 @@ class TrackClipMaker {
     /// What is done to a track, or is not.
     void warn_of(std::span<const TrackPoint> points, const TrackGrid& grid,
                  std::vector<ImportWarning>& warnings) const {
-        const int line = line_out_of_step(points, clock_.usual_step());
+        const int line = line_out_of_step(points, clock_.usual_step(), file_.rounding);
         if (grid.has_gaps) {
             const double filled = grid.steps - static_cast<double>(points.size() - 1);
             warnings.push_back({"there are gaps, which are filled linearly", "", line, std::size_t(filled)});

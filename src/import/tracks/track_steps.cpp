@@ -18,6 +18,8 @@ namespace {
 
 // Points of equal steps, each within kFrameTolerance of its place, are at most so much nearer or farther than others.
 constexpr double kSpread = 4 * kFrameTolerance;
+// Rounded ones are at most apart what they are rounded to; a little more, as doubles add to it.
+constexpr double kRounded = 1.001;
 
 // Steps of a track that are together so little from as many of the file's are those, of which it is so much.
 constexpr double kSameStep = 1e-6;
@@ -79,33 +81,35 @@ double common_step(std::span<const StepCount> counts, double largest) {
     return whole ? most_frequent : without_noise(static_cast<double>(sum / static_cast<long double>(all)), largest);
 }
 
-/// How many steps a track lasts whose points are whole steps apart, to kFrameTolerance; none if they are not. The step
+/// How many steps a track lasts whose points are whole steps apart, to time_tolerance; none if they are not. The step
 /// that is held against the points is what the track's span makes of so many, so `step` need not be exact.
-std::optional<double> steps_in(std::span<const TrackPoint> points, double step) {
+std::optional<double> steps_in(std::span<const TrackPoint> points, double step, double rounding) {
     double steps = 0;
     for (std::size_t i = 1; i < points.size(); ++i) steps += steps_between(points[i - 1], points[i], step);
     if (!(steps <= kMaxFrame)) return std::nullopt;
     const double first = points.front().frame;
     const double exact = (points.back().frame - first) / steps;
+    const double tolerance = time_tolerance(exact, rounding);
     double at = 0;
     for (std::size_t i = 1; i < points.size(); ++i) {
         at += steps_between(points[i - 1], points[i], step);
-        if (std::abs(points[i].frame - (first + at * exact)) > kFrameTolerance * exact) return std::nullopt;
+        if (std::abs(points[i].frame - (first + at * exact)) > tolerance) return std::nullopt;
     }
     return steps;
 }
 
 }  // namespace
 
-std::optional<double> most_frequent_step(std::span<const Track> tracks) {
+std::optional<double> most_frequent_step(std::span<const Track> tracks, double rounding) {
     const std::vector<StepCount> counts = step_counts(tracks);
     std::span<const StepCount> best;
     std::size_t most = 0;
     std::size_t within = 0;  // counts [begin, end)
     std::size_t end = 0;
     for (std::size_t begin = 0; begin < counts.size(); ++begin) {
-        for (; end < counts.size() && counts[end].step <= (1 + kSpread) * counts[begin].step; ++end)
-            within += counts[end].count;
+        const double shortest = counts[begin].step;
+        const double spread = std::max(kSpread * shortest, kRounded * time_tolerance(shortest, rounding));
+        for (; end < counts.size() && counts[end].step <= shortest + spread; ++end) within += counts[end].count;
         if (within > most) {
             most = within;
             best = std::span(counts).subspan(begin, end - begin);
@@ -119,7 +123,7 @@ std::optional<double> most_frequent_step(std::span<const Track> tracks) {
     return common_step(best, largest);
 }
 
-TrackGrid grid_of(const Track& track, double usual) {
+TrackGrid grid_of(const Track& track, double usual, double rounding) {
     const std::span<const TrackPoint> points = track.points;
     if (points.size() == 1) return {0, usual};
     const double span = points.back().frame - points.front().frame;
@@ -129,9 +133,9 @@ TrackGrid grid_of(const Track& track, double usual) {
         const double step = std::abs(span - steps * usual) <= kSameStep * usual ? usual : span / steps;
         return TrackGrid{steps, step, true, steps > rows};
     };
-    if (steps_in(points, span / rows) == rows) return grid(rows);
-    for (const double step : {usual, *most_frequent_step({&track, 1})}) {
-        if (const auto steps = steps_in(points, step)) return grid(*steps);
+    if (steps_in(points, span / rows, rounding) == rows) return grid(rows);
+    for (const double step : {usual, *most_frequent_step({&track, 1}, rounding)}) {
+        if (const auto steps = steps_in(points, step, rounding)) return grid(*steps);
     }
     return {.in_step = false};
 }

@@ -48,6 +48,7 @@ struct TrackFile {
     std::vector<Track> tracks;  ///< at least one; ids differ; in order of first appearance
 
     bool timed = false;          ///< the points have times in seconds in place of frame numbers; rate is 1
+    double rounding = 0;         ///< seconds: what all of those times are rounded to; 0: that is not known
     double rate = 1;             ///< frames per second, see rate_of_steps
     bool rate_of_steps = false;  ///< the rate counts usual steps from point to point, not frame numbers
     /// Frames between points, where no track has two; none: then dt must say it.
