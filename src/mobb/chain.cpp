@@ -113,6 +113,7 @@ void Chain::append(std::span<const ChainLink> links) {
 }
 
 void Chain::drop_before(double seconds) {
+    if (std::isnan(seconds)) throw std::invalid_argument("the chain time to drop before must not be NaN");
     const auto ends_later = [&](const Link& link) { return link.end() * dt_ > seconds; };
     auto stays = std::find_if(links_.begin(), links_.end() - 1, ends_later);
     if (stays == links_.begin()) return;
