@@ -19,7 +19,7 @@ namespace mobb {
 
 namespace {
 
-std::shared_ptr<const Tree> checked(std::shared_ptr<const Tree> tree) {
+std::shared_ptr<const Tree> existing_tree(std::shared_ptr<const Tree> tree) {
     if (!tree) throw std::invalid_argument("a chain part needs a tree");
     return tree;
 }
@@ -59,7 +59,7 @@ Rectangle chain_rectangle(const KDop& outline, double rounding) {
 }  // namespace
 
 ChainPart::ChainPart(std::shared_ptr<const Tree> tree)
-    : tree_(checked(std::move(tree))), outline_(outline_of(tree_->clip().samples())) {}
+    : tree_(existing_tree(std::move(tree))), outline_(outline_of(tree_->clip().samples())) {}
 
 Chain::Chain(std::span<const ChainLink> links) {
     if (links.empty()) throw std::invalid_argument("a chain needs at least one link");
