@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -163,6 +164,58 @@ TEST_F(WorldTest, WhomSeveralMeetFirstIsWhomEachMeetsFirst) {
     EXPECT_GT(late, 5);
 }
 
+TEST_F(WorldTest, TheOnlyOneThatIsMetIsFoundAmongAnyNumber) {
+    // Walkers that come near the candidate's way from the side and stop before it; they are asked in the order of
+    // agents.
+    const PlayedMove candidate = moves.motion(5000, 0, 0, OrientedPlacement({{0, 0}, 0, 0}));
+    const OrientedPlacement aside({{0, -2.6}, 90, 0}), other_side({{0, 2.6}, -90, 0});
+    for (const int count : {1, 2, 63, 64, 65, 127, 128, 129, 150, 200, 1000}) {
+        ReservationGrid nobody({20, 20});
+        for (int agent = 0; agent < count; ++agent) nobody.reserve(moves.motion(agent, 0, 0, aside));
+        EXPECT_TRUE(nobody.around(candidate).is_clear(candidate));
+        for (const int place : {0, 1, 62, 63, 64, 65, 126, 127, 128, 129, 199, count - 1}) {
+            if (place >= count) continue;
+            ReservationGrid reservations({20, 20});
+            for (int agent = 0; agent < count; ++agent)
+                reservations.reserve(moves.motion(agent, 0, 0, agent == place ? candidate.at : aside));
+            const Surroundings all = reservations.around(candidate);
+            FirstMet met;
+            const PlayedMove* const asked_about = &candidate;
+            all.find_first(std::span(&asked_about, 1), std::span(&met, 1));
+            EXPECT_EQ(met.index, static_cast<std::size_t>(place)) << count;
+            EXPECT_EQ(met.asked, place + 1) << count;
+            EXPECT_FALSE(all.is_clear(candidate));
+            const std::optional<Blocker> found = all.blocker(candidate);
+            ASSERT_TRUE(found) << place << " of " << count;
+            EXPECT_EQ(found->agent, place);
+            EXPECT_EQ(all.contact_times(candidate).first, 0) << place << " of " << count;
+        }
+    }
+
+    // The other way round: one of many candidates meets the last of 130.
+    ReservationGrid reservations({20, 20});
+    for (int agent = 0; agent < 130; ++agent)
+        reservations.reserve(moves.motion(agent, 0, 0, agent == 129 ? other_side : aside));
+    const PlayedMove meeting = moves.motion(5000, 0, 0, other_side);
+    const Surroundings all = reservations.around(5000, {glm::dvec2(-10), glm::dvec2(10)}, 0, 10);
+    for (const std::size_t count : {1U, 2U, 63U, 64U, 65U, 127U, 128U, 129U, 200U, 1000U}) {
+        for (const std::size_t place : {std::size_t{0}, std::size_t{1}, std::size_t{63}, std::size_t{64},
+                                        std::size_t{65}, std::size_t{127}, std::size_t{128}, count - 1}) {
+            if (place >= count) continue;
+            std::vector<const PlayedMove*> candidates(count, &candidate);
+            candidates[place] = &meeting;
+            std::vector<FirstMet> met(count);
+            all.find_first(candidates, met);
+            const std::vector<CandidateCheck> checks = all.check_all(candidates);
+            for (std::size_t i = 0; i < count; ++i) {
+                EXPECT_EQ(met[i].index, i == place ? 129 : FirstMet::kNobody) << i << " of " << count;
+                EXPECT_EQ(checks[i].collides, i == place) << i << " of " << count;
+                EXPECT_EQ(checks[i].asked, met[i].asked) << i << " of " << count;
+            }
+        }
+    }
+}
+
 TEST_F(WorldTest, OfContactsAtOneTimeTheFirstAgentCounts) {
     ReservationGrid reservations({20, 20});
     const OrientedPlacement placement({{1, 2}, 30, 0});
@@ -228,6 +281,8 @@ TEST_F(WorldTest, WhatTouchesIsNearAndWhatLiesBesideIsNot) {
     for (int i = 0; i < 300; ++i) {
         const PlayedMove motion = random_motion(1, i, area, 8);
         const std::size_t reservation = reservations.reserve(motion);
+        // The shortest move, of who asks: what is near does not depend on what was reserved last.
+        const std::size_t own = reservations.reserve(moves.motion(2, 1, 6, motion.at));
         const PlayedMove same = moves.motion(2, 0, motion.move, motion.at);
         const auto is_near = [&](glm::dvec2 low, glm::dvec2 high, double begin, double end) {
             return !reservations.around(2, {low, high}, begin, end).is_clear(same);
@@ -251,7 +306,21 @@ TEST_F(WorldTest, WhatTouchesIsNearAndWhatLiesBesideIsNot) {
         EXPECT_FALSE(is_near(low, high, end, end + 3)) << i;
         EXPECT_TRUE(is_near(low, high, begin - 3, begin + kLeast)) << i;
         EXPECT_FALSE(is_near(low, high, begin - 3, begin)) << i;
+        reservations.withdraw(own);
         reservations.withdraw(reservation);
+    }
+}
+
+TEST(CountBefore, LeavesOutWhatEqualsTheLimit) {
+    CounterRandom random{4, 5, 6};
+    for (std::uint32_t size = 0; size < 70; ++size) {
+        std::vector<double> numbers;
+        for (std::uint32_t i = 0; i < size; ++i) numbers.push_back(random.below(20));
+        std::ranges::sort(numbers);
+        for (double limit = -1; limit <= 20; limit += 0.5) {
+            const auto less = std::ranges::count_if(numbers, [&](double number) { return number < limit; });
+            EXPECT_EQ(count_before(limit, numbers), static_cast<std::size_t>(less)) << limit << " of " << size;
+        }
     }
 }
 
@@ -379,6 +448,12 @@ TEST_F(WorldTest, ContactIsMeasuredInFullUpToTheMostThatCounts) {
         const ContactTimes just = others.contact_times(candidate, times.seconds);
         EXPECT_EQ(just.seconds, times.seconds) << i;
         EXPECT_EQ(just.first, times.first) << i;
+        // Up to none, and up to exactly what is found then.
+        const double some = others.contact_times(candidate, 0).seconds;
+        EXPECT_EQ(some > 0, times.seconds > 0) << i;
+        if (some < times.seconds) {
+            EXPECT_GT(others.contact_times(candidate, some).seconds, some) << i;
+        }
     }
     EXPECT_GT(over, 30);
     EXPECT_LT(over, 270);

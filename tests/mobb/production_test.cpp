@@ -325,39 +325,44 @@ TEST(Production, TheOnlyOneThatCollidesIsFoundAtAnyPlaceOfAnyNumber) {
     }
     for (const PlacedBlocks& miss : misses) ASSERT_FALSE(direct_search(a, miss));
     for (const PlacedBlocks& hit : hits) ASSERT_TRUE(direct_search(a, hit));
+    // Of all sorts, and of one that no first look decides.
+    std::vector<PlacedBlocks> undecided{misses[2]};
     for (const std::string_view set : sets.names()) {
         ASSERT_TRUE(use_instruction_set(set));
         for (const std::size_t count : {1U, 2U, 63U, 64U, 65U, 127U, 128U, 129U, 150U, 192U, 200U, 1000U}) {
-            std::vector<const PlacedBlocks*> others;
-            std::vector<BlocksPair> pairs;
-            for (std::size_t i = 0; i < count; ++i) others.push_back(&misses[i * 7 % misses.size()]);
-            const auto expect = [&](std::optional<std::size_t> first, std::optional<std::size_t> second) {
-                ASSERT_EQ(intersects_any(a, others), first) << set << ", of " << count;
-                pairs.clear();
-                for (const PlacedBlocks* other : others) pairs.push_back({other, &a});
-                const auto answers = std::make_unique<bool[]>(count);
-                for (std::size_t i = 0; i < count; ++i) answers[i] = first != i;
-                intersects_each(pairs, {answers.get(), count});
-                for (std::size_t i = 0; i < count; ++i)
-                    ASSERT_EQ(answers[i], first == i || second == i) << set << ", " << i << " of " << count;
-            };
-            expect({}, {});
-            for (const std::size_t place :
-                 {std::size_t{0}, std::size_t{1}, std::size_t{31}, std::size_t{62}, std::size_t{63}, std::size_t{64},
-                  std::size_t{65}, std::size_t{126}, std::size_t{127}, std::size_t{128}, std::size_t{129},
-                  std::size_t{191}, std::size_t{192}, std::size_t{640}, count - 2, count - 1}) {
-                if (place >= count) continue;
-                for (const PlacedBlocks& hit : hits) {
-                    const PlacedBlocks* const before = std::exchange(others[place], &hit);
-                    expect(place, {});
-                    others[place] = before;
+            for (const std::vector<PlacedBlocks>* missing : {&misses, &undecided}) {
+                std::vector<const PlacedBlocks*> others;
+                for (std::size_t i = 0; i < count; ++i) others.push_back(&(*missing)[i * 7 % missing->size()]);
+                const auto expect = [&](std::optional<std::size_t> first, std::optional<std::size_t> second) {
+                    ASSERT_EQ(intersects_any(a, others), first) << set << ", of " << count;
+                    std::vector<BlocksPair> pairs;
+                    for (const PlacedBlocks* other : others) pairs.push_back({other, &a});
+                    const auto answers = std::make_unique<bool[]>(count);
+                    for (std::size_t i = 0; i < count; ++i) answers[i] = first != i;
+                    intersects_each(pairs, {answers.get(), count});
+                    for (std::size_t i = 0; i < count; ++i)
+                        ASSERT_EQ(answers[i], first == i || second == i) << set << ", " << i << " of " << count;
+                };
+                expect({}, {});
+                for (const std::size_t place :
+                     {std::size_t{0}, std::size_t{1}, std::size_t{31}, std::size_t{62}, std::size_t{63},
+                      std::size_t{64}, std::size_t{65}, std::size_t{126}, std::size_t{127}, std::size_t{128},
+                      std::size_t{129}, std::size_t{191}, std::size_t{192}, std::size_t{640}, count - 2, count - 1}) {
+                    if (place >= count) continue;
+                    const PlacedBlocks* const miss = others[place];
+                    for (std::size_t k = 0; k<hits.size(); k += count> 200 ? 4 : 1) {
+                        others[place] = &hits[k];
+                        expect(place, {});
+                    }
+                    // A second one changes nothing for the first.
+                    for (const PlacedBlocks& hit : {hits[0], hits[1]}) {
+                        others[place] = &hit;
+                        const PlacedBlocks* const last = std::exchange(others[count - 1], &hits[0]);
+                        expect(place, count - 1);
+                        others[count - 1] = last;
+                    }
+                    others[place] = miss;
                 }
-                // A second one changes nothing for the first.
-                const PlacedBlocks* const before = std::exchange(others[place], &hits[1]);
-                const PlacedBlocks* const last = std::exchange(others[count - 1], &hits[0]);
-                expect(place, count - 1);
-                others[count - 1] = last;
-                others[place] = before;
             }
         }
     }

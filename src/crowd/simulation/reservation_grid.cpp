@@ -35,18 +35,6 @@ std::uint32_t put(std::vector<T>& values, std::vector<std::uint32_t>& free, cons
     return place;
 }
 
-/// How many of some numbers, the least first, are less than `limit`. Without a branch for each step, which would often
-/// be mispredicted.
-std::size_t count_before(double limit, const std::vector<double>& numbers) {
-    const double* from = numbers.data();
-    for (std::size_t left = numbers.size(); left > 0;) {
-        const std::size_t half = (left + 1) / 2;
-        from += half * static_cast<std::size_t>(from[half - 1] < limit);
-        left -= half;
-    }
-    return static_cast<std::size_t>(from - numbers.data());
-}
-
 /// Into the processor's caches: values up to `end`, the first few lines of them.
 template <class T>
 void fetch(const T* from, const T* end) {
@@ -78,6 +66,16 @@ void for_each_cell(const auto& range, const auto& visit) {
 }
 
 }  // namespace
+
+std::size_t count_before(double limit, const std::vector<double>& numbers) {
+    const double* from = numbers.data();
+    for (std::size_t left = numbers.size(); left > 0;) {
+        const std::size_t half = (left + 1) / 2;
+        from += half * static_cast<std::size_t>(from[half - 1] < limit);
+        left -= half;
+    }
+    return static_cast<std::size_t>(from - numbers.data());
+}
 
 ReservationGrid::ReservationGrid(glm::dvec2 area)
     : low_(-checked_area(area) / 2.0),

@@ -12,6 +12,10 @@
 
 namespace mobbscope {
 
+/// How many of some numbers, the least first, are less than `limit`. Without a branch for each step, which would often
+/// be mispredicted.
+std::size_t count_before(double limit, const std::vector<double>& numbers);
+
 /// The reserved motions of a crowd in a grid over the floor, each with its time. Memory grows with the motions that are
 /// not yet forgotten. Const calls are safe from any number of threads while nothing is reserved or forgotten.
 class ReservationGrid {
