@@ -19,7 +19,7 @@ namespace mobb {
 
 namespace {
 
-std::shared_ptr<const Tree> checked(std::shared_ptr<const Tree> tree) {
+std::shared_ptr<const Tree> existing_tree(std::shared_ptr<const Tree> tree) {
     if (!tree) throw std::invalid_argument("a chain part needs a tree");
     return tree;
 }
@@ -59,7 +59,7 @@ Rectangle chain_rectangle(const KDop& outline, double rounding) {
 }  // namespace
 
 ChainPart::ChainPart(std::shared_ptr<const Tree> tree)
-    : tree_(checked(std::move(tree))), outline_(outline_of(tree_->clip().samples())) {}
+    : tree_(existing_tree(std::move(tree))), outline_(outline_of(tree_->clip().samples())) {}
 
 Chain::Chain(std::span<const ChainLink> links) {
     if (links.empty()) throw std::invalid_argument("a chain needs at least one link");
@@ -113,6 +113,7 @@ void Chain::append(std::span<const ChainLink> links) {
 }
 
 void Chain::drop_before(double seconds) {
+    if (std::isnan(seconds)) throw std::invalid_argument("the chain time to drop before must not be NaN");
     const auto ends_later = [&](const Link& link) { return link.end() * dt_ > seconds; };
     auto stays = std::find_if(links_.begin(), links_.end() - 1, ends_later);
     if (stays == links_.begin()) return;

@@ -84,6 +84,7 @@ class Chain {
 
     /// Drops the links that end at or before a chain time (seconds), except the last. What stays keeps its sample
     /// indices and times, so the answers keep theirs. Takes time in proportion to the links that stay if one goes.
+    /// Throws std::invalid_argument if it is NaN.
     void drop_before(double seconds);
 
     double dt() const { return dt_; }

@@ -1,7 +1,6 @@
 #include <mobb/clip.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -38,13 +37,19 @@ Clip::Clip(double dt, std::vector<Disk> samples, Motion motion)
     }
 }
 
-bool is_valid(const Placement& placement) {
-    return within(placement.translate.x, kMaxLength) && within(placement.translate.y, kMaxLength) &&
-           within(placement.rotate_deg, 1e9) && within(placement.start, kMaxTime);
+void refuse_placement(glm::dvec2, double rotate_deg, double start) {
+    if (!within(rotate_deg, kMaxDegrees))
+        throw std::invalid_argument("rotate_deg must be finite and within 1e9 degrees");
+    if (!within(start, kMaxTime)) throw std::invalid_argument("start must be finite and within 1e12 s");
+    throw std::invalid_argument("translate must be finite and within 1e9 m");
+}
+
+void refuse_rotation() {
+    throw std::invalid_argument("a rotation's cosine and sine must have squares that add up to 1");
 }
 
 Rotation Rotation::from_degrees(double degrees) {
-    assert(within(degrees, 1e9));
+    if (!within(degrees, kMaxDegrees)) refuse_placement({}, degrees, 0);
     // Quarter turns first, so that 90, 180 and 270 degrees are exact and the rest is small.
     const double quarters = std::nearbyint(degrees / 90);
     const double rest = (degrees - quarters * 90) * (std::numbers::pi / 180);

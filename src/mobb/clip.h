@@ -4,7 +4,7 @@
 #include <glm/vec2.hpp>
 
 #include <algorithm>
-#include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -24,6 +24,8 @@ struct Disk {
 /// The largest coordinate or radius (m) and the longest duration or start time (s) that are taken for real.
 inline constexpr double kMaxLength = 1e9;
 inline constexpr double kMaxTime = 1e12;
+/// The largest angle of a rotation that is taken, degrees.
+inline constexpr double kMaxDegrees = 1e9;
 /// Seconds from sample to sample: with fewer, speeds and their squares would not all be numbers.
 inline constexpr double kLeastDt = 1e-12;
 
@@ -86,21 +88,46 @@ struct Placement {
     friend bool operator==(const Placement&, const Placement&) = default;
 };
 
-/// True if every number is finite and within kMaxLength and kMaxTime (the rotation: within 1e9 degrees).
-bool is_valid(const Placement& placement);
+/// True if every number is finite and within kMaxLength, kMaxDegrees and kMaxTime.
+inline bool is_valid(const Placement& placement) {
+    // Written so that NaN fails it.
+    return std::abs(placement.translate.x) <= kMaxLength && std::abs(placement.translate.y) <= kMaxLength &&
+           std::abs(placement.rotate_deg) <= kMaxDegrees && std::abs(placement.start) <= kMaxTime;
+}
+
+/// Throws std::invalid_argument, naming the number of a placement that is_valid does not take.
+[[noreturn]] void refuse_placement(glm::dvec2 translate, double rotate_deg, double start);
+
+/// The placement, or else refuses it: all that is placed is checked so when it is made. Compared with what is not a
+/// number, everything would be apart.
+inline const Placement& checked(const Placement& placement) {
+    // By its numbers, which may be in registers.
+    if (!is_valid(placement)) [[unlikely]]
+        refuse_placement(placement.translate, placement.rotate_deg, placement.start);
+    return placement;
+}
 
 /// Cosine and sine of a rotation, exact for multiples of 90 degrees.
 struct Rotation {
     double c = 1;
     double s = 0;
 
-    /// `degrees` must be finite and within 1e9.
+    /// Throws std::invalid_argument unless `degrees` is finite and within kMaxDegrees.
     static Rotation from_degrees(double degrees);
     glm::dvec2 operator()(glm::dvec2 v) const { return {c * v.x - s * v.y, s * v.x + c * v.y}; }
     Rotation inverse() const { return {c, -s}; }
     /// First `other`, then this.
     Rotation operator*(const Rotation& other) const { return {c * other.c - s * other.s, s * other.c + c * other.s}; }
 };
+
+/// Throws std::invalid_argument.
+[[noreturn]] void refuse_rotation();
+/// The rotation; refuses it unless the squares of cosine and sine add up to 1, within 1e-9.
+inline const Rotation& checked(const Rotation& rotation) {
+    if (!(std::abs(rotation.c * rotation.c + rotation.s * rotation.s - 1) <= 1e-9)) [[unlikely]]
+        refuse_rotation();
+    return rotation;
+}
 
 /// A disk that is rotated about the origin and then translated. Every sample that is placed comes through here, so that
 /// all of them agree bit for bit.
@@ -128,9 +155,10 @@ struct StoredDisks {
 };
 
 /// A clip seen through a placement: samples in world metres and global seconds. It refers to the clip, which must
-/// outlive it and stay where it is. Requires is_valid(placement).
+/// outlive it and stay where it is.
 class PlacedClip {
   public:
+    /// Throws std::invalid_argument, naming the number, unless is_valid(placement).
     PlacedClip(const Clip& clip, const Placement& placement)
         : samples_(clip.samples().data()),
           dt_(clip.dt()),
@@ -138,10 +166,8 @@ class PlacedClip {
           steps_(clip.steps()),
           clip_(&clip),
           rotate_deg_(placement.rotate_deg),
-          frame_{Rotation::from_degrees(placement.rotate_deg), placement.translate, placement.start, clip.reach(),
-                 clip.duration()} {
-        assert(is_valid(placement));
-    }
+          frame_{Rotation::from_degrees(checked(placement).rotate_deg), placement.translate, placement.start,
+                 clip.reach(), clip.duration()} {}
     PlacedClip(const Clip&&, const Placement&) = delete;
 
     const Clip& clip() const { return *clip_; }

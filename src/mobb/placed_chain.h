@@ -43,17 +43,16 @@ class ChainSamples {
 
 /// A chain seen through a placement: a node source of the traversal and a sample source of the direct search. Its
 /// answers are bit for bit those of the clip of all its samples. It refers to the chain, which must outlive it, stay
-/// where it is, and not change meanwhile. Requires is_valid(placement).
+/// where it is, and not change meanwhile.
 class PlacedChain {
   public:
+    /// Throws std::invalid_argument, naming the number, unless is_valid(placement).
     PlacedChain(const Chain& chain, const Placement& placement)
         : chain_(&chain),
           dt_(chain.dt()),
           until_(chain.until()),
-          frame_{Rotation::from_degrees(placement.rotate_deg), placement.translate, placement.start, chain.reach(),
-                 chain.duration()} {
-        assert(is_valid(placement));
-    }
+          frame_{Rotation::from_degrees(checked(placement).rotate_deg), placement.translate, placement.start,
+                 chain.reach(), chain.duration()} {}
     PlacedChain(const Chain&&, const Placement&) = delete;
 
     const Chain& chain() const { return *chain_; }
@@ -71,7 +70,7 @@ class PlacedChain {
     /// Those of a link whose tree has blocks. They refer to the place.
     PlacedBlocks blocks(const ChainNode& node, LinkPlace& place) const {
         place = {chain_->rotation(node.link), chain_->translate(node.link), node.first, node.until, frame_};
-        return {*chain_->part(node.link).tree().blocks(), place};
+        return PlacedBlocks::of_link(*chain_->part(node.link).tree().blocks(), place);
     }
     /// Global time, as the samples that bound the node have it.
     double begin(const ChainNode& node) const { return time(node.first); }

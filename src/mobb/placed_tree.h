@@ -9,9 +9,10 @@
 namespace mobb {
 
 /// A tree seen through a placement: a node source of the traversal. It refers to the tree, which must outlive it and
-/// stay where it is. Requires is_valid(placement).
+/// stay where it is.
 class PlacedTree {
   public:
+    /// Throws std::invalid_argument, naming the number, unless is_valid(placement).
     PlacedTree(const Tree& tree, const Placement& placement)
         : nodes_(tree.nodes().data()), placed_(tree.clip(), placement), tree_(&tree) {}
     PlacedTree(const Tree&&, const Placement&) = delete;
@@ -30,9 +31,7 @@ class PlacedTree {
     const PlacedClip& samples() const { return placed_; }
     bool has_blocks(const Node& node) const { return node.kind == BoxKind::block; }
     /// Those below the root of a tree that has blocks.
-    PlacedBlocks blocks(const Node&, LinkPlace&) const {
-        return {*tree_->blocks(), placed_.rotation(), placed_.frame().translate, placed_.frame().start};
-    }
+    PlacedBlocks blocks(const Node&, LinkPlace&) const { return PlacedBlocks::of_tree(*tree_->blocks(), frame()); }
     /// Global time, as the samples that bound the node have it: so a node is never apart from what its samples meet.
     double begin(const Node& node) const { return placed_.time(node.first); }
     double end(const Node& node) const { return placed_.time(node.end()); }

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <stdexcept>
 #include <type_traits>
 
 #include <mobb/scalar_lanes-inl.h>
@@ -62,7 +62,7 @@ std::optional<std::size_t> intersects_any(const PlacedBlocks& a, std::span<const
 }
 
 void intersects_each(std::span<const BlocksPair> pairs, std::span<bool> answers) {
-    assert(pairs.size() == answers.size());
+    if (pairs.size() != answers.size()) throw std::invalid_argument("intersects_each needs as many answers as pairs");
     chosen_queries().intersects_each(pairs.data(), pairs.size(), answers.data());
 }
 

@@ -7,7 +7,6 @@
 #include <mobb/separation.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -32,20 +31,17 @@ struct LinkPlace {
 /// the direct search. It refers to the blocks, which must outlive it and stay where they are.
 class alignas(64) PlacedBlocks {
   public:
-    /// Requires is_valid(placement).
+    /// Throws std::invalid_argument, naming the number, unless is_valid(placement).
     PlacedBlocks(const Blocks& blocks, const Placement& placement)
-        : PlacedBlocks(blocks, Rotation::from_degrees(placement.rotate_deg), placement.translate, placement.start) {
-        assert(is_valid(placement));
-    }
-    /// As a Placement, with a rotation that is known.
+        : PlacedBlocks(blocks, Rotation::from_degrees(checked(placement).rotate_deg), placement.translate,
+                       placement.start, 0, blocks.steps(), nullptr) {}
+    /// As a Placement, with a rotation that is known. Throws likewise, and unless the squares of cosine and sine add up
+    /// to 1, within 1e-9.
     PlacedBlocks(const Blocks& blocks, const Rotation& rotation, glm::dvec2 translate, double start)
-        : PlacedBlocks(blocks, rotation, translate, start, 0, blocks.steps(), nullptr) {}
+        : PlacedBlocks(blocks, checked(rotation), checked(Placement{.translate = translate, .start = start}).translate,
+                       start, 0, blocks.steps(), nullptr) {}
     PlacedBlocks(const Blocks&&, const Placement&) = delete;
-    /// As a link of a chain. The place must outlive it, too.
-    PlacedBlocks(const Blocks& blocks, const LinkPlace& link)
-        : PlacedBlocks(blocks, link.chain.rotation * link.rotation,
-                       link.chain.rotation(link.translate) + link.chain.translate, link.chain.start, link.first,
-                       link.until, &link) {}
+    PlacedBlocks(const Blocks&&, const Rotation&, glm::dvec2, double) = delete;
 
     const Blocks& blocks() const { return *blocks_; }
     /// From the clip's frame to the world's.
@@ -96,6 +92,24 @@ class alignas(64) PlacedBlocks {
     float slack() const { return slack_; }
 
   private:
+    friend class PlacedTree;
+    friend class PlacedChain;
+
+    // Of what is placed already: queries make these as they go, so nothing is checked again.
+    /// As the clip of a tree.
+    static PlacedBlocks of_tree(const Blocks& blocks, const PlacedFrame& tree) {
+        return {blocks, tree.rotation, tree.translate, tree.start, 0, blocks.steps(), nullptr};
+    }
+    /// As a link of a chain. The place must outlive it, too.
+    static PlacedBlocks of_link(const Blocks& blocks, const LinkPlace& link) {
+        return {blocks,
+                link.chain.rotation * link.rotation,
+                link.chain.rotation(link.translate) + link.chain.translate,
+                link.chain.start,
+                link.first,
+                link.until,
+                &link};
+    }
     PlacedBlocks(const Blocks& blocks, const Rotation& rotation, glm::dvec2 translate, double start, int first,
                  int until, const LinkPlace* link)
         : center_(rotation(blocks.origin()) + translate),
@@ -221,7 +235,8 @@ struct BlocksPair {
     const PlacedBlocks* b = nullptr;
 };
 
-/// Whether each pair collides: sooner than one by one. Requires as many answers as pairs.
+/// Whether each pair collides: sooner than one by one. Throws std::invalid_argument unless there are as many answers as
+/// pairs.
 void intersects_each(std::span<const BlocksPair> pairs, std::span<bool> answers);
 
 /// What watches the traversal of blocks, as TraversalObserver says: blocks are nodes by their numbers (see

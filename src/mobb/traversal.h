@@ -414,7 +414,8 @@ class Traversal {
         return pairs.stopped;
     }
 
-    bool test_blocks(int ia, const auto& na, int ib, const auto& nb) {
+    /// Out of line, so that trees without blocks keep no registers for it.
+    [[gnu::noinline]] bool test_blocks(int ia, const auto& na, int ib, const auto& nb) {
         LinkPlace place_a, place_b;
         const PlacedBlocks blocks_a = a_.blocks(na, place_a), blocks_b = b_.blocks(nb, place_b);
         const HitSink sink{[](void* receiver, int i, int j) -> bool { return (*static_cast<OnHit*>(receiver))(i, j); },

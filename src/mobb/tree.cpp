@@ -61,7 +61,8 @@ Tree::Tree(ClipPtr clip, const FitOptions& options) : clip_(std::move(clip)), op
 }
 
 std::size_t Tree::bytes() const {
-    return nodes_.size() * sizeof(Node) + places_.size() * sizeof(Place) + boxes_.size() * sizeof(Box);
+    return nodes_.capacity() * sizeof(Node) + places_.capacity() * sizeof(Place) + boxes_.capacity() * sizeof(Box) +
+           (blocks_ ? blocks_->bytes() : 0);
 }
 
 Box Tree::box(int i) const {
@@ -90,8 +91,11 @@ int Tree::build(SampleRange range, int parent, int level) {
 void Tree::build_blocks() {
     blocks_ = std::make_shared<const Blocks>(clip_);
     const double w = options_.time_scale;
-    const int top = blocks_->node(0).level;
-    for (int i = 0; i < blocks_->node_count(); ++i) {
+    const int top = blocks_->node(0).level, count = blocks_->node_count();
+    nodes_.reserve(static_cast<std::size_t>(count));
+    places_.reserve(static_cast<std::size_t>(count));
+    boxes_.reserve(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) {
         const Blocks::Node block = blocks_->node(i);
         nodes_.push_back({{}, block.first, block.count, -1, BoxKind::block});
         boxes_.push_back(box_around(block.bound, w * t0(nodes_.back()), w * t1(nodes_.back())));

@@ -68,7 +68,7 @@ class Tree {
     /// What the nodes of a production tree are, by the same numbers; of another tree nothing. All of these are leaves
     /// to a query, which goes on with the blocks.
     const Blocks* blocks() const { return blocks_.get(); }
-    /// Of the nodes and what belongs to them, without the clip.
+    /// Of memory: the nodes with all that belongs to them, blocks included, without the clip.
     std::size_t bytes() const;
 
     /// The node's box in the clip's own frame and time.

@@ -81,7 +81,7 @@ double heading_of(glm::dvec2 way);
 /// A placement with the cosine and sine of its rotation, made once for all that is placed so.
 struct OrientedPlacement {
     OrientedPlacement() = default;
-    /// `at.rotate_deg` must be finite and within 1e9.
+    /// Throws std::invalid_argument unless `at.rotate_deg` is finite and within mobb::kMaxDegrees.
     explicit OrientedPlacement(const mobb::Placement& at)
         : placement(at), rotation(mobb::Rotation::from_degrees(at.rotate_deg)) {}
 

@@ -11,9 +11,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <tuple>
 #include <vector>
 
@@ -161,6 +164,58 @@ TEST_F(WorldTest, WhomSeveralMeetFirstIsWhomEachMeetsFirst) {
     EXPECT_GT(late, 5);
 }
 
+TEST_F(WorldTest, TheOnlyOneThatIsMetIsFoundAmongAnyNumber) {
+    // Walkers that come near the candidate's way from the side and stop before it; they are asked in the order of
+    // agents.
+    const PlayedMove candidate = moves.motion(5000, 0, 0, OrientedPlacement({{0, 0}, 0, 0}));
+    const OrientedPlacement aside({{0, -2.6}, 90, 0}), other_side({{0, 2.6}, -90, 0});
+    for (const int count : {1, 2, 63, 64, 65, 127, 128, 129, 150, 200, 1000}) {
+        ReservationGrid nobody({20, 20});
+        for (int agent = 0; agent < count; ++agent) nobody.reserve(moves.motion(agent, 0, 0, aside));
+        EXPECT_TRUE(nobody.around(candidate).is_clear(candidate));
+        for (const int place : {0, 1, 62, 63, 64, 65, 126, 127, 128, 129, 199, count - 1}) {
+            if (place >= count) continue;
+            ReservationGrid reservations({20, 20});
+            for (int agent = 0; agent < count; ++agent)
+                reservations.reserve(moves.motion(agent, 0, 0, agent == place ? candidate.at : aside));
+            const Surroundings all = reservations.around(candidate);
+            FirstMet met;
+            const PlayedMove* const asked_about = &candidate;
+            all.find_first(std::span(&asked_about, 1), std::span(&met, 1));
+            EXPECT_EQ(met.index, static_cast<std::size_t>(place)) << count;
+            EXPECT_EQ(met.asked, place + 1) << count;
+            EXPECT_FALSE(all.is_clear(candidate));
+            const std::optional<Blocker> found = all.blocker(candidate);
+            ASSERT_TRUE(found) << place << " of " << count;
+            EXPECT_EQ(found->agent, place);
+            EXPECT_EQ(all.contact_times(candidate).first, 0) << place << " of " << count;
+        }
+    }
+
+    // The other way round: one of many candidates meets the last of 130.
+    ReservationGrid reservations({20, 20});
+    for (int agent = 0; agent < 130; ++agent)
+        reservations.reserve(moves.motion(agent, 0, 0, agent == 129 ? other_side : aside));
+    const PlayedMove meeting = moves.motion(5000, 0, 0, other_side);
+    const Surroundings all = reservations.around(5000, {glm::dvec2(-10), glm::dvec2(10)}, 0, 10);
+    for (const std::size_t count : {1U, 2U, 63U, 64U, 65U, 127U, 128U, 129U, 200U, 1000U}) {
+        for (const std::size_t place : {std::size_t{0}, std::size_t{1}, std::size_t{63}, std::size_t{64},
+                                        std::size_t{65}, std::size_t{127}, std::size_t{128}, count - 1}) {
+            if (place >= count) continue;
+            std::vector<const PlayedMove*> candidates(count, &candidate);
+            candidates[place] = &meeting;
+            std::vector<FirstMet> met(count);
+            all.find_first(candidates, met);
+            const std::vector<CandidateCheck> checks = all.check_all(candidates);
+            for (std::size_t i = 0; i < count; ++i) {
+                EXPECT_EQ(met[i].index, i == place ? 129 : FirstMet::kNobody) << i << " of " << count;
+                EXPECT_EQ(checks[i].collides, i == place) << i << " of " << count;
+                EXPECT_EQ(checks[i].asked, met[i].asked) << i << " of " << count;
+            }
+        }
+    }
+}
+
 TEST_F(WorldTest, OfContactsAtOneTimeTheFirstAgentCounts) {
     ReservationGrid reservations({20, 20});
     const OrientedPlacement placement({{1, 2}, 30, 0});
@@ -218,6 +273,158 @@ TEST_F(WorldTest, WhatIsWithdrawnRulesNothingOut) {
     EXPECT_FALSE(blocker(reservations, candidate));
 }
 
+TEST_F(WorldTest, WhatTouchesIsNearAndWhatLiesBesideIsNot) {
+    // Bounds meet where they touch; times must share more than an instant.
+    const glm::dvec2 area{23, 17};
+    ReservationGrid reservations(area);
+    constexpr double kFar = 100, kLeast = 2 * mobb::kMinOverlap;
+    for (int i = 0; i < 300; ++i) {
+        const PlayedMove motion = random_motion(1, i, area, 8);
+        const std::size_t reservation = reservations.reserve(motion);
+        // The shortest move, of who asks: what is near does not depend on what was reserved last.
+        const std::size_t own = reservations.reserve(moves.motion(2, 1, 6, motion.at));
+        const PlayedMove same = moves.motion(2, 0, motion.move, motion.at);
+        const auto is_near = [&](glm::dvec2 low, glm::dvec2 high, double begin, double end) {
+            return !reservations.around(2, {low, high}, begin, end).is_clear(same);
+        };
+        const auto& [low, high] = motion.bounds;
+        const double begin = motion.begin(), end = motion.end();
+        for (const int axis : {0, 1}) {
+            glm::dvec2 from = low, to = high;  // a rectangle that touches the bounds on this side
+            from[axis] = high[axis];
+            to[axis] = high[axis] + 3;
+            EXPECT_TRUE(is_near(from, to, begin, end)) << i;
+            from[axis] = std::nextafter(high[axis], kFar);
+            EXPECT_FALSE(is_near(from, to, begin, end)) << i;
+            from[axis] = low[axis] - 3;
+            to[axis] = low[axis];
+            EXPECT_TRUE(is_near(from, to, begin, end)) << i;
+            to[axis] = std::nextafter(low[axis], -kFar);
+            EXPECT_FALSE(is_near(from, to, begin, end)) << i;
+        }
+        EXPECT_TRUE(is_near(low, high, end - kLeast, end + 3)) << i;
+        EXPECT_FALSE(is_near(low, high, end, end + 3)) << i;
+        EXPECT_TRUE(is_near(low, high, begin - 3, begin + kLeast)) << i;
+        EXPECT_FALSE(is_near(low, high, begin - 3, begin)) << i;
+        reservations.withdraw(own);
+        reservations.withdraw(reservation);
+    }
+}
+
+TEST(CountBefore, LeavesOutWhatEqualsTheLimit) {
+    CounterRandom random{4, 5, 6};
+    for (std::uint32_t size = 0; size < 70; ++size) {
+        std::vector<double> numbers;
+        for (std::uint32_t i = 0; i < size; ++i) numbers.push_back(random.below(20));
+        std::ranges::sort(numbers);
+        for (double limit = -1; limit <= 20; limit += 0.5) {
+            const auto less = std::ranges::count_if(numbers, [&](double number) { return number < limit; });
+            EXPECT_EQ(count_before(limit, numbers), static_cast<std::size_t>(less)) << limit << " of " << size;
+        }
+    }
+}
+
+TEST_F(WorldTest, WhatEndsNowIsForgotten) {
+    ReservationGrid reservations({20, 20});
+    const PlayedMove motion = moves.motion(1, 0, 0, OrientedPlacement({{1, 2}, 30, 3}));
+    reservations.reserve(motion);
+    reservations.forget_before(std::nextafter(motion.end(), 0.0));
+    EXPECT_EQ(reservations.size(), 1u);
+    reservations.forget_before(motion.end());
+    EXPECT_EQ(reservations.size(), 0u);
+}
+
+TEST_F(WorldTest, WhoBeginsAtTheEarliestContactCanBeMetThen) {
+    const PlayedMove candidate = moves.motion(9, 0, 0, OrientedPlacement({{0, 0}, 0, 0}));
+    const PlayedMove ahead = moves.motion(7, 0, 0, OrientedPlacement({{3, 0}, 180, 0}));
+    const double met = mobb::query(candidate.placed, ahead.placed)->time;
+    ASSERT_GT(met, 0);
+    const PlayedMove later = moves.motion(3, 0, 0, OrientedPlacement({{1, 0}, 0, met}));
+    ReservationGrid reservations({20, 20});
+    reservations.reserve(ahead);
+    reservations.reserve(later);
+    const std::optional<Blocker> found = blocker(reservations, candidate);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->agent, 3);
+    EXPECT_EQ(found->contact.time, met);
+    const std::vector<const PlayedMove*> asked_about(100, &candidate);
+    for (const CandidateCheck& check : reservations.around(candidate).check_all(asked_about)) EXPECT_EQ(check.asked, 2);
+}
+
+TEST_F(WorldTest, MemoryIsUsedAgain) {
+    const glm::dvec2 area{30, 30};
+    // What is planned is withdrawn long before it would end: all but its number is free at once.
+    ReservationGrid plans(area);
+    const PlayedMove planned = random_motion(1, 0, area, 8);
+    plans.withdraw(plans.reserve(planned));
+    const std::size_t empty = plans.bytes();
+    constexpr std::size_t kRounds = 4096;
+    for (std::size_t round = 0; round < kRounds; ++round) plans.withdraw(plans.reserve(planned));
+    EXPECT_LT(plans.bytes() - empty, kRounds * sizeof(PlayedMove) / 4);
+
+    // As time goes on nothing grows, whether motions end or are withdrawn.
+    ReservationGrid reservations(area);
+    std::vector<PlayedMove> motions;
+    for (int agent = 0; agent < 200; ++agent) motions.push_back(random_motion(agent, 0, area, 1));
+    std::size_t bytes = 0;
+    for (int round = 0; round < 100; ++round) {
+        const double now = 8.0 * round;
+        reservations.forget_before(now);
+        std::vector<std::size_t> withdrawn;
+        for (const PlayedMove& motion : motions) {
+            OrientedPlacement at = motion.at;
+            at.placement.start += now;
+            const std::size_t reservation = reservations.reserve(moves.motion(motion.agent, round, motion.move, at));
+            if (motion.agent % 3 == 0) withdrawn.push_back(reservation);
+        }
+        for (const std::size_t reservation : withdrawn) reservations.withdraw(reservation);
+        if (round == 1) bytes = reservations.bytes();
+        if (round > 1) {
+            EXPECT_EQ(reservations.bytes(), bytes) << round;
+        }
+    }
+}
+
+TEST_F(WorldTest, WhatIsNotANumberIsRefused) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double infinity = std::numeric_limits<double>::infinity();
+    const mobb::Clip& clip = moves.clip(0).clip();
+    for (const double bad : {nan, infinity, -infinity}) {
+        for (const mobb::Placement& place :
+             {mobb::Placement{.translate = {bad, 0}}, mobb::Placement{.translate = {0, bad}},
+              mobb::Placement{.rotate_deg = bad}, mobb::Placement{.start = bad}}) {
+            EXPECT_THROW(static_cast<void>(moves.motion(0, 0, 0, OrientedPlacement(place))), std::invalid_argument);
+        }
+        EXPECT_THROW(ReservationGrid({bad, 10}), std::invalid_argument);
+        EXPECT_THROW(ReservationGrid({10, bad}), std::invalid_argument);
+    }
+    EXPECT_THROW(ReservationGrid({0, 10}), std::invalid_argument);
+    ReservationGrid reservations({20, 20});
+    const PlayedMove motion = moves.motion(1, 0, 0, OrientedPlacement({{1, 2}, 30, 0}));
+    reservations.reserve(motion);
+    const auto around = [&](const FloorRect& bounds, double begin, double end) {
+        static_cast<void>(reservations.around(2, bounds, begin, end));
+    };
+    const FloorRect bounds = motion.bounds;
+    for (const int axis : {0, 1}) {
+        FloorRect bad = bounds;
+        bad.low[axis] = nan;
+        EXPECT_THROW(around(bad, 0, clip.duration()), std::invalid_argument);
+        bad = bounds;
+        bad.high[axis] = nan;
+        EXPECT_THROW(around(bad, 0, clip.duration()), std::invalid_argument);
+    }
+    EXPECT_THROW(around(bounds, nan, 1), std::invalid_argument);
+    EXPECT_THROW(around(bounds, 0, nan), std::invalid_argument);
+    EXPECT_THROW(reservations.forget_before(nan), std::invalid_argument);
+    std::vector<AskedPair> pairs;
+    EXPECT_THROW(reservations.all_pairs(motion, nan, pairs), std::invalid_argument);
+    // Everywhere and ever are places and times.
+    const PlayedMove same = moves.motion(2, 0, 0, motion.at);
+    EXPECT_FALSE(
+        reservations.around(2, {glm::dvec2(-infinity), glm::dvec2(infinity)}, -infinity, infinity).is_clear(same));
+}
+
 TEST_F(WorldTest, ContactIsMeasuredInFullUpToTheMostThatCounts) {
     const glm::dvec2 area{12, 12};
     ReservationGrid reservations(area);
@@ -237,6 +444,15 @@ TEST_F(WorldTest, ContactIsMeasuredInFullUpToTheMostThatCounts) {
         } else {
             EXPECT_GT(measured.seconds, most) << i;
             ++over;
+        }
+        const ContactTimes just = others.contact_times(candidate, times.seconds);
+        EXPECT_EQ(just.seconds, times.seconds) << i;
+        EXPECT_EQ(just.first, times.first) << i;
+        // Up to none, and up to exactly what is found then.
+        const double some = others.contact_times(candidate, 0).seconds;
+        EXPECT_EQ(some > 0, times.seconds > 0) << i;
+        if (some < times.seconds) {
+            EXPECT_GT(others.contact_times(candidate, some).seconds, some) << i;
         }
     }
     EXPECT_GT(over, 30);
@@ -282,6 +498,25 @@ TEST_F(WorldTest, OutlinesHoldTheirDisksClosely) {
         const double reach = std::max(std::abs(tight.low.x), std::abs(tight.high.x));
         EXPECT_TRUE(bounds_on_floor(*motion.playable, motion.at, {2 * (reach + 1e-9), 1e6}));
         EXPECT_FALSE(bounds_on_floor(*motion.playable, motion.at, {2 * (reach - 1e-9), 1e6}));
+    }
+}
+
+TEST_F(WorldTest, TouchingAWallIsNotOverIt) {
+    const PlayableClip clip(std::make_shared<const mobb::Clip>(0.5, std::vector<mobb::Disk>{{0, 0, 0.5}, {1, 0, 0.5}}));
+    const PlayableClip back(std::make_shared<const mobb::Clip>(0.5, std::vector<mobb::Disk>{{1, 0, 0.5}, {0, 0, 0.5}}));
+    for (const double turn : {0.0, 90.0, 180.0, 270.0}) {
+        const OrientedPlacement at({{0, 0}, turn, 0});
+        const int ahead = turn == 0 || turn == 180 ? 0 : 1;
+        const auto is_on_floor = [&](double length, double width) {
+            glm::dvec2 area(length);
+            area[1 - ahead] = width;
+            const bool last = bounds_on_floor(clip, at, area).has_value();
+            EXPECT_EQ(bounds_on_floor(back, at, area).has_value(), last);
+            return last;
+        };
+        EXPECT_TRUE(is_on_floor(3, 1)) << turn;
+        EXPECT_FALSE(is_on_floor(std::nextafter(3.0, 0.0), 1)) << turn;
+        EXPECT_FALSE(is_on_floor(3, std::nextafter(1.0, 0.0))) << turn;
     }
 }
 

@@ -78,9 +78,26 @@ TEST(Predicate, SharingAnEndPointIsNotOverlapping) {
 
 TEST(Placement, Validity) {
     EXPECT_TRUE(is_valid({}));
-    EXPECT_FALSE(is_valid({.translate = {1e10, 0}}));
-    EXPECT_FALSE(is_valid({.rotate_deg = std::nan("")}));
-    EXPECT_FALSE(is_valid({.start = 1e13}));
+    EXPECT_TRUE(is_valid({{kMaxLength, -kMaxLength}, -kMaxDegrees, -kMaxTime}));
+    const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+    for (const double bad : {nan, -nan, infinity, -infinity, std::nextafter(kMaxLength, infinity), -1e10}) {
+        EXPECT_FALSE(is_valid({.translate = {bad, 0}})) << bad;
+        EXPECT_FALSE(is_valid({.translate = {0, bad}})) << bad;
+        EXPECT_FALSE(is_valid({.rotate_deg = bad})) << bad;
+        EXPECT_EQ(is_valid({.start = bad}), std::abs(bad) <= 1e12) << bad;
+    }
+    EXPECT_FALSE(is_valid({.start = std::nextafter(kMaxTime, infinity)}));
+}
+
+TEST(Rotation, RefusesWhatIsNoAngle) {
+    for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1.1e9, -1.1e9}) {
+        try {
+            Rotation::from_degrees(bad);
+            FAIL() << bad;
+        } catch (const std::invalid_argument& error) {
+            EXPECT_STREQ(error.what(), "rotate_deg must be finite and within 1e9 degrees");
+        }
+    }
 }
 
 }  // namespace

@@ -12,12 +12,15 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mobb {
@@ -237,6 +240,138 @@ TEST(Production, TellsHowLongSamplesShareAsTheDirectSearchDoes) {
     }
     EXPECT_GT(hits, queries / 4);
     EXPECT_LT(hits, queries * 3 / 4);
+}
+
+/// What is said of a place by whatever is placed; empty: nothing.
+template <class Make>
+std::string said_of(const Make& make) {
+    try {
+        make();
+        return {};
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+}
+
+TEST(Placed, EachRefusesWhatIsNoPlaceOrStart) {
+    const auto clip = std::make_shared<const Clip>(0.1, std::vector<Disk>{{0, 0, 1}, {1, 0, 1}});
+    const Blocks blocks(clip);
+    const auto tree = std::make_shared<const Tree>(clip, FitOptions{});
+    const Chain chain(std::vector<ChainLink>{{.part = std::make_shared<const ChainPart>(tree)}});
+    const auto expect = [&](const Placement& place, const std::string& said) {
+        EXPECT_EQ(said_of([&] { PlacedClip(*clip, place); }), said);
+        EXPECT_EQ(said_of([&] { PlacedTree(*tree, place); }), said);
+        EXPECT_EQ(said_of([&] { PlacedChain(chain, place); }), said);
+        EXPECT_EQ(said_of([&] { PlacedBlocks(blocks, place); }), said);
+        if (place.rotate_deg == 0) {
+            EXPECT_EQ(said_of([&] { PlacedBlocks(blocks, Rotation{}, place.translate, place.start); }), said);
+        }
+    };
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    for (const double bad : {std::nan(""), kInfinity, -kInfinity, 1.1e12, -1.1e12}) {
+        expect({.translate = {bad, 0}}, "translate must be finite and within 1e9 m");
+        expect({.translate = {0, bad}}, "translate must be finite and within 1e9 m");
+        expect({.rotate_deg = bad}, "rotate_deg must be finite and within 1e9 degrees");
+        expect({.start = bad}, "start must be finite and within 1e12 s");
+    }
+    expect({.translate = {kMaxLength, -kMaxLength}, .start = -kMaxTime}, "");
+    expect({.rotate_deg = -kMaxDegrees}, "");
+    for (const Rotation rotation :
+         {Rotation{std::nan(""), 0}, {0, std::nan("")}, {kInfinity, 0}, {0, -kInfinity}, {0, 0}, {1, 1e-4}})
+        EXPECT_EQ(said_of([&] { PlacedBlocks(blocks, rotation, glm::dvec2(0), 0); }),
+                  "a rotation's cosine and sine must have squares that add up to 1");
+    const Rotation quarter = Rotation::from_degrees(30) * Rotation::from_degrees(60);
+    EXPECT_EQ(said_of([&] { PlacedBlocks(blocks, quarter, glm::dvec2(0), 0); }), "");
+    Chain shorter = chain;
+    EXPECT_EQ(said_of([&] { shorter.drop_before(std::nan("")); }), "the chain time to drop before must not be NaN");
+    for (const double seconds : {-kInfinity, kInfinity}) shorter.drop_before(seconds);
+}
+
+TEST(Placed, BlocksTakeTheirPlaceInBraces) {
+    const Blocks blocks(std::make_shared<const Clip>(0.1, std::vector<Disk>{{0, 0, 1}, {1, 0, 1}}));
+    const PlacedBlocks here(blocks, {});
+    EXPECT_EQ(here.disk(1).x, 1);
+    EXPECT_EQ(here.begin_time(), 0);
+    const PlacedBlocks there(blocks, {.translate = {3, 4}});
+    EXPECT_EQ(there.disk(1).x, 4);
+    EXPECT_EQ(there.disk(1).y, 4);
+    const PlacedBlocks turned(blocks, {.translate = {3, 4}, .rotate_deg = 90, .start = 5});
+    EXPECT_EQ(turned.disk(1).x, 3);
+    EXPECT_EQ(turned.disk(1).y, 5);
+    EXPECT_EQ(turned.begin_time(), 5);
+    const PlacedBlocks by_place(blocks, {{3, 4}, 90, 5});
+    EXPECT_EQ(by_place.disk(1).y, 5);
+}
+
+TEST(Production, TheOnlyOneThatCollidesIsFoundAtAnyPlaceOfAnyNumber) {
+    const EachInstructionSet sets;
+    const auto walk = [](int samples, double dt) {
+        std::vector<Disk> disks;
+        for (int i = 0; i < samples; ++i) disks.push_back({dt * i, 0, 0.4});
+        return std::make_shared<const Clip>(dt, disks);
+    };
+    // The others last as long, are of another dt, or have so many blocks that no first look is had.
+    const Blocks blocks(walk(60, 0.04)), other_dt(walk(70, 0.03)), longer(walk(5000, 0.04));
+    const PlacedBlocks a(blocks, {});
+    std::vector<PlacedBlocks> misses, hits;
+    for (const Blocks* other : {&blocks, &other_dt, &longer}) {
+        misses.emplace_back(*other, Placement{.start = 1000});                             // apart in time
+        misses.emplace_back(*other, Placement{.translate = {50, 400}});                    // their roots are
+        misses.emplace_back(*other, Placement{.translate = {0, 0.8 + 1e-7}});              // by a hair, side by side
+        misses.emplace_back(*other, Placement{.translate = {1.2, -3}, .rotate_deg = 90});  // crosses behind
+        hits.emplace_back(*other, Placement{});
+        hits.emplace_back(*other, Placement{.translate = {0, 0.8 - 1e-7}});
+        hits.emplace_back(*other, Placement{.translate = {2.4, 0}, .start = 2.39});  // the last sample alone
+    }
+    for (const PlacedBlocks& miss : misses) ASSERT_FALSE(direct_search(a, miss));
+    for (const PlacedBlocks& hit : hits) ASSERT_TRUE(direct_search(a, hit));
+    // Of all sorts, and of one that no first look decides.
+    std::vector<PlacedBlocks> undecided{misses[2]};
+    for (const std::string_view set : sets.names()) {
+        ASSERT_TRUE(use_instruction_set(set));
+        for (const std::size_t count : {1U, 2U, 63U, 64U, 65U, 127U, 128U, 129U, 150U, 192U, 200U, 1000U}) {
+            for (const std::vector<PlacedBlocks>* missing : {&misses, &undecided}) {
+                std::vector<const PlacedBlocks*> others;
+                for (std::size_t i = 0; i < count; ++i) others.push_back(&(*missing)[i * 7 % missing->size()]);
+                const auto expect = [&](std::optional<std::size_t> first, std::optional<std::size_t> second) {
+                    ASSERT_EQ(intersects_any(a, others), first) << set << ", of " << count;
+                    std::vector<BlocksPair> pairs;
+                    for (const PlacedBlocks* other : others) pairs.push_back({other, &a});
+                    const auto answers = std::make_unique<bool[]>(count);
+                    for (std::size_t i = 0; i < count; ++i) answers[i] = first != i;
+                    intersects_each(pairs, {answers.get(), count});
+                    for (std::size_t i = 0; i < count; ++i)
+                        ASSERT_EQ(answers[i], first == i || second == i) << set << ", " << i << " of " << count;
+                };
+                expect({}, {});
+                for (const std::size_t place :
+                     {std::size_t{0}, std::size_t{1}, std::size_t{31}, std::size_t{62}, std::size_t{63},
+                      std::size_t{64}, std::size_t{65}, std::size_t{126}, std::size_t{127}, std::size_t{128},
+                      std::size_t{129}, std::size_t{191}, std::size_t{192}, std::size_t{640}, count - 2, count - 1}) {
+                    if (place >= count) continue;
+                    const PlacedBlocks* const miss = others[place];
+                    for (std::size_t k = 0; k<hits.size(); k += count> 200 ? 4 : 1) {
+                        others[place] = &hits[k];
+                        expect(place, {});
+                    }
+                    // A second one changes nothing for the first.
+                    for (const PlacedBlocks& hit : {hits[0], hits[1]}) {
+                        others[place] = &hit;
+                        const PlacedBlocks* const last = std::exchange(others[count - 1], &hits[0]);
+                        expect(place, count - 1);
+                        others[count - 1] = last;
+                    }
+                    others[place] = miss;
+                }
+            }
+        }
+    }
+}
+
+TEST(Production, EachPairMustHaveItsAnswer) {
+    std::array<bool, 2> answers{};
+    EXPECT_THROW(intersects_each(std::array<BlocksPair, 3>{}, answers), std::invalid_argument);
+    EXPECT_THROW(intersects_each(std::array<BlocksPair, 1>{}, answers), std::invalid_argument);
 }
 
 TEST(Production, TheFirstThatCollidesIsFoundAmongMany) {

@@ -78,6 +78,28 @@ TEST(Tree, OfBlocksHasTheirNumbersAndParents) {
     }
 }
 
+TEST(Tree, CountsAllOfItsMemory) {
+    Random random(8);
+    const ClipPtr clip = test::random_clip(random, 2000);
+    for (const std::string_view name : tree_kind_names()) {
+        const Tree tree(clip, {.tree = *tree_kind_from_name(name)});
+        const auto nodes = tree.nodes().size();
+        // Where each node stands, and the boxes that are not upright, come on top.
+        std::size_t bytes = nodes * (sizeof(Node) + 3 * sizeof(int)), boxes = 0;
+        for (std::size_t i = 0; i < nodes; ++i) {
+            if (!is_upright(tree.nodes()[i].kind)) boxes = i + 1;
+        }
+        bytes += boxes * sizeof(Box);
+        if (tree.blocks()) {
+            // Of a sample at least its centre and two radii, in single precision.
+            EXPECT_GE(tree.blocks()->bytes(), static_cast<std::size_t>(clip->count()) * 4 * sizeof(float));
+            bytes += tree.blocks()->bytes();
+        }
+        EXPECT_GE(tree.bytes(), bytes) << name;
+        EXPECT_LE(tree.bytes(), bytes + (nodes - boxes) * sizeof(Box)) << name;
+    }
+}
+
 TEST(Tree, PlacesInALevelCountThroughTime) {
     Random random(5);
     for (int round = 0; round < 50; ++round) {

@@ -82,7 +82,7 @@ std::optional<FloorRect> bounds_on_floor(const PlayableClip& clip, const Oriente
 /// the clip, which must outlive it.
 struct PlayedMove {
     /// `play_index`: among the agent's plays; `move_index`: among those of the MoveSet, -1: somebody who stands.
-    /// Requires is_valid(where.placement).
+    /// Throws std::invalid_argument, naming the number, unless is_valid(where.placement).
     PlayedMove(int agent_index, int play_index, int move_index, const PlayableClip& clip,
                const OrientedPlacement& where)
         : PlayedMove(agent_index, play_index, move_index, clip, where, clip.bounds.bounds(where)) {}

@@ -5,8 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <limits>
 #include <span>
+#include <stdexcept>
+#include <string>
 
 namespace mobbscope {
 
@@ -32,23 +35,27 @@ std::uint32_t put(std::vector<T>& values, std::vector<std::uint32_t>& free, cons
     return place;
 }
 
-/// How many of some numbers, the least first, are less than `limit`. Without a branch for each step, which would often
-/// be mispredicted.
-std::size_t count_before(double limit, const std::vector<double>& numbers) {
-    const double* from = numbers.data();
-    for (std::size_t left = numbers.size(); left > 0;) {
-        const std::size_t half = (left + 1) / 2;
-        from += half * static_cast<std::size_t>(from[half - 1] < limit);
-        left -= half;
-    }
-    return static_cast<std::size_t>(from - numbers.data());
-}
-
 /// Into the processor's caches: values up to `end`, the first few lines of them.
 template <class T>
 void fetch(const T* from, const T* end) {
     constexpr std::ptrdiff_t kLine = 64 / sizeof(T), kMost = 8 * kLine;
     for (end = from + std::min(end - from, kMost); from < end; from += kLine) __builtin_prefetch(from);
+}
+
+/// Refuses what is not a number: nothing would be near it.
+void check_numbers(const char* what, std::initializer_list<double> values) {
+    for (const double value : values) {
+        if (std::isnan(value)) [[unlikely]]
+            throw std::invalid_argument(std::string(what) + " must not be NaN");
+    }
+}
+
+glm::dvec2 checked_area(glm::dvec2 area) {
+    for (const double side : {area.x, area.y}) {
+        if (!(side > 0 && std::isfinite(side)))
+            throw std::invalid_argument("area must be finite and over 0 m along both sides");
+    }
+    return area;
 }
 
 /// Row by row: visit(x, y).
@@ -60,8 +67,18 @@ void for_each_cell(const auto& range, const auto& visit) {
 
 }  // namespace
 
+std::size_t count_before(double limit, const std::vector<double>& numbers) {
+    const double* from = numbers.data();
+    for (std::size_t left = numbers.size(); left > 0;) {
+        const std::size_t half = (left + 1) / 2;
+        from += half * static_cast<std::size_t>(from[half - 1] < limit);
+        left -= half;
+    }
+    return static_cast<std::size_t>(from - numbers.data());
+}
+
 ReservationGrid::ReservationGrid(glm::dvec2 area)
-    : low_(-area / 2.0),
+    : low_(-checked_area(area) / 2.0),
       columns_(cells_along(area.x)),
       rows_(cells_along(area.y)),
       cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
@@ -107,12 +124,21 @@ void ReservationGrid::withdraw(std::size_t reservation) {
 }
 
 void ReservationGrid::forget_before(double now) {
+    check_numbers("now", {now});
     while (!endings_.empty() && endings_.top().end <= now) {
         const std::uint32_t slot = endings_.top().slot;
         endings_.pop();
         if (!held_[slot].withdrawn) withdraw(slot);
         free_.push_back(slot);
     }
+}
+
+std::size_t ReservationGrid::bytes() const {
+    const auto room = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
+    std::size_t bytes = sizeof(*this) + room(cells_) + room(held_) + room(free_) + room(motions_) + room(unused_) +
+                        endings_.size() * sizeof(Ending);
+    for (const Cell& cell : cells_) bytes += room(cell.begins) + room(cell.entries);
+    return bytes;
 }
 
 template <class Meets, class Visit>
@@ -162,6 +188,8 @@ void ReservationGrid::visit_cells(const CellRange& range, double from, double to
 
 void ReservationGrid::find_around(int agent, const FloorRect& bounds, double begin, double end,
                                   Surroundings& out) const {
+    check_numbers("bounds", {bounds.low.x, bounds.low.y, bounds.high.x, bounds.high.y});
+    check_numbers("begin and end", {begin, end});
     out.refill([&](std::vector<Surroundings::Near>& near) {
         // Most plans go on when all that is played has ended.
         if (begin >= latest_end_) return;
@@ -179,6 +207,7 @@ void ReservationGrid::find_around(int agent, const FloorRect& bounds, double beg
 }
 
 void ReservationGrid::all_pairs(const PlayedMove& candidate, double range, std::vector<AskedPair>& pairs) const {
+    check_numbers("range", {range});
     FloorRect reach = candidate.bounds;
     reach.low -= range;
     reach.high += range;

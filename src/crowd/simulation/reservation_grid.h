@@ -12,23 +12,30 @@
 
 namespace mobbscope {
 
+/// How many of some numbers, the least first, are less than `limit`. Without a branch for each step, which would often
+/// be mispredicted.
+std::size_t count_before(double limit, const std::vector<double>& numbers);
+
 /// The reserved motions of a crowd in a grid over the floor, each with its time. Memory grows with the motions that are
 /// not yet forgotten. Const calls are safe from any number of threads while nothing is reserved or forgotten.
 class ReservationGrid {
   public:
-    /// The grid covers the floor from -area/2 to area/2, in metres; what lies beyond is kept at its edges.
+    /// The grid covers the floor from -area/2 to area/2, in metres; what lies beyond is kept at its edges. Throws
+    /// std::invalid_argument unless the area is finite and over 0.
     explicit ReservationGrid(glm::dvec2 area);
 
     /// Returns a number for `withdraw`, valid until the motion is forgotten.
     std::size_t reserve(const PlayedMove& motion);
     /// The motion blocks nothing any more.
     void withdraw(std::size_t reservation);
-    /// Motions that end at `now` or before are dropped: no candidate that begins later can meet them.
+    /// Motions that end at `now` or before are dropped: no candidate that begins later can meet them. Throws
+    /// std::invalid_argument if it is NaN.
     void forget_before(double now);
     std::size_t size() const { return held_.size() - free_.size(); }  ///< motions not forgotten
+    std::size_t bytes() const;                                        ///< of memory, used or kept to be used again
 
     /// The motions of other agents than `agent` whose bounds meet `bounds`, from `begin` to `end`, global seconds. They
-    /// may be asked until something is reserved or forgotten.
+    /// may be asked until something is reserved or forgotten. Throws std::invalid_argument if a number is NaN.
     Surroundings around(int agent, const FloorRect& bounds, double begin, double end) const {
         Surroundings out;
         find_around(agent, bounds, begin, end, out);
@@ -43,7 +50,7 @@ class ReservationGrid {
 
     /// Appends every pair of the candidate and a motion of another agent whose bounds on the floor come within `range`
     /// metres of the candidate's, at any time: the pairs that would be queried if times were not compared first, and
-    /// with an infinite range those that would be queried without a grid.
+    /// with an infinite range those that would be queried without a grid. Throws std::invalid_argument if it is NaN.
     void all_pairs(const PlayedMove& candidate, double range, std::vector<AskedPair>& pairs) const;
 
   private:
