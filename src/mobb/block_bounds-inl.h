@@ -142,6 +142,37 @@ MOBB_INLINE Nearness nearness(const Blocks::Rings& a, std::ptrdiff_t first_a, co
     return out;
 }
 
+/// Of kLanes samples of A from `first_a` on, each against two of B's, one behind the other from `first_b` on: whether
+/// one of them may collide. The first one's is sure where Relation says that it shares enough.
+MOBB_INLINE Nearness nearness_to_both(const Blocks::Rings& a, std::ptrdiff_t first_a, const Blocks::Rings& b,
+                                      std::ptrdiff_t first_b, const Relation& relation) {
+    const Tag d;
+    const auto c = hn::Set(d, relation.c), s = hn::Set(d, relation.s);
+    const auto ox = hn::Set(d, relation.ox), oy = hn::Set(d, relation.oy);
+    const auto slack = hn::Set(d, relation.slack), sure_slack = hn::Set(d, relation.sure_slack);
+    Nearness out;
+    for (int lane = 0; lane < kLanes; lane += static_cast<int>(hn::Lanes(d))) {
+        const std::ptrdiff_t i = first_a + lane, j = first_b + lane;
+        const auto from_x = hn::Sub(ox, hn::LoadU(d, a.x + i)), from_y = hn::Sub(oy, hn::LoadU(d, a.y + i));
+        const auto radius = hn::LoadU(d, a.inner + i), wide = hn::Add(radius, slack);
+        const auto first = squared_apart(c, s, hn::LoadU(d, b.x + j), hn::LoadU(d, b.y + j), from_x, from_y);
+        const auto next = squared_apart(c, s, hn::LoadU(d, b.x + j + 1), hn::LoadU(d, b.y + j + 1), from_x, from_y);
+        const auto radius_first = hn::LoadU(d, b.inner + j);
+        const auto most_first = hn::Add(wide, radius_first), most_next = hn::Add(wide, hn::LoadU(d, b.inner + j + 1));
+        const auto least = hn::Add(radius, hn::Sub(radius_first, sure_slack));
+        // Never, where a sum is negative: a sample is missing, or nothing is sure.
+        const auto may = hn::Or(hn::Le(first, hn::Mul(most_first, hn::Abs(most_first))),
+                                hn::Le(next, hn::Mul(most_next, hn::Abs(most_next))));
+        const auto sure = hn::Lt(first, hn::Mul(least, hn::Abs(least)));
+        std::uint8_t bits[8];
+        hn::StoreMaskBits(d, may, bits);
+        out.may |= std::uint64_t{bits[0]} << lane;
+        hn::StoreMaskBits(d, sure, bits);
+        out.sure |= std::uint64_t{bits[0]} << lane;
+    }
+    return out;
+}
+
 /// The lowest `count` bits, 0 < count <= 64.
 MOBB_INLINE std::uint64_t some_low_bits(int count) { return ~std::uint64_t{0} >> (64 - count); }
 /// Likewise; none if there are fewer than none.
@@ -254,11 +285,6 @@ MOBB_INLINE Pairs blocks_and_windows(const Blocks& a, const Blocks& b, int level
     const int number_a = middle >> log_unit, number_b = nearest_b >> log_unit;
     return {a.windows(level, number_a), b.windows(level, number_b), Blocks::place_of_number(number_a),
             Blocks::place_of_number(number_b)};
-}
-/// A's samples from i on, and B's from j on.
-MOBB_INLINE Pairs samples_of(const Blocks& blocks_a, int i, const Blocks& blocks_b, int j) {
-    const Blocks::Rings a = blocks_a.samples();
-    return {{a.x, a.y, a.inner, a.inner}, blocks_b.samples(), i, j};
 }
 
 }  // namespace mobb::MOBB_LANES

@@ -262,8 +262,13 @@ class BlockTraversal {
     /// Of a run from sample i of A on, as far as it lies in the span: each against both of B's that it shares time
     /// with.
     MOBB_INLINE Nearness samples_of_run(int i, const SampleSpan& span) const {
-        const Nearness samples =
-            samples_of(blocks_a_, i, blocks_b_, i - shift_.whole() - 1).first(Blocks::kRun, relation_);
+        const Blocks::Rings a = blocks_a_.samples(), b = blocks_b_.samples();
+        Nearness samples;
+        for (int k = 0; k < Blocks::kRun; k += kLanes) {
+            const Nearness some = nearness_to_both(a, i + k, b, i + k - shift_.whole() - 1, relation_);
+            samples.may |= some.may << k;
+            samples.sure |= some.sure << k;
+        }
         const std::uint64_t there = low_bits(std::min(span.end - i, Blocks::kRun)) & ~low_bits(span.first - i);
         return {samples.may & there, samples.sure & there};
     }
