@@ -17,15 +17,20 @@ struct Relation {
     float sure_slack;  ///< metres by which disks must overlap to collide for sure
 };
 
+/// How well it is known when samples share time: not at all; but for samples that begin about when others end, which
+/// may share a moment, from rounding; or so that samples which might share more than kMinOverlap are all known.
+enum class Timed { badly, nearly, well };
+
 /// When B's samples begin against A's, of one dt.
 struct Shift {
     static constexpr std::int64_t kOne = std::int64_t{1} << Blocks::kLogParts;
-    std::int64_t parts;  ///< of a sample
+    std::int64_t parts = 0;  ///< of a sample
+    Timed timed = Timed::badly;
 
     /// B's first sample begins so many samples after A's ...
     int whole() const { return static_cast<int>((parts - 1) >> Blocks::kLogParts); }
     /// ... and these parts of one, 0 < rest_parts() <= kOne: A's sample i shares them with B's i - whole() - 1, and the
-    /// others with i - whole(), if there are any.
+    /// others with i - whole(), if there are any. Nearly timed it may share a moment with i - whole() - 2, too.
     std::int64_t rest_parts() const { return ((parts - 1) & (kOne - 1)) + 1; }
     double rest() const { return static_cast<double>(rest_parts()) / kOne; }
 };
@@ -199,9 +204,10 @@ MOBB_INLINE Relation relate(const PlacedBlocks& a, const PlacedBlocks& b, Shift 
     const glm::dvec2 between = b.center() - a.center();
     const auto x = static_cast<float>(between.x), y = static_cast<float>(between.y);
     const float slack = a.slack() + b.slack();
+    const float room = shift.timed == Timed::nearly ? slack + b.blocks().step() : slack;
     const bool tells = shift.rest_parts() >= std::max(a.blocks().sure_parts(), b.blocks().sure_parts());
     return {
-        ca * cb + sa * sb, ca * sb - sa * cb, ca * x + sa * y, ca * y - sa * x, slack, tells ? slack : Blocks::kNever};
+        ca * cb + sa * sb, ca * sb - sa * cb, ca * x + sa * y, ca * y - sa * x, room, tells ? slack : Blocks::kNever};
 }
 
 /// Seconds by which times of either may be wrong, from rounding.
@@ -209,17 +215,40 @@ MOBB_INLINE float time_error(const PlacedBlocks& a, const PlacedBlocks& b) {
     return static_cast<float>(PlacedBlocks::kTimeError * (a.largest_time() + b.largest_time()));
 }
 
-/// Whether times of both are exact enough to tell which samples share time: they do not begin too late.
-MOBB_INLINE bool are_timed(const PlacedBlocks& a, const PlacedBlocks& b) {
-    return a.begin_parts() != PlacedBlocks::kNoParts && b.begin_parts() != PlacedBlocks::kNoParts;
-}
-/// Whether samples of the two share time by a constant shift.
-MOBB_INLINE bool are_shifted(const PlacedBlocks& a, const PlacedBlocks& b) {
-    return a.dt() == b.dt() && are_timed(a, b);
+/// How well times of both tell, that may be wrong by so many seconds.
+MOBB_INLINE Timed timed_to(double error, const PlacedBlocks& a, const PlacedBlocks& b) {
+    if (error < kMinOverlap / 2) return Timed::well;
+    return error < std::min(a.dt(), b.dt()) / 8 ? Timed::nearly : Timed::badly;
 }
 
-/// Of two that are shifted and whose roots share time: so samples fit into an int.
-MOBB_INLINE Shift shift_of(const PlacedBlocks& a, const PlacedBlocks& b) { return {b.begin_parts() - a.begin_parts()}; }
+/// Whether shift_of needs no more than their parts.
+MOBB_INLINE bool have_parts(const PlacedBlocks& a, const PlacedBlocks& b) {
+    return a.begin_parts() != PlacedBlocks::kNoParts && b.begin_parts() != PlacedBlocks::kNoParts;
+}
+/// By their difference in time, of two that have no parts.
+inline Shift shift_by_difference(const PlacedBlocks& a, const PlacedBlocks& b) {
+    const double error = static_cast<double>(time_error(a, b));
+    const Timed timed = timed_to(error, a, b);
+    if (timed == Timed::badly) return {};
+    const double per_dt = a.blocks().per_dt(), later = (b.begin_time() - a.begin_time()) * per_dt;
+    const double up = std::ceil(later), left = up - later, unsure = (kMinOverlap + error) * per_dt;
+    const std::int64_t whole = static_cast<std::int64_t>(up) * Shift::kOne;
+    if (timed == Timed::nearly) {
+        if (left <= unsure) return {whole, Timed::nearly};
+        if (left >= 1 - unsure) return {whole - Shift::kOne, Timed::nearly};
+    }
+    // Rounding does not make a sample more or less of it.
+    const auto left_parts = static_cast<std::int64_t>(left * static_cast<double>(Shift::kOne) + 0.5);
+    return {whole - std::min(left_parts, Shift::kOne - 1), Timed::well};
+}
+/// Of two whose roots share time: so samples fit into an int. Badly timed where they share it by no constant shift, of
+/// clips of different dt, or where rounding hides it.
+MOBB_INLINE Shift shift_of(const PlacedBlocks& a, const PlacedBlocks& b) {
+    if (a.dt() != b.dt()) return {};
+    if (!have_parts(a, b)) [[unlikely]]
+        return shift_by_difference(a, b);
+    return {b.begin_parts() - a.begin_parts(), Timed::well};
+}
 
 constexpr int kMostBits = 64;
 

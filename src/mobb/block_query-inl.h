@@ -14,15 +14,14 @@ template <class Observer, class OnHit>
 class BlockTraversal {
   public:
     MOBB_INLINE BlockTraversal(const PlacedBlocks& a, const PlacedBlocks& b, const Relation& relation,
-                               const Shift* shift, [[maybe_unused]] Observer& observer, OnHit& on_hit,
+                               const Shift& shift, [[maybe_unused]] Observer& observer, OnHit& on_hit,
                                UnequalDtScan<OnHit>* unequal = nullptr)
         : a_(a),
           b_(b),
           blocks_a_(a.blocks()),
           blocks_b_(b.blocks()),
           relation_(relation),
-          shifted_(shift != nullptr),
-          shift_(shift ? *shift : Shift{0}),
+          shift_(shift),
           unequal_(unequal),
           observer_(observer),
           on_hit_(on_hit) {}
@@ -30,12 +29,12 @@ class BlockTraversal {
     /// Of roots that share time and may meet. Returns true if on_hit stopped it.
     bool run() {
         const int top_a = blocks_a_.levels() - 1, top_b = blocks_b_.levels() - 1, top = std::min(top_a, top_b);
-        if (!Observer::watches && shifted_)
-            return scan_level(top, shared_samples(blocks_a_, blocks_b_, shift_.whole()));
+        if (!Observer::watches && is_shifted())
+            return scan_level(top, shared_samples(blocks_a_, blocks_b_, shift_.whole())) || decide_last();
         if (unequal_ && unequal_->fine(top_a, top_b) == 0)
             return unequal_->scan({0, blocks_a_.count()}, {0, blocks_b_.count()});
         if (blocks_a_.count(0) == 1 && blocks_b_.count(0) == 1) return test_samples(0, 0);
-        if (shifted_) return visit_shifted(top, 0, blocks_a_.count(top), 0, blocks_b_.count(top));
+        if (is_shifted()) return visit_shifted(top, 0, blocks_a_.count(top), 0, blocks_b_.count(top));
         return visit_stepped(top_a, 0, blocks_a_.count(top_a), top_b, 0, blocks_b_.count(top_b));
     }
 
@@ -87,6 +86,8 @@ class BlockTraversal {
     }
 
   private:
+    bool is_shifted() const { return shift_.timed != Timed::badly; }
+
     /// Blocks at which B's are shifted against A's by a constant: pair (i, i - whole + k) shares time,
     /// first <= k < first + count.
     struct Shifts {
@@ -200,7 +201,7 @@ class BlockTraversal {
         int first_a, end_a, first_b, end_b;
         children(blocks_a_, level_a, i, down_a, first_a, end_a);
         children(blocks_b_, level_b, j, down_b, first_b, end_b);
-        if (shifted_) return visit_shifted(level_a - 1, first_a, end_a, first_b, end_b);
+        if (is_shifted()) return visit_shifted(level_a - 1, first_a, end_a, first_b, end_b);
         return visit_stepped(level_a - (down_a ? 1 : 0), first_a, end_a, level_b - (down_b ? 1 : 0), first_b, end_b);
     }
 
@@ -285,10 +286,19 @@ class BlockTraversal {
         for (; samples != 0; samples &= samples - 1) {
             const int i = first + std::countr_zero(samples);
             const int j = i - shift_.whole();
+            if (shift_.timed == Timed::nearly && 1 < j && decide(i, j - 2, held, 0)) return true;
             if (0 < j && j <= blocks_b_.count() && decide(i, j - 1, held, shift_.rest())) return true;
             if (0 <= j && j < blocks_b_.count() && decide(i, j, held, 1 - shift_.rest())) return true;
         }
         return false;
+    }
+
+    /// The pair behind those that the scan tests: A's sample that begins when B's last one ends, where they may share a
+    /// moment.
+    bool decide_last() {
+        if (shift_.timed != Timed::nearly) return false;
+        const int i = blocks_b_.count() + shift_.whole() + 1;
+        return 0 <= i && i < blocks_a_.count() && decide(i, blocks_b_.count() - 1, false, 0);
     }
 
     /// Whether samples i and j collide, which share such a part of a sample's time, and on_hit stops: in double, unless
@@ -325,8 +335,7 @@ class BlockTraversal {
     const Blocks& blocks_a_;
     const Blocks& blocks_b_;
     const Relation relation_;
-    const bool shifted_;
-    const Shift shift_;                    ///< if so
+    const Shift shift_;
     UnequalDtScan<OnHit>* const unequal_;  ///< of clips of different dt, where nobody watches
     Observer& observer_;
     OnHit& on_hit_;
@@ -348,14 +357,16 @@ struct AnyHit {
 /// Of roots that share time and may meet. Returns true if on_hit stopped it.
 template <class Observer, class OnHit>
 MOBB_INLINE bool traverse(const PlacedBlocks& a, const PlacedBlocks& b, Observer& observer, OnHit& on_hit) {
-    if (!are_shifted(a, b)) [[unlikely]] {
-        if (Observer::watches || !are_timed(a, b))
-            return BlockTraversal(a, b, relate(a, b, Shift{0}), nullptr, observer, on_hit).run();
-        UnequalDtScan unequal(a, b, on_hit);
-        return BlockTraversal(a, b, relate(a, b, Shift{0}), nullptr, observer, on_hit, &unequal).run();
-    }
     const Shift shift = shift_of(a, b);
-    return BlockTraversal(a, b, relate(a, b, shift), &shift, observer, on_hit).run();
+    if (shift.timed == Timed::badly || (Observer::watches && !have_parts(a, b))) [[unlikely]] {
+        const Shift none;
+        const Timed timed = timed_to(static_cast<double>(time_error(a, b)), a, b);
+        if (Observer::watches || timed == Timed::badly)
+            return BlockTraversal(a, b, relate(a, b, none), none, observer, on_hit).run();
+        UnequalDtScan unequal(a, b, timed, on_hit);
+        return BlockTraversal(a, b, relate(a, b, none), none, observer, on_hit, &unequal).run();
+    }
+    return BlockTraversal(a, b, relate(a, b, shift), shift, observer, on_hit).run();
 }
 
 inline bool first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, SamplePair& pair) {
@@ -367,13 +378,12 @@ inline bool first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, 
 }
 
 /// Whether a first look can be had: of two that are shifted, one of which has few enough blocks for one level.
-MOBB_INLINE bool can_look(const PlacedBlocks& a, const PlacedBlocks& b) {
-    return are_shifted(a, b) && std::min(a.blocks().levels(), b.blocks().levels()) == 1;
+MOBB_INLINE bool can_look(const PlacedBlocks& a, const PlacedBlocks& b, const Shift& shift) {
+    return shift.timed == Timed::well && std::min(a.blocks().levels(), b.blocks().levels()) == 1;
 }
 /// What their windows tell of two whose roots meet: of run k of A, as WindowPairs says, in bit k modulo kMostBits;
 /// which of them are sure means nothing. The same work for all, without a branch but for the number of steps.
-MOBB_INLINE Nearness first_look(const PlacedBlocks& a, const PlacedBlocks& b) {
-    const Shift shift = shift_of(a, b);
+MOBB_INLINE Nearness first_look(const PlacedBlocks& a, const PlacedBlocks& b, const Shift& shift) {
     const Relation relation = relate(a, b, shift);
     const SampleSpan span = shared_samples(a.blocks(), b.blocks(), shift.whole());
     const WindowPairs windows(a.blocks(), b.blocks(), span, shift.whole());
@@ -397,7 +407,7 @@ MOBB_INLINE Nearness first_look(const PlacedBlocks& a, const PlacedBlocks& b) {
     NoObserver observer;
     AnyHit any;
     const Shift shift = shift_of(a, b);
-    BlockTraversal traversal(a, b, relate(a, b, shift), &shift, observer, any);
+    BlockTraversal traversal(a, b, relate(a, b, shift), shift, observer, any);
     const SampleSpan span = shared_samples(a.blocks(), b.blocks(), shift.whole());
     const WindowPairs windows(a.blocks(), b.blocks(), span, shift.whole());
     if (windows.count > kMostBits) return traversal.scan_windows(span);
@@ -412,8 +422,10 @@ MOBB_INLINE Nearness first_look(const PlacedBlocks& a, const PlacedBlocks& b) {
 }
 
 inline bool intersects_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {
-    if (!can_look(a, b)) return any_hit_below_roots(a, b);
-    const Nearness near = first_look(a, b);
+    const Shift shift = shift_of(a, b);
+    if (!can_look(a, b, shift)) [[unlikely]]
+        return any_hit_below_roots(a, b);
+    const Nearness near = first_look(a, b, shift);
     // One branch, as it is easier to foretell than which of the two is known.
     return near.undecided() ? any_sample_hits(a, b, near.may) : near.sure != 0;
 }
@@ -463,11 +475,12 @@ void find_colliding(std::size_t count, const PairAt& pair_at, const Found& found
         for (std::size_t k = 0; k < roots; ++k) {
             const std::size_t i = below_roots[k];
             const auto [a, b] = pair_at(i);
-            if (!can_look(*a, *b)) [[unlikely]] {
+            const Shift shift = shift_of(*a, *b);
+            if (!can_look(*a, *b, shift)) [[unlikely]] {
                 found(i, !stop(i) && any_hit_below_roots(*a, *b));
                 continue;
             }
-            const Nearness near = first_look(*a, *b);
+            const Nearness near = first_look(*a, *b, shift);
             found(i, near.sure != 0);
             undecided[open] = {i, near.may};
             open += near.undecided() ? std::size_t{1} : std::size_t{0};

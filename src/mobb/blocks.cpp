@@ -153,7 +153,7 @@ Blocks::Blocks(ClipPtr clip)
       clip_(std::move(clip)) {
     constexpr std::int64_t kWhole = std::int64_t{1} << kLogParts;
     const double sure = 2 * kMinOverlap * per_dt_;  // of a sample; twice, as times are exact to half of it
-    sure_parts_ = linear_ || sure > 1 ? kWhole + 1 : static_cast<std::int64_t>(sure * static_cast<double>(kWhole)) + 1;
+    sure_parts_ = linear_ || sure > 1 ? kWhole + 1 : static_cast<std::int64_t>(sure * static_cast<double>(kWhole)) + 2;
     const int n = count_;
     const auto reach_from = [this](glm::dvec2 center) {
         double radius = 0;
@@ -258,6 +258,10 @@ void Blocks::add_samples() {
         y[i] += dy / 2;
         inner[i] = std::max(inner[i], inner[i + 1]) + way / 2;
         speed_ = std::max(speed_, rounded_up(way / dt_));
+    }
+    for (int i = 0; i + 1 < n; ++i) {
+        const float dx = x[i + 1] - x[i], dy = y[i + 1] - y[i];
+        step_ = std::max(step_, std::sqrt(dx * dx + dy * dy) + std::abs(inner[i + 1] - inner[i]));
     }
     for (float* const values : {x, y}) {
         values[-1] = values[0];

@@ -174,6 +174,8 @@ class alignas(64) Blocks {
     static constexpr int kShort = 8 * kSamples;
     float extent() const { return extent_; }  ///< an upper bound in metres on |x| + |y| + r about the origin
     float speed() const { return speed_; }    ///< at which no bound's centre moves faster, m/s
+    /// Metres: each of samples() lies within any neighbour of it that is grown by so much.
+    float step() const { return step_; }
     /// Times of clips of one dt are told in parts of a sample, 1 / 2^kLogParts each.
     static constexpr int kLogParts = 33;
     /// So many must two samples share to collide for sure where their disks overlap. More than one has of a linear
@@ -230,7 +232,7 @@ class alignas(64) Blocks {
     int window_stride_ = 0;
     float extent_ = 0;
     std::int64_t sure_parts_;
-    float speed_ = 0;
+    float speed_ = 0, step_ = 0;
     bool linear_;
     int steps_;
     std::array<Level, kMostLevels> levels_{};

@@ -87,8 +87,8 @@ class alignas(64) PlacedBlocks {
     double largest_time() const { return std::abs(start_) + end() * dt(); }
     static constexpr double kTimeError = 0x1p-48;  ///< of them, with a wide margin
     /// begin_time() in parts of a sample (see Blocks::kLogParts), to the nearest: how two clips of one dt are shifted
-    /// against each other follows from these. kNoParts where that is too inexact: of samples that last long, or begin
-    /// late.
+    /// against each other follows from these. kNoParts where that is too inexact, of samples that last long or begin
+    /// late: there it takes the difference of their begin_time().
     std::int64_t begin_parts() const { return begin_parts_; }
     static constexpr std::int64_t kNoParts = std::numeric_limits<std::int64_t>::min();
     /// What this one adds to the slack of tests in single precision, metres: where roots meet, what is farther apart
@@ -122,18 +122,20 @@ class alignas(64) PlacedBlocks {
         const double samples = begin_ * blocks.per_dt();
         if (kTimeError * largest_time() + blocks.dt() / kParts < kMinOverlap / 4 && std::abs(samples) < kMostSamples)
             begin_parts_ = std::llround(samples * kParts);
-        // Late times are too inexact for what moves. It is not asked whether it does: of short clips some do, and a
-        // branch on that would often be mispredicted.
-        moves_ = blocks.is_short() && begin_parts_ != kNoParts;
+        // It is not asked whether it does: of short clips some do, and a branch on that would often be mispredicted.
+        moves_ = blocks.is_short();
+        double late = 0;  // where it may be for the rounding of times
         if (moves_) {
             const glm::dvec2 velocity = rotation(blocks.velocity());
+            late = kTimeError * largest_time() * (std::abs(velocity.x) + std::abs(velocity.y));
             velocity_x_ = static_cast<float>(velocity.x);
             velocity_y_ = static_cast<float>(velocity.y);
         }
         // Above what single precision leaves out, and the predicate of swept disks: that takes them for nearer than
         // they are, by up to a share of all lengths involved (see RelativeFrame::cover_swept_disks).
         constexpr double kRootError = 0x1p-19;
-        radius_ = rounded_up((moves_ ? blocks.moving_radius() : blocks.radius()) + rounding + kRootError * lengths);
+        radius_ =
+            rounded_up((moves_ ? blocks.moving_radius() : blocks.radius()) + rounding + late + kRootError * lengths);
     }
 
     /// What rounding in single precision adds at most, as a share of the lengths involved, with a wide margin.

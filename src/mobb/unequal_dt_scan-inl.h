@@ -52,18 +52,19 @@ MOBB_INLINE unsigned near_partners(const Units& units, int first, const Units& o
     return out;
 }
 
-/// Two clips of different dt, the fine one's less than the coarse one's, that are timed and whose roots share time.
-/// OnHit as BlockTraversal has it.
+/// Two clips of different dt, the fine one's less than the coarse one's, whose roots share time and which are timed
+/// nearly, at least. OnHit as BlockTraversal has it.
 template <class OnHit>
 class UnequalDtScan {
   public:
-    UnequalDtScan(const PlacedBlocks& a, const PlacedBlocks& b, OnHit& on_hit)
+    UnequalDtScan(const PlacedBlocks& a, const PlacedBlocks& b, Timed timed, OnHit& on_hit)
         : fine_is_a_(a.dt() < b.dt()),
           fine_(fine_is_a_ ? a : b),
           coarse_(fine_is_a_ ? b : a),
           ratio_(fine_.dt() * coarse_.blocks().per_dt()),
           begin_((fine_.begin_time() - coarse_.begin_time()) * coarse_.blocks().per_dt()),
-          relation_(relate(fine_, coarse_, Shift{0})),
+          unsure_(timed == Timed::well ? 0 : static_cast<double>(time_error(a, b)) / fine_.dt()),
+          relation_(relate(fine_, coarse_, Shift{})),
           on_hit_(on_hit) {}
 
     /// Of what A and B have each, the fine clip's.
@@ -86,17 +87,17 @@ class UnequalDtScan {
         // Blocks that last much longer than what they are tested against rule out little.
         constexpr double kAlike = 3 * kPerBlock;
         if (ratio_ >= kAlike) {
-            const Pace pace{begin_ * kPerBlock, ratio_};
+            const Pace pace{from_coarse(0) * kPerBlock, ratio_};
             return scan_units<2>(blocks_of(fine_), first, end, blocks_of(coarse_), pace, relation_, test_run);
         }
         if (ratio_ <= kPerBlock) {
-            const Pace pace{begin_, ratio_ * Blocks::kSamples};
+            const Pace pace{from_coarse(0), ratio_ * Blocks::kSamples};
             return scan_units<1>(blocks_of(fine_), first, end, pairs_of(coarse_), pace, relation_, test_run);
         }
-        const int from = std::max(coarse.first, static_cast<int>(in_coarse(shared.first)));
-        const int to = std::min(coarse.end, static_cast<int>(in_coarse(shared.end)) + 1);
-        const Pace pace{in_fine(0) * kPerBlock, kPerBlock / ratio_};
-        return scan_units<2>(samples_of(coarse_), from, to, blocks_of(fine_), pace, relate(coarse_, fine_, Shift{0}),
+        const int from = std::max(coarse.first, static_cast<int>(from_coarse(shared.first)));
+        const int to = std::min(coarse.end, static_cast<int>(in_coarse(shared.end) + unsure_ * ratio_) + 1);
+        const Pace pace{(in_fine(0) - unsure_) * kPerBlock, kPerBlock / ratio_};
+        return scan_units<2>(samples_of(coarse_), from, to, blocks_of(fine_), pace, relate(coarse_, fine_, Shift{}),
                              [&](int j) {
                                  const SampleSpan one{j, j + 1};
                                  return test_samples(sharing(shared, one), one);
@@ -121,20 +122,24 @@ class UnequalDtScan {
     /// Where the fine clip's sample i begins, in samples of the coarse one; and the other way round.
     double in_coarse(int i) const { return begin_ + i * ratio_; }
     double in_fine(int j) const { return (j - begin_) / ratio_; }
+    /// From where on partners of the fine clip's sample i are looked for.
+    double from_coarse(int i) const { return in_coarse(i) - unsure_ * ratio_; }
 
     /// Those of the fine clip's samples of a span that share time with the coarse one's of another, and perhaps one
     /// more at either end.
     SampleSpan sharing(const SampleSpan& fine, const SampleSpan& coarse) const {
         const auto within = [&](double i) { return static_cast<int>(std::clamp<double>(i, fine.first, fine.end)); };
-        return {within(std::floor(in_fine(coarse.first))), within(std::floor(in_fine(coarse.end)) + 1)};
+        return {within(std::floor(in_fine(coarse.first) - unsure_)),
+                within(std::floor(in_fine(coarse.end) + unsure_) + 1)};
     }
 
     /// visit(k) of each unit, first <= k < end, that may meet one of its partners, until one returns true.
     template <int partners, class Visit>
-    static bool scan_units(const Units& units, int first, int end, const Units& others, const Pace& pace,
-                           const Relation& relation, const Visit& visit) {
+    bool scan_units(const Units& units, int first, int end, const Units& others, const Pace& pace,
+                    const Relation& relation, const Visit& visit) const {
         for (int k = first; k < end; k += kLanes) {
-            std::uint64_t near = near_partners<partners>(units, k, others, pace, relation);
+            std::uint64_t near = unsure_ > 0 ? near_partners<partners + 1>(units, k, others, pace, relation)
+                                             : near_partners<partners>(units, k, others, pace, relation);
             near &= low_bits(std::min(end - k, kLanes));
             for (; near != 0; near &= near - 1) {
                 if (visit(k + std::countr_zero(near))) return true;
@@ -144,10 +149,11 @@ class UnequalDtScan {
     }
 
     bool test_samples(const SampleSpan& fine, const SampleSpan& coarse) {
-        const Pace pace{begin_, ratio_};
+        const Pace pace{from_coarse(0), ratio_};
         return scan_units<1>(samples_of(fine_), fine.first, fine.end, pairs_of(coarse_), pace, relation_, [&](int i) {
-            const int j = static_cast<int>(std::floor(in_coarse(i)));
-            for (int partner = std::max(coarse.first, j); partner < std::min(coarse.end, j + 2); ++partner) {
+            const int j = static_cast<int>(std::floor(from_coarse(i)));
+            const int end = std::min(coarse.end, j + (unsure_ > 0 ? 3 : 2));
+            for (int partner = std::max(coarse.first, j); partner < end; ++partner) {
                 const int sample = fine_.first() + i, other = coarse_.first() + partner;
                 if (!pair_collides(fine_, sample, coarse_, other)) continue;
                 if (fine_is_a_ ? on_hit_(sample, other) : on_hit_(other, sample)) return true;
@@ -161,6 +167,9 @@ class UnequalDtScan {
     const PlacedBlocks& coarse_;
     const double ratio_;  ///< of their dt, < 1
     const double begin_;  ///< where the fine clip begins, in samples of the coarse one
+    /// By how much times may be wrong, in samples of the fine clip, if that matters: then all partners are looked for
+    /// so much earlier, and one more.
+    const double unsure_;
     const Relation relation_;
     OnHit& on_hit_;
 };
