@@ -8,6 +8,15 @@
 
 namespace mobb::MOBB_LANES {
 
+/// A's sample that begins when B's last one ends.
+MOBB_INLINE int behind_shared(const Blocks& b, const Shift& shift) { return b.count() + shift.whole() + 1; }
+/// Whether those two collide, of two that are nearly timed: a moment that they share comes behind all that is scanned.
+inline bool last_pair_collides(const PlacedBlocks& a, const PlacedBlocks& b, const Shift& shift) {
+    if (shift.timed != Timed::nearly) return false;
+    const int i = behind_shared(b.blocks(), shift);
+    return 0 <= i && i < a.blocks().count() && pair_collides(a, a.first() + i, b, b.end() - 1);
+}
+
 /// One traversal. OnHit is called with the pairs of samples that collide, earliest first, and says whether to stop; if
 /// OnHit::kAny, it may not be called before a traversal stops, as one that collides is as good as the earliest.
 template <class Observer, class OnHit>
@@ -293,12 +302,9 @@ class BlockTraversal {
         return false;
     }
 
-    /// The pair behind those that the scan tests: A's sample that begins when B's last one ends, where they may share a
-    /// moment.
     bool decide_last() {
-        if (shift_.timed != Timed::nearly) return false;
-        const int i = blocks_b_.count() + shift_.whole() + 1;
-        return 0 <= i && i < blocks_a_.count() && decide(i, blocks_b_.count() - 1, false, 0);
+        return last_pair_collides(a_, b_, shift_) &&
+               on_hit_(a_.first() + behind_shared(blocks_b_, shift_), b_.end() - 1);
     }
 
     /// Whether samples i and j collide, which share such a part of a sample's time, and on_hit stops: in double, unless
@@ -311,7 +317,7 @@ class BlockTraversal {
             const float x = (relation_.c * bx - relation_.s * by) - (a.x[i] - relation_.ox);
             const float y = (relation_.s * bx + relation_.c * by) - (a.y[i] - relation_.oy);
             const float squared = x * x + y * y, radii = a.inner[i] + b.inner[j];
-            const float most = radii + relation_.slack, least = radii - relation_.slack;
+            const float slack = a_.slack() + b_.slack(), most = radii + slack, least = radii - slack;
             if (squared > most * most) return false;
             if (least > 0 && squared < least * least && common > sure_common()) return on_hit_(sample_a, sample_b);
         }
@@ -377,9 +383,11 @@ inline bool first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, 
     return hit;
 }
 
-/// Whether a first look can be had: of two that are shifted, one of which has few enough blocks for one level.
+/// Whether a first look can be had: of two that are shifted, one of which has few enough blocks for one level, and some
+/// samples to be scanned.
 MOBB_INLINE bool can_look(const PlacedBlocks& a, const PlacedBlocks& b, const Shift& shift) {
-    return shift.timed == Timed::well && std::min(a.blocks().levels(), b.blocks().levels()) == 1;
+    return (shift.timed == Timed::well || (shift.timed == Timed::nearly && behind_shared(b.blocks(), shift) > 0)) &&
+           std::min(a.blocks().levels(), b.blocks().levels()) == 1;
 }
 /// What their windows tell of two whose roots meet: of run k of A, as WindowPairs says, in bit k modulo kMostBits;
 /// which of them are sure means nothing. The same work for all, without a branch but for the number of steps.
@@ -427,7 +435,7 @@ inline bool intersects_below_roots(const PlacedBlocks& a, const PlacedBlocks& b)
         return any_hit_below_roots(a, b);
     const Nearness near = first_look(a, b, shift);
     // One branch, as it is easier to foretell than which of the two is known.
-    return near.undecided() ? any_sample_hits(a, b, near.may) : near.sure != 0;
+    return (near.undecided() ? any_sample_hits(a, b, near.may) : near.sure != 0) || last_pair_collides(a, b, shift);
 }
 
 inline bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink,
@@ -437,84 +445,61 @@ inline bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& 
     return traverse(a, b, nobody, sink);
 }
 
-/// Calls found(i, collides) for pairs i of `count`, until stop(i) says that this one and those behind it need not be
-/// asked; of the others it is not called if they do not collide. Of some number of pairs at a time times go first, then
-/// roots, windows, and samples: what ends soon costs hardly a mispredicted branch. So they come in no order, but each
-/// number of pairs behind the one before.
-template <class PairAt, class Found, class Stop>
-void find_colliding(std::size_t count, const PairAt& pair_at, const Found& found, const Stop& stop) {
+/// Of some number of pairs at a time times go first, then roots, windows, and samples: what ends soon costs hardly a
+/// mispredicted branch.
+inline void intersects_each(const BlocksPair* pairs, std::size_t count, bool* answers) {
+    std::fill_n(answers, count, false);
     constexpr std::size_t kAtATime = 64;
     std::size_t together[kAtATime], below_roots[kAtATime];
     struct {
         std::size_t index;
         std::uint64_t runs;
     } undecided[kAtATime];
-    for (std::size_t first = 0; first < count && !stop(first); first += kAtATime) {
+    for (std::size_t first = 0; first < count; first += kAtATime) {
         const std::size_t end = std::min(count, first + kAtATime);
-        std::size_t pairs = 0;
+        std::size_t sharing = 0;
         for (std::size_t i = first; i < end; ++i) {
             // Placements lie anywhere in memory: they are fetched a few pairs ahead.
             constexpr std::size_t kAhead = 12;
             if (i + kAhead < count) {
-                const auto [next_a, next_b] = pair_at(i + kAhead);
-                __builtin_prefetch(next_a);
-                __builtin_prefetch(next_b);
+                __builtin_prefetch(pairs[i + kAhead].a);
+                __builtin_prefetch(pairs[i + kAhead].b);
             }
-            const auto [a, b] = pair_at(i);
-            together[pairs] = i;
-            pairs += overlap_in_time(a->begin_time(), a->end_time(), b->begin_time(), b->end_time()) ? std::size_t{1}
-                                                                                                     : std::size_t{0};
+            const auto [a, b] = pairs[i];
+            together[sharing] = i;
+            sharing += overlap_in_time(a->begin_time(), a->end_time(), b->begin_time(), b->end_time()) ? std::size_t{1}
+                                                                                                       : std::size_t{0};
         }
         std::size_t roots = 0;
-        for (std::size_t k = 0; k < pairs; ++k) {
-            const auto [a, b] = pair_at(together[k]);
+        for (std::size_t k = 0; k < sharing; ++k) {
+            const auto [a, b] = pairs[together[k]];
             below_roots[roots] = together[k];
             roots += roots_meet(*a, *b) ? std::size_t{1} : std::size_t{0};
         }
         std::size_t open = 0;
         for (std::size_t k = 0; k < roots; ++k) {
             const std::size_t i = below_roots[k];
-            const auto [a, b] = pair_at(i);
+            const auto [a, b] = pairs[i];
             const Shift shift = shift_of(*a, *b);
-            if (!can_look(*a, *b, shift)) [[unlikely]] {
-                found(i, !stop(i) && any_hit_below_roots(*a, *b));
+            if (shift.timed != Timed::well || !can_look(*a, *b, shift)) [[unlikely]] {
+                answers[i] = MOBB_LANES::intersects_below_roots(*a, *b);
                 continue;
             }
             const Nearness near = first_look(*a, *b, shift);
-            found(i, near.sure != 0);
+            answers[i] = near.sure != 0;
             undecided[open] = {i, near.may};
             open += near.undecided() ? std::size_t{1} : std::size_t{0};
         }
-        for (std::size_t k = 0; k < open && !stop(undecided[k].index); ++k) {
-            const auto& pair = undecided[k];
-            const auto [a, b] = pair_at(pair.index);
-            found(pair.index, any_sample_hits(*a, *b, pair.runs));
+        for (std::size_t k = 0; k < open; ++k) {
+            const auto [a, b] = pairs[undecided[k].index];
+            answers[undecided[k].index] = any_sample_hits(*a, *b, undecided[k].runs);
         }
     }
 }
 
-inline std::size_t first_colliding(const PlacedBlocks& a, const PlacedBlocks* const* others, std::size_t count) {
-    std::size_t out = count;
-    find_colliding(
-        count,
-        [&](std::size_t i) {
-            return BlocksPair{&a, others[i]};
-        },
-        [&](std::size_t i, bool collides) { out = std::min(out, collides ? i : count); },
-        [&](std::size_t i) { return out <= i; });
-    return out;
-}
-
-inline void intersects_each(const BlocksPair* pairs, std::size_t count, bool* answers) {
-    std::fill_n(answers, count, false);
-    find_colliding(
-        count, [&](std::size_t i) { return pairs[i]; }, [&](std::size_t i, bool collides) { answers[i] = collides; },
-        [](std::size_t) { return false; });
-}
-
 inline const BlockQueries* queries() {
     static constexpr BlockQueries all{first_hit_below_roots, intersects_below_roots, for_each_hit_below_roots,
-                                      first_colliding, intersects_each};
+                                      intersects_each};
     return &all;
 }
 
