@@ -215,15 +215,14 @@ MOBB_INLINE float time_error(const PlacedBlocks& a, const PlacedBlocks& b) {
     return static_cast<float>(PlacedBlocks::kTimeError * (a.largest_time() + b.largest_time()));
 }
 
-/// How well times of both tell, that may be wrong by so many seconds.
+/// Whether the two are timed well, and their shift is known from no more than their parts.
+MOBB_INLINE bool have_parts(const PlacedBlocks& a, const PlacedBlocks& b) {
+    return a.begin_parts() != PlacedBlocks::kNoParts && b.begin_parts() != PlacedBlocks::kNoParts;
+}
+/// How well two are timed that have no parts, where times may be wrong by so many seconds.
 MOBB_INLINE Timed timed_to(double error, const PlacedBlocks& a, const PlacedBlocks& b) {
     if (error < kMinOverlap / 2) return Timed::well;
     return error < std::min(a.dt(), b.dt()) / 8 ? Timed::nearly : Timed::badly;
-}
-
-/// Whether shift_of needs no more than their parts.
-MOBB_INLINE bool have_parts(const PlacedBlocks& a, const PlacedBlocks& b) {
-    return a.begin_parts() != PlacedBlocks::kNoParts && b.begin_parts() != PlacedBlocks::kNoParts;
 }
 /// By their difference in time, of two that have no parts.
 inline Shift shift_by_difference(const PlacedBlocks& a, const PlacedBlocks& b) {

@@ -366,7 +366,7 @@ MOBB_INLINE bool traverse(const PlacedBlocks& a, const PlacedBlocks& b, Observer
     const Shift shift = shift_of(a, b);
     if (shift.timed == Timed::badly || (Observer::watches && !have_parts(a, b))) [[unlikely]] {
         const Shift none;
-        const Timed timed = timed_to(static_cast<double>(time_error(a, b)), a, b);
+        const Timed timed = have_parts(a, b) ? Timed::well : timed_to(static_cast<double>(time_error(a, b)), a, b);
         if (Observer::watches || timed == Timed::badly)
             return BlockTraversal(a, b, relate(a, b, none), none, observer, on_hit).run();
         UnequalDtScan unequal(a, b, timed, on_hit);
