@@ -18,6 +18,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mobb {
@@ -181,7 +182,7 @@ TEST(Production, DoesNotDependOnHowFarAwayOrHowLateOrHowUnlikeTwoClipsAre) {
     const int rounds = test::query_budget() / 200;
     for (int round = 0; round < rounds; ++round) {
         // One has up to 300 samples to each of the other's, which last up to hours.
-        const double dt = random.chance(0.7) ? random.real(0.01, 0.1) : std::pow(10, random.real(-1, 4));
+        const double dt = random.chance(0.7) ? random.real(0.01, 0.1) : std::pow(10, random.real(-4, 4));
         const ClipPtr clip_a = nasty_clip(random, dt);
         const ClipPtr clip_b = nasty_clip(random, random.chance(0.5) ? dt : dt * std::pow(10, random.real(0, 2.5)));
         const Blocks blocks_a(clip_a), blocks_b(clip_b);
@@ -257,13 +258,18 @@ TEST(Production, TellsHowLongSamplesShareAsTheDirectSearchDoes) {
     const EachInstructionSet sets;
     Random random(83);
     int hits = 0, queries = 0;
-    for (const double dt : {1.0 / 30, 0.1, 0.5, 1.9, 2.1, 2.5, 10.0, 3600.0}) {
-        for (const double ratio : {1.0, 1.7, 1 / 1.7, 9.0, 1 / 9.0, 50.0, 1 / 50.0}) {
-            // The pair is at the edge of blocks, or of B.
-            for (const int sample_b : {0, 15, 16, 39}) {
+    for (const double dt : {1.0 / 30, 0.1, 0.5, 1.9, 2.1, 2.5, 100.0, 3600.0}) {
+        // Some are by a hair those at which the units change that clips are tested by.
+        constexpr double kHair = 1 + 1e-7;
+        for (const double ratio : {1.0, kHair, 1 / kHair, 1.7, 1 / 1.7, 9.0, 1 / 9.0, 16 * kHair, 1 / 16.0 / kHair,
+                                   16 / kHair, kHair / 16, 50.0, 1 / 50.0}) {
+            // The pair is at the edge of blocks, or of clips.
+            for (const auto& [sample_a, sample_b] :
+                 {std::pair{16, 15}, {16, 16}, {32, 31}, {31, 32}, {16, 0}, {16, 39}, {0, 39}, {39, 0}}) {
                 const double dt_b = dt * ratio;
                 std::vector<Disk> disks_a(40, {100, 0, 0.5}), disks_b(40, {-100, 0, 0.5});
-                disks_a[16] = disks_b[static_cast<std::size_t>(sample_b)] = {0, 0, 0.5};
+                disks_a[static_cast<std::size_t>(sample_a)] = {0, 0, 0.5};
+                disks_b[static_cast<std::size_t>(sample_b)] = {0, 0, 0.5};
                 const auto clip_a = std::make_shared<const Clip>(dt, disks_a),
                            clip_b = std::make_shared<const Clip>(dt_b, disks_b);
                 const Blocks blocks_a(clip_a), blocks_b(clip_b);
@@ -278,7 +284,7 @@ TEST(Production, TellsHowLongSamplesShareAsTheDirectSearchDoes) {
                     const Placement place_a{.start = start};
                     // B's sample begins before A's ends, or ends after A's begins.
                     const double later = random.chance(0.5) ? dt - share : share - dt_b;
-                    const Placement place_b{.start = start + 16 * dt + later - sample_b * dt_b};
+                    const Placement place_b{.start = start + sample_a * dt + later - sample_b * dt_b};
                     const PlacedBlocks a(blocks_a, place_a), b(blocks_b, place_b);
                     const std::optional<Contact> expected =
                         direct_search(PlacedClip(*clip_a, place_a), PlacedClip(*clip_b, place_b));
@@ -286,12 +292,42 @@ TEST(Production, TellsHowLongSamplesShareAsTheDirectSearchDoes) {
                     ASSERT_TRUE(use_instruction_set(sets.names()[static_cast<std::size_t>(i) % sets.names().size()]));
                     ASSERT_EQ(query(a, b), expected) << dt << " " << dt_b << " " << share;
                     ASSERT_EQ(intersects(a, b), expected.has_value()) << dt << " " << dt_b << " " << share;
+                    std::array<bool, 1> answer{};
+                    intersects_each(std::array{BlocksPair{&a, &b}}, answer);
+                    ASSERT_EQ(answer[0], expected.has_value()) << dt << " " << dt_b << " " << share;
                     TraceRecorder recorder;
                     ASSERT_EQ(query(PlacedTree(tree_a, place_a), PlacedTree(tree_b, place_b), recorder), expected)
                         << dt << " " << dt_b << " " << share;
                 }
             }
         }
+    }
+    EXPECT_GT(hits, queries / 4);
+    EXPECT_LT(hits, queries * 3 / 4);
+}
+
+TEST(Production, RootsThatMoveMeetWhereLateDisksDo) {
+    Random random(87);
+    int hits = 0, queries = 0;
+    for (; queries < 20'000; ++queries) {
+        // Straight ahead, so that roots are as large as disks, and past each other by what times are rounded to.
+        const double start = std::pow(10, random.real(10, 12)), dt = 0.01;
+        const glm::dvec2 a(random.real(-20, 20), random.real(-20, 20)), b(random.real(-20, 20), random.real(-20, 20));
+        const auto clip_of = [&](glm::dvec2 velocity) {
+            std::vector<Disk> disks;
+            for (int i = -5; i <= 5; ++i) disks.push_back({velocity.x * dt * i, velocity.y * dt * i, 0.5});
+            return std::make_shared<const Clip>(dt, disks, Motion::linear);
+        };
+        const Blocks blocks_a(clip_of(a)), blocks_b(clip_of(b));
+        const glm::dvec2 aside = glm::dvec2(a.y - b.y, b.x - a.x) / std::hypot(a.x - b.x, a.y - b.y);
+        const double far = 1 + random.real(-1, 1) * 20 * start * 0x1p-53;
+        const double later = random.real(-0.05, 0.05);
+        const Placement place_a{.start = start};
+        const Placement place_b{.translate = far * aside + (start + later - start) * b, .start = start + later};
+        const bool expected =
+            direct_search(PlacedClip(blocks_a.clip(), place_a), PlacedClip(blocks_b.clip(), place_b)).has_value();
+        hits += expected ? 1 : 0;
+        ASSERT_EQ(intersects(PlacedBlocks(blocks_a, place_a), PlacedBlocks(blocks_b, place_b)), expected) << queries;
     }
     EXPECT_GT(hits, queries / 4);
     EXPECT_LT(hits, queries * 3 / 4);
