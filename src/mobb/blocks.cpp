@@ -173,6 +173,7 @@ Blocks::Blocks(ClipPtr clip)
         if (moving.radius < radius_) {
             origin_ = moving.from + moving.drift / 2.0;
             velocity_ = moving.drift * per_dt_ / static_cast<double>(steps_);
+            root_speed_ = glm::length(velocity_);
             moving_radius_ = moving.radius;
             radius_ = reach_from(origin_);
         }

@@ -170,6 +170,7 @@ class alignas(64) Blocks {
     /// Velocity in m/s, and radius. Of long clips, and where moving makes it no smaller, it is the first one.
     bool is_short() const { return count_ <= kShort; }
     glm::dvec2 velocity() const { return velocity_; }
+    double root_speed() const { return root_speed_; }  ///< its length
     double moving_radius() const { return moving_radius_; }
     static constexpr int kShort = 8 * kSamples;
     float extent() const { return extent_; }  ///< an upper bound in metres on |x| + |y| + r about the origin
@@ -240,7 +241,7 @@ class alignas(64) Blocks {
     const Disk* disks_;
     double reach_;
     glm::dvec2 origin_{0}, velocity_{0};
-    double radius_ = 0, moving_radius_ = 0;
+    double root_speed_ = 0, radius_ = 0, moving_radius_ = 0;
     ClipPtr clip_;
 };
 

@@ -120,22 +120,22 @@ class alignas(64) PlacedBlocks {
         // Which samples share time must be told to half of what they must share.
         constexpr double kParts = std::int64_t{1} << Blocks::kLogParts, kMostSamples = 1 << 29;
         const double samples = begin_ * blocks.per_dt();
-        if (kTimeError * largest_time() + blocks.dt() / kParts < kMinOverlap / 4 && std::abs(samples) < kMostSamples)
-            begin_parts_ = std::llround(samples * kParts);
+        const double time_error = kTimeError * largest_time();
+        if (time_error + blocks.dt() / kParts < kMinOverlap / 4 && std::abs(samples) < kMostSamples)
+            begin_parts_ = static_cast<std::int64_t>(samples * kParts + (samples < 0 ? -0.5 : 0.5));
         // It is not asked whether it does: of short clips some do, and a branch on that would often be mispredicted.
         moves_ = blocks.is_short();
-        double late = 0;  // where it may be for the rounding of times
         if (moves_) {
             const glm::dvec2 velocity = rotation(blocks.velocity());
-            late = kTimeError * largest_time() * (std::abs(velocity.x) + std::abs(velocity.y));
             velocity_x_ = static_cast<float>(velocity.x);
             velocity_y_ = static_cast<float>(velocity.y);
         }
         // Above what single precision leaves out, and the predicate of swept disks: that takes them for nearer than
-        // they are, by up to a share of all lengths involved (see RelativeFrame::cover_swept_disks).
+        // they are, by up to a share of all lengths involved (see RelativeFrame::cover_swept_disks). And above how far
+        // the root moves in as much time as rounding may hide.
         constexpr double kRootError = 0x1p-19;
-        radius_ =
-            rounded_up((moves_ ? blocks.moving_radius() : blocks.radius()) + rounding + late + kRootError * lengths);
+        radius_ = rounded_up((moves_ ? blocks.moving_radius() : blocks.radius()) + rounding +
+                             time_error * blocks.root_speed() + kRootError * lengths);
     }
 
     /// What rounding in single precision adds at most, as a share of the lengths involved, with a wide margin.
