@@ -225,7 +225,7 @@ MOBB_INLINE Timed timed_to(double error, const PlacedBlocks& a, const PlacedBloc
     return error < std::min(a.dt(), b.dt()) / 8 ? Timed::nearly : Timed::badly;
 }
 /// By their difference in time, of two that have no parts.
-inline Shift shift_by_difference(const PlacedBlocks& a, const PlacedBlocks& b) {
+[[gnu::noinline]] inline Shift shift_by_difference(const PlacedBlocks& a, const PlacedBlocks& b) {
     const double error = static_cast<double>(time_error(a, b));
     const Timed timed = timed_to(error, a, b);
     if (timed == Timed::badly) return {};

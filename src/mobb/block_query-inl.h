@@ -383,11 +383,13 @@ inline bool first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, 
     return hit;
 }
 
-/// Whether a first look can be had: of two that are shifted, one of which has few enough blocks for one level, and some
-/// samples to be scanned.
+/// Whether one of the two has few enough blocks for one level.
+MOBB_INLINE bool is_shallow(const PlacedBlocks& a, const PlacedBlocks& b) {
+    return std::min(a.blocks().levels(), b.blocks().levels()) == 1;
+}
+/// Whether a first look says all but of samples that are near.
 MOBB_INLINE bool can_look(const PlacedBlocks& a, const PlacedBlocks& b, const Shift& shift) {
-    return (shift.timed == Timed::well || (shift.timed == Timed::nearly && behind_shared(b.blocks(), shift) > 0)) &&
-           std::min(a.blocks().levels(), b.blocks().levels()) == 1;
+    return shift.timed == Timed::well && is_shallow(a, b);
 }
 /// What their windows tell of two whose roots meet: of run k of A, as WindowPairs says, in bit k modulo kMostBits;
 /// which of them are sure means nothing. The same work for all, without a branch but for the number of steps.
@@ -422,8 +424,17 @@ MOBB_INLINE Nearness first_look(const PlacedBlocks& a, const PlacedBlocks& b, co
     const Nearness samples = traversal.samples_of_runs(runs, windows.first, span);
     return samples.undecided() ? traversal.test_runs(runs, windows.first, span) : samples.sure != 0;
 }
+/// Of two whose roots meet, one of which is shallow, with some samples to be scanned.
+MOBB_INLINE bool look_for_hit(const PlacedBlocks& a, const PlacedBlocks& b, const Shift& shift) {
+    const Nearness near = first_look(a, b, shift);
+    // One branch, as it is easier to foretell than which of the two is known.
+    return near.undecided() ? any_sample_hits(a, b, near.may) : near.sure != 0;
+}
 /// Of any two whose roots meet.
 [[gnu::noinline]] inline bool any_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {
+    const Shift shift = shift_of(a, b);
+    if (shift.timed == Timed::nearly && is_shallow(a, b) && behind_shared(b.blocks(), shift) > 0)
+        return look_for_hit(a, b, shift) || last_pair_collides(a, b, shift);
     NoObserver observer;
     AnyHit any;
     return traverse(a, b, observer, any);
@@ -431,11 +442,7 @@ MOBB_INLINE Nearness first_look(const PlacedBlocks& a, const PlacedBlocks& b, co
 
 inline bool intersects_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {
     const Shift shift = shift_of(a, b);
-    if (!can_look(a, b, shift)) [[unlikely]]
-        return any_hit_below_roots(a, b);
-    const Nearness near = first_look(a, b, shift);
-    // One branch, as it is easier to foretell than which of the two is known.
-    return (near.undecided() ? any_sample_hits(a, b, near.may) : near.sure != 0) || last_pair_collides(a, b, shift);
+    return can_look(a, b, shift) ? look_for_hit(a, b, shift) : any_hit_below_roots(a, b);
 }
 
 inline bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink,
@@ -481,8 +488,8 @@ inline void intersects_each(const BlocksPair* pairs, std::size_t count, bool* an
             const std::size_t i = below_roots[k];
             const auto [a, b] = pairs[i];
             const Shift shift = shift_of(*a, *b);
-            if (shift.timed != Timed::well || !can_look(*a, *b, shift)) [[unlikely]] {
-                answers[i] = MOBB_LANES::intersects_below_roots(*a, *b);
+            if (!can_look(*a, *b, shift)) [[unlikely]] {
+                answers[i] = any_hit_below_roots(*a, *b);
                 continue;
             }
             const Nearness near = first_look(*a, *b, shift);

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -260,10 +261,14 @@ void Blocks::add_samples() {
         inner[i] = std::max(inner[i], inner[i + 1]) + way / 2;
         speed_ = std::max(speed_, rounded_up(way / dt_));
     }
+    // Floats that are not negative compare as their bits do, several at a time.
+    std::int32_t longest = 0;
     for (int i = 0; i + 1 < n; ++i) {
         const float dx = x[i + 1] - x[i], dy = y[i + 1] - y[i];
-        step_ = std::max(step_, std::sqrt(dx * dx + dy * dy) + std::abs(inner[i + 1] - inner[i]));
+        const float step = std::sqrt(dx * dx + dy * dy) + std::abs(inner[i + 1] - inner[i]);
+        longest = std::max(longest, std::bit_cast<std::int32_t>(step));
     }
+    step_ = std::bit_cast<float>(longest);
     for (float* const values : {x, y}) {
         values[-1] = values[0];
         values[n] = values[n - 1];
