@@ -18,8 +18,9 @@ struct Relation {
 };
 
 /// How well it is known when samples share time: not at all; but for samples that begin about when others end, which
-/// may share a moment, from rounding; or so that samples which might share more than kMinOverlap are all known.
-enum class Timed { badly, nearly, well };
+/// may share a moment, from rounding; or so that samples which might share more than kMinOverlap are all known, but
+/// whether A's do with their first partner is not, or is.
+enum class Timed { badly, nearly, fairly, well };
 
 /// When B's samples begin against A's, of one dt.
 struct Shift {
@@ -229,12 +230,17 @@ MOBB_INLINE Timed timed_to(double error, const PlacedBlocks& a, const PlacedBloc
     const double error = static_cast<double>(time_error(a, b));
     const Timed timed = timed_to(error, a, b);
     if (timed == Timed::badly) return {};
-    const double per_dt = a.blocks().per_dt(), later = (b.begin_time() - a.begin_time()) * per_dt;
-    const double up = std::ceil(later), left = up - later, unsure = (kMinOverlap + error) * per_dt;
+    const double per_dt = a.blocks().per_dt();
+    const double later = (b.start() - a.start()) * per_dt + (b.first() - a.first());
+    const double up = std::ceil(later), left = up - later;
     const std::int64_t whole = static_cast<std::int64_t>(up) * Shift::kOne;
     if (timed == Timed::nearly) {
+        // The sum of a start and a clip's time is rounded, but a later one never to less: samples share time only if
+        // they do by these sums, in which the start cancels.
+        const double unsure = PlacedBlocks::kTimeError * (a.end() + b.end());
         if (left <= unsure) return {whole, Timed::nearly};
         if (left >= 1 - unsure) return {whole - Shift::kOne, Timed::nearly};
+        if (left >= 1 - (kMinOverlap + error) * per_dt) return {whole - Shift::kOne + 1, Timed::fairly};
     }
     // Rounding does not make a sample more or less of it.
     const auto left_parts = static_cast<std::int64_t>(left * static_cast<double>(Shift::kOne) + 0.5);

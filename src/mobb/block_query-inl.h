@@ -432,17 +432,27 @@ MOBB_INLINE bool look_for_hit(const PlacedBlocks& a, const PlacedBlocks& b, cons
 }
 /// Of any two whose roots meet.
 [[gnu::noinline]] inline bool any_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {
-    const Shift shift = shift_of(a, b);
-    if (shift.timed == Timed::nearly && is_shallow(a, b) && behind_shared(b.blocks(), shift) > 0)
-        return look_for_hit(a, b, shift) || last_pair_collides(a, b, shift);
     NoObserver observer;
     AnyHit any;
     return traverse(a, b, observer, any);
 }
+/// Of those that are not timed well.
+[[gnu::noinline]] inline bool any_late_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b,
+                                                       const Shift& shift) {
+    if (is_shallow(a, b)) {
+        // The other way round the first partner is the one with which more is shared.
+        const Shift turned = shift_of(b, a);
+        if (shift.timed == Timed::fairly && turned.timed == Timed::well) return look_for_hit(b, a, turned);
+        if (shift.timed == Timed::nearly && behind_shared(b.blocks(), shift) > 0)
+            return look_for_hit(a, b, shift) || last_pair_collides(a, b, shift);
+    }
+    return any_hit_below_roots(a, b);
+}
 
 inline bool intersects_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {
     const Shift shift = shift_of(a, b);
-    return can_look(a, b, shift) ? look_for_hit(a, b, shift) : any_hit_below_roots(a, b);
+    if (can_look(a, b, shift)) return look_for_hit(a, b, shift);
+    return have_parts(a, b) ? any_hit_below_roots(a, b) : any_late_hit_below_roots(a, b, shift);
 }
 
 inline bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink,
@@ -489,7 +499,7 @@ inline void intersects_each(const BlocksPair* pairs, std::size_t count, bool* an
             const auto [a, b] = pairs[i];
             const Shift shift = shift_of(*a, *b);
             if (!can_look(*a, *b, shift)) [[unlikely]] {
-                answers[i] = any_hit_below_roots(*a, *b);
+                answers[i] = MOBB_LANES::intersects_below_roots(*a, *b);
                 continue;
             }
             const Nearness near = first_look(*a, *b, shift);

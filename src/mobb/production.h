@@ -70,6 +70,8 @@ class alignas(64) PlacedBlocks {
                 blocks_->steps() * blocks_->dt()};
     }
 
+    /// Global time at which sample 0 begins, of the clip or of the chain.
+    double start() const { return start_; }
     int first() const { return first_; }
     int end() const { return first_ + blocks_->count(); }
     double dt() const { return blocks_->dt(); }
