@@ -17,15 +17,21 @@ struct Relation {
     float sure_slack;  ///< metres by which disks must overlap to collide for sure
 };
 
+/// How well it is known when samples share time: not at all; but for samples that begin about when others end, which
+/// may share a moment, from rounding; or so that samples which might share more than kMinOverlap are all known, but
+/// whether A's do with their first partner is not, or is.
+enum class Timed { badly, nearly, fairly, well };
+
 /// When B's samples begin against A's, of one dt.
 struct Shift {
     static constexpr std::int64_t kOne = std::int64_t{1} << Blocks::kLogParts;
-    std::int64_t parts;  ///< of a sample
+    std::int64_t parts = 0;  ///< of a sample
+    Timed timed = Timed::badly;
 
     /// B's first sample begins so many samples after A's ...
     int whole() const { return static_cast<int>((parts - 1) >> Blocks::kLogParts); }
     /// ... and these parts of one, 0 < rest_parts() <= kOne: A's sample i shares them with B's i - whole() - 1, and the
-    /// others with i - whole(), if there are any.
+    /// others with i - whole(), if there are any. Nearly timed it may share a moment with i - whole() - 2, too.
     std::int64_t rest_parts() const { return ((parts - 1) & (kOne - 1)) + 1; }
     double rest() const { return static_cast<double>(rest_parts()) / kOne; }
 };
@@ -142,6 +148,37 @@ MOBB_INLINE Nearness nearness(const Blocks::Rings& a, std::ptrdiff_t first_a, co
     return out;
 }
 
+/// Of kLanes samples of A from `first_a` on, each against two of B's, one behind the other from `first_b` on: whether
+/// one of them may collide. The first one's is sure where Relation says that it shares enough.
+MOBB_INLINE Nearness nearness_to_both(const Blocks::Rings& a, std::ptrdiff_t first_a, const Blocks::Rings& b,
+                                      std::ptrdiff_t first_b, const Relation& relation) {
+    const Tag d;
+    const auto c = hn::Set(d, relation.c), s = hn::Set(d, relation.s);
+    const auto ox = hn::Set(d, relation.ox), oy = hn::Set(d, relation.oy);
+    const auto slack = hn::Set(d, relation.slack), sure_slack = hn::Set(d, relation.sure_slack);
+    Nearness out;
+    for (int lane = 0; lane < kLanes; lane += static_cast<int>(hn::Lanes(d))) {
+        const std::ptrdiff_t i = first_a + lane, j = first_b + lane;
+        const auto from_x = hn::Sub(ox, hn::LoadU(d, a.x + i)), from_y = hn::Sub(oy, hn::LoadU(d, a.y + i));
+        const auto radius = hn::LoadU(d, a.inner + i), wide = hn::Add(radius, slack);
+        const auto first = squared_apart(c, s, hn::LoadU(d, b.x + j), hn::LoadU(d, b.y + j), from_x, from_y);
+        const auto next = squared_apart(c, s, hn::LoadU(d, b.x + j + 1), hn::LoadU(d, b.y + j + 1), from_x, from_y);
+        const auto radius_first = hn::LoadU(d, b.inner + j);
+        const auto most_first = hn::Add(wide, radius_first), most_next = hn::Add(wide, hn::LoadU(d, b.inner + j + 1));
+        const auto least = hn::Add(radius, hn::Sub(radius_first, sure_slack));
+        // Never, where a sum is negative: a sample is missing, or nothing is sure.
+        const auto may = hn::Or(hn::Le(first, hn::Mul(most_first, hn::Abs(most_first))),
+                                hn::Le(next, hn::Mul(most_next, hn::Abs(most_next))));
+        const auto sure = hn::Lt(first, hn::Mul(least, hn::Abs(least)));
+        std::uint8_t bits[8];
+        hn::StoreMaskBits(d, may, bits);
+        out.may |= std::uint64_t{bits[0]} << lane;
+        hn::StoreMaskBits(d, sure, bits);
+        out.sure |= std::uint64_t{bits[0]} << lane;
+    }
+    return out;
+}
+
 /// The lowest `count` bits, 0 < count <= 64.
 MOBB_INLINE std::uint64_t some_low_bits(int count) { return ~std::uint64_t{0} >> (64 - count); }
 /// Likewise; none if there are fewer than none.
@@ -168,9 +205,10 @@ MOBB_INLINE Relation relate(const PlacedBlocks& a, const PlacedBlocks& b, Shift 
     const glm::dvec2 between = b.center() - a.center();
     const auto x = static_cast<float>(between.x), y = static_cast<float>(between.y);
     const float slack = a.slack() + b.slack();
+    const float room = shift.timed == Timed::nearly ? slack + b.blocks().step() : slack;
     const bool tells = shift.rest_parts() >= std::max(a.blocks().sure_parts(), b.blocks().sure_parts());
     return {
-        ca * cb + sa * sb, ca * sb - sa * cb, ca * x + sa * y, ca * y - sa * x, slack, tells ? slack : Blocks::kNever};
+        ca * cb + sa * sb, ca * sb - sa * cb, ca * x + sa * y, ca * y - sa * x, room, tells ? slack : Blocks::kNever};
 }
 
 /// Seconds by which times of either may be wrong, from rounding.
@@ -178,17 +216,44 @@ MOBB_INLINE float time_error(const PlacedBlocks& a, const PlacedBlocks& b) {
     return static_cast<float>(PlacedBlocks::kTimeError * (a.largest_time() + b.largest_time()));
 }
 
-/// Whether times of both are exact enough to tell which samples share time: they do not begin too late.
-MOBB_INLINE bool are_timed(const PlacedBlocks& a, const PlacedBlocks& b) {
+/// Whether the two are timed well, and their shift is known from no more than their parts.
+MOBB_INLINE bool have_parts(const PlacedBlocks& a, const PlacedBlocks& b) {
     return a.begin_parts() != PlacedBlocks::kNoParts && b.begin_parts() != PlacedBlocks::kNoParts;
 }
-/// Whether samples of the two share time by a constant shift.
-MOBB_INLINE bool are_shifted(const PlacedBlocks& a, const PlacedBlocks& b) {
-    return a.dt() == b.dt() && are_timed(a, b);
+/// How well two are timed that have no parts, where times may be wrong by so many seconds.
+MOBB_INLINE Timed timed_to(double error, const PlacedBlocks& a, const PlacedBlocks& b) {
+    if (error < kMinOverlap / 2) return Timed::well;
+    return error < std::min(a.dt(), b.dt()) / 8 ? Timed::nearly : Timed::badly;
 }
-
-/// Of two that are shifted and whose roots share time: so samples fit into an int.
-MOBB_INLINE Shift shift_of(const PlacedBlocks& a, const PlacedBlocks& b) { return {b.begin_parts() - a.begin_parts()}; }
+/// By their difference in time, of two that have no parts.
+[[gnu::noinline]] inline Shift shift_by_difference(const PlacedBlocks& a, const PlacedBlocks& b) {
+    const double error = static_cast<double>(time_error(a, b));
+    const Timed timed = timed_to(error, a, b);
+    if (timed == Timed::badly) return {};
+    const double per_dt = a.blocks().per_dt();
+    const double later = (b.start() - a.start()) * per_dt + (b.first() - a.first());
+    const double up = std::ceil(later), left = up - later;
+    const std::int64_t whole = static_cast<std::int64_t>(up) * Shift::kOne;
+    if (timed == Timed::nearly) {
+        // The sum of a start and a clip's time is rounded, but a later one never to less: samples share time only if
+        // they do by these sums, in which the start cancels.
+        const double unsure = PlacedBlocks::kTimeError * (a.end() + b.end());
+        if (left <= unsure) return {whole, Timed::nearly};
+        if (left >= 1 - unsure) return {whole - Shift::kOne, Timed::nearly};
+        if (left >= 1 - (kMinOverlap + error) * per_dt) return {whole - Shift::kOne + 1, Timed::fairly};
+    }
+    // Rounding does not make a sample more or less of it.
+    const auto left_parts = static_cast<std::int64_t>(left * static_cast<double>(Shift::kOne) + 0.5);
+    return {whole - std::min(left_parts, Shift::kOne - 1), Timed::well};
+}
+/// Of two whose roots share time: so samples fit into an int. Badly timed where they share it by no constant shift, of
+/// clips of different dt, or where rounding hides it.
+MOBB_INLINE Shift shift_of(const PlacedBlocks& a, const PlacedBlocks& b) {
+    if (a.dt() != b.dt()) return {};
+    if (!have_parts(a, b)) [[unlikely]]
+        return shift_by_difference(a, b);
+    return {b.begin_parts() - a.begin_parts(), Timed::well};
+}
 
 constexpr int kMostBits = 64;
 
@@ -254,11 +319,6 @@ MOBB_INLINE Pairs blocks_and_windows(const Blocks& a, const Blocks& b, int level
     const int number_a = middle >> log_unit, number_b = nearest_b >> log_unit;
     return {a.windows(level, number_a), b.windows(level, number_b), Blocks::place_of_number(number_a),
             Blocks::place_of_number(number_b)};
-}
-/// A's samples from i on, and B's from j on.
-MOBB_INLINE Pairs samples_of(const Blocks& blocks_a, int i, const Blocks& blocks_b, int j) {
-    const Blocks::Rings a = blocks_a.samples();
-    return {{a.x, a.y, a.inner, a.inner}, blocks_b.samples(), i, j};
 }
 
 }  // namespace mobb::MOBB_LANES

@@ -14,7 +14,6 @@ struct BlockQueries {
     bool (*intersects_below_roots)(const PlacedBlocks& a, const PlacedBlocks& b);
     bool (*for_each_hit_below_roots)(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink,
                                      BlockObserver* observer);
-    std::size_t (*first_colliding)(const PlacedBlocks& a, const PlacedBlocks* const* others, std::size_t count);
     void (*intersects_each)(const BlocksPair* pairs, std::size_t count, bool* answers);
 };
 

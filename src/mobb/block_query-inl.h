@@ -8,21 +8,29 @@
 
 namespace mobb::MOBB_LANES {
 
+/// A's sample that begins when B's last one ends.
+MOBB_INLINE int behind_shared(const Blocks& b, const Shift& shift) { return b.count() + shift.whole() + 1; }
+/// Whether those two collide, of two that are nearly timed: a moment that they share comes behind all that is scanned.
+inline bool last_pair_collides(const PlacedBlocks& a, const PlacedBlocks& b, const Shift& shift) {
+    if (shift.timed != Timed::nearly) return false;
+    const int i = behind_shared(b.blocks(), shift);
+    return 0 <= i && i < a.blocks().count() && pair_collides(a, a.first() + i, b, b.end() - 1);
+}
+
 /// One traversal. OnHit is called with the pairs of samples that collide, earliest first, and says whether to stop; if
 /// OnHit::kAny, it may not be called before a traversal stops, as one that collides is as good as the earliest.
 template <class Observer, class OnHit>
 class BlockTraversal {
   public:
     MOBB_INLINE BlockTraversal(const PlacedBlocks& a, const PlacedBlocks& b, const Relation& relation,
-                               const Shift* shift, [[maybe_unused]] Observer& observer, OnHit& on_hit,
+                               const Shift& shift, [[maybe_unused]] Observer& observer, OnHit& on_hit,
                                UnequalDtScan<OnHit>* unequal = nullptr)
         : a_(a),
           b_(b),
           blocks_a_(a.blocks()),
           blocks_b_(b.blocks()),
           relation_(relation),
-          shifted_(shift != nullptr),
-          shift_(shift ? *shift : Shift{0}),
+          shift_(shift),
           unequal_(unequal),
           observer_(observer),
           on_hit_(on_hit) {}
@@ -30,12 +38,12 @@ class BlockTraversal {
     /// Of roots that share time and may meet. Returns true if on_hit stopped it.
     bool run() {
         const int top_a = blocks_a_.levels() - 1, top_b = blocks_b_.levels() - 1, top = std::min(top_a, top_b);
-        if (!Observer::watches && shifted_)
-            return scan_level(top, shared_samples(blocks_a_, blocks_b_, shift_.whole()));
+        if (!Observer::watches && is_shifted())
+            return scan_level(top, shared_samples(blocks_a_, blocks_b_, shift_.whole())) || decide_last();
         if (unequal_ && unequal_->fine(top_a, top_b) == 0)
             return unequal_->scan({0, blocks_a_.count()}, {0, blocks_b_.count()});
         if (blocks_a_.count(0) == 1 && blocks_b_.count(0) == 1) return test_samples(0, 0);
-        if (shifted_) return visit_shifted(top, 0, blocks_a_.count(top), 0, blocks_b_.count(top));
+        if (is_shifted()) return visit_shifted(top, 0, blocks_a_.count(top), 0, blocks_b_.count(top));
         return visit_stepped(top_a, 0, blocks_a_.count(top_a), top_b, 0, blocks_b_.count(top_b));
     }
 
@@ -87,6 +95,8 @@ class BlockTraversal {
     }
 
   private:
+    bool is_shifted() const { return shift_.timed != Timed::badly; }
+
     /// Blocks at which B's are shifted against A's by a constant: pair (i, i - whole + k) shares time,
     /// first <= k < first + count.
     struct Shifts {
@@ -200,7 +210,7 @@ class BlockTraversal {
         int first_a, end_a, first_b, end_b;
         children(blocks_a_, level_a, i, down_a, first_a, end_a);
         children(blocks_b_, level_b, j, down_b, first_b, end_b);
-        if (shifted_) return visit_shifted(level_a - 1, first_a, end_a, first_b, end_b);
+        if (is_shifted()) return visit_shifted(level_a - 1, first_a, end_a, first_b, end_b);
         return visit_stepped(level_a - (down_a ? 1 : 0), first_a, end_a, level_b - (down_b ? 1 : 0), first_b, end_b);
     }
 
@@ -262,8 +272,13 @@ class BlockTraversal {
     /// Of a run from sample i of A on, as far as it lies in the span: each against both of B's that it shares time
     /// with.
     MOBB_INLINE Nearness samples_of_run(int i, const SampleSpan& span) const {
-        const Nearness samples =
-            samples_of(blocks_a_, i, blocks_b_, i - shift_.whole() - 1).first(Blocks::kRun, relation_);
+        const Blocks::Rings a = blocks_a_.samples(), b = blocks_b_.samples();
+        Nearness samples;
+        for (int k = 0; k < Blocks::kRun; k += kLanes) {
+            const Nearness some = nearness_to_both(a, i + k, b, i + k - shift_.whole() - 1, relation_);
+            samples.may |= some.may << k;
+            samples.sure |= some.sure << k;
+        }
         const std::uint64_t there = low_bits(std::min(span.end - i, Blocks::kRun)) & ~low_bits(span.first - i);
         return {samples.may & there, samples.sure & there};
     }
@@ -280,10 +295,16 @@ class BlockTraversal {
         for (; samples != 0; samples &= samples - 1) {
             const int i = first + std::countr_zero(samples);
             const int j = i - shift_.whole();
+            if (shift_.timed == Timed::nearly && 1 < j && decide(i, j - 2, held, 0)) return true;
             if (0 < j && j <= blocks_b_.count() && decide(i, j - 1, held, shift_.rest())) return true;
             if (0 <= j && j < blocks_b_.count() && decide(i, j, held, 1 - shift_.rest())) return true;
         }
         return false;
+    }
+
+    bool decide_last() {
+        return last_pair_collides(a_, b_, shift_) &&
+               on_hit_(a_.first() + behind_shared(blocks_b_, shift_), b_.end() - 1);
     }
 
     /// Whether samples i and j collide, which share such a part of a sample's time, and on_hit stops: in double, unless
@@ -296,7 +317,7 @@ class BlockTraversal {
             const float x = (relation_.c * bx - relation_.s * by) - (a.x[i] - relation_.ox);
             const float y = (relation_.s * bx + relation_.c * by) - (a.y[i] - relation_.oy);
             const float squared = x * x + y * y, radii = a.inner[i] + b.inner[j];
-            const float most = radii + relation_.slack, least = radii - relation_.slack;
+            const float slack = a_.slack() + b_.slack(), most = radii + slack, least = radii - slack;
             if (squared > most * most) return false;
             if (least > 0 && squared < least * least && common > sure_common()) return on_hit_(sample_a, sample_b);
         }
@@ -320,8 +341,7 @@ class BlockTraversal {
     const Blocks& blocks_a_;
     const Blocks& blocks_b_;
     const Relation relation_;
-    const bool shifted_;
-    const Shift shift_;                    ///< if so
+    const Shift shift_;
     UnequalDtScan<OnHit>* const unequal_;  ///< of clips of different dt, where nobody watches
     Observer& observer_;
     OnHit& on_hit_;
@@ -343,14 +363,16 @@ struct AnyHit {
 /// Of roots that share time and may meet. Returns true if on_hit stopped it.
 template <class Observer, class OnHit>
 MOBB_INLINE bool traverse(const PlacedBlocks& a, const PlacedBlocks& b, Observer& observer, OnHit& on_hit) {
-    if (!are_shifted(a, b)) [[unlikely]] {
-        if (Observer::watches || !are_timed(a, b))
-            return BlockTraversal(a, b, relate(a, b, Shift{0}), nullptr, observer, on_hit).run();
-        UnequalDtScan unequal(a, b, on_hit);
-        return BlockTraversal(a, b, relate(a, b, Shift{0}), nullptr, observer, on_hit, &unequal).run();
-    }
     const Shift shift = shift_of(a, b);
-    return BlockTraversal(a, b, relate(a, b, shift), &shift, observer, on_hit).run();
+    if (shift.timed == Timed::badly || (Observer::watches && !have_parts(a, b))) [[unlikely]] {
+        const Shift none;
+        const Timed timed = have_parts(a, b) ? Timed::well : timed_to(static_cast<double>(time_error(a, b)), a, b);
+        if (Observer::watches || timed == Timed::badly)
+            return BlockTraversal(a, b, relate(a, b, none), none, observer, on_hit).run();
+        UnequalDtScan unequal(a, b, timed, on_hit);
+        return BlockTraversal(a, b, relate(a, b, none), none, observer, on_hit, &unequal).run();
+    }
+    return BlockTraversal(a, b, relate(a, b, shift), shift, observer, on_hit).run();
 }
 
 inline bool first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, SamplePair& pair) {
@@ -361,14 +383,17 @@ inline bool first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, 
     return hit;
 }
 
-/// Whether a first look can be had: of two that are shifted, one of which has few enough blocks for one level.
-MOBB_INLINE bool can_look(const PlacedBlocks& a, const PlacedBlocks& b) {
-    return are_shifted(a, b) && std::min(a.blocks().levels(), b.blocks().levels()) == 1;
+/// Whether one of the two has few enough blocks for one level.
+MOBB_INLINE bool is_shallow(const PlacedBlocks& a, const PlacedBlocks& b) {
+    return std::min(a.blocks().levels(), b.blocks().levels()) == 1;
+}
+/// Whether a first look says all but of samples that are near.
+MOBB_INLINE bool can_look(const PlacedBlocks& a, const PlacedBlocks& b, const Shift& shift) {
+    return shift.timed == Timed::well && is_shallow(a, b);
 }
 /// What their windows tell of two whose roots meet: of run k of A, as WindowPairs says, in bit k modulo kMostBits;
 /// which of them are sure means nothing. The same work for all, without a branch but for the number of steps.
-MOBB_INLINE Nearness first_look(const PlacedBlocks& a, const PlacedBlocks& b) {
-    const Shift shift = shift_of(a, b);
+MOBB_INLINE Nearness first_look(const PlacedBlocks& a, const PlacedBlocks& b, const Shift& shift) {
     const Relation relation = relate(a, b, shift);
     const SampleSpan span = shared_samples(a.blocks(), b.blocks(), shift.whole());
     const WindowPairs windows(a.blocks(), b.blocks(), span, shift.whole());
@@ -392,12 +417,18 @@ MOBB_INLINE Nearness first_look(const PlacedBlocks& a, const PlacedBlocks& b) {
     NoObserver observer;
     AnyHit any;
     const Shift shift = shift_of(a, b);
-    BlockTraversal traversal(a, b, relate(a, b, shift), &shift, observer, any);
+    BlockTraversal traversal(a, b, relate(a, b, shift), shift, observer, any);
     const SampleSpan span = shared_samples(a.blocks(), b.blocks(), shift.whole());
     const WindowPairs windows(a.blocks(), b.blocks(), span, shift.whole());
     if (windows.count > kMostBits) return traversal.scan_windows(span);
     const Nearness samples = traversal.samples_of_runs(runs, windows.first, span);
     return samples.undecided() ? traversal.test_runs(runs, windows.first, span) : samples.sure != 0;
+}
+/// Of two whose roots meet, one of which is shallow, with some samples to be scanned.
+MOBB_INLINE bool look_for_hit(const PlacedBlocks& a, const PlacedBlocks& b, const Shift& shift) {
+    const Nearness near = first_look(a, b, shift);
+    // One branch, as it is easier to foretell than which of the two is known.
+    return near.undecided() ? any_sample_hits(a, b, near.may) : near.sure != 0;
 }
 /// Of any two whose roots meet.
 [[gnu::noinline]] inline bool any_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {
@@ -405,12 +436,23 @@ MOBB_INLINE Nearness first_look(const PlacedBlocks& a, const PlacedBlocks& b) {
     AnyHit any;
     return traverse(a, b, observer, any);
 }
+/// Of those that are not timed well.
+[[gnu::noinline]] inline bool any_late_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b,
+                                                       const Shift& shift) {
+    if (is_shallow(a, b)) {
+        // The other way round the first partner is the one with which more is shared.
+        const Shift turned = shift_of(b, a);
+        if (shift.timed == Timed::fairly && turned.timed == Timed::well) return look_for_hit(b, a, turned);
+        if (shift.timed == Timed::nearly && behind_shared(b.blocks(), shift) > 0)
+            return look_for_hit(a, b, shift) || last_pair_collides(a, b, shift);
+    }
+    return any_hit_below_roots(a, b);
+}
 
 inline bool intersects_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {
-    if (!can_look(a, b)) return any_hit_below_roots(a, b);
-    const Nearness near = first_look(a, b);
-    // One branch, as it is easier to foretell than which of the two is known.
-    return near.undecided() ? any_sample_hits(a, b, near.may) : near.sure != 0;
+    const Shift shift = shift_of(a, b);
+    if (can_look(a, b, shift)) return look_for_hit(a, b, shift);
+    return have_parts(a, b) ? any_hit_below_roots(a, b) : any_late_hit_below_roots(a, b, shift);
 }
 
 inline bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink,
@@ -420,83 +462,61 @@ inline bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& 
     return traverse(a, b, nobody, sink);
 }
 
-/// Calls found(i, collides) for pairs i of `count`, until stop(i) says that this one and those behind it need not be
-/// asked; of the others it is not called if they do not collide. Of some number of pairs at a time times go first, then
-/// roots, windows, and samples: what ends soon costs hardly a mispredicted branch. So they come in no order, but each
-/// number of pairs behind the one before.
-template <class PairAt, class Found, class Stop>
-void find_colliding(std::size_t count, const PairAt& pair_at, const Found& found, const Stop& stop) {
+/// Of some number of pairs at a time times go first, then roots, windows, and samples: what ends soon costs hardly a
+/// mispredicted branch.
+inline void intersects_each(const BlocksPair* pairs, std::size_t count, bool* answers) {
+    std::fill_n(answers, count, false);
     constexpr std::size_t kAtATime = 64;
     std::size_t together[kAtATime], below_roots[kAtATime];
     struct {
         std::size_t index;
         std::uint64_t runs;
     } undecided[kAtATime];
-    for (std::size_t first = 0; first < count && !stop(first); first += kAtATime) {
+    for (std::size_t first = 0; first < count; first += kAtATime) {
         const std::size_t end = std::min(count, first + kAtATime);
-        std::size_t pairs = 0;
+        std::size_t sharing = 0;
         for (std::size_t i = first; i < end; ++i) {
             // Placements lie anywhere in memory: they are fetched a few pairs ahead.
             constexpr std::size_t kAhead = 12;
             if (i + kAhead < count) {
-                const auto [next_a, next_b] = pair_at(i + kAhead);
-                __builtin_prefetch(next_a);
-                __builtin_prefetch(next_b);
+                __builtin_prefetch(pairs[i + kAhead].a);
+                __builtin_prefetch(pairs[i + kAhead].b);
             }
-            const auto [a, b] = pair_at(i);
-            together[pairs] = i;
-            pairs += overlap_in_time(a->begin_time(), a->end_time(), b->begin_time(), b->end_time()) ? std::size_t{1}
-                                                                                                     : std::size_t{0};
+            const auto [a, b] = pairs[i];
+            together[sharing] = i;
+            sharing += overlap_in_time(a->begin_time(), a->end_time(), b->begin_time(), b->end_time()) ? std::size_t{1}
+                                                                                                       : std::size_t{0};
         }
         std::size_t roots = 0;
-        for (std::size_t k = 0; k < pairs; ++k) {
-            const auto [a, b] = pair_at(together[k]);
+        for (std::size_t k = 0; k < sharing; ++k) {
+            const auto [a, b] = pairs[together[k]];
             below_roots[roots] = together[k];
             roots += roots_meet(*a, *b) ? std::size_t{1} : std::size_t{0};
         }
         std::size_t open = 0;
         for (std::size_t k = 0; k < roots; ++k) {
             const std::size_t i = below_roots[k];
-            const auto [a, b] = pair_at(i);
-            if (!can_look(*a, *b)) [[unlikely]] {
-                found(i, !stop(i) && any_hit_below_roots(*a, *b));
+            const auto [a, b] = pairs[i];
+            const Shift shift = shift_of(*a, *b);
+            if (!can_look(*a, *b, shift)) [[unlikely]] {
+                answers[i] = MOBB_LANES::intersects_below_roots(*a, *b);
                 continue;
             }
-            const Nearness near = first_look(*a, *b);
-            found(i, near.sure != 0);
+            const Nearness near = first_look(*a, *b, shift);
+            answers[i] = near.sure != 0;
             undecided[open] = {i, near.may};
             open += near.undecided() ? std::size_t{1} : std::size_t{0};
         }
-        for (std::size_t k = 0; k < open && !stop(undecided[k].index); ++k) {
-            const auto& pair = undecided[k];
-            const auto [a, b] = pair_at(pair.index);
-            found(pair.index, any_sample_hits(*a, *b, pair.runs));
+        for (std::size_t k = 0; k < open; ++k) {
+            const auto [a, b] = pairs[undecided[k].index];
+            answers[undecided[k].index] = any_sample_hits(*a, *b, undecided[k].runs);
         }
     }
 }
 
-inline std::size_t first_colliding(const PlacedBlocks& a, const PlacedBlocks* const* others, std::size_t count) {
-    std::size_t out = count;
-    find_colliding(
-        count,
-        [&](std::size_t i) {
-            return BlocksPair{&a, others[i]};
-        },
-        [&](std::size_t i, bool collides) { out = std::min(out, collides ? i : count); },
-        [&](std::size_t i) { return out <= i; });
-    return out;
-}
-
-inline void intersects_each(const BlocksPair* pairs, std::size_t count, bool* answers) {
-    std::fill_n(answers, count, false);
-    find_colliding(
-        count, [&](std::size_t i) { return pairs[i]; }, [&](std::size_t i, bool collides) { answers[i] = collides; },
-        [](std::size_t) { return false; });
-}
-
 inline const BlockQueries* queries() {
     static constexpr BlockQueries all{first_hit_below_roots, intersects_below_roots, for_each_hit_below_roots,
-                                      first_colliding, intersects_each};
+                                      intersects_each};
     return &all;
 }
 

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -153,7 +154,7 @@ Blocks::Blocks(ClipPtr clip)
       clip_(std::move(clip)) {
     constexpr std::int64_t kWhole = std::int64_t{1} << kLogParts;
     const double sure = 2 * kMinOverlap * per_dt_;  // of a sample; twice, as times are exact to half of it
-    sure_parts_ = linear_ || sure > 1 ? kWhole + 1 : static_cast<std::int64_t>(sure * static_cast<double>(kWhole)) + 1;
+    sure_parts_ = linear_ || sure > 1 ? kWhole + 1 : static_cast<std::int64_t>(sure * static_cast<double>(kWhole)) + 2;
     const int n = count_;
     const auto reach_from = [this](glm::dvec2 center) {
         double radius = 0;
@@ -173,6 +174,7 @@ Blocks::Blocks(ClipPtr clip)
         if (moving.radius < radius_) {
             origin_ = moving.from + moving.drift / 2.0;
             velocity_ = moving.drift * per_dt_ / static_cast<double>(steps_);
+            root_speed_ = glm::length(velocity_);
             moving_radius_ = moving.radius;
             radius_ = reach_from(origin_);
         }
@@ -259,6 +261,14 @@ void Blocks::add_samples() {
         inner[i] = std::max(inner[i], inner[i + 1]) + way / 2;
         speed_ = std::max(speed_, rounded_up(way / dt_));
     }
+    // Floats that are not negative compare as their bits do, several at a time.
+    std::int32_t longest = 0;
+    for (int i = 0; i + 1 < n; ++i) {
+        const float dx = x[i + 1] - x[i], dy = y[i + 1] - y[i];
+        const float step = std::sqrt(dx * dx + dy * dy) + std::abs(inner[i + 1] - inner[i]);
+        longest = std::max(longest, std::bit_cast<std::int32_t>(step));
+    }
+    step_ = std::bit_cast<float>(longest);
     for (float* const values : {x, y}) {
         values[-1] = values[0];
         values[n] = values[n - 1];

@@ -170,10 +170,13 @@ class alignas(64) Blocks {
     /// Velocity in m/s, and radius. Of long clips, and where moving makes it no smaller, it is the first one.
     bool is_short() const { return count_ <= kShort; }
     glm::dvec2 velocity() const { return velocity_; }
+    double root_speed() const { return root_speed_; }  ///< its length
     double moving_radius() const { return moving_radius_; }
     static constexpr int kShort = 8 * kSamples;
     float extent() const { return extent_; }  ///< an upper bound in metres on |x| + |y| + r about the origin
     float speed() const { return speed_; }    ///< at which no bound's centre moves faster, m/s
+    /// Metres: each of samples() lies within any neighbour of it that is grown by so much.
+    float step() const { return step_; }
     /// Times of clips of one dt are told in parts of a sample, 1 / 2^kLogParts each.
     static constexpr int kLogParts = 33;
     /// So many must two samples share to collide for sure where their disks overlap. More than one has of a linear
@@ -230,7 +233,7 @@ class alignas(64) Blocks {
     int window_stride_ = 0;
     float extent_ = 0;
     std::int64_t sure_parts_;
-    float speed_ = 0;
+    float speed_ = 0, step_ = 0;
     bool linear_;
     int steps_;
     std::array<Level, kMostLevels> levels_{};
@@ -238,7 +241,7 @@ class alignas(64) Blocks {
     const Disk* disks_;
     double reach_;
     glm::dvec2 origin_{0}, velocity_{0};
-    double radius_ = 0, moving_radius_ = 0;
+    double root_speed_ = 0, radius_ = 0, moving_radius_ = 0;
     ClipPtr clip_;
 };
 

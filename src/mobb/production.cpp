@@ -56,11 +56,6 @@ bool intersects_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {
     return chosen_queries().intersects_below_roots(a, b);
 }
 
-std::optional<std::size_t> intersects_any(const PlacedBlocks& a, std::span<const PlacedBlocks* const> others) {
-    const std::size_t first = chosen_queries().first_colliding(a, others.data(), others.size());
-    return first < others.size() ? std::optional(first) : std::nullopt;
-}
-
 void intersects_each(std::span<const BlocksPair> pairs, std::span<bool> answers) {
     if (pairs.size() != answers.size()) throw std::invalid_argument("intersects_each needs as many answers as pairs");
     chosen_queries().intersects_each(pairs.data(), pairs.size(), answers.data());

@@ -66,6 +66,8 @@ class alignas(64) PlacedBlocks {
                 blocks_->steps() * blocks_->dt()};
     }
 
+    /// Global time at which sample 0 begins, of the clip or of the chain.
+    double start() const { return start_; }
     int first() const { return first_; }
     int end() const { return first_ + blocks_->count(); }
     double dt() const { return blocks_->dt(); }
@@ -83,8 +85,8 @@ class alignas(64) PlacedBlocks {
     double largest_time() const { return std::abs(start_) + end() * dt(); }
     static constexpr double kTimeError = 0x1p-48;  ///< of them, with a wide margin
     /// begin_time() in parts of a sample (see Blocks::kLogParts), to the nearest: how two clips of one dt are shifted
-    /// against each other follows from these. kNoParts where that is too inexact: of samples that last long, or begin
-    /// late.
+    /// against each other follows from these. kNoParts where that is too inexact, of samples that last long or begin
+    /// late: there it takes the difference of their begin_time().
     std::int64_t begin_parts() const { return begin_parts_; }
     static constexpr std::int64_t kNoParts = std::numeric_limits<std::int64_t>::min();
     /// What this one adds to the slack of tests in single precision, metres: where roots meet, what is farther apart
@@ -134,20 +136,22 @@ class alignas(64) PlacedBlocks {
         // Which samples share time must be told to half of what they must share.
         constexpr double kParts = std::int64_t{1} << Blocks::kLogParts, kMostSamples = 1 << 29;
         const double samples = begin_ * blocks.per_dt();
-        if (kTimeError * largest_time() + blocks.dt() / kParts < kMinOverlap / 4 && std::abs(samples) < kMostSamples)
-            begin_parts_ = std::llround(samples * kParts);
-        // Late times are too inexact for what moves. It is not asked whether it does: of short clips some do, and a
-        // branch on that would often be mispredicted.
-        moves_ = blocks.is_short() && begin_parts_ != kNoParts;
+        const double time_error = kTimeError * largest_time();
+        if (time_error + blocks.dt() / kParts < kMinOverlap / 4 && std::abs(samples) < kMostSamples)
+            begin_parts_ = static_cast<std::int64_t>(samples * kParts + (samples < 0 ? -0.5 : 0.5));
+        // It is not asked whether it does: of short clips some do, and a branch on that would often be mispredicted.
+        moves_ = blocks.is_short();
         if (moves_) {
             const glm::dvec2 velocity = rotation(blocks.velocity());
             velocity_x_ = static_cast<float>(velocity.x);
             velocity_y_ = static_cast<float>(velocity.y);
         }
         // Above what single precision leaves out, and the predicate of swept disks: that takes them for nearer than
-        // they are, by up to a share of all lengths involved (see RelativeFrame::cover_swept_disks).
+        // they are, by up to a share of all lengths involved (see RelativeFrame::cover_swept_disks). And above how far
+        // the root moves in as much time as rounding may hide.
         constexpr double kRootError = 0x1p-19;
-        radius_ = rounded_up((moves_ ? blocks.moving_radius() : blocks.radius()) + rounding + kRootError * lengths);
+        radius_ = rounded_up((moves_ ? blocks.moving_radius() : blocks.radius()) + rounding +
+                             time_error * blocks.root_speed() + kRootError * lengths);
     }
 
     /// What rounding in single precision adds at most, as a share of the lengths involved, with a wide margin.
@@ -226,8 +230,17 @@ inline bool intersects(const PlacedBlocks& a, const PlacedBlocks& b) {
     return roots_meet(a, b) && intersects_below_roots(a, b);
 }
 
-/// The first of `others` that collides with `a`: its index, or none.
-std::optional<std::size_t> intersects_any(const PlacedBlocks& a, std::span<const PlacedBlocks* const> others);
+/// The first of `others` that collides with `a`: its index, or none. One by one, as whatever is worked out for those
+/// behind it is in vain.
+inline std::optional<std::size_t> intersects_any(const PlacedBlocks& a, std::span<const PlacedBlocks* const> others) {
+    // Placements lie anywhere in memory: they are fetched a few ahead.
+    constexpr std::size_t kAhead = 4;
+    for (std::size_t i = 0; i < others.size(); ++i) {
+        if (i + kAhead < others.size()) __builtin_prefetch(others[i + kAhead]);
+        if (intersects(a, *others[i])) return i;
+    }
+    return std::nullopt;
+}
 
 /// Two clips to be tested against each other.
 struct BlocksPair {

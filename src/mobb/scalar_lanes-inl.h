@@ -28,6 +28,7 @@ inline FirstLane SetTableIndices(OneLane, const std::int32_t*) { return {}; }
 inline float TableLookupLanes(float a, FirstLane) { return a; }
 inline bool Le(float a, float b) { return a <= b; }
 inline bool Lt(float a, float b) { return a < b; }
+inline bool Or(bool a, bool b) { return static_cast<bool>(static_cast<unsigned>(a) | static_cast<unsigned>(b)); }
 inline void StoreMaskBits(OneLane, bool mask, std::uint8_t* bits) { bits[0] = mask ? 1 : 0; }
 
 }  // namespace mobb::scalar::hn

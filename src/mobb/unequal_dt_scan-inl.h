@@ -52,18 +52,19 @@ MOBB_INLINE unsigned near_partners(const Units& units, int first, const Units& o
     return out;
 }
 
-/// Two clips of different dt, the fine one's less than the coarse one's, that are timed and whose roots share time.
-/// OnHit as BlockTraversal has it.
+/// Two clips of different dt, the fine one's less than the coarse one's, whose roots share time and which are timed
+/// nearly, at least. OnHit as BlockTraversal has it.
 template <class OnHit>
 class UnequalDtScan {
   public:
-    UnequalDtScan(const PlacedBlocks& a, const PlacedBlocks& b, OnHit& on_hit)
+    UnequalDtScan(const PlacedBlocks& a, const PlacedBlocks& b, Timed timed, OnHit& on_hit)
         : fine_is_a_(a.dt() < b.dt()),
           fine_(fine_is_a_ ? a : b),
           coarse_(fine_is_a_ ? b : a),
           ratio_(fine_.dt() * coarse_.blocks().per_dt()),
           begin_((fine_.begin_time() - coarse_.begin_time()) * coarse_.blocks().per_dt()),
-          relation_(relate(fine_, coarse_, Shift{0})),
+          unsure_(timed == Timed::well ? 0 : static_cast<double>(time_error(a, b)) / fine_.dt()),
+          relation_(relate(fine_, coarse_, Shift{})),
           on_hit_(on_hit) {}
 
     /// Of what A and B have each, the fine clip's.
@@ -75,35 +76,42 @@ class UnequalDtScan {
     /// Tests a span of A's samples against one of B's, in order of time. Returns true if on_hit stopped it.
     bool scan(const SampleSpan& a, const SampleSpan& b) {
         const SampleSpan& coarse = fine_is_a_ ? b : a;
-        const SampleSpan shared = sharing(fine(a, b), coarse);
+        return unsure_ > 0 ? scan_spans<1>(fine(a, b), coarse) : scan_spans<0>(fine(a, b), coarse);
+    }
+
+  private:
+    // Where it matters that times may be wrong, partners are looked for so much earlier, and one more.
+
+    template <int more>
+    bool scan_spans(const SampleSpan& fine, const SampleSpan& coarse) {
+        const SampleSpan shared = sharing<more>(fine, coarse);
         const int first = shared.first >> Blocks::kLogSamples, end = ((shared.end - 1) >> Blocks::kLogSamples) + 1;
         const auto test_run = [&](int k) {
             const int begin = k * Blocks::kSamples;
-            return test_samples({std::max(shared.first, begin), std::min(shared.end, begin + Blocks::kSamples)},
-                                coarse);
+            return test_samples<more>({std::max(shared.first, begin), std::min(shared.end, begin + Blocks::kSamples)},
+                                      coarse);
         };
         constexpr double kPerBlock = 1.0 / Blocks::kSamples;
         // Blocks that last much longer than what they are tested against rule out little.
         constexpr double kAlike = 3 * kPerBlock;
         if (ratio_ >= kAlike) {
-            const Pace pace{begin_ * kPerBlock, ratio_};
-            return scan_units<2>(blocks_of(fine_), first, end, blocks_of(coarse_), pace, relation_, test_run);
+            const Pace pace{from_coarse<more>(0) * kPerBlock, ratio_};
+            return scan_units<2 + more>(blocks_of(fine_), first, end, blocks_of(coarse_), pace, relation_, test_run);
         }
         if (ratio_ <= kPerBlock) {
-            const Pace pace{begin_, ratio_ * Blocks::kSamples};
-            return scan_units<1>(blocks_of(fine_), first, end, pairs_of(coarse_), pace, relation_, test_run);
+            const Pace pace{from_coarse<more>(0), ratio_ * Blocks::kSamples};
+            return scan_units<1 + more>(blocks_of(fine_), first, end, pairs_of(coarse_), pace, relation_, test_run);
         }
-        const int from = std::max(coarse.first, static_cast<int>(in_coarse(shared.first)));
-        const int to = std::min(coarse.end, static_cast<int>(in_coarse(shared.end)) + 1);
-        const Pace pace{in_fine(0) * kPerBlock, kPerBlock / ratio_};
-        return scan_units<2>(samples_of(coarse_), from, to, blocks_of(fine_), pace, relate(coarse_, fine_, Shift{0}),
-                             [&](int j) {
-                                 const SampleSpan one{j, j + 1};
-                                 return test_samples(sharing(shared, one), one);
-                             });
+        const int from = std::max(coarse.first, static_cast<int>(from_coarse<more>(shared.first)));
+        const int to = std::min(coarse.end, static_cast<int>(until_coarse<more>(shared.end)) + 1);
+        const Pace pace{from_fine<more>(0) * kPerBlock, kPerBlock / ratio_};
+        return scan_units<2 + more>(samples_of(coarse_), from, to, blocks_of(fine_), pace,
+                                    relate(coarse_, fine_, Shift{}), [&](int j) {
+                                        const SampleSpan one{j, j + 1};
+                                        return test_samples<more>(sharing<more>(shared, one), one);
+                                    });
     }
 
-  private:
     static Units blocks_of(const PlacedBlocks& placed) {
         const Paths paths = placed.blocks().paths(0);
         return {paths.x(), paths.y(), paths.r()};
@@ -118,15 +126,32 @@ class UnequalDtScan {
         return {samples.x, samples.y, samples.outer};
     }
 
-    /// Where the fine clip's sample i begins, in samples of the coarse one; and the other way round.
-    double in_coarse(int i) const { return begin_ + i * ratio_; }
-    double in_fine(int j) const { return (j - begin_) / ratio_; }
+    /// Where the fine clip's sample i begins, at the earliest and at the latest, in samples of the coarse one; and the
+    /// other way round.
+    template <int more>
+    double from_coarse(int i) const {
+        return begin_ + (more > 0 ? i - unsure_ : i) * ratio_;
+    }
+    template <int more>
+    double until_coarse(int i) const {
+        return begin_ + (more > 0 ? i + unsure_ : i) * ratio_;
+    }
+    template <int more>
+    double from_fine(int j) const {
+        return (j - begin_) / ratio_ - (more > 0 ? unsure_ : 0);
+    }
+    template <int more>
+    double until_fine(int j) const {
+        return (j - begin_) / ratio_ + (more > 0 ? unsure_ : 0);
+    }
 
     /// Those of the fine clip's samples of a span that share time with the coarse one's of another, and perhaps one
     /// more at either end.
+    template <int more>
     SampleSpan sharing(const SampleSpan& fine, const SampleSpan& coarse) const {
         const auto within = [&](double i) { return static_cast<int>(std::clamp<double>(i, fine.first, fine.end)); };
-        return {within(std::floor(in_fine(coarse.first))), within(std::floor(in_fine(coarse.end)) + 1)};
+        return {within(std::floor(from_fine<more>(coarse.first))),
+                within(std::floor(until_fine<more>(coarse.end)) + 1)};
     }
 
     /// visit(k) of each unit, first <= k < end, that may meet one of its partners, until one returns true.
@@ -143,17 +168,19 @@ class UnequalDtScan {
         return false;
     }
 
+    template <int more>
     bool test_samples(const SampleSpan& fine, const SampleSpan& coarse) {
-        const Pace pace{begin_, ratio_};
-        return scan_units<1>(samples_of(fine_), fine.first, fine.end, pairs_of(coarse_), pace, relation_, [&](int i) {
-            const int j = static_cast<int>(std::floor(in_coarse(i)));
-            for (int partner = std::max(coarse.first, j); partner < std::min(coarse.end, j + 2); ++partner) {
-                const int sample = fine_.first() + i, other = coarse_.first() + partner;
-                if (!pair_collides(fine_, sample, coarse_, other)) continue;
-                if (fine_is_a_ ? on_hit_(sample, other) : on_hit_(other, sample)) return true;
-            }
-            return false;
-        });
+        const Pace pace{from_coarse<more>(0), ratio_};
+        return scan_units<1 + more>(
+            samples_of(fine_), fine.first, fine.end, pairs_of(coarse_), pace, relation_, [&](int i) {
+                const int j = static_cast<int>(std::floor(from_coarse<more>(i)));
+                for (int partner = std::max(coarse.first, j); partner < std::min(coarse.end, j + 2 + more); ++partner) {
+                    const int sample = fine_.first() + i, other = coarse_.first() + partner;
+                    if (!pair_collides(fine_, sample, coarse_, other)) continue;
+                    if (fine_is_a_ ? on_hit_(sample, other) : on_hit_(other, sample)) return true;
+                }
+                return false;
+            });
     }
 
     const bool fine_is_a_;
@@ -161,6 +188,8 @@ class UnequalDtScan {
     const PlacedBlocks& coarse_;
     const double ratio_;  ///< of their dt, < 1
     const double begin_;  ///< where the fine clip begins, in samples of the coarse one
+    /// By how much times may be wrong, in samples of the fine clip, if that matters.
+    const double unsure_;
     const Relation relation_;
     OnHit& on_hit_;
 };

@@ -177,12 +177,14 @@ TEST(Production, FindsAllIntervalsOfContact) {
     }
 }
 
-TEST(Production, DoesNotDependOnHowFarAwayOrHowUnlikeTwoClipsAre) {
+TEST(Production, DoesNotDependOnHowFarAwayOrHowLateOrHowUnlikeTwoClipsAre) {
+    const EachInstructionSet sets;
     Random random(73);
     int hits = 0;
-    for (int round = 0; round < 4000; ++round) {
-        // One has up to 300 samples to each of the other's.
-        const double dt = random.real(0.01, 0.1);
+    const int rounds = test::query_budget() / 200;
+    for (int round = 0; round < rounds; ++round) {
+        // One has up to 300 samples to each of the other's, which last up to hours.
+        const double dt = random.chance(0.7) ? random.real(0.01, 0.1) : std::pow(10, random.real(-4, 4));
         const ClipPtr clip_a = nasty_clip(random, dt);
         const ClipPtr clip_b = nasty_clip(random, random.chance(0.5) ? dt : dt * std::pow(10, random.real(0, 2.5)));
         const Blocks blocks_a(clip_a), blocks_b(clip_b);
@@ -195,11 +197,62 @@ TEST(Production, DoesNotDependOnHowFarAwayOrHowUnlikeTwoClipsAre) {
             place->start += later;
             place->translate += glm::dvec2(away, -away);
         }
-        const auto expected = direct_search(PlacedClip(*clip_a, place_a), PlacedClip(*clip_b, place_b));
-        ASSERT_EQ(query(PlacedBlocks(blocks_a, place_a), PlacedBlocks(blocks_b, place_b)), expected) << round;
+        const PlacedClip disks_a(*clip_a, place_a), disks_b(*clip_b, place_b);
+        const PlacedBlocks a(blocks_a, place_a), b(blocks_b, place_b);
+        const auto expected = direct_search(disks_a, disks_b);
+        for (const std::string_view set : sets.names()) {
+            ASSERT_TRUE(use_instruction_set(set));
+            ASSERT_EQ(query(a, b), expected) << set << ", " << round;
+            ASSERT_EQ(intersects(b, a), expected.has_value()) << set << ", " << round;
+            std::array<bool, 2> answers{};
+            intersects_each(std::array<BlocksPair, 2>{{{&a, &b}, {&b, &a}}}, answers);
+            ASSERT_EQ(answers, (std::array{expected.has_value(), expected.has_value()})) << set << ", " << round;
+        }
+        ASSERT_EQ(contact_intervals(a, b), direct_contact_intervals(disks_a, disks_b)) << round;
         hits += expected ? 1 : 0;
     }
-    EXPECT_GT(hits, 400);
+    EXPECT_GT(hits, rounds / 10);
+}
+
+TEST(Production, OfTwoSideBySideGivesTheDirectSearchsAnswersOnEveryInstructionSet) {
+    const EachInstructionSet sets;
+    Random random(86);
+    int hits = 0;
+    const int rounds = test::query_budget() / 2000;
+    for (int round = 0; round < rounds; ++round) {
+        // A path, and one to its left, less than a step and down to hairs away from it.
+        const int samples = random.integer(2, 3000);
+        const double step = random.real(0.01, 0.2), dt = random.chance(0.3) ? 2.5 : 1.0 / 30;
+        const double clearance = random.chance(0.1) ? -1e-3 : std::pow(10, random.real(-10, -1));
+        std::vector<Disk> walk, beside;
+        double x = 0, y = 0, heading = random.real(0, 7);
+        for (int i = 0; i < samples; ++i) {
+            const double r = random.real(0.3, 0.5), far = r + 0.4 + clearance;
+            walk.push_back({x, y, 0.4});
+            beside.push_back({x - far * std::sin(heading), y + far * std::cos(heading), r});
+            x += step * std::cos(heading), y += step * std::sin(heading);
+            heading += random.real(-0.01, 0.01);
+        }
+        const Motion motion = random.chance(0.3) ? Motion::linear : Motion::held;
+        const Blocks blocks_a(std::make_shared<const Clip>(dt, walk, motion));
+        const Blocks blocks_b(std::make_shared<const Clip>(dt, beside, random.chance(0.7) ? motion : Motion::held));
+        // In step, or one somewhat behind the other.
+        const double start = random.chance(0.5) ? 0 : 1.7e9;
+        const double later = random.chance(0.4) ? dt * random.integer(-1, 1) : dt * random.real(-1, 1);
+        const Placement place_a{.start = start}, place_b{.start = start + later};
+        const PlacedClip disks_a(blocks_a.clip(), place_a), disks_b(blocks_b.clip(), place_b);
+        const PlacedBlocks a(blocks_a, place_a), b(blocks_b, place_b);
+        const std::optional<Contact> expected = direct_search(disks_a, disks_b);
+        hits += expected ? 1 : 0;
+        for (const std::string_view set : sets.names()) {
+            ASSERT_TRUE(use_instruction_set(set));
+            ASSERT_EQ(query(a, b), expected) << set << ", " << round;
+            ASSERT_EQ(intersects(a, b), expected.has_value()) << set << ", " << round;
+            ASSERT_EQ(intersects(b, a), expected.has_value()) << set << ", " << round;
+        }
+    }
+    EXPECT_GT(hits, rounds / 10);
+    EXPECT_LT(hits, rounds / 2);
 }
 
 TEST(Production, TellsHowLongSamplesShareAsTheDirectSearchDoes) {
@@ -207,23 +260,33 @@ TEST(Production, TellsHowLongSamplesShareAsTheDirectSearchDoes) {
     const EachInstructionSet sets;
     Random random(83);
     int hits = 0, queries = 0;
-    for (const double dt : {1.0 / 30, 0.1, 0.5, 1.9, 2.1}) {
-        for (const double ratio : {1.0, 1.7, 1 / 1.7, 9.0, 1 / 9.0, 50.0, 1 / 50.0}) {
-            for (const int sample_b : {15, 16}) {  // the pair is at the edge of blocks
+    for (const double dt : {1.0 / 30, 0.1, 0.5, 1.9, 2.1, 2.5, 100.0, 3600.0}) {
+        // Some are by a hair those at which the units change that clips are tested by.
+        constexpr double kHair = 1 + 1e-7;
+        for (const double ratio : {1.0, kHair, 1 / kHair, 1.7, 1 / 1.7, 9.0, 1 / 9.0, 16 * kHair, 1 / 16.0 / kHair,
+                                   16 / kHair, kHair / 16, 50.0, 1 / 50.0}) {
+            // The pair is at the edge of blocks, or of clips.
+            for (const auto& [sample_a, sample_b] :
+                 {std::pair{16, 15}, {16, 16}, {32, 31}, {31, 32}, {16, 0}, {16, 39}, {0, 39}, {39, 0}}) {
                 const double dt_b = dt * ratio;
                 std::vector<Disk> disks_a(40, {100, 0, 0.5}), disks_b(40, {-100, 0, 0.5});
-                disks_a[16] = disks_b[static_cast<std::size_t>(sample_b)] = {0, 0, 0.5};
+                disks_a[static_cast<std::size_t>(sample_a)] = {0, 0, 0.5};
+                disks_b[static_cast<std::size_t>(sample_b)] = {0, 0, 0.5};
                 const auto clip_a = std::make_shared<const Clip>(dt, disks_a),
                            clip_b = std::make_shared<const Clip>(dt_b, disks_b);
                 const Blocks blocks_a(clip_a), blocks_b(clip_b);
                 const FitOptions production{.tree = TreeKind::production};
                 const Tree tree_a(clip_a, production), tree_b(clip_b, production);
                 for (int i = 0; i < 100; ++i, ++queries) {
-                    const double start = random.real(0, 10), share = random.real(0.7e-9, 1.3e-9);
+                    // Late ones share a few times what times are rounded to, or less than nothing.
+                    const bool late = i % 2 != 0;
+                    const double start = late ? std::pow(10, random.real(4.5, 10)) : random.real(0, 10);
+                    const double share =
+                        random.real(0.7e-9, 1.3e-9) + (late ? start * random.integer(-3, 3) * 0x1p-53 : 0);
                     const Placement place_a{.start = start};
                     // B's sample begins before A's ends, or ends after A's begins.
                     const double later = random.chance(0.5) ? dt - share : share - dt_b;
-                    const Placement place_b{.start = start + 16 * dt + later - sample_b * dt_b};
+                    const Placement place_b{.start = start + sample_a * dt + later - sample_b * dt_b};
                     const PlacedBlocks a(blocks_a, place_a), b(blocks_b, place_b);
                     const std::optional<Contact> expected =
                         direct_search(PlacedClip(*clip_a, place_a), PlacedClip(*clip_b, place_b));
@@ -231,6 +294,9 @@ TEST(Production, TellsHowLongSamplesShareAsTheDirectSearchDoes) {
                     ASSERT_TRUE(use_instruction_set(sets.names()[static_cast<std::size_t>(i) % sets.names().size()]));
                     ASSERT_EQ(query(a, b), expected) << dt << " " << dt_b << " " << share;
                     ASSERT_EQ(intersects(a, b), expected.has_value()) << dt << " " << dt_b << " " << share;
+                    std::array<bool, 1> answer{};
+                    intersects_each(std::array{BlocksPair{&a, &b}}, answer);
+                    ASSERT_EQ(answer[0], expected.has_value()) << dt << " " << dt_b << " " << share;
                     TraceRecorder recorder;
                     ASSERT_EQ(query(PlacedTree(tree_a, place_a), PlacedTree(tree_b, place_b), recorder), expected)
                         << dt << " " << dt_b << " " << share;
@@ -372,6 +438,33 @@ TEST(Production, EachPairMustHaveItsAnswer) {
     std::array<bool, 2> answers{};
     EXPECT_THROW(intersects_each(std::array<BlocksPair, 3>{}, answers), std::invalid_argument);
     EXPECT_THROW(intersects_each(std::array<BlocksPair, 1>{}, answers), std::invalid_argument);
+}
+
+TEST(Production, RootsThatMoveMeetWhereLateDisksDo) {
+    Random random(87);
+    int hits = 0, queries = 0;
+    for (; queries < 20'000; ++queries) {
+        // Straight ahead, so that roots are as large as disks, and past each other by what times are rounded to.
+        const double start = std::pow(10, random.real(10, 12)), dt = 0.01;
+        const glm::dvec2 a(random.real(-20, 20), random.real(-20, 20)), b(random.real(-20, 20), random.real(-20, 20));
+        const auto clip_of = [&](glm::dvec2 velocity) {
+            std::vector<Disk> disks;
+            for (int i = -5; i <= 5; ++i) disks.push_back({velocity.x * dt * i, velocity.y * dt * i, 0.5});
+            return std::make_shared<const Clip>(dt, disks, Motion::linear);
+        };
+        const Blocks blocks_a(clip_of(a)), blocks_b(clip_of(b));
+        const glm::dvec2 aside = glm::dvec2(a.y - b.y, b.x - a.x) / std::hypot(a.x - b.x, a.y - b.y);
+        const double far = 1 + random.real(-1, 1) * 20 * start * 0x1p-53;
+        const double later = random.real(-0.05, 0.05);
+        const Placement place_a{.start = start};
+        const Placement place_b{.translate = far * aside + (start + later - start) * b, .start = start + later};
+        const bool expected =
+            direct_search(PlacedClip(blocks_a.clip(), place_a), PlacedClip(blocks_b.clip(), place_b)).has_value();
+        hits += expected ? 1 : 0;
+        ASSERT_EQ(intersects(PlacedBlocks(blocks_a, place_a), PlacedBlocks(blocks_b, place_b)), expected) << queries;
+    }
+    EXPECT_GT(hits, queries / 4);
+    EXPECT_LT(hits, queries * 3 / 4);
 }
 
 TEST(Production, TheFirstThatCollidesIsFoundAmongMany) {
