@@ -19,12 +19,12 @@ inline bool last_pair_collides(const PlacedBlocks& a, const PlacedBlocks& b, con
 
 /// One traversal. OnHit is called with the pairs of samples that collide, earliest first, and says whether to stop; if
 /// OnHit::kAny, it may not be called before a traversal stops, as one that collides is as good as the earliest.
-template <class Observer, class OnHit>
+template <class Observer, class OnHit, class Unequal = UnequalDtScan<OnHit, Timed::well>>
 class BlockTraversal {
   public:
     MOBB_INLINE BlockTraversal(const PlacedBlocks& a, const PlacedBlocks& b, const Relation& relation,
                                const Shift& shift, [[maybe_unused]] Observer& observer, OnHit& on_hit,
-                               UnequalDtScan<OnHit>* unequal = nullptr)
+                               Unequal* unequal = nullptr)
         : a_(a),
           b_(b),
           blocks_a_(a.blocks()),
@@ -342,7 +342,7 @@ class BlockTraversal {
     const Blocks& blocks_b_;
     const Relation relation_;
     const Shift shift_;
-    UnequalDtScan<OnHit>* const unequal_;  ///< of clips of different dt, where nobody watches
+    Unequal* const unequal_;  ///< of clips of different dt, where nobody watches
     Observer& observer_;
     OnHit& on_hit_;
 };
@@ -366,11 +366,18 @@ MOBB_INLINE bool traverse(const PlacedBlocks& a, const PlacedBlocks& b, Observer
     const Shift shift = shift_of(a, b);
     if (shift.timed == Timed::badly || (Observer::watches && !have_parts(a, b))) [[unlikely]] {
         const Shift none;
-        const Timed timed = have_parts(a, b) ? Timed::well : timed_to(static_cast<double>(time_error(a, b)), a, b);
-        if (Observer::watches || timed == Timed::badly)
-            return BlockTraversal(a, b, relate(a, b, none), none, observer, on_hit).run();
-        UnequalDtScan unequal(a, b, timed, on_hit);
-        return BlockTraversal(a, b, relate(a, b, none), none, observer, on_hit, &unequal).run();
+        if constexpr (!Observer::watches) {
+            const Timed timed = have_parts(a, b) ? Timed::well : timed_to(static_cast<double>(time_error(a, b)), a, b);
+            if (timed == Timed::well) {
+                UnequalDtScan<OnHit, Timed::well> unequal(a, b, on_hit);
+                return BlockTraversal(a, b, relate(a, b, none), none, observer, on_hit, &unequal).run();
+            }
+            if (timed == Timed::nearly) {
+                UnequalDtScan<OnHit, Timed::nearly> unequal(a, b, on_hit);
+                return BlockTraversal(a, b, relate(a, b, none), none, observer, on_hit, &unequal).run();
+            }
+        }
+        return BlockTraversal(a, b, relate(a, b, none), none, observer, on_hit).run();
     }
     return BlockTraversal(a, b, relate(a, b, shift), shift, observer, on_hit).run();
 }

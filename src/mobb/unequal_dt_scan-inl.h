@@ -28,14 +28,20 @@ MOBB_INLINE unsigned near_partners(const Units& units, int first, const Units& o
     const auto ox = hn::Set(d, relation.ox), oy = hn::Set(d, relation.oy);
     const auto slack = hn::Set(d, relation.slack);
     constexpr int kVector = static_cast<int>(hn::MaxLanes(d));
+    // Whether compilers work out several at a time by themselves depends on what is around.
+    using Begins [[gnu::vector_size(kVector * sizeof(double))]] = double;
+    using Whole [[gnu::vector_size(kVector * sizeof(std::int32_t))]] = std::int32_t;
+    Begins steps;
+    for (int k = 0; k < kVector; ++k) steps[k] = k * pace.step;
     unsigned out = 0;
     for (int lane = 0; lane < kLanes; lane += kVector) {
         const int i = first + lane;
         // As the others last no shorter, the partners of a vector's units lie within a vector.
         const double at = pace.from + i * pace.step;
         const int j = static_cast<int>(at);
+        const Whole apart = __builtin_convertvector(at + steps, Whole) - j;
         std::int32_t partner[kVector];
-        for (int k = 0; k < kVector; ++k) partner[k] = std::min(static_cast<int>(at + k * pace.step) - j, kVector - 1);
+        for (int k = 0; k < kVector; ++k) partner[k] = std::min(apart[k], kVector - 1);
         const auto index = hn::SetTableIndices(d, partner);
         const auto from_x = hn::Sub(ox, hn::LoadU(d, units.x + i)), from_y = hn::Sub(oy, hn::LoadU(d, units.y + i));
         const auto r = hn::Add(hn::LoadU(d, units.r + i), slack);
@@ -52,12 +58,13 @@ MOBB_INLINE unsigned near_partners(const Units& units, int first, const Units& o
     return out;
 }
 
-/// Two clips of different dt, the fine one's less than the coarse one's, whose roots share time and which are timed
-/// nearly, at least. OnHit as BlockTraversal has it.
-template <class OnHit>
+/// Two clips of different dt, the fine one's less than the coarse one's, that are timed well, or nearly, and whose
+/// roots share time. Nearly timed ones look for partners earlier, by as much as times may be wrong, and for one more.
+/// OnHit as BlockTraversal has it.
+template <class OnHit, Timed timed>
 class UnequalDtScan {
   public:
-    UnequalDtScan(const PlacedBlocks& a, const PlacedBlocks& b, Timed timed, OnHit& on_hit)
+    UnequalDtScan(const PlacedBlocks& a, const PlacedBlocks& b, OnHit& on_hit)
         : fine_is_a_(a.dt() < b.dt()),
           fine_(fine_is_a_ ? a : b),
           coarse_(fine_is_a_ ? b : a),
@@ -76,41 +83,38 @@ class UnequalDtScan {
     /// Tests a span of A's samples against one of B's, in order of time. Returns true if on_hit stopped it.
     bool scan(const SampleSpan& a, const SampleSpan& b) {
         const SampleSpan& coarse = fine_is_a_ ? b : a;
-        return unsure_ > 0 ? scan_spans<1>(fine(a, b), coarse) : scan_spans<0>(fine(a, b), coarse);
-    }
-
-  private:
-    // Where it matters that times may be wrong, partners are looked for so much earlier, and one more.
-
-    template <int more>
-    bool scan_spans(const SampleSpan& fine, const SampleSpan& coarse) {
-        const SampleSpan shared = sharing<more>(fine, coarse);
+        const SampleSpan shared = sharing(fine(a, b), coarse);
         const int first = shared.first >> Blocks::kLogSamples, end = ((shared.end - 1) >> Blocks::kLogSamples) + 1;
         const auto test_run = [&](int k) {
             const int begin = k * Blocks::kSamples;
-            return test_samples<more>({std::max(shared.first, begin), std::min(shared.end, begin + Blocks::kSamples)},
-                                      coarse);
+            return test_samples({std::max(shared.first, begin), std::min(shared.end, begin + Blocks::kSamples)},
+                                coarse);
         };
         constexpr double kPerBlock = 1.0 / Blocks::kSamples;
         // Blocks that last much longer than what they are tested against rule out little.
         constexpr double kAlike = 3 * kPerBlock;
         if (ratio_ >= kAlike) {
-            const Pace pace{from_coarse<more>(0) * kPerBlock, ratio_};
-            return scan_units<2 + more>(blocks_of(fine_), first, end, blocks_of(coarse_), pace, relation_, test_run);
+            const Pace pace{from_coarse(0) * kPerBlock, ratio_};
+            return scan_units<2 + kMore>(blocks_of(fine_), first, end, blocks_of(coarse_), pace, relation_, test_run);
         }
         if (ratio_ <= kPerBlock) {
-            const Pace pace{from_coarse<more>(0), ratio_ * Blocks::kSamples};
-            return scan_units<1 + more>(blocks_of(fine_), first, end, pairs_of(coarse_), pace, relation_, test_run);
+            const Pace pace{from_coarse(0), ratio_ * Blocks::kSamples};
+            return scan_units<1 + kMore>(blocks_of(fine_), first, end, pairs_of(coarse_), pace, relation_, test_run);
         }
-        const int from = std::max(coarse.first, static_cast<int>(from_coarse<more>(shared.first)));
-        const int to = std::min(coarse.end, static_cast<int>(until_coarse<more>(shared.end)) + 1);
-        const Pace pace{from_fine<more>(0) * kPerBlock, kPerBlock / ratio_};
-        return scan_units<2 + more>(samples_of(coarse_), from, to, blocks_of(fine_), pace,
-                                    relate(coarse_, fine_, Shift{}), [&](int j) {
-                                        const SampleSpan one{j, j + 1};
-                                        return test_samples<more>(sharing<more>(shared, one), one);
-                                    });
+        const int from = std::max(coarse.first, static_cast<int>(from_coarse(shared.first)));
+        const int to = std::min(coarse.end, static_cast<int>(until_coarse(shared.end)) + 1);
+        const Pace pace{from_fine(0) * kPerBlock, kPerBlock / ratio_};
+        return scan_units<2 + kMore>(samples_of(coarse_), from, to, blocks_of(fine_), pace,
+                                     relate(coarse_, fine_, Shift{}), [&](int j) {
+                                         const SampleSpan one{j, j + 1};
+                                         return test_samples(sharing(shared, one), one);
+                                     });
     }
+
+  private:
+    static constexpr int kMore = timed == Timed::well ? 0 : 1;  // partners
+    /// By how much times may be wrong, in samples of the fine clip, if that matters.
+    double unsure() const { return timed == Timed::well ? 0 : unsure_; }
 
     static Units blocks_of(const PlacedBlocks& placed) {
         const Paths paths = placed.blocks().paths(0);
@@ -128,30 +132,16 @@ class UnequalDtScan {
 
     /// Where the fine clip's sample i begins, at the earliest and at the latest, in samples of the coarse one; and the
     /// other way round.
-    template <int more>
-    double from_coarse(int i) const {
-        return begin_ + (more > 0 ? i - unsure_ : i) * ratio_;
-    }
-    template <int more>
-    double until_coarse(int i) const {
-        return begin_ + (more > 0 ? i + unsure_ : i) * ratio_;
-    }
-    template <int more>
-    double from_fine(int j) const {
-        return (j - begin_) / ratio_ - (more > 0 ? unsure_ : 0);
-    }
-    template <int more>
-    double until_fine(int j) const {
-        return (j - begin_) / ratio_ + (more > 0 ? unsure_ : 0);
-    }
+    double from_coarse(int i) const { return begin_ + (i - unsure()) * ratio_; }
+    double until_coarse(int i) const { return begin_ + (i + unsure()) * ratio_; }
+    double from_fine(int j) const { return (j - begin_) / ratio_ - unsure(); }
+    double until_fine(int j) const { return (j - begin_) / ratio_ + unsure(); }
 
     /// Those of the fine clip's samples of a span that share time with the coarse one's of another, and perhaps one
     /// more at either end.
-    template <int more>
     SampleSpan sharing(const SampleSpan& fine, const SampleSpan& coarse) const {
         const auto within = [&](double i) { return static_cast<int>(std::clamp<double>(i, fine.first, fine.end)); };
-        return {within(std::floor(from_fine<more>(coarse.first))),
-                within(std::floor(until_fine<more>(coarse.end)) + 1)};
+        return {within(std::floor(from_fine(coarse.first))), within(std::floor(until_fine(coarse.end)) + 1)};
     }
 
     /// visit(k) of each unit, first <= k < end, that may meet one of its partners, until one returns true.
@@ -168,28 +158,28 @@ class UnequalDtScan {
         return false;
     }
 
-    template <int more>
     bool test_samples(const SampleSpan& fine, const SampleSpan& coarse) {
-        const Pace pace{from_coarse<more>(0), ratio_};
-        return scan_units<1 + more>(
-            samples_of(fine_), fine.first, fine.end, pairs_of(coarse_), pace, relation_, [&](int i) {
-                const int j = static_cast<int>(std::floor(from_coarse<more>(i)));
-                for (int partner = std::max(coarse.first, j); partner < std::min(coarse.end, j + 2 + more); ++partner) {
-                    const int sample = fine_.first() + i, other = coarse_.first() + partner;
-                    if (!pair_collides(fine_, sample, coarse_, other)) continue;
-                    if (fine_is_a_ ? on_hit_(sample, other) : on_hit_(other, sample)) return true;
-                }
-                return false;
-            });
+        const Pace pace{from_coarse(0), ratio_};
+        return scan_units<1 + kMore>(samples_of(fine_), fine.first, fine.end, pairs_of(coarse_), pace, relation_,
+                                     [&](int i) {
+                                         const int j = static_cast<int>(std::floor(from_coarse(i)));
+                                         for (int partner = std::max(coarse.first, j);
+                                              partner < std::min(coarse.end, j + 2 + kMore); ++partner) {
+                                             const int sample = fine_.first() + i, other = coarse_.first() + partner;
+                                             if (!pair_collides(fine_, sample, coarse_, other)) continue;
+                                             if (fine_is_a_ ? on_hit_(sample, other) : on_hit_(other, sample))
+                                                 return true;
+                                         }
+                                         return false;
+                                     });
     }
 
     const bool fine_is_a_;
     const PlacedBlocks& fine_;
     const PlacedBlocks& coarse_;
-    const double ratio_;  ///< of their dt, < 1
-    const double begin_;  ///< where the fine clip begins, in samples of the coarse one
-    /// By how much times may be wrong, in samples of the fine clip, if that matters.
-    const double unsure_;
+    const double ratio_;   ///< of their dt, < 1
+    const double begin_;   ///< where the fine clip begins, in samples of the coarse one
+    const double unsure_;  ///< see unsure()
     const Relation relation_;
     OnHit& on_hit_;
 };
