@@ -246,9 +246,8 @@ MOBB_INLINE Timed timed_to(double error, const PlacedBlocks& a, const PlacedBloc
         // More than a moment, but perhaps less than they must share.
         if (left >= 1 - (kMinOverlap + error) * per_dt) return {whole - Shift::kOne + 1, Timed::fairly};
     }
-    // Rounded to parts it is still more than none and less than a sample.
-    const auto left_parts = static_cast<std::int64_t>(left * static_cast<double>(Shift::kOne) + 0.5);
-    return {whole - std::min(left_parts, Shift::kOne - 1), Timed::well};
+    // Cut off to parts it is still less than a sample, and what is shared more than nothing.
+    return {whole - static_cast<std::int64_t>(left * static_cast<double>(Shift::kOne)), Timed::well};
 }
 /// Of two whose roots share time: so samples fit into an int. Badly timed where they share it by no constant shift, of
 /// clips of different dt, or where rounding hides it.
