@@ -5,6 +5,7 @@
 #include <mobb/production.h>
 #include <mobb/query.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
@@ -59,13 +60,13 @@ struct Bench {
     void add_pairs(const std::string& name, std::vector<PlacedBlocks> sides, double units_a_pair = 1) {
         const std::vector<PlacedBlocks>& kept = placed.emplace_back(std::move(sides));
         std::size_t known = 0;
-        for (std::size_t i = 0; i < kept.size(); i += 2) known += direct_search(kept[i], kept[i + 1]) ? 1 : 0;
+        for (std::size_t i = 0; i < kept.size(); i += 2) known += direct_search(kept[i], kept[i + 1]) ? 1U : 0U;
         const auto units = static_cast<std::size_t>(static_cast<double>(kept.size()) / 2 * units_a_pair);
         add(
             name, units,
             [&kept] {
                 std::size_t found = 0;
-                for (std::size_t i = 0; i < kept.size(); i += 2) found += intersects(kept[i], kept[i + 1]) ? 1 : 0;
+                for (std::size_t i = 0; i < kept.size(); i += 2) found += intersects(kept[i], kept[i + 1]) ? 1U : 0U;
                 return found;
             },
             known);
@@ -73,7 +74,7 @@ struct Bench {
             name + ", contact", units,
             [&kept] {
                 std::size_t found = 0;
-                for (std::size_t i = 0; i < kept.size(); i += 2) found += query(kept[i], kept[i + 1]) ? 1 : 0;
+                for (std::size_t i = 0; i < kept.size(); i += 2) found += query(kept[i], kept[i + 1]) ? 1U : 0U;
                 return found;
             },
             known);
@@ -178,7 +179,7 @@ void add_side_by_side(Bench& bench, double clearance, bool winding) {
     };
     auto trees = std::make_shared<std::vector<Pair>>();
     const std::string name =
-        std::to_string(static_cast<int>(clearance * 100 + 0.5)) + " cm, " + (winding ? "winding" : "straight");
+        std::to_string(std::lround(clearance * 100)) + " cm, " + (winding ? "winding" : "straight");
     const double far = clearance + 2 * (winding ? 0.47 : 0.4);
     for (const ClipPtr& clip : clips) {
         // A path beside the path: as far to its left as leaves the clearance.
@@ -198,13 +199,13 @@ void add_side_by_side(Bench& bench, double clearance, bool winding) {
         trees->push_back({{bench.tree_of(clip, TreeKind::mobb), {}}, {bench.tree_of(other, TreeKind::mobb), later}});
     }
     std::size_t known = 0;
-    for (const Pair& pair : *trees) known += direct_search(pair.a.samples(), pair.b.samples()) ? 1 : 0;
+    for (const Pair& pair : *trees) known += direct_search(pair.a.samples(), pair.b.samples()) ? 1U : 0U;
     bench.add_pairs("side by side, " + name, std::move(sides), kSeconds * 30);
     bench.add(
         "side by side, " + name + ", MOBB leaf 50", static_cast<std::size_t>(kSeconds * 30) * trees->size(),
         [trees] {
             std::size_t found = 0;
-            for (const Pair& pair : *trees) found += query(pair.a, pair.b) ? 1 : 0;
+            for (const Pair& pair : *trees) found += query(pair.a, pair.b) ? 1U : 0U;
             return found;
         },
         known);

@@ -13,7 +13,7 @@ using Tag = hn::CappedTag<float, kLanes>;
 struct Relation {
     float c, s;        ///< rotation from B's frame to A's
     float ox, oy;      ///< B's origin against A's, in A's frame
-    float slack;       ///< metres by which bounds that stand still must be apart
+    float slack;       ///< metres by which bounds that stand still must be apart; of nearly timed clips a step more
     float sure_slack;  ///< metres by which disks must overlap to collide for sure
 };
 
@@ -225,7 +225,7 @@ MOBB_INLINE Timed timed_to(double error, const PlacedBlocks& a, const PlacedBloc
     if (error < kMinOverlap / 2) return Timed::well;
     return error < std::min(a.dt(), b.dt()) / 8 ? Timed::nearly : Timed::badly;
 }
-/// By their difference in time, of two that have no parts.
+/// By the difference of their starts, of two that have no parts.
 [[gnu::noinline]] inline Shift shift_by_difference(const PlacedBlocks& a, const PlacedBlocks& b) {
     const double error = static_cast<double>(time_error(a, b));
     const Timed timed = timed_to(error, a, b);
@@ -234,17 +234,20 @@ MOBB_INLINE Timed timed_to(double error, const PlacedBlocks& a, const PlacedBloc
     const double later = (b.start() - a.start()) * per_dt + (b.first() - a.first());
     const double up = std::ceil(later), left = up - later;
     const std::int64_t whole = static_cast<std::int64_t>(up) * Shift::kOne;
-    if (timed == Timed::nearly) {
+    if (timed == Timed::well) {
+        // In step: what rounding leaves is less than samples must share.
+        if (left >= 1 - error * per_dt) return {whole - Shift::kOne, Timed::well};
+    } else {
         // The sum of a start and a clip's time is rounded, but a later one never to less: samples share time only if
         // they do by these sums, in which the start cancels.
         const double unsure = PlacedBlocks::kTimeError * (a.end() + b.end());
         if (left <= unsure) return {whole, Timed::nearly};
         if (left >= 1 - unsure) return {whole - Shift::kOne, Timed::nearly};
+        // More than a moment, but perhaps less than they must share.
         if (left >= 1 - (kMinOverlap + error) * per_dt) return {whole - Shift::kOne + 1, Timed::fairly};
     }
-    // Rounding does not make a sample more or less of it.
-    const auto left_parts = static_cast<std::int64_t>(left * static_cast<double>(Shift::kOne) + 0.5);
-    return {whole - std::min(left_parts, Shift::kOne - 1), Timed::well};
+    // Cut off to parts it is still less than a sample, and what is shared more than nothing.
+    return {whole - static_cast<std::int64_t>(left * static_cast<double>(Shift::kOne)), Timed::well};
 }
 /// Of two whose roots share time: so samples fit into an int. Badly timed where they share it by no constant shift, of
 /// clips of different dt, or where rounding hides it.

@@ -236,8 +236,8 @@ inline std::optional<std::size_t> intersects_any(const PlacedBlocks& a, std::spa
     // Placements lie anywhere in memory: they are fetched a few ahead.
     constexpr std::size_t kAhead = 4;
     for (std::size_t i = 0; i < others.size(); ++i) {
-        if (i + kAhead < others.size()) __builtin_prefetch(others[i + kAhead]);
         if (intersects(a, *others[i])) return i;
+        if (i + kAhead < others.size()) __builtin_prefetch(others[i + kAhead]);
     }
     return std::nullopt;
 }
