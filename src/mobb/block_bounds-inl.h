@@ -9,6 +9,14 @@ using Paths = Blocks::Paths;
 constexpr int kLanes = 8;  // pairs a test: a set of instructions with fewer takes several steps
 using Tag = hn::CappedTag<float, kLanes>;
 
+/// A bit for each lane, the first one the lowest; kLanes are no more than a byte.
+template <class Mask>
+MOBB_INLINE std::uint64_t mask_bits(Tag d, Mask mask) {
+    std::uint8_t bits[8];
+    hn::StoreMaskBits(d, mask, bits);
+    return bits[0];
+}
+
 /// How B's blocks lie against A's.
 struct Relation {
     float c, s;        ///< rotation from B's frame to A's
@@ -91,9 +99,7 @@ MOBB_INLINE unsigned may_meet(const Paths& a, int first_a, const Paths& b, int f
             py = hn::Add(py, hn::Mul(moment, vy));
         }
         const auto meets = hn::Le(hn::Add(hn::Mul(px, px), hn::Mul(py, py)), hn::Mul(reach, reach));
-        std::uint8_t bits[8];
-        hn::StoreMaskBits(d, meets, bits);
-        out |= static_cast<unsigned>(bits[0]) << lane;
+        out |= static_cast<unsigned>(mask_bits(d, meets)) << lane;
     }
     return out;
 }
@@ -139,11 +145,8 @@ MOBB_INLINE Nearness nearness(const Blocks::Rings& a, std::ptrdiff_t first_a, co
         const auto least = hn::Add(hn::LoadU(d, a.inner + i), hn::Sub(hn::LoadU(d, b.inner + j), sure_slack));
         const auto may = hn::Le(squared, hn::Mul(most, most));
         const auto sure = hn::Lt(squared, hn::Mul(least, hn::Abs(least)));  // never, where that is negative
-        std::uint8_t bits[8];
-        hn::StoreMaskBits(d, may, bits);
-        out.may |= std::uint64_t{bits[0]} << lane;
-        hn::StoreMaskBits(d, sure, bits);
-        out.sure |= std::uint64_t{bits[0]} << lane;
+        out.may |= mask_bits(d, may) << lane;
+        out.sure |= mask_bits(d, sure) << lane;
     }
     return out;
 }
@@ -170,11 +173,8 @@ MOBB_INLINE Nearness nearness_to_both(const Blocks::Rings& a, std::ptrdiff_t fir
         const auto may = hn::Or(hn::Le(first, hn::Mul(most_first, hn::Abs(most_first))),
                                 hn::Le(next, hn::Mul(most_next, hn::Abs(most_next))));
         const auto sure = hn::Lt(first, hn::Mul(least, hn::Abs(least)));
-        std::uint8_t bits[8];
-        hn::StoreMaskBits(d, may, bits);
-        out.may |= std::uint64_t{bits[0]} << lane;
-        hn::StoreMaskBits(d, sure, bits);
-        out.sure |= std::uint64_t{bits[0]} << lane;
+        out.may |= mask_bits(d, may) << lane;
+        out.sure |= mask_bits(d, sure) << lane;
     }
     return out;
 }

@@ -447,9 +447,11 @@ MOBB_INLINE bool look_for_hit(const PlacedBlocks& a, const PlacedBlocks& b, cons
 [[gnu::noinline]] inline bool any_late_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b,
                                                        const Shift& shift) {
     if (is_shallow(a, b)) {
-        // The other way round the first partner is the one with which more is shared.
-        const Shift turned = shift_of(b, a);
-        if (shift.timed == Timed::fairly && turned.timed == Timed::well) return look_for_hit(b, a, turned);
+        if (shift.timed == Timed::fairly) {
+            // The other way round the first partner is the one with which more is shared.
+            const Shift turned = shift_of(b, a);
+            if (turned.timed == Timed::well) return look_for_hit(b, a, turned);
+        }
         if (shift.timed == Timed::nearly && behind_shared(b.blocks(), shift) > 0)
             return look_for_hit(a, b, shift) || last_pair_collides(a, b, shift);
     }

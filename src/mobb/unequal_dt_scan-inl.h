@@ -50,9 +50,7 @@ MOBB_INLINE unsigned near_partners(const Units& units, int first, const Units& o
             const auto by = hn::TableLookupLanes(hn::LoadU(d, others.y + j + m), index);
             const auto reach = hn::Add(r, hn::TableLookupLanes(hn::LoadU(d, others.r + j + m), index));
             const auto squared = squared_apart(c, s, bx, by, from_x, from_y);
-            std::uint8_t bits[8];
-            hn::StoreMaskBits(d, hn::Le(squared, hn::Mul(reach, reach)), bits);
-            out |= static_cast<unsigned>(bits[0]) << lane;
+            out |= static_cast<unsigned>(mask_bits(d, hn::Le(squared, hn::Mul(reach, reach)))) << lane;
         }
     }
     return out;
