@@ -332,6 +332,15 @@ class FbxSceneBuilder {
         warn_all("RotationOrder of " + nodes + " is no order of three axes: read as XYZ");
     }
 
+    void warn_of_props(const std::vector<std::string>& names) {
+        if (names.size() == 1) {
+            warn_all("the small skeleton " + in_quotes(names.front()) + " was left out; give root to follow it");
+        } else if (!names.empty()) {
+            warn_all("the small skeletons " + in_quotes(names.front()) + " and " + std::to_string(names.size() - 1) +
+                     " more were left out; give root to follow one");
+        }
+    }
+
     void warn_all(const std::string& warning) {
         for (NodeAnimation& animation : scene_.animations) animation.warnings.push_back(warning);
     }
@@ -340,10 +349,7 @@ class FbxSceneBuilder {
     /// above no other. Smaller ones are props, and said.
     void find_characters() {
         const std::vector<Node>& nodes = scene_.nodes;
-        std::vector<bool> is_moved(nodes.size());
-        for (const NodeAnimation& animation : scene_.animations) {
-            for (const int node : animation.moved) is_moved[as_index(node)] = true;
-        }
+        const std::vector<bool> is_moved = moved_nodes(scene_);
         // Where no node is a limb, those that move are.
         const bool has_limbs = std::ranges::find(is_limb_, true) != is_limb_.end();
         const std::vector<bool>& counts = has_limbs ? is_limb_ : is_moved;
@@ -401,12 +407,7 @@ class FbxSceneBuilder {
             if (has_limbs && !is_body(node) && character[as_index(node)] < 0)
                 props.push_back(nodes[as_index(node)].name);
         }
-        if (props.size() == 1) {
-            warn_all("the small skeleton " + in_quotes(props.front()) + " was left out; give root to follow it");
-        } else if (!props.empty()) {
-            warn_all("the small skeletons " + in_quotes(props.front()) + " and " + std::to_string(props.size() - 1) +
-                     " more were left out; give root to follow one");
-        }
+        warn_of_props(props);
         if (begins.size() == 1) {
             scene_.body = begins.front();
         } else {

@@ -42,10 +42,7 @@ struct Rig {
 /// The node nearest to a scene root that any animation moves: all clips of a file have one root. Of several at one
 /// depth the first in `order`; -1: none.
 int topmost_animated(const NodeScene& scene, const std::vector<int>& order) {
-    std::vector<bool> moved(scene.nodes.size());
-    for (const NodeAnimation& animation : scene.animations) {
-        for (const int node : animation.moved) moved[as_index(node)] = true;
-    }
+    const std::vector<bool> moved = moved_nodes(scene);
     const auto first = std::find_if(order.begin(), order.end(), [&](int node) { return moved[as_index(node)]; });
     return first == order.end() ? -1 : *first;
 }
@@ -269,6 +266,14 @@ std::vector<int> topmost_joints(const Rig& rig) {
 }
 
 }  // namespace
+
+std::vector<bool> moved_nodes(const NodeScene& scene) {
+    std::vector<bool> out(scene.nodes.size());
+    for (const NodeAnimation& animation : scene.animations) {
+        for (const int node : animation.moved) out[as_index(node)] = true;
+    }
+    return out;
+}
 
 std::vector<int> parents_first(const std::vector<Node>& nodes) {
     const std::size_t count = nodes.size();

@@ -78,6 +78,9 @@ using Numbers = std::shared_ptr<const std::vector<double>>;
 /// First and last time and the distinct key times of several lists of keys, each strictly increasing.
 MotionTimes key_times(const std::vector<Numbers>& lists);
 
+/// By node: whether some animation moves it.
+std::vector<bool> moved_nodes(const NodeScene& scene);
+
 /// Nodes ordered so that parents come before their children, siblings in the order of their indices.
 std::vector<int> parents_first(const std::vector<Node>& nodes);
 

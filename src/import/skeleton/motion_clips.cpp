@@ -103,12 +103,12 @@ class MotionImport {
     ImportedClip make(double& poses_left) {
         const MotionTimes& times = motion_.times();
         const SampleGrid grid = grid_of(times);
-        const std::size_t frames = times.frames_only ? static_cast<std::size_t>(times.frames) : 0;
-        const double poses = static_cast<double>(std::max(grid.count, frames)) * static_cast<double>(motion_.posed());
+        const std::size_t stored = times.frames_only ? static_cast<std::size_t>(times.frames) : 0;
+        const std::size_t frames = std::max(grid.count, stored);
+        const double poses = static_cast<double>(frames) * static_cast<double>(motion_.posed());
         if (poses > kMaxJointPoses) {
             throw std::invalid_argument("needs " + std::to_string(motion_.posed()) +
-                                        " joints and layers of curves for each of " +
-                                        std::to_string(std::max(grid.count, frames)) +
+                                        " joints and layers of curves for each of " + std::to_string(frames) +
                                         " frames, which is too much; check the file, or lower fps");
         }
         poses_left -= poses;
