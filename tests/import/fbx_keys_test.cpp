@@ -1,4 +1,4 @@
-// FBX curves: tangents that the keys' modes work out, runs of attributes, what lies beyond the keys.
+// FBX curves: how keys are joined, tangents that their modes work out, runs of attributes, what lies beyond the keys.
 #include "fbx_scene.h"
 
 #include <array>

@@ -1,5 +1,4 @@
-// FBX nodes and layers that meet: orders of rotation, scale that skips a node, pivots that move, layers that are left
-// out.
+// FBX nodes against poses worked out by hand: the whole transform chain, what is inherited, axes and unit of the file.
 #include "fbx_scene.h"
 
 #include <import/import.h>

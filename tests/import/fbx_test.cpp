@@ -1,5 +1,4 @@
-// FBX: small documents against poses worked out by hand, each kind in several ways; damage. Real files:
-// motion_data_test.cpp.
+// FBX documents: every form of one, damage, and the files of the shared data. More real files: motion_data_test.cpp.
 #include "fbx_scene.h"
 
 #include <base/error.h>
@@ -14,7 +13,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <numbers>
 
 namespace mobbscope {
 namespace {
