@@ -21,20 +21,20 @@ using picture_tests::GoldenChange;
 
 namespace {
 
-enum class Answer { yes, no, all, quit };
+enum class Reply { yes, no, all, quit };
 
-Answer ask(const CaseResult& result, const std::filesystem::path& folder, std::ostream& say) {
+Reply ask(const CaseResult& result, const std::filesystem::path& folder, std::ostream& say) {
     say << cleaned(result.file.name) << ": " << name(result.outcome) << ": " << cleaned(result.message) << '\n';
     for (const std::filesystem::path& picture : keep_pictures(result, folder)) {
         say << "  " << cleaned(picture.string()) << '\n';
     }
     say << "take it? [y/N/a/q] " << std::flush;
     std::string line;
-    if (!std::getline(std::cin, line)) return Answer::quit;
+    if (!std::getline(std::cin, line)) return Reply::quit;
     const std::string_view answer = trimmed(line);
-    if (answer == "y") return Answer::yes;
-    if (answer == "a") return Answer::all;
-    return answer == "q" ? Answer::quit : Answer::no;
+    if (answer == "y") return Reply::yes;
+    if (answer == "a") return Reply::all;
+    return answer == "q" ? Reply::quit : Reply::no;
 }
 
 void take_one(CaseResult& result, std::ostream& say) {
@@ -73,10 +73,10 @@ void take_asked(std::span<CaseResult> results, const std::filesystem::path& fold
     bool all = false;
     for (CaseResult& result : results) {
         if (!can_be_taken(result)) continue;
-        const Answer answer = all ? Answer::yes : ask(result, folder, say);
-        if (answer == Answer::quit) return;
-        all = all || answer == Answer::all;
-        if (answer != Answer::no) take_one(result, say);
+        const Reply answer = all ? Reply::yes : ask(result, folder, say);
+        if (answer == Reply::quit) return;
+        all = all || answer == Reply::all;
+        if (answer != Reply::no) take_one(result, say);
     }
 }
 
@@ -136,7 +136,7 @@ bool take_report(const std::filesystem::path& report, const std::vector<CaseFile
         ++taken;
         for (const GoldenChange& change : one.result.fresh) {
             // Whoever accepts twice has it already.
-            if (golden_bytes(change.file) != change.bytes) changes.push_back(change);
+            if (picture_tests::golden_bytes(change.file) != change.bytes) changes.push_back(change);
         }
     }
     if (meant == 0 && !patterns.empty()) {

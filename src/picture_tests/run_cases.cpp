@@ -153,6 +153,13 @@ void compare_numbers(CaseResult& result, const std::string& actual, const std::s
     }
 }
 
+/// Of a window, what its panels are made from.
+void compare_state(CaseResult& result, DrawnCase& drawn) {
+    const std::filesystem::path state = result.file.plain_state();
+    if (!is_there(state)) return add_missing(result, state);
+    compare_numbers(result, drawn.state(), "the window's state", state, false);
+}
+
 /// Where the goldens are from somewhere, cases without a draw list have goldens without text.
 void compare_without_text(CaseResult& result, const Case& tested, DrawnCase& drawn, const Image* mask) {
     const std::filesystem::path file = result.file.plain();
@@ -164,10 +171,7 @@ void compare_without_text(CaseResult& result, const Case& tested, DrawnCase& dra
         show(result, drawn.plain(), std::move(held), file);
         result.tolerance = Tolerance::loose;
     }
-    if (!tested.shot.window) return;
-    const std::filesystem::path state = result.file.plain_state();
-    if (!is_there(state)) return add_missing(result, state);
-    compare_numbers(result, drawn.state(), "the window's state", state, false);
+    if (tested.shot.window) compare_state(result, drawn);
 }
 
 /// Whether the case is held by the numbers of what it draws.
@@ -229,9 +233,7 @@ void compare_elsewhere(CaseResult& result, const Case& tested, DrawnCase& drawn,
             judge_similarity(result, drawn.plain(), without_text.golden, plain_mask, plain, "without text: ");
         }
     }
-    if (tested.shot.window && is_there(result.file.plain_state())) {
-        compare_numbers(result, drawn.state(), "the window's state", result.file.plain_state(), false);
-    }
+    if (tested.shot.window) compare_state(result, drawn);
     result.remarks.insert(result.remarks.begin(), pixels);
 }
 

@@ -133,7 +133,7 @@ class FaultsTest : public testing::OnEachBackend {};
 TEST_P(FaultsTest, LargeOnesAreInThePicture) {
     for (const Fault& fault : faults()) {
         const ImageDiff told = diff(renderer().draw(fault.wrong), renderer().draw(fault.right));
-        EXPECT_EQ(!told.same, fault.in_picture) << fault.name;
+        EXPECT_EQ(!told.passes, fault.in_picture) << fault.name;
         EXPECT_GT(told.differing, 0) << fault.name;
         std::cout << fault.name << ": " << diff_sentence(told) << '\n';
     }
@@ -151,7 +151,7 @@ TEST_P(FaultsTest, AnotherOrderIsNone) {
             std::shuffle(list.lines.begin(), list.lines.end(), random);
             EXPECT_EQ(list_difference(text_of(list), text_of(right)), std::nullopt);
             const ImageDiff told = diff(renderer().draw(list), picture);
-            EXPECT_TRUE(told.same) << diff_sentence(told);
+            EXPECT_TRUE(told.passes) << diff_sentence(told);
         }
     }
 }
@@ -166,7 +166,7 @@ TEST(Faults, AnotherBackendIsNone) {
     for (const ViewState& view : {levels_view(), query_view()}) {
         const DrawList list = list_of(view);
         const ImageDiff told = diff(osmesa->draw(list), egl->draw(list));
-        EXPECT_TRUE(told.same) << diff_sentence(told);
+        EXPECT_TRUE(told.passes) << diff_sentence(told);
         const IdImage here = osmesa->draw_ids(list);
         const IdImage there = egl->draw_ids(list);
         EXPECT_EQ(list_difference(text_of(list, &here), text_of(list, &there)), std::nullopt);
