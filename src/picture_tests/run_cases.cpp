@@ -3,7 +3,7 @@
 #include <picture_tests/reference.h>
 #include <picture_tests/run_cases.h>
 #include <picture_tests/test_case.h>
-#include <render/drawlist/draw_list_json.h>
+#include <render/drawlist/draw_list_compare.h>
 #include <render/image/image_diff.h>
 #include <render/image/png.h>
 
@@ -30,9 +30,6 @@ void add_missing(CaseResult& result, const std::filesystem::path& file, std::str
     add_finding(result, CaseOutcome::missing_golden, {file, "there is no golden " + file.string(), {}},
                 {file, std::move(bytes)});
 }
-
-/// Lines of what differs in a draw list: a report is read, not searched.
-constexpr std::size_t kMostWords = 12;
 
 bool is_there(const std::filesystem::path& file) {
     std::error_code ignored;
@@ -83,11 +80,15 @@ void compare_numbers(CaseResult& result, const std::string& actual, const std::s
     std::vector<std::string> words;
     try {
         golden = read_file(file);
-        const std::optional<std::string> found =
-            golden.empty() ? "it is empty" : first_difference(actual, what, golden, file.string());
-        if (!found) return;
-        why = file.filename().string() + ": " + *found;
-        if (!golden.empty()) words = differences_in_words(actual, what, golden, file.string(), kMostWords);
+        if (golden.empty()) {
+            why = file.filename().string() + ": it is empty";
+        } else {
+            DrawListComparison found = compare_draw_lists(actual, what, golden, file.string());
+            if (found.same()) return;
+            words = std::move(found.differences);
+            why = file.filename().string() + ": " + words.front();
+            if (found.count > 1) why += "; and " + std::to_string(found.count - 1) + " more";
+        }
     } catch (const InputError& error) {
         why = error.what();
     }
