@@ -152,7 +152,7 @@ double distance(const JsonValue& a, const JsonValue& b) {
 // --- elements of a draw list
 
 /// How much of two elements has to agree for them to be the same one.
-enum class Agreeing { all, all_but_one, half };
+enum class Agreeing { any, half, all_but_one, all };
 
 /// What elements of a list are, and how they are compared.
 struct ElementKind {
@@ -217,8 +217,17 @@ struct Likeness {
     double apart = 0;
 
     bool enough(Agreeing least) const {
-        if (least == Agreeing::half) return 2 * agreeing >= members;
-        return agreeing + (least == Agreeing::all ? 0 : 1) >= members;
+        switch (least) {
+            case Agreeing::any:
+                return true;
+            case Agreeing::half:
+                return 2 * agreeing >= members;
+            case Agreeing::all_but_one:
+                return agreeing + 1 >= members;
+            case Agreeing::all:
+                return agreeing == members;
+        }
+        return false;
     }
     bool operator>(const Likeness& other) const {
         return agreeing > other.agreeing || (agreeing == other.agreeing && apart < other.apart);
@@ -325,12 +334,21 @@ struct NamedElements {
 class Alignment {
   public:
     Alignment(const NamedElements& actual, const NamedElements& golden, const ElementTerms& terms)
-        : actual_(actual), golden_(golden), terms_(terms), of_golden_(golden.elements.size()) {
+        : actual_(actual),
+          golden_(golden),
+          terms_(terms),
+          of_golden_(golden.elements.size()),
+          of_actual_(actual.elements.size()) {
         for (std::size_t i = 0; i < golden.elements.size(); ++i) missing.push_back(i);
         for (std::size_t i = 0; i < actual.elements.size(); ++i) added.push_back(i);
-        taken_.resize(actual.elements.size());
-        for (const bool rounded : {false, true}) pair_alike(rounded);
-        pair_in_groups();
+        pair_equal(false);
+        pair_equal(true);
+        for (const Agreeing named : {Agreeing::all, Agreeing::any}) {
+            const Agreeing unnamed = named == Agreeing::all ? Agreeing::all : Agreeing::half;
+            pair_beside(named, unnamed);
+            pair_groups(named, unnamed);
+        }
+        pair_rest();
         for (std::size_t i = 0; i < of_golden_.size(); ++i) {
             if (of_golden_[i]) pairs.emplace_back(i, *of_golden_[i]);
         }
@@ -344,16 +362,20 @@ class Alignment {
 
     void pair(std::size_t golden, std::size_t actual) {
         of_golden_[golden] = actual;
-        taken_[actual] = true;
+        of_actual_[actual] = golden;
     }
     void drop_paired() {
         std::erase_if(missing, [&](std::size_t i) { return of_golden_[i].has_value(); });
-        std::erase_if(added, [&](std::size_t i) { return taken_[i]; });
+        std::erase_if(added, [&](std::size_t i) { return of_actual_[i].has_value(); });
+    }
+    bool nothing_to_pair() const { return missing.empty() || added.empty(); }
+    Likeness likeness_of(std::size_t golden, std::size_t actual) const {
+        return likeness(actual_.elements[actual], golden_.elements[golden], terms_);
     }
 
-    /// Those with the same name that are all alike, the first with the first.
-    void pair_alike(bool rounded) {
-        if (missing.empty() || added.empty()) return;
+    /// Those with the same name of which all is equal, the first with the first.
+    void pair_equal(bool rounded) {
+        if (nothing_to_pair()) return;
         Fingerprint print(terms_, rounded);
         std::unordered_map<std::string, std::pair<Places, std::size_t>> open;
         for (const std::size_t i : missing) {
@@ -368,9 +390,30 @@ class Alignment {
         drop_paired();
     }
 
-    /// Those with the same name, whatever else is other; then those that are like one another.
-    void pair_in_groups() {
-        if (missing.empty() || added.empty()) return;
+    /// Those with the same name that come after, or before, the same one.
+    void pair_beside(Agreeing named, Agreeing unnamed) {
+        if (nothing_to_pair()) return;
+        const auto try_pair = [&](std::size_t golden, std::size_t actual) {
+            if (of_golden_[golden] || of_actual_[actual] || golden_.names[golden] != actual_.names[actual]) return;
+            const Agreeing least = golden_.names[golden].empty() ? unnamed : named;
+            if (likeness_of(golden, actual).enough(least)) pair(golden, actual);
+        };
+        for (const std::size_t i : added) {
+            const auto before = i > 0 ? of_actual_[i - 1] : std::nullopt;
+            const std::size_t golden = before ? *before + 1 : 0;
+            if ((i == 0 || before) && golden < of_golden_.size()) try_pair(golden, i);
+        }
+        for (auto i = added.rbegin(); i != added.rend(); ++i) {
+            const bool last = *i + 1 == of_actual_.size();
+            const auto after = last ? std::optional(of_golden_.size()) : of_actual_[*i + 1];
+            if (after && *after > 0) try_pair(*after - 1, *i);
+        }
+        drop_paired();
+    }
+
+    /// Those with the same name that are the most alike.
+    void pair_groups(Agreeing named, Agreeing unnamed) {
+        if (nothing_to_pair()) return;
         std::unordered_map<std::string, std::size_t> numbers;
         std::vector<std::pair<Places, Places>> groups;
         const auto group = [&](const std::string& name) -> std::pair<Places, Places>& {
@@ -380,18 +423,18 @@ class Alignment {
         };
         for (const std::size_t i : missing) group(golden_.names[i]).first.push_back(i);
         for (const std::size_t i : added) group(actual_.names[i]).second.push_back(i);
-        const auto unnamed = numbers.find("");
+        const auto nameless = numbers.find("");
         for (std::size_t g = 0; g < groups.size(); ++g) {
-            const bool named = unnamed == numbers.end() || unnamed->second != g;
-            const auto& [golden, actual] = groups[g];
-            pair_near(golden, actual, [](const Likeness& like) { return like.enough(Agreeing::all); });
-            pair_near(golden, actual, [named](const Likeness& like) { return named || like.enough(Agreeing::half); });
+            const bool is_nameless = nameless != numbers.end() && nameless->second == g;
+            pair_near(groups[g].first, groups[g].second, is_nameless ? unnamed : named);
         }
         drop_paired();
-        if (terms_.kind->renamed) {
-            pair_near(missing, added, [](const Likeness& like) { return like.enough(Agreeing::all_but_one); });
-            drop_paired();
-        }
+    }
+
+    /// Whose names differ.
+    void pair_rest() {
+        if (terms_.kind->renamed) pair_near(missing, added, Agreeing::all_but_one);
+        drop_paired();
         if (terms_.kind != &kAnyElements || missing.size() != added.size()) return;
         // A value that has no parts is like nothing but itself.
         for (std::size_t i = 0; i < missing.size(); ++i) pair(missing[i], added[i]);
@@ -399,18 +442,16 @@ class Alignment {
     }
 
     /// Each with the most alike of those about where the last one was found.
-    template <class Enough>
-    void pair_near(const Places& golden, const Places& actual, const Enough& enough) {
+    void pair_near(const Places& golden, const Places& actual, Agreeing least) {
         std::size_t next = 0;  // in `actual`
         for (std::size_t i = 0; i < golden.size(); ++i) {
-            if (of_golden_[golden[i]]) continue;
-            while (next < actual.size() && taken_[actual[next]]) ++next;
+            while (next < actual.size() && of_actual_[actual[next]]) ++next;
             std::optional<std::pair<Likeness, std::size_t>> best;
             std::size_t at = next - std::min(next, kMostCompared / 4);
             for (const std::size_t end = std::min(actual.size(), next + kMostCompared); at < end; ++at) {
-                if (taken_[actual[at]]) continue;
-                const Likeness like = likeness(actual_.elements[actual[at]], golden_.elements[golden[i]], terms_);
-                if (enough(like) && (!best || like > best->first)) best.emplace(like, at);
+                if (of_actual_[actual[at]]) continue;
+                const Likeness like = likeness_of(golden[i], actual[at]);
+                if (like.enough(least) && (!best || like > best->first)) best.emplace(like, at);
             }
             if (best) {
                 pair(golden[i], actual[best->second]);
@@ -424,8 +465,7 @@ class Alignment {
     const NamedElements& actual_;
     const NamedElements& golden_;
     const ElementTerms& terms_;
-    std::vector<std::optional<std::size_t>> of_golden_;
-    std::vector<bool> taken_;
+    std::vector<std::optional<std::size_t>> of_golden_, of_actual_;
 };
 
 // --- names
