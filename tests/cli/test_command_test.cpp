@@ -397,7 +397,9 @@ TEST_F(AcceptTest, OfSomeOfItsCases) {
     EXPECT_EQ(accept(page, {"path"}).status, 0);
     EXPECT_EQ(slurp(cases.path() / "path.png"), slurp(output / "path.actual.png"));
     EXPECT_FALSE(exists("query/end.png"));
-    expect_test_refused(accept(page, {"pth"}), "every case that is named passed there");
+    expect_test_refused(accept(page, {"pth"}), "there is no case 'pth'");
+    cases.add("fine");
+    expect_test_refused(accept(page, {"fine"}), "every case that is named passed there");
 }
 
 TEST_F(AcceptTest, LeavesAGoldenThatIsAnotherThanInTheReport) {
