@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -307,6 +308,56 @@ TEST(DrawListCompare, OfOtherFontsWordsMayStandElsewhere) {
         [](Json& list) { list["headline"] = "A misses B"; },
     };
     for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(told(seen[i], other).size(), 1u) << i;
+}
+
+TEST(DrawListCompare, OfOtherFontsALabelMayFindNoRoom) {
+    const DrawListTerms other{.other_fonts = true, .most = 12};
+    // Beside another label, under a panel and at the edge there may be no room; elsewhere there is.
+    for (const auto& [x, y, told] : {std::tuple(200, 108, false), std::tuple(104, 325, false),
+                                     std::tuple(636, 200, false), std::tuple(400, 200, true)}) {
+        Json golden = small_list();
+        golden["texts"].push_back({{"text", "40 s"}, {"role", "tick"}, {"at", {x, y}}, {"size", 9}});
+        const Words line = told ? Words{"the tick label '40 s' is missing"} : Words{};
+        EXPECT_EQ(differences(small_list(), golden, other), line) << x << ' ' << y;
+        EXPECT_EQ(differences(small_list(), golden), Words{"the tick label '40 s' is missing"});
+    }
+}
+
+TEST(DrawListCompare, OfOtherFontsWordsMayBeCutOrBreakElsewhere) {
+    const DrawListTerms other{.other_fonts = true, .most = 12};
+    const auto captioned = [](const Words& lines, int bottom) {
+        Json list = small_list();
+        list["headline"] = "A meets B at last";
+        list["overlays"].push_back({{"name", "caption"}, {"min", {10, 10}}, {"max", {200, bottom}}});
+        int y = 20;
+        for (const std::string& line : lines) {
+            list["texts"].push_back({{"text", line}, {"role", "caption"}, {"at", {20, y += 15}}, {"size", 12}});
+        }
+        return list;
+    };
+    const Json golden = captioned({"A meets B", "at last", "leaf 10, 3 tests"}, 80);
+    EXPECT_EQ(differences(captioned({"A meets B at last", "leaf 10, 3 tests"}, 65), golden, other), Words{});
+    EXPECT_EQ(differences(captioned({"A meets", "B at last", "leaf 10, 3 te…"}, 80), golden, other), Words{});
+    EXPECT_EQ(differences(captioned({"meets B", "last", "leaf 10, 3 tests"}, 80), golden, other), Words{});
+    for (const Words& wrong :
+         {Words{"A meets B", "at last", "leaf 11, 3 tests"}, Words{"A meets C", "at last", "leaf 10, 3 tests"},
+          Words{"A meets B", "leaf 10, 3 tests"}, Words{}}) {
+        EXPECT_EQ(differences(captioned(wrong, 80), golden, other).size(), 1u);
+    }
+    Json cut = small_list();
+    cut["texts"][1]["text"] = "lev…2";
+    EXPECT_EQ(differences(cut, small_list(), other), Words{});
+    cut["texts"][1]["text"] = "lev…3";
+    EXPECT_EQ(differences(cut, small_list(), other).size(), 1u);
+    // A panel without room shows its header instead of what is in it.
+    Json folded = small_list();
+    folded["overlays"][0] = {
+        {"name", "legend"}, {"min", {10, 330}}, {"max", {100, 350}}, {"folded", true}, {"no_room", true}};
+    folded["panels"][0]["min"] = {10, 330};
+    erase(folded, "texts", 0);
+    folded["texts"][0] = {{"text", "no room"}, {"role", "header"}, {"at", {30, 345}}, {"size", 11}};
+    EXPECT_EQ(differences(folded, small_list(), other), Words{});
+    EXPECT_GT(differences(folded, small_list()).size(), 2u);
 }
 
 TEST(DrawListCompare, OfOtherJsonThePlaceIsNamed) {
