@@ -240,7 +240,7 @@ void write_passed(std::ostream& out, const Results& passed) {
         write_image(out, result->actual, result->file.name);
         out << "</button><figcaption>" << escaped(result->file.name) << "<br><small>" << how_much(*result)
             << "</small>";
-        for (const std::string& remark : result->remarks) out << "<br><small>" << escaped(remark) << "</small>";
+        for (const std::string& remark : result->remarks) out << "<small>" << escaped(remark) << "</small>";
         out << "</figcaption></figure>\n";
     }
     out << "</div></details>\n";

@@ -53,7 +53,7 @@ void write_remarks(std::ostream& out, const CaseResult& result) {
 
 void write_orphans(std::ostream& out, const RunFacts& facts) {
     out << "    <testcase" << attribute("classname", facts.folder) << attribute("name", "orphaned goldens")
-        << ">\n      <failure" << attribute("type", kOrphan)
+        << attribute("time", "0") << ">\n      <failure" << attribute("type", kOrphan)
         << attribute("message", counted(facts.orphans.size(), "golden has", "goldens have") + " no case") << '>';
     for (const std::string& orphan : facts.orphans) out << escaped(orphan) << kOrphanAdvice << '\n';
     out << "</failure>\n    </testcase>\n";
