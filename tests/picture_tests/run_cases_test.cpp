@@ -128,7 +128,7 @@ TEST_F(RunCaseTest, HoldsWhatIsDrawnAgainstItsDrawList) {
     cases.folder().write("b.draw.json", "[]");
     CaseResult result = run(two);
     EXPECT_EQ(result.outcome, CaseOutcome::different);
-    EXPECT_EQ(result.message, "b.draw.json: the whole: 2 elements instead of 0");
+    EXPECT_EQ(result.message, "b.draw.json: picture 1 is not in the golden; and 1 more");
     EXPECT_TRUE(result.image->same);
     take(result);
     EXPECT_EQ(run(two).outcome, CaseOutcome::passed);
@@ -141,7 +141,7 @@ TEST_F(RunCaseTest, HoldsWhatIsDrawnAgainstItsDrawList) {
     cases.folder().write("b.draw.json", text);
     const CaseResult off = run(two);
     EXPECT_EQ(off.outcome, CaseOutcome::different);
-    EXPECT_NE(off.message.find("/radius: 0.4 instead of 0.41"), std::string::npos) << off.message;
+    EXPECT_NE(off.message.find("disk of A, sample 0, radius: 0.4 instead of 0.41"), std::string::npos) << off.message;
 }
 
 TEST_F(RunCaseTest, AWindowHasNoDrawList) {
@@ -285,7 +285,7 @@ TEST_F(RunCaseWithReferenceTest, WhatIsDrawnIsHeldWithoutText) {
     cases.folder().write("a.plain.draw.json", list);
     const CaseResult off = run(file);
     EXPECT_EQ(off.outcome, CaseOutcome::different);
-    EXPECT_NE(off.message.find("/radius: 0.4 instead of 0.41"), std::string::npos) << off.message;
+    EXPECT_NE(off.message.find("disk of A, sample 0, radius: 0.4 instead of 0.41"), std::string::npos) << off.message;
 
     std::filesystem::remove(file.plain_draw());
     EXPECT_EQ(run(file).outcome, CaseOutcome::missing_golden);
