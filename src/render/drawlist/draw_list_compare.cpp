@@ -571,20 +571,20 @@ std::string key_of(const ElementTerms& terms, const JsonValue& element, const Js
 
 // --- other fonts
 
-struct PixelRect {
+struct ScreenRect {
     double left = 0, top = 0, right = 0, bottom = 0;
 
-    bool overlaps(const PixelRect& o) const {
+    bool overlaps(const ScreenRect& o) const {
         return left < o.right && o.left < right && top < o.bottom && o.top < bottom;
     }
-    bool contains(const PixelRect& o) const {
+    bool contains(const ScreenRect& o) const {
         return left <= o.left && top <= o.top && right >= o.right && bottom >= o.bottom;
     }
-    PixelRect grown(double x, double y) const { return {left - x, top - y, right + x, bottom + y}; }
+    ScreenRect grown(double x, double y) const { return {left - x, top - y, right + x, bottom + y}; }
 };
 
 /// About what an element over the scene covers; none if it does not say.
-std::optional<PixelRect> rect_of(const JsonValue& element) {
+std::optional<ScreenRect> rect_of(const JsonValue& element) {
     const auto point = [&](std::string_view key) -> std::optional<std::pair<double, double>> {
         const auto* both = held<Elements>(element, key);
         if (!both || both->size() != 2) return std::nullopt;
@@ -597,13 +597,13 @@ std::optional<PixelRect> rect_of(const JsonValue& element) {
     if (const auto at = point("at"); at && text && size) {
         const auto letters = static_cast<double>(
             std::ranges::count_if(*text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }));
-        return PixelRect{at->first, at->second - *size, at->first + 0.58 * letters * *size, at->second + 0.25 * *size};
+        return ScreenRect{at->first, at->second - *size, at->first + 0.58 * letters * *size, at->second + 0.25 * *size};
     }
     const bool is_line = point("from").has_value();
     const auto low = point(is_line ? "from" : "min"), high = point(is_line ? "to" : "max");
     if (!low || !high) return std::nullopt;
-    return PixelRect{std::min(low->first, high->first), std::min(low->second, high->second),
-                     std::max(low->first, high->first), std::max(low->second, high->second)};
+    return ScreenRect{std::min(low->first, high->first), std::min(low->second, high->second),
+                      std::max(low->first, high->first), std::max(low->second, high->second)};
 }
 
 /// Whether two texts may be one that is cut by other widths: "a long na\u2026" and "a long n\u2026".
@@ -735,7 +735,7 @@ class WordRoom {
     }
 
     /// Whether it is in a panel that has no room in one of the lists.
-    bool is_in_panel(std::size_t side, const PixelRect& rect) const {
+    bool is_in_panel(std::size_t side, const ScreenRect& rect) const {
         bool out = false;
         each(side, "overlays", [&](const JsonValue& overlay) {
             const auto* name = held<std::string>(overlay, "name");
@@ -746,10 +746,10 @@ class WordRoom {
     }
 
     /// Whether the label would be at something else, or at the picture's edge.
-    bool is_crowded(std::size_t side, const PixelRect& label, const JsonValue& text) const {
+    bool is_crowded(std::size_t side, const ScreenRect& label, const JsonValue& text) const {
         const double height = label.bottom - label.top;
-        const PixelRect room = label.grown(0.5 * height + 0.1 * (label.right - label.left), 0.5 * height);
-        PixelRect picture;
+        const ScreenRect room = label.grown(0.5 * height + 0.1 * (label.right - label.left), 0.5 * height);
+        ScreenRect picture;
         if (const auto* size = held<Elements>(*lists_[side], "size"); size && size->size() == 2) {
             const auto* width = std::get_if<double>(&(*size)[0].data);
             const auto* high = std::get_if<double>(&(*size)[1].data);
@@ -758,7 +758,7 @@ class WordRoom {
         if (!picture.contains(room)) return true;
         const auto* words = held<std::string>(text, "text");
         bool out = false;
-        std::optional<PixelRect> itself;  // elsewhere
+        std::optional<ScreenRect> itself;  // elsewhere
         each(side, "texts", [&](const JsonValue& other) {
             const auto* others = held<std::string>(other, "text");
             const auto rect = rect_of(other);
@@ -779,7 +779,7 @@ class WordRoom {
     }
 
     /// Whether it is the panel of such a label, or the line to it.
-    bool is_beside_label(std::size_t side, const PixelRect& rect, bool is_line) const {
+    bool is_beside_label(std::size_t side, const ScreenRect& rect, bool is_line) const {
         bool out = false;
         each(side, "texts", [&](const JsonValue& text) {
             if (out || !is_label(text)) return;
@@ -886,7 +886,8 @@ class DrawListComparer {
         if (is_draw_list(golden) && is_draw_list(actual)) return compare_lists("", actual, golden);
         const auto* pictures = std::get_if<Elements>(&actual.data);
         const auto* others = std::get_if<Elements>(&golden.data);
-        if (!pictures || !others || !std::ranges::any_of(*others, is_draw_list))
+        if (!pictures || !others ||
+            !(std::ranges::any_of(*others, is_draw_list) || std::ranges::any_of(*pictures, is_draw_list)))
             return compare_values("", actual, golden);
         for (std::size_t i = 0; i < std::max(pictures->size(), others->size()); ++i) {
             const std::string picture = "picture " + std::to_string(i + 1);
