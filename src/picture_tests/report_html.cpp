@@ -238,8 +238,7 @@ void write_passed(std::ostream& out, const Results& passed) {
         out << "<figure" << sort_keys(*result)
             << "><button type=\"button\" class=\"thumbnail\" aria-pressed=\"false\">";
         write_image(out, result->actual, result->file.name);
-        out << "</button><figcaption>" << escaped(result->file.name) << "<br><small>" << how_much(*result)
-            << "</small>";
+        out << "</button><figcaption>" << escaped(result->file.name) << "<small>" << how_much(*result) << "</small>";
         for (const std::string& remark : result->remarks) out << "<small>" << escaped(remark) << "</small>";
         out << "</figcaption></figure>\n";
     }

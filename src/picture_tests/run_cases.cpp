@@ -144,7 +144,7 @@ void compare_numbers(CaseResult& result, const std::string& actual, const std::s
             result.remarks.push_back(file.filename().string() + ": " + line);
         }
         if (found.same()) return;
-        const std::size_t more = found.differences.size() - 1;
+        const std::size_t more = found.count - 1;
         const std::string why = file.filename().string() + ": " + found.differences.front() +
                                 (more > 0 ? "; and " + std::to_string(more) + " more" : "");
         add_finding(result, CaseOutcome::different, {file, why, found.differences});
@@ -183,7 +183,10 @@ void compare_on_reference(CaseResult& result, const Case& tested, DrawnCase& dra
     const std::filesystem::path golden = result.file.golden();
     Held held = hold(drawn.picture(), golden, tested.terms.diff, mask);
     judge_pixels(result, held, golden, "");
+    const bool same_size = !held.diff || held.diff->same_size;
     show(result, drawn.picture(), std::move(held), golden);
+    // In a picture of another size everything is elsewhere.
+    if (!same_size) return;
     if (has_draw_list(result.file, tested)) {
         compare_numbers(result, drawn.draw_list(), "the draw list", result.file.draw(), false);
     } else if (has_reference && (tested.shot.window || is_there(result.file.plain()))) {
@@ -248,9 +251,11 @@ std::vector<GoldenChange> goldens_of(const CaseFile& file, const Case& tested, D
         return wanted ? std::optional<std::string>(make()) : std::nullopt;
     };
     const bool numbers = tested.terms.draw_list && !tested.shot.window;
-    const bool plain = has_reference && !numbers;
+    const bool plain = !numbers;
     add(file.golden(), png_bytes(drawn.picture()));
     add(file.draw(), if_wanted(numbers, [&] { return drawn.draw_list(); }));
+    // Elsewhere NAME.plain may be a case of its own.
+    if (!has_reference) return out;
     add(file.plain(), if_wanted(plain, [&] { return png_bytes(drawn.plain()); }));
     add(file.plain_draw(), std::nullopt);
     add(file.plain_state(), if_wanted(plain && tested.shot.window, [&] { return drawn.state(); }));
