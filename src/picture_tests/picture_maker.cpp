@@ -63,7 +63,10 @@ Image PictureMaker::make(const Shot& shot) {
                                   script_of(shot));
         });
     }
-    const std::vector<DrawList> lists = panel_lists(shot);
+    return make(shot, panel_lists(shot));
+}
+
+Image PictureMaker::make(const Shot& shot, const std::vector<DrawList>& lists) {
     const PictureOptions& options = shot.picture;
     if (lists.size() == 1) return renderer_.draw(lists.front(), options.samples);
     std::vector<SheetCell> cells;
