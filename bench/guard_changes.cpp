@@ -2,8 +2,8 @@
 /// comparison with another machine's; compares two such folders. bench/guard makes tables of it.
 ///
 ///     bench_guard changes [--seed N] [--number N] [--goldens DRAWN] FOLDER...     a line for each change
-///     bench_guard draw OUT [--backend B] [--samples N] [--shift PIXELS] [--noise SEED] [--text no] FOLDER...
-///     bench_guard compare DRAWN DRAWN                                             a line for each picture
+///     bench_guard draw OUT [--backend B] [--samples N] [--shift PIXELS] [--noise SEED] [--text no] [--panels no]
+///     FOLDER... bench_guard compare DRAWN DRAWN                                             a line for each picture
 ///
 /// Lines are of fields with tabs between them, the first line is their names. Cases of the window are left out.
 #include <base/error.h>
@@ -12,7 +12,6 @@
 #include <base/text.h>
 #include <picture_tests/picture_maker.h>
 #include <picture_tests/test_case.h>
-#include <render/drawlist/camera.h>
 #include <render/drawlist/draw_list_json.h>
 #include <render/image/image_diff.h>
 #include <render/image/png.h>
@@ -515,7 +514,7 @@ struct Options {
     std::vector<std::string> words;  ///< what is no option
     std::map<std::string, std::string, std::less<>> named{{"--seed", "1"},   {"--number", "10"}, {"--goldens", ""},
                                                           {"--samples", ""}, {"--noise", ""},    {"--backend", "auto"},
-                                                          {"--shift", "0"},  {"--text", "yes"}};
+                                                          {"--shift", "0"},  {"--text", "yes"},  {"--panels", "yes"}};
     const std::string& operator[](const char* name) const { return named.find(name)->second; }
 };
 
@@ -561,6 +560,10 @@ void make_changes(const Options& options) {
             if (!after) continue;
             const std::optional<double> moved =
                 kind.moves ? largest_move(golden.here.lists, after->lists) : std::nullopt;
+            if (after->picture.rgba == golden.here.picture.rgba &&
+                text_of(after->lists) == text_of(golden.here.lists)) {
+                continue;
+            }
             const int here = diff(after->picture, golden.here.picture).largest;
             if (here > kRounding && moved.value_or(1) >= kLeastMove) ++visible;
             std::cout << kind.name << '\t' << golden.name << '\t' << what << '\t' << here << '\t'
@@ -579,14 +582,14 @@ void add_noise(Image& image, std::uint64_t seed) {
     }
 }
 
-/// Moves what is in the middle of the picture aside by so many pixels across and down.
-void shift_cameras(Shot& shot, float pixels) {
-    const std::vector<DrawList> lists = panel_lists(shot);
-    hold_cameras(shot, lists);
-    for (std::size_t i = 0; i < lists.size(); ++i) {
-        Camera& camera = shot.panels[i].view.camera;
-        camera = panned(camera, glm::vec2(pixels), lists[i].size);
+/// Draws the scene, and no text over it, so many pixels to the right and below.
+void shift_scene(ViewProjection& projection, float pixels) {
+    const glm::vec2 by = 2 * pixels / glm::vec2(projection.size.width, -projection.size.height);
+    for (int column = 0; column < 4; ++column) {
+        glm::vec4& one = projection.clip_from_world[column];
+        one += glm::vec4(by * one.w, 0, 0);
     }
+    projection.middle += by;
 }
 
 void draw_all(const Options& options) {
@@ -594,15 +597,17 @@ void draw_all(const Options& options) {
     const std::filesystem::path out = options.words.front();
     std::filesystem::create_directories(out);
     PictureMaker maker(*backend_from_name(options["--backend"]));
+    std::cout << maker.backend() << ", " << maker.renderer().version() << ", " << maker.renderer().device() << '\n';
     for (NamedShot& one : read_shots(std::span(options.words).subspan(1))) {
+        if (options["--panels"] == "no" && one.shot.panels.size() > 1) continue;
         Shot shot = options["--text"] == "no" ? without_text(std::move(one.shot)) : std::move(one.shot);
         if (!options["--samples"].empty()) shot.picture.samples = parse_samples(options["--samples"]);
-        const float shift = std::stof(options["--shift"]);
-        if (shift != 0) shift_cameras(shot, shift);
-        Image picture = maker.make(shot);
+        std::vector<DrawList> lists = panel_lists(shot);
+        write_file(list_file(out, one.name), text_of(lists));
+        for (DrawList& list : lists) shift_scene(list.projection, std::stof(options["--shift"]));
+        Image picture = maker.make(shot, lists);
         if (!options["--noise"].empty()) add_noise(picture, std::stoull(options["--noise"]));
         write_png(picture_file(out, one.name), picture);
-        write_file(list_file(out, one.name), text_of(panel_lists(shot)));
         write_file(counted_file(out, one.name), maker.draw_lists(shot));
     }
 }
