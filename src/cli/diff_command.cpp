@@ -33,27 +33,10 @@ int parse_pixel_shift(const std::string& text) {
     throw std::invalid_argument(in_quotes(text) + " is neither 0 nor 1: a pixel is the most that may be forgiven");
 }
 
-/// The mask's picture; nothing if none is given. Throws InputError if it does not fit the picture.
-std::optional<Image> read_mask(const DiffCommandArguments& arguments, const Image& picture) {
-    if (!arguments.mask) return std::nullopt;
-    Image mask = read_png(*arguments.mask);
-    if (mask.width != picture.width || mask.height != picture.height) {
-        throw InputError(arguments.mask->string(), "",
-                         "the mask has " + size_word({mask.width, mask.height}) + " pixels and " +
-                             in_quotes(arguments.b.string()) + ' ' + size_word({picture.width, picture.height}) +
-                             "; make them one size");
-    }
-    return mask;
-}
-
 ImageDiff compare(const DiffCommandArguments& arguments, const Image& a, const Image& b) {
-    const std::optional<Image> mask = read_mask(arguments, b);
-    ImageDiff found = diff(a, b, arguments.options, mask ? &*mask : nullptr);
-    if (found.same_size && found.pixels == 0) {
-        throw InputError(arguments.mask->string(), "",
-                         "the mask leaves nothing to compare; paint white what is to be compared");
-    }
-    return found;
+    if (!arguments.mask) return diff(a, b, arguments.options);
+    const Image mask = read_mask(*arguments.mask, {b.width, b.height}, arguments.b);
+    return diff(a, b, arguments.options, &mask);
 }
 
 void check_picture_name(const std::optional<std::filesystem::path>& output) {

@@ -2,7 +2,6 @@
 #include <base/base64.h>
 #include <cases/golden_change.h>
 #include <cases/result_line.h>
-#include <render/drawlist/draw_list_json.h>
 #include <render/image/png.h>
 #include <support/input_error.h>
 
@@ -12,7 +11,6 @@
 
 #include <sstream>
 #include <string>
-#include <vector>
 
 namespace mobbscope::picture_tests {
 namespace {
@@ -78,18 +76,6 @@ TEST(GoldenChange, IsTakenBackToTheByteAndRefusedWhereAnotherWas) {
     EXPECT_NE(input_error([&] { write_goldens(changes); }).find("has changed on the disk"), std::string::npos);
     write_goldens(taken_back(changes));
     EXPECT_FALSE(std::filesystem::exists(file.golden()));
-}
-
-TEST(DifferencesInWords, NameWhatIsOther) {
-    const std::string golden = R"({"participants": ["A", "B"], "camera": {"eye": [1, 2, 3]},
-        "boxes": [{"participant": 1, "node": 3, "extents": [1, 2]}], "texts": [{"text": "hi", "at": [0, 0]}]})";
-    const std::string actual = R"({"participants": ["A", "B"], "camera": {"eye": [1, 5, 6]},
-        "boxes": [{"participant": 1, "node": 3, "extents": [4, 2]}], "texts": [{"text": "hi", "at": [9, 0]}]})";
-    const auto words = [&](std::size_t most) { return differences_in_words(actual, "a", golden, "b", most); };
-    EXPECT_EQ(words(9),
-              (std::vector<std::string>{"camera, eye: 5 instead of 2", "box of B, node 3, extents: 4 instead of 1",
-                                        "text 'hi', at: 9 instead of 0"}));
-    EXPECT_EQ(words(1), (std::vector<std::string>{"camera, eye: 5 instead of 2", "and 2 more"}));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
+#include <base/error.h>
 #include <base/text.h>
 #include <render/image/image_diff.h>
+#include <render/image/png.h>
 
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
@@ -41,6 +43,15 @@ void grow(std::optional<PixelRect>& rect, int x, int y) {
     rect->y = std::min(rect->y, y);
     rect->width = right - rect->x;
     rect->height = bottom - rect->y;
+}
+
+bool leaves_nothing(const Image& mask) {
+    for (int y = 0; y < mask.height; ++y) {
+        for (int x = 0; x < mask.width; ++x) {
+            if (is_compared(&mask, x, y)) return false;
+        }
+    }
+    return true;
 }
 
 using HeatColor = glm::vec3;  // 0..255
@@ -139,6 +150,20 @@ bool is_compared(const Image* mask, int x, int y) {
     return p[3] != 0 && (p[0] != 0 || p[1] != 0 || p[2] != 0);
 }
 
+Image read_mask(const std::filesystem::path& file, PictureSize size, const std::filesystem::path& picture) {
+    Image mask = read_png(file);
+    const PictureSize of_mask{mask.width, mask.height};
+    if (of_mask != size) {
+        throw InputError(file.string(), "",
+                         "the mask has " + size_word(of_mask) + " pixels and " + in_quotes(picture.string()) + ' ' +
+                             size_word(size) + "; make them one size");
+    }
+    if (leaves_nothing(mask)) {
+        throw InputError(file.string(), "", "the mask leaves nothing to compare; paint white what is to be compared");
+    }
+    return mask;
+}
+
 ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& options, const Image* mask) {
     ImageDiff result;
     result.options = options;
@@ -226,6 +251,7 @@ void write_diff(JsonWriter& out, const ImageDiff& diff) {
     out.values("histogram", diff.histogram);
     out.member("threshold", diff.options.channel_tolerance);
     out.member("allowed", diff.options.pixel_fraction);
+    out.member("least_pixels", diff.options.least_pixels);
     out.member("allowed_pixels", diff.allowed());
     out.member("shift", diff.options.shift);
     out.end_object();
@@ -257,10 +283,7 @@ std::string what_differs(const ImageDiff& diff) {
 }
 
 std::string diff_sentence(const ImageDiff& diff) {
-    return (diff.same     ? "same: "
-            : diff.passes ? "passes: "
-                          : "different: ") +
-           what_differs(diff);
+    return (diff.same ? "same: " : diff.passes ? "passes: " : "different: ") + what_differs(diff);
 }
 
 }  // namespace mobbscope

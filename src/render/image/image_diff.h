@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -35,7 +36,7 @@ struct ImageDiff {
     std::array<std::int64_t, 256> histogram{};
     std::optional<PixelRect> unequal_bounds{};  ///< of the unequal pixels
     std::optional<PixelRect> bounds{};          ///< of the differing pixels
-    Image heat;                         ///< where they differ, see heat_map.h; empty if the sizes differ
+    Image heat;                                 ///< where they differ, see heat_map.h; empty if the sizes differ
 
     double fraction() const { return pixels > 0 ? static_cast<double>(differing) / static_cast<double>(pixels) : 0; }
     /// The most pixels that may differ.
@@ -47,6 +48,10 @@ struct ImageDiff {
 /// pictures have one size and the mask another.
 ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& options = {},
                const Image* mask = nullptr);
+
+/// A mask. Throws InputError if it cannot be read, has another size than the picture (`picture`: its name in the
+/// message), or leaves nothing to compare.
+Image read_mask(const std::filesystem::path& file, PictureSize size, const std::filesystem::path& picture);
 
 /// What a channel (0..3, the last is opacity) adds to what is seen, 0..255.
 int seen_channel(const std::uint8_t* pixel, int channel);
@@ -63,10 +68,10 @@ inline constexpr std::int16_t kNotCompared = -1;
 Image heat_map(const Image& reference, std::span<const std::int16_t> differences, double tolerance);
 
 /// {"same", "passes", "same_size", "size_a": [w, h], "size_b", "pixels", "unequal", "failing", "fraction", "maximum",
-/// "mean", "unequal_bounds", "bounds": null | {"x", "y", "width", "height"}, "histogram": [256], "threshold", "allowed",
-/// "allowed_pixels", "shift"}: A is the actual picture, B the reference; differences are 0..255, `fraction` and
-/// `allowed` shares 0..1; `failing` is ImageDiff::differing, the rest as there. Of pictures whose sizes differ no pixels
-/// are compared.
+/// "mean", "unequal_bounds", "bounds": null | {"x", "y", "width", "height"}, "histogram": [256], "threshold",
+/// "allowed", "least_pixels", "allowed_pixels", "shift"}: A is the actual picture, B the reference; differences are
+/// 0..255, `fraction` and `allowed` shares 0..1; `failing` is ImageDiff::differing, the rest as there. Of pictures
+/// whose sizes differ no pixels are compared.
 void write_diff(JsonWriter& out, const ImageDiff& diff);
 
 /// "different: 412 of 230400 pixels (0.18 %) differ by more than 3/255, up to 87/255, within 120x40 at (300, 12);
