@@ -30,6 +30,7 @@ class PictureMaker {
     /// What a shot draws, as JSON with the number of pixels of each object (draw_list_json.h): an object, or for
     /// several panels an array of them. Not for a window. Throws as make does.
     std::string draw_lists(const Shot& shot);
+    std::string draw_lists(const std::vector<DrawList>& lists);
 
     /// What a window shows: the scene in it without text, and its state as JSON. Throws as make does.
     struct Window {
