@@ -77,8 +77,8 @@ struct CaseResult {
     Image actual;                    ///< empty where there is none; without text if only that picture is different
     Image golden;                    ///< likewise, and of a case that passed
     std::optional<ImageDiff> image;  ///< where both exist; of a case that passed without its heat map
-    /// All goldens of the case as they would be now: of one that is different or lacks a golden, where it can be taken;
-    /// of others if that was asked for.
+    /// All goldens of the case as they would be now: of one that is different or lacks a golden; of others if that was
+    /// asked for.
     std::vector<GoldenChange> fresh;
     /// What is other here than where the goldens are from (picture_tests/reference.h); empty if nothing is.
     std::string other_here;

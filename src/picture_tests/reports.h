@@ -13,12 +13,12 @@ namespace mobbscope::picture_tests {
 
 /// Of a whole run.
 struct RunFacts {
-    std::string folder;                ///< of the cases, as given
-    std::string backend;               ///< "osmesa", "egl"; empty without OpenGL
-    std::string renderer;              ///< what OpenGL calls itself
-    std::string page;                  ///< the page of the run, whose goldens can be taken; empty: there is none
-    std::vector<std::string> orphans;  ///< goldens that no case has
-    bool strict = false;               ///< whether they make the run fail
+    std::string folder;                  ///< of the cases, as given
+    std::string backend;                 ///< "osmesa", "egl"; empty without OpenGL
+    std::string renderer;                ///< what OpenGL calls itself
+    std::string page{};                  ///< the page of the run, whose goldens can be taken; empty: there is none
+    std::vector<std::string> orphans{};  ///< goldens that no case has
+    bool strict = false;                 ///< whether they make the run fail
 };
 
 /// A line for each case that did not pass and for each that did although something differs, what is to be known of the

@@ -292,7 +292,7 @@ void run(CaseResult& result, PictureMaker& maker, const RunOptions& options) {
         compare_elsewhere(result, tested, drawn, same_words, mask ? &*mask : nullptr);
     }
     const bool passed = result.outcome == CaseOutcome::passed;
-    if (result.other_here.empty() && (!passed || options.fresh != FreshGoldens::of_failed)) {
+    if (!passed || options.fresh != FreshGoldens::of_failed) {
         result.fresh = goldens_of(result.file, tested, drawn, reference.has_value());
         if (passed && options.fresh == FreshGoldens::missing) {
             const bool lacks = std::ranges::any_of(result.fresh, [](const GoldenChange& one) { return !one.replaces; });

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -152,7 +153,7 @@ double distance(const JsonValue& a, const JsonValue& b) {
 // --- elements of a draw list
 
 /// How much of two elements has to agree for them to be the same one.
-enum class Agreeing { all, all_but_one, half };
+enum class Agreeing { any, half, all_but_one, all };
 
 /// What elements of a list are, and how they are compared.
 struct ElementKind {
@@ -217,8 +218,17 @@ struct Likeness {
     double apart = 0;
 
     bool enough(Agreeing least) const {
-        if (least == Agreeing::half) return 2 * agreeing >= members;
-        return agreeing + (least == Agreeing::all ? 0 : 1) >= members;
+        switch (least) {
+            case Agreeing::any:
+                return true;
+            case Agreeing::half:
+                return 2 * agreeing >= members;
+            case Agreeing::all_but_one:
+                return agreeing + 1 >= members;
+            case Agreeing::all:
+                return agreeing == members;
+        }
+        return false;
     }
     bool operator>(const Likeness& other) const {
         return agreeing > other.agreeing || (agreeing == other.agreeing && apart < other.apart);
@@ -325,12 +335,21 @@ struct NamedElements {
 class Alignment {
   public:
     Alignment(const NamedElements& actual, const NamedElements& golden, const ElementTerms& terms)
-        : actual_(actual), golden_(golden), terms_(terms), of_golden_(golden.elements.size()) {
+        : actual_(actual),
+          golden_(golden),
+          terms_(terms),
+          of_golden_(golden.elements.size()),
+          of_actual_(actual.elements.size()) {
         for (std::size_t i = 0; i < golden.elements.size(); ++i) missing.push_back(i);
         for (std::size_t i = 0; i < actual.elements.size(); ++i) added.push_back(i);
-        taken_.resize(actual.elements.size());
-        for (const bool rounded : {false, true}) pair_alike(rounded);
-        pair_in_groups();
+        pair_equal(false);
+        pair_equal(true);
+        for (const Agreeing named : {Agreeing::all, Agreeing::any}) {
+            const Agreeing unnamed = named == Agreeing::all ? Agreeing::all : Agreeing::half;
+            pair_beside(named, unnamed);
+            pair_groups(named, unnamed);
+        }
+        pair_rest();
         for (std::size_t i = 0; i < of_golden_.size(); ++i) {
             if (of_golden_[i]) pairs.emplace_back(i, *of_golden_[i]);
         }
@@ -344,16 +363,20 @@ class Alignment {
 
     void pair(std::size_t golden, std::size_t actual) {
         of_golden_[golden] = actual;
-        taken_[actual] = true;
+        of_actual_[actual] = golden;
     }
     void drop_paired() {
         std::erase_if(missing, [&](std::size_t i) { return of_golden_[i].has_value(); });
-        std::erase_if(added, [&](std::size_t i) { return taken_[i]; });
+        std::erase_if(added, [&](std::size_t i) { return of_actual_[i].has_value(); });
+    }
+    bool nothing_to_pair() const { return missing.empty() || added.empty(); }
+    Likeness likeness_of(std::size_t golden, std::size_t actual) const {
+        return likeness(actual_.elements[actual], golden_.elements[golden], terms_);
     }
 
-    /// Those with the same name that are all alike, the first with the first.
-    void pair_alike(bool rounded) {
-        if (missing.empty() || added.empty()) return;
+    /// Those with the same name of which all is equal, the first with the first.
+    void pair_equal(bool rounded) {
+        if (nothing_to_pair()) return;
         Fingerprint print(terms_, rounded);
         std::unordered_map<std::string, std::pair<Places, std::size_t>> open;
         for (const std::size_t i : missing) {
@@ -368,9 +391,30 @@ class Alignment {
         drop_paired();
     }
 
-    /// Those with the same name, whatever else is other; then those that are like one another.
-    void pair_in_groups() {
-        if (missing.empty() || added.empty()) return;
+    /// Those with the same name that come after, or before, the same one.
+    void pair_beside(Agreeing named, Agreeing unnamed) {
+        if (nothing_to_pair()) return;
+        const auto try_pair = [&](std::size_t golden, std::size_t actual) {
+            if (of_golden_[golden] || of_actual_[actual] || golden_.names[golden] != actual_.names[actual]) return;
+            const Agreeing least = golden_.names[golden].empty() ? unnamed : named;
+            if (likeness_of(golden, actual).enough(least)) pair(golden, actual);
+        };
+        for (const std::size_t i : added) {
+            const auto before = i > 0 ? of_actual_[i - 1] : std::nullopt;
+            const std::size_t golden = before ? *before + 1 : 0;
+            if ((i == 0 || before) && golden < of_golden_.size()) try_pair(golden, i);
+        }
+        for (auto i = added.rbegin(); i != added.rend(); ++i) {
+            const bool last = *i + 1 == of_actual_.size();
+            const auto after = last ? std::optional(of_golden_.size()) : of_actual_[*i + 1];
+            if (after && *after > 0) try_pair(*after - 1, *i);
+        }
+        drop_paired();
+    }
+
+    /// Those with the same name that are the most alike.
+    void pair_groups(Agreeing named, Agreeing unnamed) {
+        if (nothing_to_pair()) return;
         std::unordered_map<std::string, std::size_t> numbers;
         std::vector<std::pair<Places, Places>> groups;
         const auto group = [&](const std::string& name) -> std::pair<Places, Places>& {
@@ -380,18 +424,18 @@ class Alignment {
         };
         for (const std::size_t i : missing) group(golden_.names[i]).first.push_back(i);
         for (const std::size_t i : added) group(actual_.names[i]).second.push_back(i);
-        const auto unnamed = numbers.find("");
+        const auto nameless = numbers.find("");
         for (std::size_t g = 0; g < groups.size(); ++g) {
-            const bool named = unnamed == numbers.end() || unnamed->second != g;
-            const auto& [golden, actual] = groups[g];
-            pair_near(golden, actual, [](const Likeness& like) { return like.enough(Agreeing::all); });
-            pair_near(golden, actual, [named](const Likeness& like) { return named || like.enough(Agreeing::half); });
+            const bool is_nameless = nameless != numbers.end() && nameless->second == g;
+            pair_near(groups[g].first, groups[g].second, is_nameless ? unnamed : named);
         }
         drop_paired();
-        if (terms_.kind->renamed) {
-            pair_near(missing, added, [](const Likeness& like) { return like.enough(Agreeing::all_but_one); });
-            drop_paired();
-        }
+    }
+
+    /// Whose names differ.
+    void pair_rest() {
+        if (terms_.kind->renamed) pair_near(missing, added, Agreeing::all_but_one);
+        drop_paired();
         if (terms_.kind != &kAnyElements || missing.size() != added.size()) return;
         // A value that has no parts is like nothing but itself.
         for (std::size_t i = 0; i < missing.size(); ++i) pair(missing[i], added[i]);
@@ -399,18 +443,16 @@ class Alignment {
     }
 
     /// Each with the most alike of those about where the last one was found.
-    template <class Enough>
-    void pair_near(const Places& golden, const Places& actual, const Enough& enough) {
+    void pair_near(const Places& golden, const Places& actual, Agreeing least) {
         std::size_t next = 0;  // in `actual`
         for (std::size_t i = 0; i < golden.size(); ++i) {
-            if (of_golden_[golden[i]]) continue;
-            while (next < actual.size() && taken_[actual[next]]) ++next;
+            while (next < actual.size() && of_actual_[actual[next]]) ++next;
             std::optional<std::pair<Likeness, std::size_t>> best;
             std::size_t at = next - std::min(next, kMostCompared / 4);
             for (const std::size_t end = std::min(actual.size(), next + kMostCompared); at < end; ++at) {
-                if (taken_[actual[at]]) continue;
-                const Likeness like = likeness(actual_.elements[actual[at]], golden_.elements[golden[i]], terms_);
-                if (enough(like) && (!best || like > best->first)) best.emplace(like, at);
+                if (of_actual_[actual[at]]) continue;
+                const Likeness like = likeness_of(golden[i], actual[at]);
+                if (like.enough(least) && (!best || like > best->first)) best.emplace(like, at);
             }
             if (best) {
                 pair(golden[i], actual[best->second]);
@@ -424,8 +466,7 @@ class Alignment {
     const NamedElements& actual_;
     const NamedElements& golden_;
     const ElementTerms& terms_;
-    std::vector<std::optional<std::size_t>> of_golden_;
-    std::vector<bool> taken_;
+    std::vector<std::optional<std::size_t>> of_golden_, of_actual_;
 };
 
 // --- names
@@ -527,6 +568,236 @@ std::string key_of(const ElementTerms& terms, const JsonValue& element, const Js
     }
     return out;
 }
+
+// --- other fonts
+
+struct PixelRect {
+    double left = 0, top = 0, right = 0, bottom = 0;
+
+    bool overlaps(const PixelRect& o) const {
+        return left < o.right && o.left < right && top < o.bottom && o.top < bottom;
+    }
+    bool contains(const PixelRect& o) const {
+        return left <= o.left && top <= o.top && right >= o.right && bottom >= o.bottom;
+    }
+    PixelRect grown(double x, double y) const { return {left - x, top - y, right + x, bottom + y}; }
+};
+
+/// About what an element over the scene covers; none if it does not say.
+std::optional<PixelRect> rect_of(const JsonValue& element) {
+    const auto point = [&](std::string_view key) -> std::optional<std::pair<double, double>> {
+        const auto* both = held<Elements>(element, key);
+        if (!both || both->size() != 2) return std::nullopt;
+        const auto* x = std::get_if<double>(&(*both)[0].data);
+        const auto* y = std::get_if<double>(&(*both)[1].data);
+        return x && y ? std::optional(std::pair(*x, *y)) : std::nullopt;
+    };
+    const auto* text = held<std::string>(element, "text");
+    const auto* size = held<double>(element, "size");
+    if (const auto at = point("at"); at && text && size) {
+        const auto letters = static_cast<double>(
+            std::ranges::count_if(*text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }));
+        return PixelRect{at->first, at->second - *size, at->first + 0.58 * letters * *size, at->second + 0.25 * *size};
+    }
+    const bool is_line = point("from").has_value();
+    const auto low = point(is_line ? "from" : "min"), high = point(is_line ? "to" : "max");
+    if (!low || !high) return std::nullopt;
+    return PixelRect{std::min(low->first, high->first), std::min(low->second, high->second),
+                     std::max(low->first, high->first), std::max(low->second, high->second)};
+}
+
+/// Whether two texts may be one that is cut by other widths: "a long na\u2026" and "a long n\u2026".
+bool are_cut_alike(const std::string& a, const std::string& b) {
+    constexpr std::string_view kCut = "\u2026";
+    const std::size_t in_a = a.find(kCut), in_b = b.find(kCut);
+    if (in_a == std::string::npos && in_b == std::string::npos) return a == b;
+    const auto parts = [&](const std::string& text, std::size_t at) {
+        const std::string_view all = text;
+        return at == std::string::npos ? std::pair(all, all)
+                                       : std::pair(all.substr(0, at), all.substr(at + kCut.size()));
+    };
+    const auto [head_a, tail_a] = parts(a, in_a);
+    const auto [head_b, tail_b] = parts(b, in_b);
+    return (head_a.starts_with(head_b) || head_b.starts_with(head_a)) &&
+           (tail_a.ends_with(tail_b) || tail_b.ends_with(tail_a));
+}
+
+/// What wider or narrower words decide: whether a panel has room, how a caption's lines break, and whether a label
+/// finds a free place. It excuses that these are in one list alone, or elsewhere, where the other list has no room.
+class WordRoom {
+  public:
+    WordRoom(const JsonValue& actual, const JsonValue& golden) : lists_{&actual, &golden} {
+        for (std::size_t side = 0; side < 2; ++side) {
+            each(side, "overlays", [&](const JsonValue& overlay) {
+                const auto* name = held<std::string>(overlay, "name");
+                const auto* no_room = held<bool>(overlay, "no_room");
+                if (name && no_room && *no_room) without_room_.insert(*name);
+            });
+        }
+        add_caption(0);
+        add_caption(1);
+        // A caption that breaks into more or fewer lines has a higher or lower panel.
+        if (lines_[0].size() != lines_[1].size() && std::abs(caption_height(0) - caption_height(1)) > 8)
+            without_room_.insert("caption");
+    }
+
+    /// Of the words of both captions, if they may not be the same ones.
+    std::optional<std::string> caption_words() const {
+        const std::string actual = joined(lines_[0]), golden = joined(lines_[1]);
+        if (has_no_room("caption") || are_cut_alike(actual, golden)) return std::nullopt;
+        // A shorter headline of as many lines, and the same below it.
+        const auto [here, there] =
+            std::mismatch(lines_[0].rbegin(), lines_[0].rend(), lines_[1].rbegin(), lines_[1].rend());
+        const auto rest_here = lines_[0].rend() - here, rest_there = lines_[1].rend() - there;
+        if (rest_here > 0 && rest_here == rest_there && are_of_headline(0, rest_here) && are_of_headline(1, rest_there))
+            return std::nullopt;
+        return "caption: " + in_quotes(actual) + " instead of " + in_quotes(golden);
+    }
+
+    /// Where it may be elsewhere or missing; or whatever it is.
+    enum class Excuse { none, place, all };
+
+    /// Of an element of one list (0: actual, 1: golden) that the other one has not, or not there.
+    Excuse excuse(const ElementKind& kind, const JsonValue& element, std::size_t side) const {
+        if (kind.list == "overlays") {
+            const auto* name = held<std::string>(element, "name");
+            return name && has_no_room(*name) ? Excuse::all : Excuse::none;
+        }
+        const auto rect = rect_of(element);
+        if (!rect) return Excuse::none;
+        if (&kind == &kTexts) {
+            if (is_label(element)) return is_crowded(1 - side, *rect, element) ? Excuse::place : Excuse::none;
+            if (is_in_panel(side, *rect)) return Excuse::all;
+            return is_caption(element) ? Excuse::place : Excuse::none;
+        }
+        if (kind.list != "panels" && kind.list != "marks" && kind.list != "overlay_lines") return Excuse::none;
+        if (is_in_panel(side, *rect)) return Excuse::all;
+        return is_beside_label(side, *rect, kind.list == "overlay_lines") ? Excuse::place : Excuse::none;
+    }
+
+    /// Whose words are compared with all of the caption.
+    static bool is_caption(const JsonValue& text) {
+        const auto* role = held<std::string>(text, "role");
+        return role && *role == "caption";
+    }
+
+  private:
+    template <class Call>
+    void each(std::size_t side, std::string_view key, const Call& call) const {
+        const auto* elements = held<Elements>(*lists_[side], key);
+        if (!elements) return;
+        for (const JsonValue& element : *elements) call(element);
+    }
+
+    bool has_no_room(const std::string& name) const { return without_room_.contains(name); }
+
+    static bool is_label(const JsonValue& text) {
+        const auto* role = held<std::string>(text, "role");
+        return !role || *role == "tick" || *role == "name" || *role == "note" || *role == "label";
+    }
+
+    void add_caption(std::size_t side) {
+        each(side, "texts", [&](const JsonValue& text) {
+            const auto* words = held<std::string>(text, "text");
+            if (words && is_caption(text)) lines_[side].push_back(*words);
+        });
+    }
+
+    double caption_height(std::size_t side) const {
+        double out = 0;
+        each(side, "overlays", [&](const JsonValue& overlay) {
+            const auto* name = held<std::string>(overlay, "name");
+            const auto rect = rect_of(overlay);
+            if (name && rect && *name == "caption") out = rect->bottom - rect->top;
+        });
+        return out;
+    }
+
+    /// Whether the first lines do nothing but leave letters of the headline out.
+    bool are_of_headline(std::size_t side, std::ptrdiff_t count) const {
+        const auto* headline = held<std::string>(*lists_[side], "headline");
+        if (!headline) return false;
+        std::size_t at = 0;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+            for (const char c : lines_[side][i]) {
+                at = headline->find(c, at);
+                if (at == std::string::npos) return false;
+                ++at;
+            }
+        }
+        return true;
+    }
+
+    static std::string joined(const std::vector<std::string>& lines) {
+        std::string out;
+        for (const std::string& line : lines) out += (out.empty() ? "" : " ") + line;
+        return out;
+    }
+
+    /// Whether it is in a panel that has no room in one of the lists.
+    bool is_in_panel(std::size_t side, const PixelRect& rect) const {
+        bool out = false;
+        each(side, "overlays", [&](const JsonValue& overlay) {
+            const auto* name = held<std::string>(overlay, "name");
+            const auto panel = rect_of(overlay);
+            out = out || (name && panel && has_no_room(*name) && panel->grown(1, 1).overlaps(rect));
+        });
+        return out;
+    }
+
+    /// Whether the label would be at something else, or at the picture's edge.
+    bool is_crowded(std::size_t side, const PixelRect& label, const JsonValue& text) const {
+        const double height = label.bottom - label.top;
+        const PixelRect room = label.grown(0.5 * height + 0.1 * (label.right - label.left), 0.5 * height);
+        PixelRect picture;
+        if (const auto* size = held<Elements>(*lists_[side], "size"); size && size->size() == 2) {
+            const auto* width = std::get_if<double>(&(*size)[0].data);
+            const auto* high = std::get_if<double>(&(*size)[1].data);
+            if (width && high) picture = {0, 0, *width, *high};
+        }
+        if (!picture.contains(room)) return true;
+        const auto* words = held<std::string>(text, "text");
+        bool out = false;
+        std::optional<PixelRect> itself;  // elsewhere
+        each(side, "texts", [&](const JsonValue& other) {
+            const auto* others = held<std::string>(other, "text");
+            const auto rect = rect_of(other);
+            if (!rect) return;
+            if (words && others && *words == *others) {
+                itself = rect;
+            } else {
+                out = out || rect->overlaps(room);
+            }
+        });
+        each(side, "panels", [&](const JsonValue& panel) {
+            const auto rect = rect_of(panel);
+            // A panel that is little larger is its own.
+            if (!rect || (rect->contains(label) && rect->bottom - rect->top < 3 * height)) return;
+            out = out || (rect->overlaps(room) && !(itself && rect->overlaps(*itself)));
+        });
+        return out;
+    }
+
+    /// Whether it is the panel of such a label, or the line to it.
+    bool is_beside_label(std::size_t side, const PixelRect& rect, bool is_line) const {
+        bool out = false;
+        each(side, "texts", [&](const JsonValue& text) {
+            if (out || !is_label(text)) return;
+            const auto label = rect_of(text);
+            if (!label) return;
+            const double height = label->bottom - label->top;
+            const bool beside = is_line ? label->grown(height, height).overlaps(rect.grown(1, 1))
+                                        : rect.grown(0.5 * (label->right - label->left), 2).contains(*label) &&
+                                              rect.bottom - rect.top < 3 * height;
+            out = beside && is_crowded(1 - side, *label, text);
+        });
+        return out;
+    }
+
+    std::array<const JsonValue*, 2> lists_;
+    std::array<std::vector<std::string>, 2> lines_;  ///< of captions
+    std::set<std::string> without_room_;
+};
 
 // --- comparing
 
@@ -648,6 +919,8 @@ class DrawListComparer {
     void compare_lists(const std::string& in, const JsonValue& actual, const JsonValue& golden) {
         in_ = in;
         rows_told_.clear();
+        room_.reset();
+        if (terms_.other_fonts) room_.emplace(actual, golden);
         std::map<std::string, ComparedList> lists;
         const auto& others = std::get<Members>(actual.data);
         const auto& members = std::get<Members>(golden.data);
@@ -662,6 +935,9 @@ class DrawListComparer {
                 lists.try_emplace(key, how, named(how, *here, actual), named(how, *there, golden)).first->second;
             add_gone(list, actual, golden);
         });
+        if (room_) {
+            if (const auto words = room_->caption_words()) other_.add(in_ + *words);
+        }
         const bool ids = std::ranges::all_of(lists, [](const auto& list) {
             return list.second.all_there() || !(list.second.terms.is_object() || list.first == kParticipants.list);
         });
@@ -699,12 +975,18 @@ class DrawListComparer {
     void add_gone(const ComparedList& list, const JsonValue& actual, const JsonValue& golden) {
         const ElementKind& kind = *list.terms.kind;
         for (const std::size_t i : list.alignment.missing) {
+            if (excuse_of(kind, list.golden.elements[i], 1) != WordRoom::Excuse::none) continue;
             tell(gone_, kind, "the " + element_words(kind, list.golden.elements[i], i, golden) + " is missing");
         }
         for (const std::size_t i : list.alignment.added) {
+            if (excuse_of(kind, list.actual.elements[i], 0) != WordRoom::Excuse::none) continue;
             tell(gone_, kind,
                  "the " + element_words(kind, list.actual.elements[i], i, actual) + " is not in the golden");
         }
+    }
+
+    WordRoom::Excuse excuse_of(const ElementKind& kind, const JsonValue& element, std::size_t side) const {
+        return room_ ? room_->excuse(kind, element, side) : WordRoom::Excuse::none;
     }
 
     /// The row of a legend is in two lists, as an entry and as a text.
@@ -722,7 +1004,14 @@ class DrawListComparer {
         for (const auto& [there, here] : list.alignment.pairs) {
             const JsonValue& actual_one = list.actual.elements[here];
             const JsonValue& golden_one = list.golden.elements[there];
-            const std::string what = differences_of(list.terms, actual_one, golden_one, ids);
+            std::string what = differences_of(list.terms, actual_one, golden_one, ids);
+            if (!what.empty() && room_) {
+                const auto excuse = std::max(excuse_of(kind, actual_one, 0), excuse_of(kind, golden_one, 1));
+                ElementTerms anywhere = list.terms;
+                anywhere.bound = std::numeric_limits<double>::infinity();
+                if (excuse == WordRoom::Excuse::place) what = differences_of(anywhere, actual_one, golden_one, ids);
+                if (excuse == WordRoom::Excuse::all) what.clear();
+            }
             if (!what.empty()) {
                 same = false;
                 tell(other_, kind, words_of(there) + what);
@@ -741,8 +1030,8 @@ class DrawListComparer {
     }
 
     /// ", extents: 1.02 instead of 1", or nothing.
-    static std::string differences_of(const ElementTerms& terms, const JsonValue& actual, const JsonValue& golden,
-                                      bool ids) {
+    std::string differences_of(const ElementTerms& terms, const JsonValue& actual, const JsonValue& golden,
+                               bool ids) const {
         const auto* members = std::get_if<Members>(&golden.data);
         const auto* others = std::get_if<Members>(&actual.data);
         if (!members || !others) {
@@ -755,7 +1044,11 @@ class DrawListComparer {
             const bool counts = key == "id" ? ids || !terms.is_object() : terms.counts(key) && key != "participant";
             if (!counts) return;
             const Unlike unlike = a && g ? first_unlike(*a, *g, terms.bound_of(key)) : Unlike{a, g};
-            if (unlike) words.add(key, unlike);
+            const auto* text = a ? std::get_if<std::string>(&a->data) : nullptr;
+            const auto* before = g ? std::get_if<std::string>(&g->data) : nullptr;
+            const bool cut = room_ && terms.kind == &kTexts && key == "text" && text && before;
+            if (unlike && !(cut && (WordRoom::is_caption(golden) || are_cut_alike(*text, *before))))
+                words.add(key, unlike);
         });
         return words.empty() ? "" : ", " + words.words();
     }
@@ -829,6 +1122,7 @@ class DrawListComparer {
     Lines follows_;  ///< what differs where something else does
     Lines pixels_;
     std::string in_;
+    std::optional<WordRoom> room_;  ///< of the lists that are compared, where fonts are other ones
     std::set<std::string> rows_told_;
 };
 

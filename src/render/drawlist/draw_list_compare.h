@@ -10,8 +10,10 @@
 namespace mobbscope {
 
 struct DrawListTerms {
-    /// The golden was drawn with other fonts, whose words are wider or narrower: where texts, overlays, panels, marks
-    /// and overlay lines are is compared loosely, within 12 pixels or 4 % of the picture's longer side.
+    /// The golden was drawn with other fonts, whose words are wider or narrower. Where texts, overlays, panels, marks
+    /// and overlay lines are is compared loosely, within 12 pixels or 4 % of the picture's longer side; a caption may
+    /// break elsewhere, words may be cut elsewhere, a panel may have no room, and a label may be in one list alone
+    /// where the other one has something else there. All that does not follow from widths is compared as ever.
     bool other_fonts = false;
     std::size_t most = 12;  ///< lines in each part of the result, at least 1; one more says how many are left out
 };

@@ -13,7 +13,7 @@ namespace {
 /// "1.2%" with the unit "%" as 1.2; nothing for other texts.
 std::optional<double> number_with(std::string_view unit, std::string_view text) {
     if (!text.ends_with(unit)) return std::nullopt;
-    return parse_double(trimmed(text.substr(0, text.size() - unit.size())));
+    return parse_double(text.substr(0, text.size() - unit.size()));
 }
 
 }  // namespace
