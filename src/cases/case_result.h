@@ -56,10 +56,11 @@ struct Finding {
 /// What said whether a picture is its golden's.
 enum class DecidedBy {
     pixels,
-    draw_list,  ///< elsewhere than where the goldens are from, and the pixels differ: what is drawn
-    ssim,       ///< ... of what has no draw list: the largest loss of structural similarity (ssim.h)
+    draw_list,     ///< elsewhere than where the goldens are from, and the pixels differ: what is drawn
+    ssim,          ///< ... of what has no draw list: structural similarity
+    without_text,  ///< ... and where fonts are others: the golden without text
 };
-inline constexpr std::array<std::string_view, 3> kDecidedBy{"pixels", "draw list", "ssim"};
+inline constexpr std::array<std::string_view, 4> kDecidedBy{"pixels", "draw list", "ssim", "without text"};
 inline std::string_view name(DecidedBy by) { return kDecidedBy[static_cast<std::size_t>(by)]; }
 std::optional<DecidedBy> decided_by_from_name(std::string_view name);
 

@@ -5,7 +5,6 @@
 #include <base/json_writer.h>
 #include <base/text.h>
 #include <render/drawlist/font.h>
-#include <render/image/image_diff.h>
 
 #include <imgui.h>
 
@@ -101,18 +100,6 @@ Image coarse_picture(const Image& image) {
                 const int level = (sum + 2 * kStep) / (4 * kStep);
                 out.at(x, y)[c] = static_cast<std::uint8_t>(std::min(level * kStep, 255));
             }
-        }
-    }
-    return out;
-}
-
-Image coarse_mask(const Image& mask) {
-    Image out(mask.width / 2, mask.height / 2);
-    for (int y = 0; y < out.height; ++y) {
-        for (int x = 0; x < out.width; ++x) {
-            const bool all = is_compared(&mask, 2 * x, 2 * y) && is_compared(&mask, 2 * x + 1, 2 * y) &&
-                             is_compared(&mask, 2 * x, 2 * y + 1) && is_compared(&mask, 2 * x + 1, 2 * y + 1);
-            std::fill_n(out.at(x, y), 4, static_cast<std::uint8_t>(all ? 255 : 0));
         }
     }
     return out;

@@ -7,9 +7,10 @@
 ///
 /// On a system where all of this is the same, the reference, pixels and draw lists must be the goldens'. Elsewhere the
 /// pixels are compared too; where they differ, the draw list decides (with other fonts, which are as wide as they like,
-/// positions of words count for little), and of what has no draw list the largest loss of structural similarity
-/// (ssim.h): of the picture itself if its words are drawn with the same fonts, else of a second golden, NAME.plain.png,
-/// without text, small and coarse (coarse_picture). Of a window also its state is held, NAME.plain.state.json.
+/// positions of words count for little). Where words are drawn with the same fonts, the loss of structural similarity
+/// (similarity_loss) must be small too, and alone decides of what has no draw list. Else that is decided by a second
+/// golden, NAME.plain.png, without text, small and coarse (coarse_picture), with the loose tolerance, and of a window
+/// by its state, NAME.plain.state.json.
 #pragma once
 
 #include <render/gl/renderer.h>
@@ -49,8 +50,5 @@ bool same_text(const Reference& here, const Reference& reference, bool in_window
 /// Half as wide and high, each pixel the mean of four, in 64 levels a channel: a picture that is a tenth as large on
 /// the disk, and still shows what is drawn where.
 Image coarse_picture(const Image& image);
-
-/// The mask of a coarse picture: it lets a pixel be compared if the whole mask does all four.
-Image coarse_mask(const Image& mask);
 
 }  // namespace mobbscope::picture_tests

@@ -79,13 +79,17 @@ std::vector<std::string> other_systems(std::span<const CaseResult> results) {
         ++folder.decided[static_cast<std::size_t>(result.decided_by)];
     }
     std::vector<std::string> out;
+    constexpr std::array<std::string_view, kDecidedBy.size()> kWords{"pixels", "draw list", "structural similarity",
+                                                                     "the golden without text"};
     for (const auto& [path, folder] : folders) {
-        const auto count = [&folder = folder](DecidedBy by) {
-            return std::to_string(folder.decided[static_cast<std::size_t>(by)]);
-        };
+        std::string decided;
+        for (std::size_t i = 0; i < kWords.size(); ++i) {
+            if (folder.decided[i] == 0) continue;
+            decided +=
+                (decided.empty() ? "" : ", ") + std::to_string(folder.decided[i]) + " by " + std::string(kWords[i]);
+        }
         out.push_back("Drawn with " + folder.other_here + " (" + reference_file(path).string() +
-                      "): decided by pixels " + count(DecidedBy::pixels) + ", by draw list " +
-                      count(DecidedBy::draw_list) + ", by structural similarity " + count(DecidedBy::ssim));
+                      "); decided: " + decided);
     }
     return out;
 }

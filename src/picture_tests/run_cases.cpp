@@ -160,15 +160,19 @@ void compare_state(CaseResult& result, DrawnCase& drawn) {
     compare_numbers(result, drawn.state(), "the window's state", state, false);
 }
 
-/// Where the goldens are from somewhere, cases without a draw list have goldens without text.
+/// Holds the picture without text, and of a window its state.
 void compare_without_text(CaseResult& result, const Case& tested, DrawnCase& drawn, const Image* mask) {
     const std::filesystem::path file = result.file.plain();
-    const std::optional<Image> small_mask = mask ? std::optional(coarse_mask(*mask)) : std::nullopt;
+    const PictureSize size{drawn.plain().width, drawn.plain().height};
+    std::optional<Image> small_mask;
+    if (mask && !tested.shot.window) small_mask = shrunk_mask(*mask, 2, size);
     Held held = hold(drawn.plain(), file, diff_options(Tolerance::loose), small_mask ? &*small_mask : nullptr);
     judge_pixels(result, held, file, "without text: ");
-    const bool shows_another = result.shown == result.file.golden() && !(result.image && result.image->passes);
+    // The case's own picture is shown if that is why it does not pass.
+    const bool shows_another = result.decided_by == DecidedBy::pixels && !(result.image && result.image->passes);
     if (!held.passes() && !shows_another) {
         show(result, drawn.plain(), std::move(held), file);
+        result.mask.reset();
         result.tolerance = Tolerance::loose;
     }
     if (tested.shot.window) compare_state(result, drawn);
@@ -190,23 +194,21 @@ void compare_on_reference(CaseResult& result, const Case& tested, DrawnCase& dra
     if (has_draw_list(result.file, tested)) {
         compare_numbers(result, drawn.draw_list(), "the draw list", result.file.draw(), false);
     } else if (has_reference && (tested.shot.window || is_there(result.file.plain()))) {
-        compare_without_text(result, tested, drawn, tested.shot.window ? nullptr : mask);
+        compare_without_text(result, tested, drawn, mask);
     } else if (has_reference) {
         // Else nothing would hold the case elsewhere.
         add_missing(result, tested.terms.draw_list ? result.file.draw() : result.file.plain());
     }
 }
 
-/// By the largest loss of structural similarity.
-void judge_similarity(CaseResult& result, const Image& actual, const Image& golden, const Image* mask,
-                      const std::filesystem::path& file, const std::string& which) {
-    result.decided_by = DecidedBy::ssim;
-    const double loss = largest_ssim_loss(actual, golden, mask);
-    const std::string said = which + "the largest loss of structural similarity is " + brief(loss);
-    if (loss > kMostSsimLoss) {
-        add_finding(result, CaseOutcome::different, {file, said + ", allowed: " + brief(kMostSsimLoss), {}});
+/// By structural similarity.
+void judge_similarity(CaseResult& result, const Image* mask, double most) {
+    const double loss = similarity_loss(result.actual, result.golden, mask);
+    const std::string said = "the largest loss of structural similarity is " + brief(loss);
+    if (loss > most) {
+        add_finding(result, CaseOutcome::different, {result.shown, said + ", allowed: " + brief(most), {}});
     } else {
-        result.remarks.push_back(said);
+        result.remarks.push_back(said + ", allowed: " + brief(most));
     }
 }
 
@@ -216,28 +218,21 @@ void compare_elsewhere(CaseResult& result, const Case& tested, DrawnCase& drawn,
     Held held = hold(drawn.picture(), golden, tested.terms.diff, mask);
     const bool by_pixels = !held.diff || !held.diff->same_size || held.diff->passes;
     if (by_pixels) judge_pixels(result, held, golden, "");
-    const std::string pixels = held.diff ? what_differs(*held.diff) : "";
+    if (held.diff && !by_pixels) result.remarks.push_back(what_differs(*held.diff));
     show(result, drawn.picture(), std::move(held), golden);
     if (by_pixels) return;
     if (has_draw_list(result.file, tested)) {
         result.decided_by = DecidedBy::draw_list;
         compare_numbers(result, drawn.draw_list(), "the draw list", result.file.draw(), !same_words);
+        if (same_words) judge_similarity(result, mask, kMostLossWithDrawList);
     } else if (same_words) {
-        judge_similarity(result, result.actual, result.golden, mask, golden, "");
+        result.decided_by = DecidedBy::ssim;
+        judge_similarity(result, mask, kMostLoss);
+        if (tested.shot.window) compare_state(result, drawn);
     } else {
-        const std::filesystem::path plain = result.file.plain();
-        const std::optional<Image> small_mask =
-            mask && !tested.shot.window ? std::optional(coarse_mask(*mask)) : std::nullopt;
-        const Image* plain_mask = small_mask ? &*small_mask : nullptr;
-        Held without_text = hold(drawn.plain(), plain, diff_options(Tolerance::loose), plain_mask);
-        if (!without_text.diff || !without_text.diff->same_size) {
-            judge_pixels(result, without_text, plain, "without text: ");
-        } else {
-            judge_similarity(result, drawn.plain(), without_text.golden, plain_mask, plain, "without text: ");
-        }
+        result.decided_by = DecidedBy::without_text;
+        compare_without_text(result, tested, drawn, mask);
     }
-    if (tested.shot.window) compare_state(result, drawn);
-    result.remarks.insert(result.remarks.begin(), pixels);
 }
 
 /// All goldens of a case as they would be now, and those that go, as others take their place.
@@ -311,6 +306,15 @@ void run(CaseResult& result, PictureMaker& maker, const RunOptions& options) {
 }
 
 }  // namespace
+
+double similarity_loss(const Image& actual, const Image& golden, const Image* mask) {
+    constexpr int kSide = 4;
+    const Image a = shrunk(actual, kSide);
+    const Image b = shrunk(golden, kSide);
+    if (!mask) return largest_ssim_loss(a, b);
+    const Image small_mask = shrunk_mask(*mask, kSide, {a.width, a.height});
+    return largest_ssim_loss(a, b, &small_mask);
+}
 
 CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl, const RunOptions& options) {
     CaseResult result;

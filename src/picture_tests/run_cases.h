@@ -34,9 +34,14 @@ struct RunOptions {
 CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl,
                     const RunOptions& options = {});
 
-/// The largest loss of structural similarity (ssim.h) of a picture that is still its golden's elsewhere. Measured: real
-/// changes lose more, edges of another rasteriser less (docs/ci.md).
-inline constexpr double kMostSsimLoss = 0.05;
+/// The largest loss of structural similarity (ssim.h) of two pictures a quarter as wide and high: there edges of
+/// another rasteriser lose little. `mask`: of the whole pictures.
+double similarity_loss(const Image& actual, const Image& golden, const Image* mask);
+
+/// The most that a picture may lose elsewhere and still be its golden's: without a draw list, and with one, which holds
+/// what is small (measured by bench/guard: docs/ci.md).
+inline constexpr double kMostLoss = 0.01;
+inline constexpr double kMostLossWithDrawList = 0.25;
 
 /// Makes the folder that a file goes to, if need be. Throws MachineError.
 void make_folder_of(const std::filesystem::path& file);

@@ -17,10 +17,10 @@ struct Window {
 };
 
 /// Whether a mask lets all of it be compared.
-bool is_compared(const Image* mask, const Window& window) {
+bool all_compared(const Image* mask, const Window& window) {
     for (int y = window.y; y < window.y + window.height; ++y) {
         for (int x = window.x; x < window.x + window.width; ++x) {
-            if (!mobbscope::is_compared(mask, x, y)) return false;
+            if (!is_compared(mask, x, y)) return false;
         }
     }
     return true;
@@ -69,7 +69,7 @@ double largest_ssim_loss(const Image& a, const Image& b, const Image* mask) {
     for (int v = 0; v < a.height - height + kStep; v += kStep) {
         for (int u = 0; u < a.width - width + kStep; u += kStep) {
             const Window window{std::min(u, a.width - width), std::min(v, a.height - height), width, height};
-            if (same_bytes(a, b, window) || !is_compared(mask, window)) continue;
+            if (same_bytes(a, b, window) || !all_compared(mask, window)) continue;
             for (int channel = 0; channel < 4; ++channel) {
                 largest = std::max(largest, loss_of(a, b, window, channel));
             }
