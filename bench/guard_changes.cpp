@@ -1,13 +1,12 @@
 /// Draws picture tests with real changes, drawn by a seed, and says what comparing finds of each; draws all of them for
 /// comparison with another machine's; compares two such folders. bench/guard makes tables of it.
 ///
-///     bench_guard changes [--seed N] [--number N] [--goldens DRAWN [--fonts other]] FOLDER...    a line for each
-///     change bench_guard draw OUT [--backend B] [--samples N] [--shift PIXELS] [--noise SEED]
+///     bench_guard changes [--seed N] [--number N] [--goldens DRAWN [--fonts other]] FOLDER...
+///     bench_guard draw OUT [--backend B] [--samples N] [--shift PIXELS] [--noise SEED]
 ///                          [--text no] [--panels no] FOLDER...
-///     bench_guard compare DRAWN DRAWN [--fonts other]                                            a line for each
-///     picture
+///     bench_guard compare DRAWN DRAWN [--fonts other]
 ///
-/// Lines are of fields with tabs between them, the first line is their names. Cases of the window are left out.
+/// `changes` prints a line for each change, `compare` one for each picture. Lines are of fields with tabs between them, the first line is their names. Cases of the window are left out.
 #include "guard_kinds.h"
 
 #include <base/error.h>
@@ -15,11 +14,11 @@
 #include <base/random.h>
 #include <base/text.h>
 #include <picture_tests/picture_maker.h>
+#include <picture_tests/run_cases.h>
 #include <picture_tests/test_case.h>
 #include <render/drawlist/draw_list_compare.h>
 #include <render/image/image_diff.h>
 #include <render/image/png.h>
-#include <render/image/ssim.h>
 
 #include <glm/geometric.hpp>
 
@@ -106,17 +105,15 @@ std::optional<double> largest_move(const std::vector<DrawList>& a, const std::ve
 
 constexpr int kRounding = 1;        // of 255: what nobody sees
 constexpr double kLeastMove = 0.2;  // pixels: a change that moves all by less is not counted among those to be seen
-constexpr int kShrink = 4;          // edges that lie elsewhere within a pixel count for less in smaller pictures
-constexpr const char* kComparedFields = "altered\tlargest\tbeyond\tallowed\tpasses\tloss\tquarter";
+constexpr const char* kComparedFields = "altered\tlargest\tbeyond\tallowed\tpasses\tloss";
 
 /// The fields of two pictures.
 std::string compared(const Image& actual, const Image& golden) {
     const ImageDiff found = diff(actual, golden);
     if (!found.same_size) throw InputError("the pictures differ in size");
-    return formatted("%lld\t%d\t%lld\t%lld\t%d\t%.6f\t%.6f", static_cast<long long>(found.pixels - found.histogram[0]),
+    return formatted("%lld\t%d\t%lld\t%lld\t%d\t%.6f", static_cast<long long>(found.unequal),
                      found.largest, static_cast<long long>(found.differing), static_cast<long long>(found.allowed()),
-                     found.passes ? 1 : 0, largest_ssim_loss(actual, golden),
-                     largest_ssim_loss(shrunk(actual, kShrink), shrunk(golden, kShrink)));
+                     found.passes ? 1 : 0, similarity_loss(actual, golden, nullptr));
 }
 
 struct Options {

@@ -59,7 +59,7 @@ std::string sentence_of(const Review& review, const ReviewCase& one) {
         } else if (numbers) {
             out += "The numbers of " + file + " differ.";
         } else if (figures && figures->same_size) {
-            out += percent_text(figures->fraction()) + " of the pixels of " + file + " differ, by up to " +
+            out += counted(figures->differing, "pixel", "pixels") + " of " + file + " differ, by up to " +
                    std::to_string(figures->largest) + " of 255.";
         } else if (figures) {
             out += file + " has another size.";
@@ -207,7 +207,7 @@ void numbers(Ui& ui, const ReviewCase& one, const ReviewPictures& pictures) {
         return;
     }
     text_row(ui, "size", size_text(diff.actual_size));
-    text_row(ui, "differ", std::to_string(diff.differing) + ", " + percent_text(diff.fraction()));
+    text_row(ui, "differ", std::to_string(diff.differing) + " of " + std::to_string(diff.pixels));
     text_row(ui, "may differ", std::to_string(diff.allowed()));
     text_row(ui, "largest difference", std::to_string(diff.largest) + " of 255");
     text_row(ui, "counts above",
