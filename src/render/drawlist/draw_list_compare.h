@@ -31,11 +31,12 @@ struct DrawListComparison {
 };
 
 /// Compares two draw lists as JSON texts, two arrays of them (several panels: "picture 2, ..."), or any other JSON,
-/// whose places are as in RFC 6901: "/view/levels: 2 instead of 3". Numbers agree within 1e-4 of their size or 1e-4,
-/// numbers of pixels within 1 % or 16. Elements of arrays are held against what they stand for or are most like, so
-/// that one that is missing makes no other differ; `id` counts only where no disk and no box is missing or added,
-/// `clip_from_world` only where nothing else differs, and a text's `role` only where both lists have it. Takes time in
-/// proportion to the texts. Throws InputError if one is no JSON; the names stand for the files.
+/// whose places are as in RFC 6901: "/view/levels: 2 instead of 3". Numbers agree within 1e-4 or 2e-5 of their size,
+/// numbers of pixels within 16 or 1 %. Elements of arrays are held against what they stand for or are most like, so
+/// that one that is missing makes no other differ. Of as many participants one with another name is the same one, and
+/// its disks and boxes are compared. `id` counts only where no disk and no box is missing or added, `clip_from_world`
+/// only where nothing else differs, and a text's `role` only where both lists have it. Takes time in proportion to the
+/// texts. Throws InputError if one is no JSON; the names stand for the files.
 DrawListComparison compare_draw_lists(std::string_view actual, const std::string& actual_name, std::string_view golden,
                                       const std::string& golden_name, const DrawListTerms& terms = {});
 
