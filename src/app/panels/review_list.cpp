@@ -53,7 +53,7 @@ std::string outcome_words(const ReviewCase& one) {
         return out + " in numbers";
     }
     if (!differs && figures->differing == 0) return out;
-    return out + ", " + counted(figures->differing, "pixel", "pixels") + ", up to " + std::to_string(figures->largest);
+    return out + ", " + std::to_string(figures->differing) + " px, up to " + std::to_string(figures->largest);
 }
 
 ImU32 outcome_color(const Style& style, const ReviewCase& one) {

@@ -8,7 +8,7 @@
 
 namespace mobbscope::app {
 
-/// "differs", and with the numbers: "differs, 412 pixels, up to 184".
+/// "differs", and with the numbers: "differs, 412 px, up to 184".
 std::string outcome_word(const ReviewCase& one);
 std::string outcome_words(const ReviewCase& one);
 /// Readable as text.

@@ -15,7 +15,7 @@ constexpr std::array<ElementKind, 11> kElementKinds{
     {{"participants", "participant", {}, false, true, {}},
      {"disks", "disk", {"participant", "sample"}, false, false, {}},
      {"boxes", "box", {"participant", "node"}, false, false, {}},
-     {"lines", "line", {}, false, false, {}},
+     {"lines", "line", {}, false, true, {}},
      {"highlights", "highlight", {}, false, true, {}},
      {"legend", "legend row", {"text"}, true, true, {}},
      {"overlays", "panel", {"name"}, false, true, {"min", "max"}},
