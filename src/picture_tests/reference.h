@@ -7,10 +7,10 @@
 ///
 /// On a system where all of this is the same, the reference, pixels and draw lists must be the goldens'. Elsewhere the
 /// pixels are compared too; where they differ, the draw list decides (with other fonts, which are as wide as they like,
-/// positions of words count for little). Where words are drawn with the same fonts, the loss of structural similarity
-/// (similarity_loss) must be small too, and alone decides of what has no draw list. Else that is decided by a second
-/// golden, NAME.plain.png, without text, small and coarse (coarse_picture), with the loose tolerance, and of a window
-/// by its state, NAME.plain.state.json.
+/// positions of words count for little). Where words are drawn with the same fonts, the draw list must be the golden's
+/// in any case, and a picture whose pixels differ may lose little structural similarity (similarity_loss), which alone
+/// decides of what has no draw list. With other fonts that is decided by a second golden, NAME.plain.png, without text,
+/// small and coarse (coarse_picture), with the loose tolerance, and of a window by its state, NAME.plain.state.json.
 #pragma once
 
 #include <render/gl/renderer.h>

@@ -216,15 +216,23 @@ void judge_similarity(CaseResult& result, const Image* mask, double most) {
 void compare_elsewhere(CaseResult& result, const Case& tested, DrawnCase& drawn, bool same_words, const Image* mask) {
     const std::filesystem::path golden = result.file.golden();
     Held held = hold(drawn.picture(), golden, tested.terms.diff, mask);
-    const bool by_pixels = !held.diff || !held.diff->same_size || held.diff->passes;
-    if (by_pixels) judge_pixels(result, held, golden, "");
-    if (held.diff && !by_pixels) result.remarks.push_back(what_differs(*held.diff));
+    const bool passes = held.passes();
+    const bool comparable = held.diff && held.diff->same_size;
+    if (passes || !comparable) {
+        judge_pixels(result, held, golden, "");
+    } else {
+        result.remarks.push_back(what_differs(*held.diff));
+    }
     show(result, drawn.picture(), std::move(held), golden);
-    if (by_pixels) return;
+    if (!comparable) return;
     if (has_draw_list(result.file, tested)) {
-        result.decided_by = DecidedBy::draw_list;
+        // With other fonts words lie elsewhere; pixels that agree say more then.
+        if (passes && !same_words) return;
         compare_numbers(result, drawn.draw_list(), "the draw list", result.file.draw(), !same_words);
-        if (same_words) judge_similarity(result, mask, kMostLossWithDrawList);
+        if (!passes || result.outcome != CaseOutcome::passed) result.decided_by = DecidedBy::draw_list;
+        if (!passes && same_words) judge_similarity(result, mask, kMostLossWithDrawList);
+    } else if (passes) {
+        return;
     } else if (same_words) {
         result.decided_by = DecidedBy::ssim;
         judge_similarity(result, mask, kMostLoss);
