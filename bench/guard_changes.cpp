@@ -6,7 +6,8 @@
 ///                          [--text no] [--panels no] FOLDER...
 ///     bench_guard compare DRAWN DRAWN [--fonts other]
 ///
-/// `changes` prints a line for each change, `compare` one for each picture. Lines are of fields with tabs between them, the first line is their names. Cases of the window are left out.
+/// `changes` prints a line for each change, `compare` one for each picture. Lines are of fields with tabs between them,
+/// the first line is their names. Cases of the window are left out.
 #include "guard_kinds.h"
 
 #include <base/error.h>
@@ -111,8 +112,8 @@ constexpr const char* kComparedFields = "altered\tlargest\tbeyond\tallowed\tpass
 std::string compared(const Image& actual, const Image& golden) {
     const ImageDiff found = diff(actual, golden);
     if (!found.same_size) throw InputError("the pictures differ in size");
-    return formatted("%lld\t%d\t%lld\t%lld\t%d\t%.6f", static_cast<long long>(found.unequal),
-                     found.largest, static_cast<long long>(found.differing), static_cast<long long>(found.allowed()),
+    return formatted("%lld\t%d\t%lld\t%lld\t%d\t%.6f", static_cast<long long>(found.unequal), found.largest,
+                     static_cast<long long>(found.differing), static_cast<long long>(found.allowed()),
                      found.passes ? 1 : 0, similarity_loss(actual, golden, nullptr));
 }
 
