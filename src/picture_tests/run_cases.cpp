@@ -282,7 +282,7 @@ void run(CaseResult& result, PictureMaker& maker, const RunOptions& options) {
     DrawnCase drawn(tested, maker);
     std::optional<Image> mask;
     if (tested.terms.mask) {
-        mask = read_mask(*tested.terms.mask, {drawn.picture().width, drawn.picture().height}, result.file.golden());
+        mask = read_mask(*tested.terms.mask, {drawn.picture().width, drawn.picture().height}, result.file.file);
         result.mask = tested.terms.mask;
     }
     if (result.other_here.empty()) {
