@@ -61,6 +61,10 @@ std::string CaseFile::ending_of(const std::filesystem::path& other) const {
     return other.filename().string().substr(stem_of(*this).size());
 }
 
+bool is_golden_ending(std::string_view ending) {
+    return std::ranges::find(kGoldenEndings, ending) != kGoldenEndings.end();
+}
+
 std::vector<CaseFile> find_cases(const std::filesystem::path& folder) {
     std::vector<CaseFile> cases;
     std::error_code error;

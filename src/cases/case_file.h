@@ -50,6 +50,9 @@ struct CaseFile {
     std::string ending_of(const std::filesystem::path& other) const;
 };
 
+/// Whether NAME and this ending is a golden of the case NAME.
+bool is_golden_ending(std::string_view ending);
+
 /// All cases in a folder and the folders in it, by name. Throws InputError if there is no such folder, or no case in
 /// it.
 std::vector<CaseFile> find_cases(const std::filesystem::path& folder);

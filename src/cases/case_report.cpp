@@ -7,6 +7,8 @@
 #include <base/text.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <set>
 #include <sstream>
 #include <system_error>
 
@@ -16,12 +18,23 @@ namespace {
 
 constexpr int kReportVersion = 1;
 
-/// The report in a page; all of a text that is none.
-std::string_view report_in(std::string_view text) {
+/// Leaves of a page its report, with the lines that stand before it empty, so that messages count its lines; of a text
+/// that is no page all of it.
+std::string report_in(std::string text, const std::string& name) {
     const std::size_t begin = text.find(kReportBegins);
-    if (begin == text.npos) return text;
-    text.remove_prefix(begin + kReportBegins.size());
-    return text.substr(0, text.find(kReportEnds));
+    if (begin == text.npos) {
+        const std::size_t first = text.find_first_not_of(" \t\r\n");
+        if (first != text.npos && text[first] == '<')
+            throw InputError(name, "", "is a page without a report; give the one that mobbscope test --html wrote");
+        return text;
+    }
+    const std::size_t end = text.find(kReportEnds, begin);
+    if (end == text.npos) throw InputError(name, "", "ends within its report; copy the whole page");
+    text.resize(end);
+    const auto report = text.begin() + static_cast<std::ptrdiff_t>(begin + kReportBegins.size());
+    std::replace_if(
+        text.begin(), report, [](char c) { return c != '\n'; }, ' ');
+    return text;
 }
 
 }  // namespace
@@ -51,8 +64,7 @@ CaseReport read_case_report(const std::filesystem::path& report, const std::vect
         throw InputError(
             name, "", "there is no report; give the folder that mobbscope test --output left, or the page of --html");
     }
-    const std::string text = read_file(out.file);
-    const JsonValue value = parse_json(report_in(text), name);
+    const JsonValue value = parse_json(report_in(read_file(out.file), name), name);
     const JsonPlace root(value, name);
     const JsonPlace version = root.require("mobbscope_report");
     if (version.number() != kReportVersion) {
@@ -60,9 +72,12 @@ CaseReport read_case_report(const std::filesystem::path& report, const std::vect
                      std::to_string(kReportVersion));
     }
     const JsonPlace results = root.require("cases");
+    std::set<std::string> seen;
     for (int i = 0; i < results.size(); ++i) {
         const JsonPlace result = results[i];
-        const std::string& of = result.require("name").string();
+        const JsonPlace named = result.require("name");
+        const std::string& of = named.string();
+        if (!seen.insert(of).second) named.fail("the case " + in_quotes(of) + " stands there twice");
         if (std::ranges::find(cases, of, &CaseFile::name) == cases.end()) {
             out.unknown.push_back(of);
         } else {

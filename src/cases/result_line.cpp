@@ -2,6 +2,7 @@
 #include <base/json.h>
 #include <base/json_writer.h>
 #include <base/text.h>
+#include <cases/case_scene.h>
 #include <cases/result_line.h>
 #include <render/image/image_diff.h>
 #include <render/image/png.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <sstream>
 #include <string>
+#include <utility>
 
 namespace mobbscope::picture_tests {
 
@@ -33,10 +35,24 @@ std::optional<std::string> unpacked(const JsonPlace& place) {
     return bytes;
 }
 
+/// A golden of the case, told by its ending: what others wrote must not name any other file.
+std::filesystem::path golden_at(const JsonPlace& place, const CaseFile& file) {
+    const std::string& ending = place.string();
+    if (!is_golden_ending(ending))
+        place.fail(in_quotes(ending) + " is no golden of a case, such as .png or .draw.json");
+    return file.beside(ending);
+}
+
 /// What would be written in the place of the golden that a result shows; null if nothing would.
 const GoldenChange* shown_change(const std::vector<GoldenChange>& fresh, const std::filesystem::path& shown) {
     const auto found = std::ranges::find(fresh, shown, &GoldenChange::file);
     return found == fresh.end() ? nullptr : &*found;
+}
+
+/// Of the mask, relative to the case: a report is read in other folders too.
+std::string mask_name(const CaseResult& result) {
+    const std::filesystem::path relative = result.mask->lexically_relative(result.file.file.parent_path());
+    return relative.empty() ? result.mask->string() : relative.string();
 }
 
 template <class Value, class FromName>
@@ -91,7 +107,7 @@ void write_result(JsonWriter& json, const CaseResult& result, const DrawnBy& dra
         json.end_object();
     });
     json.member("shown", result.shown.empty() ? "" : result.file.ending_of(result.shown));
-    json.member("mask", result.mask ? std::optional(result.mask->string()) : std::nullopt);
+    json.member("mask", result.mask ? std::optional(mask_name(result)) : std::nullopt);
     const bool there_already = pictures == Pictures::not_in_fresh && shown_change(result.fresh, result.shown);
     json.member("actual", there_already ? std::nullopt : packed(result.actual));
     json.member("golden", there_already ? std::nullopt : packed(result.golden));
@@ -124,7 +140,7 @@ NamedResult read_result(const JsonPlace& root, const std::vector<CaseFile>& case
     const JsonPlace findings = root.require("findings");
     for (int i = 0; i < findings.size(); ++i) {
         const JsonPlace finding = findings[i];
-        Finding read{file->beside(finding.require("golden").string()), finding.require("message").string(), {}};
+        Finding read{golden_at(finding.require("golden"), *file), finding.require("message").string(), {}};
         const JsonPlace words = finding.require("words");
         for (int k = 0; k < words.size(); ++k) read.words.push_back(words[k].string());
         result.findings.push_back(std::move(read));
@@ -132,13 +148,16 @@ NamedResult read_result(const JsonPlace& root, const std::vector<CaseFile>& case
     const JsonPlace fresh = root.require("fresh");
     for (int i = 0; i < fresh.size(); ++i) {
         const JsonPlace one = fresh[i];
-        result.fresh.push_back({file->beside(one.require("golden").string()), unpacked(one.require("bytes")),
-                                unpacked(one.require("replaces"))});
+        const JsonPlace golden = one.require("golden");
+        GoldenChange change{golden_at(golden, *file), unpacked(one.require("bytes")),
+                            unpacked(one.require("replaces"))};
+        if (shown_change(result.fresh, change.file)) golden.fail(in_quotes(golden.string()) + " stands there twice");
+        result.fresh.push_back(std::move(change));
     }
-    const std::string& shown = root.require("shown").string();
-    if (!shown.empty()) result.shown = file->beside(shown);
+    const JsonPlace shown = root.require("shown");
+    if (!shown.string().empty()) result.shown = golden_at(shown, *file);
     const JsonPlace mask = root.require("mask");
-    if (!mask.is_null()) result.mask = mask.string();
+    if (!mask.is_null()) result.mask = read_path(mask, file->file.parent_path());
     const GoldenChange* there_already = shown_change(result.fresh, result.shown);
     const JsonPlace actual = root.require("actual"), golden = root.require("golden");
     result.actual = unpacked(actual).value_or(there_already ? there_already->bytes.value_or("") : "");

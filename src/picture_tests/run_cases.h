@@ -35,7 +35,8 @@ CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view 
                     const RunOptions& options = {});
 
 /// The largest loss of structural similarity (ssim.h) of two pictures a quarter as wide and high: there edges of
-/// another rasteriser lose little. `mask`: of the whole pictures.
+/// another rasteriser lose little. `mask`: of the whole pictures, null: none; what it leaves out counts as equal, so
+/// that what it leaves in is held however small it is.
 double similarity_loss(const Image& actual, const Image& golden, const Image* mask);
 
 /// The most that a picture may lose elsewhere and still be its golden's: without a draw list, and with one, which holds

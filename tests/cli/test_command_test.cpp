@@ -12,7 +12,9 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
@@ -337,6 +339,19 @@ TEST_F(DrawnTestCommandTest, AMaskOfAnotherSizeEndsTheRun) {
     EXPECT_EQ(test({"path"}).status, 1) << "there is no golden yet";
     write_png(cases.path() / "path.png", Image(160, 120));
     expect_test_refused(test({"path"}), "small.png: the mask has 10x10 pixels and ");
+    cases.add("path", R"("mask": "small.png", "skip": "later")");
+    EXPECT_EQ(test({"path"}).status, 0) << "nothing is compared";
+}
+
+TEST_F(DrawnTestCommandTest, APictureOfAnotherSizeIsTakenWithTheMaskThatFitsIt) {
+    cases.add("path", R"("mask": "mask.png")");
+    Image mask(160, 120);
+    std::ranges::fill(mask.rgba, std::uint8_t{255});
+    write_png(cases.path() / "mask.png", mask);
+    write_png(cases.path() / "path.png", Image(80, 60));
+    expect_test_refused(test({"path"}), "mask.png: the mask has 160x120 pixels and ");
+    EXPECT_EQ(test({"--update", "path"}).status, 0);
+    EXPECT_EQ(test({"path"}).status, 0);
 }
 
 // --- from a report
@@ -434,6 +449,38 @@ TEST_F(AcceptTest, RefusesWhatIsNoReport) {
     expect_test_refused(accept(cases.path() / "cut.html"), "cut.html");
     for (const char* other : {"--strict", "--json"}) expect_test_refused(accept(page, {other}), "--accept: ");
     expect_test_refused(accept(page, {"--update", "all"}), "--accept: ");
+}
+
+TEST_F(AcceptTest, RefusesADamagedReportAndWritesNothing) {
+    const std::string whole = slurp(output / "report.json");
+    const std::string before_draw = slurp(cases.path() / "path.draw.json");
+    const auto expect_refused = [&](const nlohmann::json& report, const std::string& words) {
+        cases.folder().write("damaged.json", report.dump());
+        expect_test_refused(accept(cases.path() / "damaged.json"), words);
+        EXPECT_EQ(slurp(cases.path() / "path.png"), before);
+        EXPECT_EQ(slurp(cases.path() / "path.draw.json"), before_draw);
+        EXPECT_FALSE(exists("query/end.png"));
+    };
+    nlohmann::json report = nlohmann::json::parse(whole);
+    report["cases"].push_back(report["cases"][0]);
+    expect_refused(report, "/cases/2/name: the case 'path' stands there twice");
+    for (nlohmann::json::size_type i = 0; i < 2; ++i) {
+        report = nlohmann::json::parse(whole);
+        report["cases"][1]["fresh"][i]["bytes"] = base64("damaged");
+        expect_refused(report, i == 0 ? "end.png as it would be: " : "end.draw.json as it would be: ");
+    }
+    report = nlohmann::json::parse(whole);
+    report["cases"][1]["fresh"][0]["golden"] = ".case.json";
+    expect_refused(report, "/cases/1/fresh/0/golden: '.case.json' is no golden of a case");
+
+    std::string text = slurp(page);
+    text.replace(text.find("\"mobbscope_report\": 1"), 21, "\"mobbscope_report\": 9");
+    const auto line =
+        1 + std::count(text.begin(), text.begin() + static_cast<long>(text.find("mobbscope_report")), '\n');
+    cases.folder().write("other.html", text);
+    expect_test_refused(accept(cases.path() / "other.html"), "other.html: line " + std::to_string(line) + ',');
+    cases.folder().write("other.html", "<!DOCTYPE html>\n<html></html>");
+    expect_test_refused(accept(cases.path() / "other.html"), "other.html: is a page without a report");
 }
 
 TEST_F(AcceptTest, SaysThatAReportIsFromElsewhere) {

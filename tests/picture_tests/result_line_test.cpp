@@ -67,6 +67,53 @@ TEST(ResultLine, IsReadAsItIsWritten) {
     EXPECT_NE(input_error([&] { read_result_line(line.str(), {}); }), "");
 }
 
+/// As a report from elsewhere could have it.
+std::string line_with(const CaseFile& file, const std::string& golden, const std::string& other, const char* bytes) {
+    std::ostringstream line;
+    CaseResult result;
+    result.file = file;
+    result.outcome = CaseOutcome::different;
+    result.fresh = {{file.beside(golden), bytes, {}}, {file.beside(other), "{}", {}}};
+    write_result_line(line, result, {"osmesa", "llvmpipe"});
+    return line.str();
+}
+
+TEST(ResultLine, NamesNoFileButGoldensOfItsCase) {
+    const CaseFolder cases;
+    const CaseFile file = cases.add("a");
+    for (const char* golden : {".png", ".plain.png", ".plain.state.json"}) {
+        EXPECT_EQ(read_result_line(line_with(file, golden, ".draw.json", "new"), {file}).result.fresh[0].file,
+                  file.beside(golden));
+    }
+    for (const char* other : {".case.json", ".sh", ".PNG", "b.png", ""}) {
+        EXPECT_NE(input_error([&] {
+                      read_result_line(line_with(file, other, ".png", "new"), {file});
+                  }).find("is no golden of a case"),
+                  std::string::npos)
+            << other;
+    }
+    for (const char* key : {"shown", "golden"}) {
+        std::string line = line_with(file, ".png", ".draw.json", "new");
+        const std::string there = key == std::string("shown") ? R"("shown": "")" : R"("golden": ".png")";
+        ASSERT_NE(line.find(there), std::string::npos);
+        line.replace(line.find(there), there.size(), '"' + std::string(key) + R"(": "/../../b.png")");
+        EXPECT_NE(input_error([&] { read_result_line(line, {file}); }).find("'/../../b.png' is no golden of a case"),
+                  std::string::npos);
+    }
+    EXPECT_NE(input_error([&] { read_result_line(line_with(file, ".png", ".png", "new"), {file}); }).find("twice"),
+              std::string::npos);
+}
+
+TEST(ResultLine, HasItsMaskRelativeToTheCase) {
+    const CaseFolder there, here;
+    CaseResult result;
+    result.file = there.add("sub/a");
+    result.mask = there.path() / "sub/masks/a.png";
+    std::ostringstream line;
+    write_result_line(line, result, {"osmesa", "llvmpipe"});
+    EXPECT_EQ(read_result_line(line.str(), {here.add("sub/a")}).result.mask, here.path() / "sub/masks/a.png");
+}
+
 TEST(GoldenChange, IsTakenBackToTheByteAndRefusedWhereAnotherWas) {
     const CaseFolder cases;
     const CaseFile file = cases.add("a");

@@ -381,6 +381,19 @@ TEST_F(RunCaseWithReferenceTest, ElsewhereTheDrawListDecidesWherePixelsDiffer) {
     EXPECT_FALSE(can_be_taken(wrong)) << "here it would be drawn with something else";
 }
 
+TEST(SimilarityLoss, LooksIntoTheSmallestHoleOfAMask) {
+    Image white(80, 60);
+    std::ranges::fill(white.rgba, std::uint8_t{255});
+    Image mask(80, 60);
+    for (int y = 30; y < 38; ++y) std::fill_n(mask.at(40, y), 4 * 8, std::uint8_t{255});
+    for (const bool inside : {false, true}) {
+        Image dot = white;
+        for (int y = 32; y < 36; ++y) std::fill_n(dot.at(inside ? 42 : 20, y), 4 * 4, std::uint8_t{0});
+        EXPECT_EQ(similarity_loss(dot, white, &mask) > kMostLoss, inside);
+        EXPECT_GT(similarity_loss(dot, white, nullptr), kMostLoss);
+    }
+}
+
 TEST_F(RunCaseWithReferenceTest, ElsewhereSimilarityDecidesWhereThereIsNoDrawList) {
     const CaseFile file = cases.add("a", R"("draw_list": false)");
     take_here(file);

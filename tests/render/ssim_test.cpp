@@ -44,16 +44,13 @@ TEST(Ssim, NoiseLosesLittleAndALineMuch) {
     EXPECT_GT(largest_ssim_loss(erased, ruled()), 0.5);
 }
 
-TEST(Ssim, LooksIntoEveryCornerAndOnlyWhereTheMaskIs) {
+TEST(Ssim, LooksIntoEveryCorner) {
     const Image white = filled(21, 13, 255);
     for (const int x : {0, 20}) {
         for (const int y : {0, 12}) {
             Image dot = white;
             dot.at(x, y)[1] = 0;
             EXPECT_GT(largest_ssim_loss(dot, white), 0.05) << x << ' ' << y;
-            Image mask = filled(21, 13, 255);
-            std::fill_n(mask.at(x, y), 3, std::uint8_t{0});
-            EXPECT_EQ(largest_ssim_loss(dot, white, &mask), 0);
         }
     }
     Image tiny = filled(3, 2, 255);

@@ -32,7 +32,8 @@ std::string passed_sentence(const ReviewCase& one) {
     if (figures->differing == 0)
         return "No pixel differs by more than " + std::to_string(figures->largest) + " of 255.";
     return counted(figures->differing, "pixel differs", "pixels differ") + ", by up to " +
-           std::to_string(figures->largest) + " of 255: no more than may.";
+           std::to_string(figures->largest) + " of 255" +
+           (one.result.decided_by == picture_tests::DecidedBy::pixels ? ": no more than may." : "; see the remarks.");
 }
 
 /// What it comes to, in a sentence.

@@ -8,8 +8,7 @@ namespace mobbscope {
 /// The largest loss of structural similarity of any window of 8x8 pixels, 0 (all alike) .. 2: 1 - SSIM(x, y) with the
 /// means, variances and covariance of each channel over the window (Wang, Bovik, Sheikh, Simoncelli: "Image quality
 /// assessment: from error visibility to structural similarity", 2004, equation 13; K1 = 0.01, K2 = 0.03). Colours count
-/// by their opacity. Windows stand at every second pixel. `mask`: see diff(); a window that reaches beyond what is
-/// compared is left out. The pictures, and the mask, are of one size; a side below 8 is one window.
-double largest_ssim_loss(const Image& a, const Image& b, const Image* mask = nullptr);
+/// by their opacity. Windows stand at every second pixel. The pictures are of one size; a side below 8 is one window.
+double largest_ssim_loss(const Image& a, const Image& b);
 
 }  // namespace mobbscope
