@@ -2,6 +2,7 @@
 // case of it.
 #include <cases/case_file.h>
 #include <picture_tests/reference.h>
+#include <render/image/image_diff.h>
 #include <render/image/png.h>
 #include <render/pictures/graph_picture.h>
 
