@@ -255,10 +255,15 @@ picture_tests::RunOptions run_options(const TestCommandArguments& arguments, con
 }
 
 std::vector<std::string> orphans_of(const TestCommandArguments& arguments, const std::vector<CaseFile>& all) {
+    const auto whole = [](const std::filesystem::path& file) {
+        return std::filesystem::absolute(file).lexically_normal();
+    };
+    const std::filesystem::path output = whole(arguments.output / "");
     std::vector<std::string> out;
     for (const std::filesystem::path& file : picture_tests::orphaned_goldens(arguments.folder, all)) {
-        // The contact sheet of an earlier run may stand there.
-        if (file.lexically_normal() != arguments.contact_sheet.lexically_normal()) out.push_back(file.string());
+        // The contact sheet and pictures of an earlier run may stand there.
+        const bool is_sheet = !arguments.contact_sheet.empty() && whole(file) == whole(arguments.contact_sheet);
+        if (!is_sheet && !whole(file).string().starts_with(output.string())) out.push_back(file.string());
     }
     return out;
 }

@@ -330,7 +330,12 @@ TEST_F(DrawnTestCommandTest, AnOrphanedGoldenIsToldAndFailsAStrictRun) {
     EXPECT_PRED2(says, slurp(junit), "lost.png: no case has it");
     EXPECT_EQ(nlohmann::json::parse(test({"--json"}).out)["orphans"].size(), 1u);
     std::filesystem::remove(cases.path() / "lost.png");
-    EXPECT_EQ(test({"--strict"}).status, 0);
+    std::filesystem::create_directory(cases.path() / "kept");
+    cases.folder().write("kept/path.actual.png", slurp(cases.path() / "path.png"));
+    EXPECT_EQ(test({"--strict"}).status, 1);
+    const std::string inside = (cases.path() / "kept").string();
+    EXPECT_EQ(run_program({"test", cases.path().string(), "--strict", "--output", inside}).status, 0)
+        << "an earlier run left it";
 }
 
 TEST_F(DrawnTestCommandTest, AMaskOfAnotherSizeEndsTheRun) {

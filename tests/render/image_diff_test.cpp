@@ -78,6 +78,9 @@ TEST(ImageDiff, FourPixelsOrTwentyOfAMillionMayDiffer) {
     EXPECT_DOUBLE_EQ(result.fraction(), 0.0005);
     EXPECT_EQ(DiffOptions{}.allowed(640 * 360), 4);
     EXPECT_EQ(DiffOptions{}.allowed(1920 * 1080), 41);
+    EXPECT_EQ(DiffOptions{}.allowed(64 * 64), 4);
+    EXPECT_EQ(DiffOptions{}.allowed(32 * 32), 1) << "a thousandth of a small picture";
+    EXPECT_FALSE(diff(grey(2, 2), filled(2, 2, 0)).passes) << "all of it differs";
 }
 
 TEST(ImageDiff, TheAllowedShareIsExact) {

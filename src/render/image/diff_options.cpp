@@ -21,7 +21,9 @@ std::optional<double> number_with(std::string_view unit, std::string_view text) 
 std::int64_t DiffOptions::allowed(std::int64_t pixels) const {
     // Rounding must not take a pixel off what is a whole number.
     const double share = pixel_fraction * static_cast<double>(pixels) + 1e-6;
-    return std::max(least_pixels, static_cast<std::int64_t>(share));
+    // A few of few are most of them.
+    const std::int64_t least = pixel_fraction > 0 ? std::min(least_pixels, pixels / 1000) : least_pixels;
+    return std::max(least, static_cast<std::int64_t>(share));
 }
 
 double parse_channel_tolerance(const std::string& text) {

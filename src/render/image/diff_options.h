@@ -16,7 +16,8 @@ struct DiffOptions {
     /// other picture within that distance, in either direction; so a line that is missing is found, one that moved is
     /// not.
     int shift = 0;
-    std::int64_t least_pixels = 4;  ///< see pixel_fraction
+    /// See pixel_fraction; beside a share it is at most 0.1 %, so that of a small picture not all may differ.
+    std::int64_t least_pixels = 4;
 
     /// The most pixels that may differ, of so many that are compared.
     std::int64_t allowed(std::int64_t pixels) const;
