@@ -101,7 +101,7 @@ std::vector<std::filesystem::path> orphaned_goldens(const std::filesystem::path&
     for (const std::filesystem::recursive_directory_iterator end; !error && at != end; at.increment(error)) {
         std::error_code ignored;
         if (at->is_directory(ignored)) {
-            if (std::filesystem::exists(at->path() / "report.json", ignored)) at.disable_recursion_pending();
+            if (std::filesystem::exists(at->path() / kReportFile, ignored)) at.disable_recursion_pending();
             continue;
         }
         const std::string name = at->path().filename().string();

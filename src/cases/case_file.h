@@ -57,6 +57,9 @@ bool is_golden_ending(std::string_view ending);
 /// it.
 std::vector<CaseFile> find_cases(const std::filesystem::path& folder);
 
+/// What a run leaves in the folder of its pictures (case_report.h).
+inline constexpr std::string_view kReportFile = "report.json";
+
 /// Where no case has them for its own: the goldens in a folder and the folders in it. A folder with a report.json is
 /// what a run left (case_report.h), and left out. Of what cannot be searched there are none.
 std::vector<std::filesystem::path> orphaned_goldens(const std::filesystem::path& folder,

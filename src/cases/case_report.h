@@ -19,8 +19,6 @@
 
 namespace mobbscope::picture_tests {
 
-inline constexpr std::string_view kReportFile = "report.json";
-
 /// What stands before a report in a page, and behind it.
 inline constexpr std::string_view kReportBegins = "<script type=\"application/json\" id=\"mobbscope-report\">";
 inline constexpr std::string_view kReportEnds = "</script>";

@@ -109,8 +109,8 @@ void add_diff_command(Command& program, int& status) {
                     set_allowance(options, text);
                     return options;
                 },
-                "How many pixels may be farther off: 12px, or a share of those compared, 0.1% or 50ppm (20ppm, and "
-                "4px in any case)",
+                "How many pixels may be farther off: 12px, or a share of those compared, 0.1% or 50ppm (20ppm, or "
+                "4px where that is more)",
                 "P");
             add_parsed(command, "--shift", arguments->options.shift, parse_pixel_shift,
                        "1: something may lie a pixel aside (0)", "0|1");

@@ -194,8 +194,9 @@ bool keep_all(const TestCommandArguments& arguments, const RunFacts& facts, std:
     for (const CaseResult& result : results) kept = !keep_pictures(result, arguments.output).empty() || kept;
     const std::filesystem::path file = arguments.output / picture_tests::kReportFile;
     if (picture_tests::summary(results).ok()) {
+        // Where only some are run, it may still tell of the others.
         std::error_code ignored;
-        std::filesystem::remove(file, ignored);
+        if (arguments.names.empty() && arguments.update_names.empty()) std::filesystem::remove(file, ignored);
         return kept;
     }
     std::ostringstream report;

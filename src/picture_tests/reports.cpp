@@ -42,7 +42,7 @@ void write_problem(std::ostream& out, const char* element, const RunFacts& facts
 }
 
 constexpr std::string_view kOrphan = "orphaned golden";
-constexpr std::string_view kOrphanAdvice = ": no case has it; remove it, or bring its case back";
+constexpr std::string_view kOrphanAdvice = ": no case has it; bring its case back, or remove it if it is a golden";
 
 void write_remarks(std::ostream& out, const CaseResult& result) {
     if (result.remarks.empty()) return;
