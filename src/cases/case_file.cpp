@@ -1,4 +1,5 @@
 #include <cases/case_file.h>
+#include <cases/case_scene.h>
 
 #include <base/error.h>
 #include <base/file.h>
@@ -6,6 +7,8 @@
 #include <base/text.h>
 
 #include <algorithm>
+#include <array>
+#include <set>
 #include <system_error>
 
 namespace mobbscope::picture_tests {
@@ -25,6 +28,15 @@ Tolerance read_tolerance(const JsonPlace& place) {
     place.fail(in_quotes(place.string()) + " is no tolerance; give tight or loose");
 }
 
+/// What options take as text, here as text or number.
+std::string word_of(const JsonPlace& place) {
+    return place.is_number() ? short_double(place.number()) : place.string();
+}
+
+/// What a golden's file adds to the name of its case, the longest first.
+constexpr std::array<std::string_view, 5> kGoldenEndings{".plain.state.json", ".plain.draw.json", ".plain.png",
+                                                         ".draw.json", ".png"};
+
 }  // namespace
 
 std::string_view name(Tolerance tolerance) { return tolerance == Tolerance::tight ? "tight" : "loose"; }
@@ -37,7 +49,7 @@ std::optional<Tolerance> tolerance_from_name(std::string_view text) {
 }
 
 DiffOptions diff_options(Tolerance tolerance) {
-    if (tolerance == Tolerance::tight) return {.channel_tolerance = 3, .pixel_fraction = 0.001, .shift = 0};
+    if (tolerance == Tolerance::tight) return {};
     return {.channel_tolerance = 8, .pixel_fraction = 0.005, .shift = 1};
 }
 
@@ -47,6 +59,10 @@ std::filesystem::path CaseFile::beside(std::string_view ending) const {
 
 std::string CaseFile::ending_of(const std::filesystem::path& other) const {
     return other.filename().string().substr(stem_of(*this).size());
+}
+
+bool is_golden_ending(std::string_view ending) {
+    return std::ranges::find(kGoldenEndings, ending) != kGoldenEndings.end();
 }
 
 std::vector<CaseFile> find_cases(const std::filesystem::path& folder) {
@@ -68,7 +84,35 @@ std::vector<CaseFile> find_cases(const std::filesystem::path& folder) {
     return cases;
 }
 
-CaseTerms read_terms(const JsonPlace& root) {
+std::vector<std::filesystem::path> orphaned_goldens(const std::filesystem::path& folder,
+                                                    const std::vector<CaseFile>& cases) {
+    std::set<std::filesystem::path> owned;
+    for (const CaseFile& file : cases) {
+        for (const std::string_view ending : kGoldenEndings) owned.insert(file.beside(ending).lexically_normal());
+        try {
+            if (const auto mask = read_terms(file).mask) owned.insert(mask->lexically_normal());
+        } catch (const InputError&) {
+            // What is wrong with a case is told where it is drawn.
+        }
+    }
+    std::vector<std::filesystem::path> out;
+    std::error_code error;
+    std::filesystem::recursive_directory_iterator at(folder, error);
+    for (const std::filesystem::recursive_directory_iterator end; !error && at != end; at.increment(error)) {
+        std::error_code ignored;
+        if (at->is_directory(ignored)) {
+            if (std::filesystem::exists(at->path() / kReportFile, ignored)) at.disable_recursion_pending();
+            continue;
+        }
+        const std::string name = at->path().filename().string();
+        const bool is_golden = std::ranges::any_of(kGoldenEndings, [&](auto ending) { return name.ends_with(ending); });
+        if (is_golden && !owned.contains(at->path().lexically_normal())) out.push_back(at->path());
+    }
+    std::ranges::sort(out);
+    return out;
+}
+
+CaseTerms read_terms(const JsonPlace& root, const std::filesystem::path& folder) {
     const JsonPlace version = root.require("mobbscope_case");
     if (version.number() != kVersion) {
         version.fail("the case has version " + short_double(version.number()) + "; this program reads version " +
@@ -76,6 +120,15 @@ CaseTerms read_terms(const JsonPlace& root) {
     }
     CaseTerms out;
     if (const auto tolerance = root.find("tolerance")) out.tolerance = read_tolerance(*tolerance);
+    out.diff = diff_options(out.tolerance);
+    if (const auto threshold = root.find("threshold")) {
+        out.diff.channel_tolerance = read_at(*threshold, [&] { return parse_channel_tolerance(word_of(*threshold)); });
+    }
+    if (const auto allowed = root.find("allowed")) {
+        read_at(*allowed, [&] { set_allowance(out.diff, word_of(*allowed)); });
+    }
+    if (const auto mask = root.find("mask")) out.mask = read_path(*mask, folder);
+    if (const auto draw_list = root.find("draw_list")) out.draw_list = draw_list->boolean();
     if (const auto skip = root.find("skip")) {
         if (skip->string().empty()) skip->fail("say why the case is skipped");
         out.skip = skip->string();
@@ -86,7 +139,7 @@ CaseTerms read_terms(const JsonPlace& root) {
 CaseTerms read_terms(const CaseFile& file) {
     const std::string name = file.file.string();
     const JsonValue value = parse_json(read_file(file.file), name);
-    return read_terms(JsonPlace(value, name));
+    return read_terms(JsonPlace(value, name), file.file.parent_path());
 }
 
 }  // namespace mobbscope::picture_tests

@@ -2,14 +2,19 @@
 ///
 ///      "mobbscope_case": 1,
 ///      "tolerance": "tight",          or "loose"
+///      "threshold": 3,                over the tolerance's, as `mobbscope diff --threshold`
+///      "allowed": "12px",             over the tolerance's, as `mobbscope diff --allowed`
+///      "mask": "NAME.mask.png",       only what is neither black nor transparent in it is compared
+///      "draw_list": false,            pixels alone are held
 ///      "skip": "why"                  the case is reported as skipped
 ///
-/// Beside it stand its golden `NAME.png` and, if the numbers are to be held too, `NAME.draw.json` (draw_list_json.h);
-/// where the folder has a reference, the goldens `NAME.plain.*` too (picture_tests/reference.h).
+/// Beside it stand its goldens: `NAME.png` and, of what is no window, the numbers of all that is drawn,
+/// `NAME.draw.json` (draw_list_json.h); where the folder has a reference, of what has no draw list `NAME.plain.*` too
+/// (picture_tests/reference.h).
 #pragma once
 
 #include <base/json.h>
-#include <render/image/image_diff.h>
+#include <render/image/diff_options.h>
 
 #include <filesystem>
 #include <optional>
@@ -19,9 +24,9 @@
 
 namespace mobbscope::picture_tests {
 
-/// How far a picture may be from its golden; there are no others.
+/// How far a picture may be from its golden, unless its case says more.
 enum class Tolerance {
-    tight,  ///< one rasteriser on any processor: 3/255 a channel, 0.1 % of the pixels beyond
+    tight,  ///< one rasteriser on any processor: the defaults of DiffOptions
     loose,  ///< across rasterisers: edges may lie a pixel aside, 8/255 a channel, 0.5 % of the pixels beyond
 };
 std::string_view name(Tolerance tolerance);
@@ -38,24 +43,40 @@ struct CaseFile {
     std::filesystem::path plain() const { return beside(".plain.png"); }
     std::filesystem::path plain_draw() const { return beside(".plain.draw.json"); }
     std::filesystem::path plain_state() const { return beside(".plain.state.json"); }
+    using Golden = std::filesystem::path (CaseFile::*)() const;
     /// NAME and this ending.
     std::filesystem::path beside(std::string_view ending) const;
     /// The ending of a file that stands beside it.
     std::string ending_of(const std::filesystem::path& other) const;
 };
 
+/// Whether NAME and this ending is a golden of the case NAME.
+bool is_golden_ending(std::string_view ending);
+
 /// All cases in a folder and the folders in it, by name. Throws InputError if there is no such folder, or no case in
 /// it.
 std::vector<CaseFile> find_cases(const std::filesystem::path& folder);
 
+/// What a run leaves in the folder of its pictures (case_report.h).
+inline constexpr std::string_view kReportFile = "report.json";
+
+/// Where no case has them for its own: the goldens in a folder and the folders in it. A folder with a report.json is
+/// what a run left (case_report.h), and left out. Of what cannot be searched there are none.
+std::vector<std::filesystem::path> orphaned_goldens(const std::filesystem::path& folder,
+                                                    const std::vector<CaseFile>& cases);
+
 /// What a case says about how it is tested.
 struct CaseTerms {
     Tolerance tolerance = Tolerance::tight;
-    std::optional<std::string> skip;  ///< why
+    DiffOptions diff;                           ///< the tolerance's, and what the case says over them
+    std::optional<std::filesystem::path> mask;  ///< of the golden's size
+    bool draw_list = true;                      ///< whether there is to be one
+    std::optional<std::string> skip;            ///< why
 };
 
-/// Of the text of a case. Throws InputError if it is no case, or one of another version.
-CaseTerms read_terms(const JsonPlace& root);
+/// Of the text of a case; `folder`: what file names are relative to. Throws InputError if it is no case, or one of
+/// another version.
+CaseTerms read_terms(const JsonPlace& root, const std::filesystem::path& folder);
 /// Of a case's file.
 CaseTerms read_terms(const CaseFile& file);
 

@@ -10,6 +10,12 @@ std::optional<CaseOutcome> outcome_from_name(std::string_view name) {
     return static_cast<CaseOutcome>(at - kOutcomeWords.begin());
 }
 
+std::optional<DecidedBy> decided_by_from_name(std::string_view name) {
+    const auto at = std::ranges::find(kDecidedBy, name);
+    if (at == kDecidedBy.end()) return std::nullopt;
+    return static_cast<DecidedBy>(at - kDecidedBy.begin());
+}
+
 bool can_be_taken(CaseOutcome outcome, std::string_view other_here) {
     const bool is_no_golden = outcome == CaseOutcome::different || outcome == CaseOutcome::missing_golden;
     return is_no_golden && other_here.empty();
@@ -36,11 +42,14 @@ std::string sum_of(const Summary& summary) {
 std::vector<std::filesystem::path> take(CaseResult& result) {
     write_goldens(result.fresh);
     std::vector<std::filesystem::path> written;
-    for (const GoldenChange& golden : result.fresh) written.push_back(golden.file);
+    for (const GoldenChange& golden : result.fresh) {
+        if (golden.bytes) written.push_back(golden.file);
+    }
     result.fresh.clear();
     result.findings.clear();
+    result.remarks.clear();
     result.golden = {};
-    result.image = diff(result.actual, result.actual, diff_options(result.tolerance));
+    result.image = diff(result.actual, result.actual, result.image ? result.image->options : DiffOptions{});
     result.image->heat = {};
     result.outcome = CaseOutcome::passed;
     result.message.clear();

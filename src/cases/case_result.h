@@ -53,20 +53,35 @@ struct Finding {
     std::vector<std::string> words;  ///< of numbers what differs, one line each; else empty
 };
 
+/// What said whether a picture is its golden's.
+enum class DecidedBy {
+    pixels,
+    draw_list,     ///< elsewhere than where the goldens are from, and the pixels differ: what is drawn
+    ssim,          ///< ... of what has no draw list: structural similarity
+    without_text,  ///< ... and where fonts are others: the golden without text
+};
+inline constexpr std::array<std::string_view, 4> kDecidedBy{"pixels", "draw list", "ssim", "without text"};
+inline std::string_view name(DecidedBy by) { return kDecidedBy[static_cast<std::size_t>(by)]; }
+std::optional<DecidedBy> decided_by_from_name(std::string_view name);
+
 struct CaseResult {
     CaseFile file;
     CaseOutcome outcome = CaseOutcome::passed;
-    std::string message;            ///< one line: why it did not pass; empty for one that did
-    std::vector<Finding> findings;  ///< of a case that is different or lacks a golden
-    double seconds = 0;             ///< drawing and comparing
+    std::string message;               ///< one line: why it did not pass; empty for one that did
+    std::vector<std::string> remarks;  ///< one line each: what else is to be known, also of one that passed
+    std::vector<Finding> findings;     ///< of a case that is different or lacks a golden
+    double seconds = 0;                ///< drawing and comparing
     Tolerance tolerance = Tolerance::tight;
+    DecidedBy decided_by = DecidedBy::pixels;
+    std::filesystem::path shown;  ///< the golden that `actual` is held against: the case's, or the one without text
+    std::optional<std::filesystem::path> mask;  ///< of that comparison
     Image actual;                    ///< empty where there is none; without text if only that picture is different
     Image golden;                    ///< likewise, and of a case that passed
     std::optional<ImageDiff> image;  ///< where both exist; of a case that passed without its heat map
-    /// Of a case that is different or lacks a golden: the files to write if it is accepted.
+    /// All goldens of the case as they would be now: of one that is different or lacks a golden; of others if that was
+    /// asked for.
     std::vector<GoldenChange> fresh;
-    /// What is other here than where the goldens are from, which is why pixels of text are not held against them; empty
-    /// if they are.
+    /// What is other here than where the goldens are from (picture_tests/reference.h); empty if nothing is.
     std::string other_here;
 };
 
@@ -90,8 +105,8 @@ Summary summary(std::span<const CaseResult> results);
 /// "1 passed, 2 different, 3 without a golden, 4 failed, 5 skipped"; what there is none of is left out.
 std::string sum_of(const Summary& summary);
 
-/// Makes the goldens of a case what is drawn now (write_goldens); then the case has passed. Returns what it wrote.
-/// Throws as write_goldens does.
+/// Makes the goldens of a case what is drawn now (write_goldens); then the case has passed. Returns what it wrote, not
+/// what it removed. Throws as write_goldens does.
 std::vector<std::filesystem::path> take(CaseResult& result);
 
 }  // namespace mobbscope::picture_tests

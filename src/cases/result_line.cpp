@@ -2,6 +2,7 @@
 #include <base/json.h>
 #include <base/json_writer.h>
 #include <base/text.h>
+#include <cases/case_scene.h>
 #include <cases/result_line.h>
 #include <render/image/image_diff.h>
 #include <render/image/png.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <sstream>
 #include <string>
+#include <utility>
 
 namespace mobbscope::picture_tests {
 
@@ -33,6 +35,26 @@ std::optional<std::string> unpacked(const JsonPlace& place) {
     return bytes;
 }
 
+/// A golden of the case, told by its ending: what others wrote must not name any other file.
+std::filesystem::path golden_at(const JsonPlace& place, const CaseFile& file) {
+    const std::string& ending = place.string();
+    if (!is_golden_ending(ending))
+        place.fail(in_quotes(ending) + " is no golden of a case, such as .png or .draw.json");
+    return file.beside(ending);
+}
+
+/// What would be written in the place of the golden that a result shows; null if nothing would.
+const GoldenChange* shown_change(const std::vector<GoldenChange>& fresh, const std::filesystem::path& shown) {
+    const auto found = std::ranges::find(fresh, shown, &GoldenChange::file);
+    return found == fresh.end() ? nullptr : &*found;
+}
+
+/// Of the mask, relative to the case: a report is read in other folders too.
+std::string mask_name(const CaseResult& result) {
+    const std::filesystem::path relative = result.mask->lexically_relative(result.file.file.parent_path());
+    return relative.empty() ? result.mask->string() : relative.string();
+}
+
 template <class Value, class FromName>
 Value named(const JsonPlace& place, const FromName& from_name) {
     const std::optional<Value> value = from_name(place.string());
@@ -47,22 +69,27 @@ DiffFigures read_figures(const JsonPlace& place) {
     out.differing = static_cast<std::int64_t>(place.require("failing").number(0, kMostPixels));
     out.largest = place.require("maximum").integer(0, 255);
     out.mean = place.require("mean").number(0, 255);
+    out.options.channel_tolerance = place.require("threshold").number(0, 255);
+    out.options.pixel_fraction = place.require("allowed").number(0, 1);
+    out.options.least_pixels = static_cast<std::int64_t>(place.require("least_pixels").number(0, kMostPixels));
+    out.options.shift = place.require("shift").integer(0, 1);
     return out;
 }
 
 }  // namespace
 
 DiffFigures figures_of(const ImageDiff& diff) {
-    return {diff.same_size, diff.pixels, diff.differing, diff.largest, diff.mean};
+    return {diff.same_size, diff.pixels, diff.differing, diff.largest, diff.mean, diff.options};
 }
 
-void write_result_line(std::ostream& out, const CaseResult& result, const DrawnBy& drawn_by) {
-    JsonWriter json(out);
+void write_result(JsonWriter& json, const CaseResult& result, const DrawnBy& drawn_by, Pictures pictures) {
     json.begin_object(JsonWriter::Layout::row);
     json.member("name", result.file.name);
     json.member("outcome", name(result.outcome));
     json.member("message", result.message);
+    json.values("remarks", result.remarks);
     json.member("tolerance", name(result.tolerance));
+    json.member("decided_by", name(result.decided_by));
     json.member("other_here", result.other_here);
     json.member("backend", drawn_by.backend);
     json.member("renderer", drawn_by.renderer);
@@ -79,8 +106,11 @@ void write_result_line(std::ostream& out, const CaseResult& result, const DrawnB
         json.values("words", finding.words);
         json.end_object();
     });
-    json.member("actual", packed(result.actual));
-    json.member("golden", packed(result.golden));
+    json.member("shown", result.shown.empty() ? "" : result.file.ending_of(result.shown));
+    json.member("mask", result.mask ? std::optional(mask_name(result)) : std::nullopt);
+    const bool there_already = pictures == Pictures::not_in_fresh && shown_change(result.fresh, result.shown);
+    json.member("actual", there_already ? std::nullopt : packed(result.actual));
+    json.member("golden", there_already ? std::nullopt : packed(result.golden));
     json.list("fresh", result.fresh, [&](const GoldenChange& fresh) {
         json.begin_object();
         json.member("golden", result.file.ending_of(fresh.file));
@@ -91,10 +121,7 @@ void write_result_line(std::ostream& out, const CaseResult& result, const DrawnB
     json.end_object();
 }
 
-NamedResult read_result_line(std::string_view line, const std::vector<CaseFile>& cases) {
-    const std::string name = "a result";
-    const JsonValue value = parse_json(line, name);
-    const JsonPlace root(value, name);
+NamedResult read_result(const JsonPlace& root, const std::vector<CaseFile>& cases) {
     NamedResult out;
     out.name = root.require("name").string();
     const auto file = std::ranges::find(cases, out.name, &CaseFile::name);
@@ -102,7 +129,10 @@ NamedResult read_result_line(std::string_view line, const std::vector<CaseFile>&
     PackedResult& result = out.result;
     result.outcome = named<CaseOutcome>(root.require("outcome"), outcome_from_name);
     result.message = root.require("message").string();
+    const JsonPlace remarks = root.require("remarks");
+    for (int i = 0; i < remarks.size(); ++i) result.remarks.push_back(remarks[i].string());
     result.tolerance = named<Tolerance>(root.require("tolerance"), tolerance_from_name);
+    result.decided_by = named<DecidedBy>(root.require("decided_by"), decided_by_from_name);
     result.other_here = root.require("other_here").string();
     result.drawn_by = {root.require("backend").string(), root.require("renderer").string()};
     const JsonPlace diff = root.require("diff");
@@ -110,20 +140,41 @@ NamedResult read_result_line(std::string_view line, const std::vector<CaseFile>&
     const JsonPlace findings = root.require("findings");
     for (int i = 0; i < findings.size(); ++i) {
         const JsonPlace finding = findings[i];
-        Finding read{file->beside(finding.require("golden").string()), finding.require("message").string(), {}};
+        Finding read{golden_at(finding.require("golden"), *file), finding.require("message").string(), {}};
         const JsonPlace words = finding.require("words");
         for (int k = 0; k < words.size(); ++k) read.words.push_back(words[k].string());
         result.findings.push_back(std::move(read));
     }
-    result.actual = unpacked(root.require("actual")).value_or("");
-    result.golden = unpacked(root.require("golden")).value_or("");
     const JsonPlace fresh = root.require("fresh");
     for (int i = 0; i < fresh.size(); ++i) {
         const JsonPlace one = fresh[i];
-        result.fresh.push_back({file->beside(one.require("golden").string()), unpacked(one.require("bytes")),
-                                unpacked(one.require("replaces"))});
+        const JsonPlace golden = one.require("golden");
+        GoldenChange change{golden_at(golden, *file), unpacked(one.require("bytes")),
+                            unpacked(one.require("replaces"))};
+        if (shown_change(result.fresh, change.file)) golden.fail(in_quotes(golden.string()) + " stands there twice");
+        result.fresh.push_back(std::move(change));
     }
+    const JsonPlace shown = root.require("shown");
+    if (!shown.string().empty()) result.shown = golden_at(shown, *file);
+    const JsonPlace mask = root.require("mask");
+    if (!mask.is_null()) result.mask = read_path(mask, file->file.parent_path());
+    const GoldenChange* there_already = shown_change(result.fresh, result.shown);
+    const JsonPlace actual = root.require("actual"), golden = root.require("golden");
+    result.actual = unpacked(actual).value_or(there_already ? there_already->bytes.value_or("") : "");
+    result.golden =
+        unpacked(golden).value_or(there_already && actual.is_null() ? there_already->replaces.value_or("") : "");
     return out;
+}
+
+void write_result_line(std::ostream& out, const CaseResult& result, const DrawnBy& drawn_by) {
+    JsonWriter json(out);
+    write_result(json, result, drawn_by, Pictures::all);
+}
+
+NamedResult read_result_line(std::string_view line, const std::vector<CaseFile>& cases) {
+    const std::string name = "a result";
+    const JsonValue value = parse_json(line, name);
+    return read_result(JsonPlace(value, name), cases);
 }
 
 }  // namespace mobbscope::picture_tests

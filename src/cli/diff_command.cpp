@@ -28,69 +28,15 @@ struct DiffCommandArguments {
     bool json = false;
 };
 
-/// "1.2%" as 1.2; nothing for other texts.
-std::optional<double> percentage(const std::string& text) {
-    if (text.empty() || text.back() != '%') return std::nullopt;
-    return parse_double(std::string_view(text).substr(0, text.size() - 1));
-}
-
-/// Levels of a channel, 0..255.
-double parse_threshold(const std::string& text) {
-    std::optional<double> level;
-    const std::size_t slash = text.find('/');
-    if (slash != std::string::npos) {
-        const auto above = parse_double(std::string_view(text).substr(0, slash));
-        const auto below = parse_double(std::string_view(text).substr(slash + 1));
-        if (above && below && *below > 0) level = *above * 255 / *below;
-    } else if (const auto percent = percentage(text)) {
-        level = *percent * 255 / 100;
-    } else if (const auto number = parse_double(text)) {
-        level = *number > 0 && *number < 1 ? *number * 255 : *number;
-    }
-    if (!level || !(*level >= 0 && *level <= 255)) {
-        throw std::invalid_argument(in_quotes(text) +
-                                    " is no tolerance; give levels from 0 to 255 such as 3, or 3/255, or 1.2%");
-    }
-    return *level;
-}
-
-/// A share of the pixels, 0..1.
-double parse_share(const std::string& text) {
-    const auto percent = percentage(text);
-    const auto share = percent ? *percent / 100 : parse_double(text);
-    // A bare 1 is as likely one pixel or one per cent.
-    if (!share || !(*share >= 0 && *share <= 1) || (!percent && *share == 1)) {
-        throw std::invalid_argument(in_quotes(text) + " is no share of the pixels; give one such as 0.001, or 0.1%");
-    }
-    return *share;
-}
-
 int parse_pixel_shift(const std::string& text) {
     if (text == "0" || text == "1") return text == "1" ? 1 : 0;
     throw std::invalid_argument(in_quotes(text) + " is neither 0 nor 1: a pixel is the most that may be forgiven");
 }
 
-/// The mask's picture; nothing if none is given. Throws InputError if it does not fit the picture.
-std::optional<Image> read_mask(const DiffCommandArguments& arguments, const Image& picture) {
-    if (!arguments.mask) return std::nullopt;
-    Image mask = read_png(*arguments.mask);
-    if (mask.width != picture.width || mask.height != picture.height) {
-        throw InputError(arguments.mask->string(), "",
-                         "the mask has " + size_word({mask.width, mask.height}) + " pixels and " +
-                             in_quotes(arguments.b.string()) + ' ' + size_word({picture.width, picture.height}) +
-                             "; make them one size");
-    }
-    return mask;
-}
-
 ImageDiff compare(const DiffCommandArguments& arguments, const Image& a, const Image& b) {
-    const std::optional<Image> mask = read_mask(arguments, b);
-    ImageDiff found = diff(a, b, arguments.options, mask ? &*mask : nullptr);
-    if (found.same_size && found.pixels == 0) {
-        throw InputError(arguments.mask->string(), "",
-                         "the mask leaves nothing to compare; paint white what is to be compared");
-    }
-    return found;
+    if (!arguments.mask) return diff(a, b, arguments.options);
+    const Image mask = read_mask(*arguments.mask, {b.width, b.height}, arguments.b);
+    return diff(a, b, arguments.options, &mask);
 }
 
 void check_picture_name(const std::optional<std::filesystem::path>& output) {
@@ -137,14 +83,14 @@ int run_diff(const DiffCommandArguments& arguments) {
         std::cout << diff_sentence(found) << '\n';
     }
     flush_results();
-    return found.same ? kDone : kFailed;
+    return found.passes ? kDone : kFailed;
 }
 
 }  // namespace
 
 void add_diff_command(Command& program, int& status) {
     program.add_subcommand(
-        "diff", "Compare two pictures; exit status 0 if they are the same, 1 if they differ",
+        "diff", "Compare two pictures; exit status 0 if they agree as far as is asked, 1 if they differ",
         [&status](Command& command) {
             const auto arguments = std::make_shared<DiffCommandArguments>();
             command.add_option("A.png", arguments->a, "A picture, such as the one just made", "").required();
@@ -152,12 +98,20 @@ void add_diff_command(Command& program, int& status) {
             command.add_option("-o,--output", arguments->heat, "Heat map: B in grey, and what differs glowing",
                                "HEAT.png");
             command.add_option("--strip", arguments->strip, "A, B and the heat map side by side", "STRIP.png");
-            add_parsed(command, "--threshold", arguments->options.channel_tolerance, parse_threshold,
+            add_parsed(command, "--threshold", arguments->options.channel_tolerance, parse_channel_tolerance,
                        "How far a channel may be off: levels of 255, or a share as 3/255, 1.2%, or a number between 0 "
                        "and 1 (3)",
                        "X");
-            add_parsed(command, "--allowed", arguments->options.pixel_fraction, parse_share,
-                       "The share of the pixels that may be farther off: 0.001 or 0.1% (0.1%)", "P");
+            add_parsed(
+                command, "--allowed", arguments->options,
+                [arguments](const std::string& text) {
+                    DiffOptions options = arguments->options;
+                    set_allowance(options, text);
+                    return options;
+                },
+                "How many pixels may be farther off: 12px, or a share of those compared, 0.1% or 50ppm (20ppm, or "
+                "4px where that is more)",
+                "P");
             add_parsed(command, "--shift", arguments->options.shift, parse_pixel_shift,
                        "1: something may lie a pixel aside (0)", "0|1");
             command.add_option("--mask", arguments->mask,

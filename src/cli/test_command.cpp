@@ -2,18 +2,20 @@
 #include <base/file.h>
 #include <base/text.h>
 #include <cases/case_file.h>
+#include <cases/case_report.h>
 #include <cases/case_result.h>
 #include <cases/result_line.h>
 #include <cli/command_line.h>
+#include <cli/golden_updates.h>
 #include <cli/options.h>
 #include <cli/program.h>
 #include <picture_tests/reference.h>
 #include <picture_tests/reports.h>
 #include <picture_tests/run_cases.h>
+#include <render/image/image_diff.h>
 #include <render/image/png.h>
 #include <render/pictures/sheet.h>
 
-#include <fnmatch.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -23,7 +25,6 @@
 #include <iterator>
 #include <memory>
 #include <optional>
-#include <set>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -46,6 +47,8 @@ struct TestCommandArguments {
     bool update_all = false;                ///< of those that are run
     std::vector<std::string> update_names;  ///< neither: ask
     bool new_reference = false;             ///< with update_all, of all cases
+    std::filesystem::path accept;           ///< the report to take goldens from; empty: none
+    bool strict = false;                    ///< an orphaned golden is a failure
     std::filesystem::path output = "mobbscope-test";
     bool json = false;
     bool json_lines = false;
@@ -55,21 +58,13 @@ struct TestCommandArguments {
 
 // --- which cases
 
-bool matches(const std::string& pattern, const std::string& name) {
-    return pattern == name || ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
-}
-
-bool matches_any(const std::vector<std::string>& patterns, const std::string& name) {
-    return std::any_of(patterns.begin(), patterns.end(), [&](const std::string& p) { return matches(p, name); });
-}
-
 /// The cases that the patterns name; without patterns all. Throws InputError for a pattern that names none.
 std::vector<CaseFile> chosen(const std::vector<CaseFile>& cases, const std::vector<std::string>& patterns) {
     if (patterns.empty()) return cases;
     std::vector<std::string> names;
     for (const CaseFile& file : cases) names.push_back(file.name);
     for (const std::string& pattern : patterns) {
-        const auto is_named = [&](const std::string& name) { return matches(pattern, name); };
+        const auto is_named = [&](const std::string& name) { return matches_any({pattern}, name); };
         if (std::none_of(names.begin(), names.end(), is_named)) {
             throw InputError("there is no case " + in_quotes(pattern) + did_you_mean(pattern, names));
         }
@@ -93,8 +88,12 @@ std::vector<CaseFile> cases_of(const TestCommandArguments& arguments, const std:
 /// go where the goldens are; MachineError if they cannot go where they are to.
 void check_reports(const TestCommandArguments& arguments, const std::vector<CaseFile>& all) {
     const bool reports = !arguments.junit.empty() || !arguments.html.empty() || !arguments.contact_sheet.empty();
-    if (arguments.json_lines && (arguments.update || reports)) {
-        throw InputError("--json-lines: nothing else is written then; leave out --update and the reports");
+    if (arguments.json_lines && (arguments.update || arguments.strict || !arguments.accept.empty() || reports)) {
+        throw InputError("--json-lines: nothing else is written then; leave out --update, --strict and the reports");
+    }
+    if (!arguments.accept.empty() && (arguments.update || arguments.strict || arguments.json || reports)) {
+        throw InputError(
+            "--accept: nothing is drawn and nothing else written then; leave out --update and the reports");
     }
     if (arguments.columns && arguments.contact_sheet.empty()) {
         throw InputError("--columns: they are the contact sheet's; give --contact-sheet too");
@@ -165,88 +164,6 @@ void write_contact_sheet(const TestCommandArguments& arguments, std::span<const 
     write_png(arguments.contact_sheet, sheet);
 }
 
-// --- present pictures become goldens
-
-enum class Answer { yes, no, all, quit };
-
-Answer ask(const CaseResult& result, const std::filesystem::path& folder, std::ostream& say) {
-    say << cleaned(result.file.name) << ": " << name(result.outcome) << ": " << cleaned(result.message) << '\n';
-    for (const std::filesystem::path& picture : keep_pictures(result, folder)) {
-        say << "  " << cleaned(picture.string()) << '\n';
-    }
-    say << "take it? [y/N/a/q] " << std::flush;
-    std::string line;
-    if (!std::getline(std::cin, line)) return Answer::quit;
-    const std::string_view answer = trimmed(line);
-    if (answer == "y") return Answer::yes;
-    if (answer == "a") return Answer::all;
-    return answer == "q" ? Answer::quit : Answer::no;
-}
-
-void take_one(CaseResult& result, std::ostream& say) {
-    for (const std::filesystem::path& file : take(result)) say << "wrote " << cleaned(file.string()) << '\n';
-}
-
-/// Takes what `named` says and is no golden yet; says what it wrote. Throws MachineError.
-template <class IsNamed>
-void take_named(std::span<CaseResult> results, const IsNamed& named, std::ostream& say) {
-    for (CaseResult& result : results) {
-        if (can_be_taken(result) && named(result)) take_one(result, say);
-    }
-}
-
-/// Asks for each that is no golden yet, with pictures to look at in `folder`, and takes what the answer says. Throws
-/// MachineError.
-void take_asked(std::span<CaseResult> results, const std::filesystem::path& folder, std::ostream& say) {
-    bool all = false;
-    for (CaseResult& result : results) {
-        if (!can_be_taken(result)) continue;
-        const Answer answer = all ? Answer::yes : ask(result, folder, say);
-        if (answer == Answer::quit) return;
-        all = all || answer == Answer::all;
-        if (answer != Answer::no) take_one(result, say);
-    }
-}
-
-// --- where goldens are from
-
-/// The folders that the cases stand in.
-std::set<std::filesystem::path> folders_of(const std::vector<CaseFile>& cases) {
-    std::set<std::filesystem::path> out;
-    for (const CaseFile& file : cases) out.insert(file.file.parent_path());
-    return out;
-}
-
-/// Throws InputError if the goldens of a case are from elsewhere: one taken here would be the odd one.
-void check_references(const std::vector<CaseFile>& cases, const picture_tests::Reference& here) {
-    for (const std::filesystem::path& folder : folders_of(cases)) {
-        const std::optional<picture_tests::Reference> reference = picture_tests::read_reference(folder);
-        const std::string other = reference ? picture_tests::what_is_other(here, *reference) : "";
-        if (other.empty()) continue;
-        throw InputError("--update: " + picture_tests::reference_file(folder).string() +
-                         " says where the goldens are from, " + "and here are " + other +
-                         "; take them there, or all anew with --update all --new-reference");
-    }
-}
-
-/// All goldens become what is drawn here, and their folders say so; nothing is taken if a case cannot be drawn.
-void take_as_reference(std::vector<CaseResult>& results, const std::vector<CaseFile>& cases,
-                       const picture_tests::Reference& here, std::ostream& say) {
-    const picture_tests::Summary sum = picture_tests::summary(results);
-    if (sum[picture_tests::CaseOutcome::failed] > 0 || sum[picture_tests::CaseOutcome::skipped] > 0) {
-        warn(
-            "nothing is taken, as some of the cases cannot be drawn or are skipped: all goldens of a reference are "
-            "from one place");
-        return;
-    }
-    take_named(
-        results, [](const CaseResult&) { return true; }, say);
-    for (const std::filesystem::path& folder : folders_of(cases)) {
-        picture_tests::write_reference(folder, here);
-        say << "wrote " << cleaned(picture_tests::reference_file(folder).string()) << '\n';
-    }
-}
-
 // --- the run
 
 /// The context, or why there is none.
@@ -259,6 +176,8 @@ struct Drawer {
 Drawer open(const TestCommandArguments& arguments) {
     Drawer out;
     out.facts.folder = arguments.folder.string();
+    out.facts.page = arguments.html.string();
+    out.facts.strict = arguments.strict;
     try {
         out.maker = std::make_unique<picture_tests::PictureMaker>(arguments.backend);
         out.facts.backend = out.maker->backend();
@@ -269,10 +188,21 @@ Drawer open(const TestCommandArguments& arguments) {
     return out;
 }
 
-/// The pictures of what did not pass; whether there are any.
-bool keep_all(const TestCommandArguments& arguments, std::span<const CaseResult> results) {
+/// The pictures of what did not pass, and all of it as a report; whether there are any.
+bool keep_all(const TestCommandArguments& arguments, const RunFacts& facts, std::span<const CaseResult> results) {
     bool kept = false;
     for (const CaseResult& result : results) kept = !keep_pictures(result, arguments.output).empty() || kept;
+    const std::filesystem::path file = arguments.output / picture_tests::kReportFile;
+    if (picture_tests::summary(results).ok()) {
+        // Where only some are run, it may still tell of the others.
+        std::error_code ignored;
+        if (arguments.names.empty() && arguments.update_names.empty()) std::filesystem::remove(file, ignored);
+        return kept;
+    }
+    std::ostringstream report;
+    write_case_report(report, results, {facts.backend, facts.renderer});
+    picture_tests::make_folder_of(file);
+    write_file(file, report.str());
     return kept;
 }
 
@@ -301,6 +231,44 @@ int tell_lines(const std::vector<CaseFile>& cases, const Drawer& drawer) {
     return sum.ok() ? kDone : kFailed;
 }
 
+/// Throws InputError if the mask of a case does not fit its golden.
+void check_masks(const std::vector<CaseFile>& cases) {
+    for (const CaseFile& file : cases) {
+        std::optional<std::filesystem::path> mask;
+        std::optional<Image> golden;
+        try {
+            const picture_tests::CaseTerms terms = picture_tests::read_terms(file);
+            if (!terms.skip) mask = terms.mask;
+            if (mask) golden = read_png(file.golden());
+        } catch (const InputError&) {
+            // What is wrong with a case or a golden, or that there is none, is told where the case is drawn.
+        }
+        if (golden) read_mask(*mask, {golden->width, golden->height}, file.golden());
+    }
+}
+
+/// Named cases are taken whatever they are; of all those that are no golden yet.
+picture_tests::RunOptions run_options(const TestCommandArguments& arguments, const CaseFile& file) {
+    using picture_tests::FreshGoldens, picture_tests::GoldenSource;
+    if (arguments.new_reference) return {GoldenSource::here, FreshGoldens::of_all};
+    if (matches_any(arguments.update_names, file.name)) return {GoldenSource::reference, FreshGoldens::of_all};
+    return {GoldenSource::reference, arguments.update_all ? FreshGoldens::missing : FreshGoldens::of_failed};
+}
+
+std::vector<std::string> orphans_of(const TestCommandArguments& arguments, const std::vector<CaseFile>& all) {
+    const auto whole = [](const std::filesystem::path& file) {
+        return std::filesystem::absolute(file).lexically_normal();
+    };
+    const std::filesystem::path output = whole(arguments.output / "");
+    std::vector<std::string> out;
+    for (const std::filesystem::path& file : picture_tests::orphaned_goldens(arguments.folder, all)) {
+        // The contact sheet and pictures of an earlier run may stand there.
+        const bool is_sheet = !arguments.contact_sheet.empty() && whole(file) == whole(arguments.contact_sheet);
+        if (!is_sheet && !whole(file).string().starts_with(output.string())) out.push_back(file.string());
+    }
+    return out;
+}
+
 int run_test(const TestCommandArguments& arguments) {
     const std::vector<CaseFile> all = picture_tests::find_cases(arguments.folder);
     const std::vector<CaseFile> cases = cases_of(arguments, all);
@@ -310,21 +278,28 @@ int run_test(const TestCommandArguments& arguments) {
         return kDone;
     }
     check_reports(arguments, all);
+    if (!arguments.accept.empty()) {
+        const bool taken = take_report(arguments.accept, all, arguments.names, std::cout);
+        flush_results();
+        return taken ? kDone : kFailed;
+    }
+    // A mask that fits what is drawn now may wait for a golden of that size.
+    if (!arguments.json_lines && !arguments.update) check_masks(cases);
     const bool asks = arguments.update && !arguments.update_all && arguments.update_names.empty();
     if (asks && ::isatty(STDIN_FILENO) == 0) {
         throw InputError("--update: there is no terminal to ask at; name the cases whose pictures to take, or all");
     }
 
-    const Drawer drawer = open(arguments);
+    Drawer drawer = open(arguments);
     const bool renews = arguments.new_reference && drawer.maker;
-    if (arguments.update && drawer.maker && !renews)
-        check_references(cases, picture_tests::reference_of(drawer.maker->renderer()));
-    const picture_tests::GoldenSource source =
-        renews ? picture_tests::GoldenSource::here : picture_tests::GoldenSource::reference;
+    if (arguments.update && drawer.maker && !renews) {
+        check_references(arguments.folder, cases, picture_tests::reference_of(drawer.maker->renderer()));
+    }
     if (arguments.json_lines) return tell_lines(cases, drawer);
+    if (arguments.names.empty()) drawer.facts.orphans = orphans_of(arguments, all);
     std::vector<CaseResult> results;
     for (const CaseFile& file : cases) {
-        results.push_back(run_case(file, drawer.maker.get(), drawer.no_opengl, source));
+        results.push_back(run_case(file, drawer.maker.get(), drawer.no_opengl, run_options(arguments, file)));
     }
     // Where standard output is a report, the rest goes beside it.
     std::ostream& say = arguments.json ? std::cerr : std::cout;
@@ -333,18 +308,15 @@ int run_test(const TestCommandArguments& arguments) {
     } else if (asks) {
         take_asked(results, arguments.output, say);
     } else if (arguments.update) {
-        const auto named = [&](const CaseResult& result) {
-            return arguments.update_all || matches_any(arguments.update_names, result.file.name);
-        };
-        take_named(results, named, say);
+        take_named(results, arguments.update_names, say);
     }
-    const bool kept = keep_all(arguments, results);
+    const bool kept = keep_all(arguments, drawer.facts, results);
     write_report(arguments.junit, picture_tests::write_junit, drawer.facts, results);
     write_report(arguments.html, picture_tests::write_html, drawer.facts, results);
     print_results(arguments, drawer.facts, results, kept);
     if (!drawer.maker) throw MachineError(drawer.no_opengl);
     if (!arguments.contact_sheet.empty()) write_contact_sheet(arguments, results, drawer.maker->renderer());
-    return picture_tests::summary(results).ok() ? kDone : kFailed;
+    return is_ok(drawer.facts, results) ? kDone : kFailed;
 }
 
 /// A reference is that of all goldens of a folder.
@@ -376,14 +348,21 @@ void add_test_command(Command& program, int& status) {
             add_parsed(command, "--backend", arguments->backend, one_of(backend_from_name, "auto, osmesa, egl"),
                        "OpenGL without a display: auto, osmesa or egl", "NAME");
             command
-                .add_option("--update", arguments->update_names,
-                            "Take the present pictures as goldens: of these cases, or all; without names, ask for each",
-                            "NAME")
+                .add_option(
+                    "--update", arguments->update_names,
+                    "Take the present pictures as goldens: of these cases, whatever differs, or of all that do not "
+                    "pass; without names, ask for each",
+                    "NAME")
                 .any_number();
             command.add_flag(
                 "--new-reference", arguments->new_reference,
                 "With --update all: say in reference.json what the goldens are drawn with, and take those without "
                 "text that hold with anything else");
+            add_parsed(command, "--accept", arguments->accept, parse_file_name,
+                       "Draw nothing: take the goldens of a report, the folder of --output or the page of --html, byte "
+                       "by byte, on any system",
+                       "REPORT");
+            command.add_flag("--strict", arguments->strict, "Exit with 1 if there is a golden that no case has");
             add_parsed(command, "--output", arguments->output, parse_file_name,
                        "Where the pictures of what did not pass go (mobbscope-test)", "FOLDER");
             const Option json = command.add_flag("--json", arguments->json, "The report as JSON on standard output");

@@ -129,9 +129,11 @@ void add_review_command(Command& program, int& status) {
         "review", "Look at picture tests in the window: what differs, and take it or not", [&status](Command& command) {
             const auto arguments = std::make_shared<WindowArguments>();
             command.add_option("DIR", arguments->cases, "The folder of the cases, NAME.case.json").required();
-            add_parsed(command, "--output", arguments->output, parse_file_name,
-                       "Look at the pictures that mobbscope test --output left there; without it, all cases are drawn",
-                       "FOLDER");
+            add_parsed(
+                command, "--output", arguments->output, parse_file_name,
+                "Look at what mobbscope test left, the folder of its --output or the page of its --html; without "
+                "it, all cases are drawn",
+                "REPORT");
             add_parsed(
                 command, "--backend", arguments->backend,
                 [](const std::string& text) {

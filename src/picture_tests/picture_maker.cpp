@@ -63,7 +63,10 @@ Image PictureMaker::make(const Shot& shot) {
                                   script_of(shot));
         });
     }
-    const std::vector<DrawList> lists = panel_lists(shot);
+    return make(shot, panel_lists(shot));
+}
+
+Image PictureMaker::make(const Shot& shot, const std::vector<DrawList>& lists) {
     const PictureOptions& options = shot.picture;
     if (lists.size() == 1) return renderer_.draw(lists.front(), options.samples);
     std::vector<SheetCell> cells;
@@ -75,8 +78,9 @@ Image PictureMaker::make(const Shot& shot) {
                       metrics_of(options.size, options.scale), renderer_, options.size);
 }
 
-std::string PictureMaker::draw_lists(const Shot& shot) {
-    const std::vector<DrawList> lists = panel_lists(shot);
+std::string PictureMaker::draw_lists(const Shot& shot) { return draw_lists(panel_lists(shot)); }
+
+std::string PictureMaker::draw_lists(const std::vector<DrawList>& lists) {
     std::ostringstream out;
     if (lists.size() > 1) out << "[\n";
     for (std::size_t i = 0; i < lists.size(); ++i) {

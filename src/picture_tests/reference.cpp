@@ -105,6 +105,10 @@ Image coarse_picture(const Image& image) {
     return out;
 }
 
+bool same_text(const Reference& here, const Reference& reference, bool in_window) {
+    return here.fonts == reference.fonts && (!in_window || here.imgui == reference.imgui);
+}
+
 std::string what_is_other(const Reference& here, const Reference& reference) {
     constexpr std::size_t kDigits = 8;  // of a hash: enough for a message
     std::string out;

@@ -5,10 +5,12 @@
 ///      "imgui": "1.86",
 ///      "opengl": "Mesa 22.3.6, llvmpipe"}
 ///
-/// Pixels of text are the same only with the same fonts, Dear ImGui and rasteriser. So each case of such a folder has a
-/// second golden, which holds on any system: NAME.plain.png, the case without text, small and coarse (coarse_picture),
-/// compared with the loose tolerance; with a NAME.draw.json also NAME.plain.draw.json, the draw list without text; for
-/// a window also NAME.plain.state.json, its state. On the reference both goldens are compared, elsewhere the second.
+/// On a system where all of this is the same, the reference, pixels and draw lists must be the goldens'. Elsewhere the
+/// pixels are compared too; where they differ, the draw list decides (with other fonts, which are as wide as they like,
+/// positions of words count for little). Where words are drawn with the same fonts, the draw list must be the golden's
+/// in any case, and a picture whose pixels differ may lose little structural similarity (similarity_loss), which alone
+/// decides of what has no draw list. With other fonts that is decided by a second golden, NAME.plain.png, without text,
+/// small and coarse (coarse_picture), with the loose tolerance, and of a window by its state, NAME.plain.state.json.
 #pragma once
 
 #include <render/gl/renderer.h>
@@ -41,6 +43,9 @@ void write_reference(const std::filesystem::path& folder, const Reference& refer
 
 /// The differences, "Dear ImGui 1.90.1 for 1.86, Inter-Medium.otf 5f2a0c11 for 8d3e90b4"; empty if there are none.
 std::string what_is_other(const Reference& here, const Reference& reference);
+
+/// Whether words have the same pixels here, of a window (in_window) or of a scene: the rasteriser aside.
+bool same_text(const Reference& here, const Reference& reference, bool in_window);
 
 /// Half as wide and high, each pixel the mean of four, in 64 levels a channel: a picture that is a tenth as large on
 /// the disk, and still shows what is drawn where.

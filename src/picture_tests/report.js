@@ -3,7 +3,7 @@
 const kBlinkMs = 700;
 const calm = matchMedia('(prefers-reduced-motion: reduce)');
 const cases = [...document.querySelectorAll('.case')];
-document.querySelectorAll('.modes, .keys, .copy').forEach(element => element.hidden = false);
+document.querySelectorAll('.modes, .keys, .copy, .orders').forEach(element => element.hidden = false);
 
 function setMode(section, mode) {
   const pictures = section.querySelector('.pictures');
@@ -50,6 +50,16 @@ document.querySelectorAll('.copy').forEach(button => button.addEventListener('cl
     getSelection().selectAllChildren(code);
     button.textContent = 'Press Ctrl+C';
   }
+}));
+
+document.querySelectorAll('.orders button').forEach(button => button.addEventListener('click', () => {
+  const orders = button.parentElement;
+  orders.querySelectorAll('button').forEach(other => other.setAttribute('aria-pressed', other === button));
+  const list = orders.parentElement.querySelector('.sorted');
+  const byName = (a, b) => a.dataset.name < b.dataset.name ? -1 : a.dataset.name > b.dataset.name;
+  const byPixels = (a, b) =>
+    b.dataset.pixels - a.dataset.pixels || b.dataset.largest - a.dataset.largest || byName(a, b);
+  list.append(...[...list.children].sort(button.dataset.by === 'name' ? byName : byPixels));
 }));
 
 // The case that has the focus and is seen, or -1.

@@ -1,5 +1,6 @@
 #include <base/base64.h>
 #include <base/text.h>
+#include <cases/case_report.h>
 #include <picture_tests/reports.h>
 #include <render/image/png.h>
 
@@ -27,9 +28,12 @@ Results of(std::span<const CaseResult> results, CaseOutcome outcome) {
     return out;
 }
 
-std::string headline(const Summary& sum, std::size_t cases) {
+std::string headline(const RunFacts& facts, const Summary& sum, std::size_t cases) {
     const std::string all = counted(static_cast<long long>(cases), "picture test", "picture tests");
     if (!sum.ok()) return std::to_string(sum.bad()) + " of " + all + " did not pass";
+    if (facts.strict && !facts.orphans.empty()) {
+        return counted(facts.orphans.size(), "golden has", "goldens have") + " no case";
+    }
     const int passed = sum[CaseOutcome::passed], skipped = sum[CaseOutcome::skipped];
     if (passed == 0) return "No picture was compared";
     return counted(passed, "picture test", "picture tests") + " passed" +
@@ -102,10 +106,9 @@ void write_numbers(std::ostream& out, const CaseResult& result) {
     const ImageDiff& diff = *result.image;
     const DiffOptions& allowed = result.image->options;
     out << "<div class=\"numbers\"><dl>\n<dt>Failing pixels</dt><dd>" << diff.differing << " of " << diff.pixels << ", "
-        << brief(100 * diff.fraction()) << " %</dd>\n<dt>Allowed</dt><dd>" << brief(100 * allowed.pixel_fraction)
-        << " % beyond " << brief(allowed.channel_tolerance) << " of 255 (" << name(result.tolerance)
-        << ")</dd>\n<dt>Maximum</dt><dd>" << diff.largest << " of 255</dd>\n<dt>Mean</dt><dd>" << brief(diff.mean)
-        << " of 255</dd>\n<dt>Where</dt><dd>";
+        << brief(100 * diff.fraction()) << " %</dd>\n<dt>Allowed</dt><dd>" << diff.allowed() << " beyond "
+        << brief(allowed.channel_tolerance) << " of 255 (" << name(result.tolerance) << ")</dd>\n<dt>Maximum</dt><dd>"
+        << diff.largest << " of 255</dd>\n<dt>Mean</dt><dd>" << brief(diff.mean) << " of 255</dd>\n<dt>Where</dt><dd>";
     if (diff.bounds) {
         out << diff.bounds->width << " x " << diff.bounds->height << " pixels at (" << diff.bounds->x << ", "
             << diff.bounds->y << ")";
@@ -133,34 +136,80 @@ void write_pictures(std::ostream& out, const CaseResult& result) {
     if (result.image && result.image->same_size) write_numbers(out, result);
 }
 
+void write_lines(std::ostream& out, const std::vector<std::string>& lines) {
+    if (lines.empty()) return;
+    out << "<ul>\n";
+    for (const std::string& line : lines) out << "<li>" << escaped(line) << "</li>\n";
+    out << "</ul>\n";
+}
+
 void write_case(std::ostream& out, const RunFacts& facts, const CaseResult& result, std::size_t number) {
     out << "<section class=\"case\" id=\"case" << number << "\" tabindex=\"-1\">\n<h2>" << badge(result.outcome) << ' '
         << escaped(result.file.name) << "</h2>\n<p class=\"message\">" << escaped(result.message) << "</p>\n";
+    for (const Finding& finding : result.findings) {
+        if (finding.words.size() > 1) write_lines(out, finding.words);
+    }
+    write_lines(out, result.remarks);
     write_pictures(out, result);
     if (can_be_taken(result)) {
         const std::string_view names[] = {result.file.name};
         write_command(out, "If the picture is right:", update_command(facts, names));
+        if (!facts.page.empty()) write_command(out, "or, from this page:", accept_command(facts, names));
     }
     out << "</section>\n";
 }
 
+/// Pixels beyond the tolerance, for sorting; of what was not compared more than any picture has.
+std::string sort_keys(const CaseResult& result) {
+    const bool compared = result.image && result.image->same_size;
+    std::ostringstream out;
+    out << " data-name=\"" << escaped(result.file.name) << "\" data-pixels=\""
+        << (compared ? std::to_string(result.image->differing) : "1e15") << "\" data-largest=\""
+        << (compared ? result.image->largest : 255) << '"';
+    return out.str();
+}
+
+/// Sort what follows, if there are scripts.
+void write_orders(std::ostream& out) {
+    out << "<div class=\"orders\" role=\"group\" aria-label=\"Order\" hidden>Sort by "
+        << "<button type=\"button\" data-by=\"name\" aria-pressed=\"true\">name</button> "
+        << "<button type=\"button\" data-by=\"pixels\" aria-pressed=\"false\">pixels that differ</button></div>\n";
+}
+
+/// "412 pixels, up to 87 of 255"; of a picture that is its golden's, nothing.
+std::string how_much(const CaseResult& result) {
+    if (!result.image || !result.image->same_size || result.image->same) return "";
+    const ImageDiff& diff = *result.image;
+    const std::string far = ", up to " + std::to_string(diff.largest) + " of 255";
+    if (diff.differing > 0) return counted(diff.differing, "pixel", "pixels") + far;
+    return counted(diff.unequal, "pixel", "pixels") + " within the tolerance" + far;
+}
+
 void write_contents(std::ostream& out, const Results& open) {
     if (open.size() < 2) return;
-    out << "<nav aria-label=\"Cases that did not pass\"><ol>\n";
+    out << "<nav aria-label=\"Cases that did not pass\">\n";
+    write_orders(out);
+    out << "<ol class=\"sorted\">\n";
     for (std::size_t i = 0; i < open.size(); ++i) {
-        out << "<li>" << badge(open[i]->outcome) << " <a href=\"#case" << i << "\">" << escaped(open[i]->file.name)
-            << "</a></li>\n";
+        out << "<li" << sort_keys(*open[i]) << '>' << badge(open[i]->outcome) << " <a href=\"#case" << i << "\">"
+            << escaped(open[i]->file.name) << "</a> <small>" << how_much(*open[i]) << "</small></li>\n";
     }
     out << "</ol></nav>\n";
 }
 
 void write_header(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results, const Results& open) {
     const Summary sum = summary(results);
-    out << "<header>\n<h1>" << headline(sum, results.size()) << "</h1>\n<dl class=\"facts\">\n<dt>Result</dt><dd>"
-        << sum_of(sum) << "</dd>\n<dt>Folder</dt><dd>" << escaped(facts.folder) << "</dd>\n<dt>Drawn by</dt><dd>"
-        << escaped(drawn_by(facts)) << "</dd>\n";
-    for (const std::string& sentence : not_compared(results)) {
-        out << "<dt>Not compared</dt><dd>" << escaped(sentence) << "</dd>\n";
+    out << "<header>\n<h1>" << headline(facts, sum, results.size())
+        << "</h1>\n<dl class=\"facts\">\n<dt>Result</dt><dd>" << sum_of(sum) << "</dd>\n<dt>Folder</dt><dd>"
+        << escaped(facts.folder) << "</dd>\n<dt>Drawn by</dt><dd>" << escaped(drawn_by(facts)) << "</dd>\n";
+    for (const std::string& sentence : other_systems(results)) {
+        out << "<dt>Other system</dt><dd>" << escaped(sentence) << "</dd>\n";
+    }
+    if (const std::string differing = differing_passes(results); !differing.empty()) {
+        out << "<dt>Passed</dt><dd>" << differing << "</dd>\n";
+    }
+    for (const std::string& orphan : facts.orphans) {
+        out << "<dt>No case has</dt><dd>" << escaped(orphan) << "</dd>\n";
     }
     out << "</dl>\n";
     write_contents(out, open);
@@ -168,7 +217,10 @@ void write_header(std::ostream& out, const RunFacts& facts, std::span<const Case
     for (const CaseResult* result : open) {
         if (can_be_taken(*result)) names.push_back(result->file.name);
     }
-    if (names.size() > 1) write_command(out, "If all of these pictures are right:", update_command(facts, names));
+    if (names.size() > 1) {
+        write_command(out, "If all of these pictures are right:", update_command(facts, names));
+        if (!facts.page.empty()) write_command(out, "or, from this page:", accept_command(facts, {}));
+    }
     if (!open.empty()) {
         out << "<p class=\"keys\" hidden><kbd>J</kbd> next case, <kbd>K</kbd> the one before; <kbd>1</kbd> side by "
                "side, <kbd>2</kbd> blink, <kbd>3</kbd> slide; <kbd>S</kbd> swaps while blinking</p>\n";
@@ -179,11 +231,16 @@ void write_header(std::ostream& out, const RunFacts& facts, std::span<const Case
 void write_passed(std::ostream& out, const Results& passed) {
     if (passed.empty()) return;
     out << "<details class=\"passed\"><summary>" << badge(CaseOutcome::passed) << ' ' << passed.size()
-        << "</summary>\n<div class=\"thumbnails\">\n";
+        << "</summary>\n";
+    write_orders(out);
+    out << "<div class=\"thumbnails sorted\">\n";
     for (const CaseResult* result : passed) {
-        out << "<figure><button type=\"button\" class=\"thumbnail\" aria-pressed=\"false\">";
+        out << "<figure" << sort_keys(*result)
+            << "><button type=\"button\" class=\"thumbnail\" aria-pressed=\"false\">";
         write_image(out, result->actual, result->file.name);
-        out << "</button><figcaption>" << escaped(result->file.name) << "</figcaption></figure>\n";
+        out << "</button><figcaption>" << escaped(result->file.name) << "<small>" << how_much(*result) << "</small>";
+        for (const std::string& remark : result->remarks) out << "<small>" << escaped(remark) << "</small>";
+        out << "</figcaption></figure>\n";
     }
     out << "</div></details>\n";
 }
@@ -211,15 +268,17 @@ void write_html(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
         << "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
            "style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n"
         << "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-        << "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" << headline(summary(results), results.size())
-        << " - " << escaped(facts.folder) << "</title>\n<style>\n"
+        << "<meta name=\"color-scheme\" content=\"light dark\">\n<title>"
+        << headline(facts, summary(results), results.size()) << " - " << escaped(facts.folder) << "</title>\n<style>\n"
         << report_assets::embedded("report.css") << "</style>\n</head>\n<body>\n";
     write_header(out, facts, results, open);
     out << "<main>\n";
     for (std::size_t i = 0; i < open.size(); ++i) write_case(out, facts, *open[i], i);
     write_skipped(out, of(results, CaseOutcome::skipped));
     write_passed(out, of(results, CaseOutcome::passed));
-    out << "</main>\n<script>\n" << report_assets::embedded("report.js") << "</script>\n</body>\n</html>\n";
+    out << "</main>\n" << kReportBegins;
+    write_case_report(out, results, {facts.backend, facts.renderer});
+    out << kReportEnds << "\n<script>\n" << report_assets::embedded("report.js") << "</script>\n</body>\n</html>\n";
 }
 
 }  // namespace mobbscope::picture_tests

@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
+#include <map>
 
 namespace mobbscope::picture_tests {
 
@@ -34,8 +36,27 @@ void write_problem(std::ostream& out, const char* element, const RunFacts& facts
     if (can_be_taken(result)) {
         const std::string_view names[] = {result.file.name};
         out << "If the picture is right: " << escaped(update_command(facts, names)) << '\n';
+        if (!facts.page.empty()) out << "or, from the report: " << escaped(accept_command(facts, names)) << '\n';
     }
     out << "</" << element << ">\n";
+}
+
+constexpr std::string_view kOrphan = "orphaned golden";
+constexpr std::string_view kOrphanAdvice = ": no case has it; bring its case back, or remove it if it is a golden";
+
+void write_remarks(std::ostream& out, const CaseResult& result) {
+    if (result.remarks.empty()) return;
+    out << "      <system-out>";
+    for (const std::string& remark : result.remarks) out << escaped(remark) << '\n';
+    out << "</system-out>\n";
+}
+
+void write_orphans(std::ostream& out, const RunFacts& facts) {
+    out << "    <testcase" << attribute("classname", facts.folder) << attribute("name", "orphaned goldens")
+        << attribute("time", "0") << ">\n      <failure" << attribute("type", kOrphan)
+        << attribute("message", counted(facts.orphans.size(), "golden has", "goldens have") + " no case") << '>';
+    for (const std::string& orphan : facts.orphans) out << escaped(orphan) << kOrphanAdvice << '\n';
+    out << "</failure>\n    </testcase>\n";
 }
 
 }  // namespace
@@ -45,16 +66,48 @@ std::string drawn_by(const RunFacts& facts) {
     return facts.renderer.empty() ? facts.backend : facts.backend + ", " + facts.renderer;
 }
 
-std::vector<std::string> not_compared(std::span<const CaseResult> results) {
-    std::vector<std::string> out;
+std::vector<std::string> other_systems(std::span<const CaseResult> results) {
+    struct Folder {
+        std::string other_here;
+        std::array<int, kDecidedBy.size()> decided{};
+    };
+    std::map<std::filesystem::path, Folder> folders;
     for (const CaseResult& result : results) {
         if (result.other_here.empty()) continue;
-        const std::string file = reference_file(result.file.file.parent_path()).string();
-        const std::string sentence =
-            "Pixels of text are not compared: drawn with " + result.other_here + " (" + file + ")";
-        if (std::find(out.begin(), out.end(), sentence) == out.end()) out.push_back(sentence);
+        Folder& folder = folders[result.file.file.parent_path()];
+        folder.other_here = result.other_here;
+        ++folder.decided[static_cast<std::size_t>(result.decided_by)];
+    }
+    std::vector<std::string> out;
+    constexpr std::array<std::string_view, kDecidedBy.size()> kWords{"pixels", "draw list", "structural similarity",
+                                                                     "the golden without text"};
+    for (const auto& [path, folder] : folders) {
+        std::string decided;
+        for (std::size_t i = 0; i < kWords.size(); ++i) {
+            if (folder.decided[i] == 0) continue;
+            decided +=
+                (decided.empty() ? "" : ", ") + std::to_string(folder.decided[i]) + " by " + std::string(kWords[i]);
+        }
+        out.push_back("Drawn with " + folder.other_here + " (" + reference_file(path).string() +
+                      "); decided: " + decided);
     }
     return out;
+}
+
+std::string differing_passes(std::span<const CaseResult> results) {
+    int differing = 0, largest = 0;
+    for (const CaseResult& result : results) {
+        if (result.outcome != CaseOutcome::passed || !result.image || result.image->same) continue;
+        ++differing;
+        largest = std::max(largest, result.image->largest);
+    }
+    if (differing == 0) return "";
+    return std::to_string(differing) + " of those that passed " + (differing == 1 ? "differs" : "differ") +
+           " from the golden in some pixels, by up to " + std::to_string(largest) + " of 255";
+}
+
+bool is_ok(const RunFacts& facts, std::span<const CaseResult> results) {
+    return summary(results).ok() && (!facts.strict || facts.orphans.empty());
 }
 
 std::string update_command(const RunFacts& facts, std::span<const std::string_view> names) {
@@ -63,16 +116,29 @@ std::string update_command(const RunFacts& facts, std::span<const std::string_vi
     return out;
 }
 
+std::string accept_command(const RunFacts& facts, std::span<const std::string_view> names) {
+    std::string out = "mobbscope test " + shell_word(facts.folder);
+    for (const std::string_view name : names) out += ' ' + shell_word(std::string(name));
+    return out + " --accept " + shell_word(facts.page);
+}
+
 void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results) {
     std::vector<std::string_view> updatable;
     for (const CaseResult& result : results) {
         if (can_be_taken(result)) updatable.push_back(result.file.name);
-        if (result.outcome == CaseOutcome::passed) continue;
-        out << name(result.outcome) << ": " << cleaned(result.file.name) << ": " << cleaned(result.message) << '\n';
+        if (result.outcome == CaseOutcome::passed && result.remarks.empty()) continue;
+        out << name(result.outcome) << ": " << cleaned(result.file.name) << ": " << cleaned(result.message);
+        const bool passed = result.message.empty();
+        for (std::size_t i = 0; i < result.remarks.size(); ++i) {
+            out << (i == 0 && passed ? "" : "; ") << cleaned(result.remarks[i]);
+        }
+        out << '\n';
     }
+    for (const std::string& orphan : facts.orphans) out << kOrphan << ": " << cleaned(orphan) << kOrphanAdvice << '\n';
     out << cleaned(facts.folder) << ": " << sum_of(summary(results)) << "; drawn by " << cleaned(drawn_by(facts))
         << '\n';
-    for (const std::string& sentence : not_compared(results)) out << cleaned(sentence) << '\n';
+    for (const std::string& sentence : other_systems(results)) out << cleaned(sentence) << '\n';
+    if (const std::string differing = differing_passes(results); !differing.empty()) out << differing << '\n';
     if (!updatable.empty()) {
         out << "Look at the pictures. Those that are right become goldens with\n  "
             << cleaned(update_command(facts, updatable)) << '\n';
@@ -89,16 +155,19 @@ void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
     json.begin_object("summary", JsonWriter::Layout::row);
     for (std::size_t i = 0; i < sum.counts.size(); ++i) json.member(kOutcomeWords[i].key, sum.counts[i]);
     json.end_object();
-    if (const std::vector<std::string> sentences = not_compared(results); !sentences.empty()) {
-        json.list("not_compared", sentences, [&](const std::string& sentence) { json.value(sentence); });
+    if (const std::vector<std::string> sentences = other_systems(results); !sentences.empty()) {
+        json.list("other_system", sentences, [&](const std::string& sentence) { json.value(sentence); });
     }
+    json.list("orphans", facts.orphans, [&](const std::string& orphan) { json.value(orphan); });
     json.list("cases", results, [&](const CaseResult& result) {
         json.begin_object();
         json.member("name", result.file.name);
         json.member("outcome", name(result.outcome));
         json.member("message", result.message);
+        json.values("remarks", result.remarks);
         json.member("seconds", result.seconds);
         json.member("tolerance", name(result.tolerance));
+        json.member("decided_by", name(result.decided_by));
         json.key("diff");
         if (result.image) {
             write_diff(json, *result.image);
@@ -113,13 +182,20 @@ void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
 void write_junit(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results) {
     double seconds = 0;
     for (const CaseResult& result : results) seconds += result.seconds;
-    const std::string sum = counts(summary(results), results.size(), seconds);
+    Summary found = summary(results);
+    const bool orphans = facts.strict && !facts.orphans.empty();
+    // They are reported as a case of their own.
+    if (orphans) ++found[CaseOutcome::different];
+    const std::string sum = counts(found, results.size() + (orphans ? 1 : 0), seconds);
     out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
     out << "<testsuites" << sum << ">\n  <testsuite" << attribute("name", facts.folder) << sum << ">\n";
     out << "    <properties>\n      <property name=\"backend\"" << attribute("value", facts.backend)
         << "/>\n      <property name=\"renderer\"" << attribute("value", facts.renderer) << "/>\n";
-    for (const std::string& sentence : not_compared(results)) {
-        out << "      <property name=\"not compared\"" << attribute("value", sentence) << "/>\n";
+    for (const std::string& sentence : other_systems(results)) {
+        out << "      <property name=\"other system\"" << attribute("value", sentence) << "/>\n";
+    }
+    for (const std::string& orphan : facts.orphans) {
+        out << "      <property name=\"" << kOrphan << '"' << attribute("value", orphan) << "/>\n";
     }
     out << "    </properties>\n";
     for (const CaseResult& result : results) {
@@ -130,8 +206,10 @@ void write_junit(std::ostream& out, const RunFacts& facts, std::span<const CaseR
         } else if (result.outcome != CaseOutcome::passed) {
             write_problem(out, result.outcome == CaseOutcome::failed ? "error" : "failure", facts, result);
         }
+        write_remarks(out, result);
         out << "    </testcase>\n";
     }
+    if (orphans) write_orphans(out, facts);
     out << "  </testsuite>\n</testsuites>\n";
 }
 

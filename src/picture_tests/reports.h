@@ -13,18 +13,24 @@ namespace mobbscope::picture_tests {
 
 /// Of a whole run.
 struct RunFacts {
-    std::string folder;    ///< of the cases, as given
-    std::string backend;   ///< "osmesa", "egl"; empty without OpenGL
-    std::string renderer;  ///< what OpenGL calls itself
+    std::string folder;                  ///< of the cases, as given
+    std::string backend;                 ///< "osmesa", "egl"; empty without OpenGL
+    std::string renderer;                ///< what OpenGL calls itself
+    std::string page{};                  ///< the page of the run, whose goldens can be taken; empty: there is none
+    std::vector<std::string> orphans{};  ///< goldens that no case has
+    bool strict = false;                 ///< whether they make the run fail
 };
 
-/// A line for each case that did not pass, and the sum.
+/// A line for each case that did not pass and for each that did although something differs, what is to be known of the
+/// run, and the sum.
 void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
-/// {"folder", "backend", "renderer", "summary": {...}, "cases": [{"name", "outcome", "message", "seconds", "tolerance",
-/// "diff": {...} or null}]}; `diff` as in `mobbscope diff --json`. Where goldens are from elsewhere (reference.h),
-/// "not_compared": why pixels of text are not, a sentence for each folder.
+/// {"folder", "backend", "renderer", "summary": {...}, "orphans": [...], "cases": [{"name", "outcome", "message",
+/// "remarks": [...], "seconds", "tolerance", "decided_by", "diff": {...} or null}]}; `diff` as in `mobbscope diff
+/// --json`. Where goldens are from elsewhere (reference.h), "other_system": how was decided, a sentence for each
+/// folder.
 void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
-/// JUnit's XML: a failed picture is a failure, one that could not be drawn an error.
+/// JUnit's XML: a failed picture is a failure, one that could not be drawn an error; with `strict` orphans are a test
+/// case of their own.
 void write_junit(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
 /// One page that needs nothing else: actual picture, golden, difference, and the two in turn.
 void write_html(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
@@ -32,12 +38,21 @@ void write_html(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
 /// "osmesa (llvmpipe)", or that nothing was drawn.
 std::string drawn_by(const RunFacts& facts);
 
-/// For each folder whose goldens are from elsewhere (reference.h) a sentence: that pixels of text are not compared, and
-/// what is other here.
-std::vector<std::string> not_compared(std::span<const CaseResult> results);
+/// For each folder whose goldens are from elsewhere (reference.h) a sentence: what is other here, and by what its cases
+/// were decided.
+std::vector<std::string> other_systems(std::span<const CaseResult> results);
+
+/// "12 of those that passed differ from their goldens in some pixels, by up to 2 of 255"; empty if none does.
+std::string differing_passes(std::span<const CaseResult> results);
+
+/// Whether a run is as it should be.
+bool is_ok(const RunFacts& facts, std::span<const CaseResult> results);
 
 /// The command line that takes the pictures of these cases as their goldens, ready for a shell.
 std::string update_command(const RunFacts& facts, std::span<const std::string_view> names);
+
+/// The same from the page of the run (RunFacts::page).
+std::string accept_command(const RunFacts& facts, std::span<const std::string_view> names);
 
 /// Text fit for content and for attributes in either kind of quotes, in HTML and XML 1.0. Characters that XML does not
 /// allow, or that steer terminals, and bytes that are not UTF-8 become '?'.

@@ -1,11 +1,13 @@
 #include <base/error.h>
 #include <base/file.h>
+#include <base/text.h>
 #include <picture_tests/reference.h>
 #include <picture_tests/run_cases.h>
 #include <picture_tests/test_case.h>
-#include <render/drawlist/draw_list_json.h>
+#include <render/drawlist/draw_list_compare.h>
 #include <render/image/image_diff.h>
 #include <render/image/png.h>
+#include <render/image/ssim.h>
 
 #include <algorithm>
 #include <chrono>
@@ -18,17 +20,10 @@ namespace mobbscope::picture_tests {
 
 namespace {
 
-/// What was found of one golden is added to what was found of those before.
-void add_finding(CaseResult& result, CaseOutcome outcome, Finding finding, GoldenChange fresh) {
-    if (result.outcome == CaseOutcome::passed) result.outcome = outcome;
-    result.message += (result.message.empty() ? "" : "; ") + finding.message;
-    result.findings.push_back(std::move(finding));
-    result.fresh.push_back(std::move(fresh));
-}
-
-void add_missing(CaseResult& result, const std::filesystem::path& file, std::string bytes) {
-    add_finding(result, CaseOutcome::missing_golden, {file, "there is no golden " + file.string(), {}},
-                {file, std::move(bytes)});
+/// What a golden would be now; nothing if it would not be, or that was not found out.
+std::optional<std::string> fresh_bytes(const CaseResult& result, const std::filesystem::path& golden) {
+    const auto found = std::ranges::find(result.fresh, golden, &GoldenChange::file);
+    return found == result.fresh.end() ? std::nullopt : found->bytes;
 }
 
 /// Lines of what differs in a draw list: a report is read, not searched.
@@ -39,99 +34,244 @@ bool is_there(const std::filesystem::path& file) {
     return std::filesystem::exists(file, ignored);
 }
 
-/// Holds a picture against a golden. The result shows the first that is not its golden's, else the first. `which`
-/// stands before what differs.
-void compare_pictures(CaseResult& result, const Image& actual, const std::filesystem::path& file, Tolerance tolerance,
-                      const std::string& which = "") {
-    const bool shows_another = std::any_of(result.fresh.begin(), result.fresh.end(),
-                                           [](const GoldenChange& fresh) { return fresh.file.extension() == ".png"; });
-    const auto show = [&](Image golden, std::optional<ImageDiff> image) {
-        if (shows_another) return;
-        result.actual = actual;
-        result.golden = std::move(golden);
-        result.image = std::move(image);
-        result.tolerance = tolerance;
-    };
-    if (!is_there(file)) {
-        show({}, {});
-        return add_missing(result, file, png_bytes(actual));
+void add_finding(CaseResult& result, CaseOutcome outcome, Finding finding) {
+    if (result.outcome == CaseOutcome::passed) result.outcome = outcome;
+    result.message += (result.message.empty() ? "" : "; ") + finding.message;
+    result.findings.push_back(std::move(finding));
+}
+
+void add_missing(CaseResult& result, const std::filesystem::path& file) {
+    add_finding(result, CaseOutcome::missing_golden, {file, "there is no golden " + file.string(), {}});
+}
+
+/// What a case draws; each part is made when it is first asked for.
+class DrawnCase {
+  public:
+    DrawnCase(const Case& tested, PictureMaker& maker)
+        : shot_(tested.shot), maker_(maker), picture_(maker.make(tested.shot)) {}
+
+    const Image& picture() const { return picture_; }
+    const std::string& draw_list() {
+        if (!draw_list_) draw_list_ = maker_.draw_lists(shot_);
+        return *draw_list_;
     }
-    std::optional<std::string> before;
+    /// Without text, and coarse.
+    const Image& plain() {
+        if (!plain_ && shot_.window) {
+            make_window();
+        } else if (!plain_) {
+            plain_ = coarse_picture(maker_.make(without_text(shot_)));
+        }
+        return *plain_;
+    }
+    /// Of a window.
+    const std::string& state() {
+        if (!state_) make_window();
+        return *state_;
+    }
+
+  private:
+    void make_window() {
+        PictureMaker::Window window = maker_.window_without_text(shot_);
+        plain_ = coarse_picture(window.picture);
+        state_ = std::move(window.state);
+    }
+
+    const Shot& shot_;
+    PictureMaker& maker_;
+    Image picture_;
+    std::optional<std::string> draw_list_, state_;
+    std::optional<Image> plain_;
+};
+
+/// A picture held against its golden.
+struct Held {
     Image golden;
+    std::optional<ImageDiff> diff;          ///< where there is a golden that can be read
+    std::optional<std::string> unreadable;  ///< why
+
+    bool passes() const { return diff && diff->passes; }
+};
+
+Held hold(const Image& actual, const std::filesystem::path& file, const DiffOptions& options, const Image* mask) {
+    Held out;
+    if (!is_there(file)) return out;
     try {
-        before = golden_bytes(file);
-        golden = read_png(file);
+        out.golden = read_png(file);
     } catch (const InputError& error) {
-        show({}, {});
-        return add_finding(result, CaseOutcome::different,
-                           {file, which + "the golden cannot be read: " + error.what(), {}},
-                           {file, png_bytes(actual), before});
+        out.unreadable = error.what();
+        return out;
     }
-    ImageDiff image = diff(actual, golden, diff_options(tolerance));
-    if (image.same && result.image) return;
-    if (image.same) return show(std::move(golden), std::move(image));
-    const std::string why = which + what_differs(image);
-    show(std::move(golden), std::move(image));
-    add_finding(result, CaseOutcome::different, {file, why, {}}, {file, png_bytes(actual), before});
+    const bool fits = mask && mask->width == actual.width && mask->height == actual.height;
+    // Of two sizes nothing is compared, with no mask either.
+    out.diff = diff(actual, out.golden, options, fits ? mask : nullptr);
+    return out;
 }
 
-/// Holds numbers, as JSON, against a golden that is there. `what` stands for them in messages.
+/// The result shows this picture.
+void show(CaseResult& result, const Image& actual, Held held, const std::filesystem::path& file) {
+    result.shown = file;
+    result.actual = actual;
+    result.golden = std::move(held.golden);
+    result.image = std::move(held.diff);
+}
+
+/// The verdict on a picture by its pixels. `which` stands before what differs.
+void judge_pixels(CaseResult& result, const Held& held, const std::filesystem::path& file, const std::string& which) {
+    if (held.unreadable) {
+        add_finding(result, CaseOutcome::different,
+                    {file, which + "the golden cannot be read: " + *held.unreadable, {}});
+    } else if (!held.diff) {
+        add_missing(result, file);
+    } else if (!held.diff->passes) {
+        add_finding(result, CaseOutcome::different, {file, which + what_differs(*held.diff), {}});
+    } else if (held.diff->differing > 0 && which.empty()) {
+        result.remarks.push_back(what_differs(*held.diff));
+    }
+}
+
+/// Holds numbers, as JSON, against a golden. `what` stands for them in messages.
 void compare_numbers(CaseResult& result, const std::string& actual, const std::string& what,
-                     const std::filesystem::path& file) {
-    std::string golden;
-    std::string why;
-    std::vector<std::string> words;
+                     const std::filesystem::path& file, bool other_fonts) {
     try {
-        golden = read_file(file);
-        const std::optional<std::string> found =
-            golden.empty() ? "it is empty" : first_difference(actual, what, golden, file.string());
-        if (!found) return;
-        why = file.filename().string() + ": " + *found;
-        if (!golden.empty()) words = differences_in_words(actual, what, golden, file.string(), kMostWords);
+        const std::string golden = read_file(file);
+        if (golden.empty()) {
+            return add_finding(result, CaseOutcome::different, {file, file.filename().string() + ": it is empty", {}});
+        }
+        const DrawListComparison found =
+            compare_draw_lists(actual, what, golden, file.string(), {.other_fonts = other_fonts, .most = kMostWords});
+        for (const std::string& line : found.pixels) {
+            result.remarks.push_back(file.filename().string() + ": " + line);
+        }
+        if (found.same()) return;
+        const std::size_t more = found.count - 1;
+        const std::string why = file.filename().string() + ": " + found.differences.front() +
+                                (more > 0 ? "; and " + std::to_string(more) + " more" : "");
+        add_finding(result, CaseOutcome::different, {file, why, found.differences});
     } catch (const InputError& error) {
-        why = error.what();
-    }
-    add_finding(result, CaseOutcome::different, {file, why, std::move(words)}, {file, actual, golden});
-}
-
-/// The same with one that must be there.
-void require_numbers(CaseResult& result, const std::string& actual, const std::string& what,
-                     const std::filesystem::path& file) {
-    if (is_there(file)) return compare_numbers(result, actual, what, file);
-    add_missing(result, file, actual);
-}
-
-/// Holds the picture, and what is drawn where there is a NAME.draw.json, against the goldens.
-void compare_in_full(CaseResult& result, const Case& tested, const Image& picture, PictureMaker& maker) {
-    compare_pictures(result, picture, result.file.golden(), tested.tolerance);
-    if (is_there(result.file.draw())) {
-        compare_numbers(result, maker.draw_lists(tested.shot), "the draw list", result.file.draw());
+        add_finding(result, CaseOutcome::different, {file, error.what(), {}});
     }
 }
 
-/// The same without text: NAME.plain.*.
-void compare_without_text(CaseResult& result, const Shot& shot, PictureMaker& maker) {
-    const std::string which = "without text: ";
-    if (shot.window) {
-        const PictureMaker::Window window = maker.window_without_text(shot);
-        compare_pictures(result, coarse_picture(window.picture), result.file.plain(), Tolerance::loose, which);
-        require_numbers(result, window.state, "the window's state", result.file.plain_state());
+/// Of a window, what its panels are made from.
+void compare_state(CaseResult& result, DrawnCase& drawn) {
+    const std::filesystem::path state = result.file.plain_state();
+    if (!is_there(state)) return add_missing(result, state);
+    compare_numbers(result, drawn.state(), "the window's state", state, false);
+}
+
+/// Holds the picture without text, and of a window its state.
+void compare_without_text(CaseResult& result, const Case& tested, DrawnCase& drawn, const Image* mask) {
+    const std::filesystem::path file = result.file.plain();
+    const PictureSize size{drawn.plain().width, drawn.plain().height};
+    std::optional<Image> small_mask;
+    if (mask && !tested.shot.window) small_mask = shrunk_mask(*mask, 2, size);
+    Held held = hold(drawn.plain(), file, diff_options(Tolerance::loose), small_mask ? &*small_mask : nullptr);
+    judge_pixels(result, held, file, "without text: ");
+    // The case's own picture is shown if that is why it does not pass.
+    const bool shows_another = result.decided_by == DecidedBy::pixels && !(result.image && result.image->passes);
+    if (!held.passes() && !shows_another) {
+        show(result, drawn.plain(), std::move(held), file);
+        result.mask.reset();
+        result.tolerance = Tolerance::loose;
+    }
+    if (tested.shot.window) compare_state(result, drawn);
+}
+
+/// Whether the case is held by the numbers of what it draws.
+bool has_draw_list(const CaseFile& file, const Case& tested) { return tested.terms.draw_list && is_there(file.draw()); }
+
+/// Where the goldens are from.
+void compare_on_reference(CaseResult& result, const Case& tested, DrawnCase& drawn, bool has_reference,
+                          const Image* mask) {
+    const std::filesystem::path golden = result.file.golden();
+    Held held = hold(drawn.picture(), golden, tested.terms.diff, mask);
+    judge_pixels(result, held, golden, "");
+    const bool same_size = !held.diff || held.diff->same_size;
+    show(result, drawn.picture(), std::move(held), golden);
+    // In a picture of another size everything is elsewhere.
+    if (!same_size) return;
+    if (has_draw_list(result.file, tested)) {
+        compare_numbers(result, drawn.draw_list(), "the draw list", result.file.draw(), false);
+    } else if (has_reference && (tested.shot.window || is_there(result.file.plain()))) {
+        compare_without_text(result, tested, drawn, mask);
+    } else if (has_reference) {
+        // Else nothing would hold the case elsewhere.
+        add_missing(result, tested.terms.draw_list ? result.file.draw() : result.file.plain());
+    }
+}
+
+/// By structural similarity.
+void judge_similarity(CaseResult& result, const Image* mask, double most) {
+    const double loss = similarity_loss(result.actual, result.golden, mask);
+    const std::string said = "the largest loss of structural similarity is " + brief(loss);
+    if (loss > most) {
+        add_finding(result, CaseOutcome::different, {result.shown, said + ", allowed: " + brief(most), {}});
+    } else {
+        result.remarks.push_back(said + ", allowed: " + brief(most));
+    }
+}
+
+/// Where something is other than where the goldens are from.
+void compare_elsewhere(CaseResult& result, const Case& tested, DrawnCase& drawn, bool same_words, const Image* mask) {
+    const std::filesystem::path golden = result.file.golden();
+    Held held = hold(drawn.picture(), golden, tested.terms.diff, mask);
+    const bool passes = held.passes();
+    const bool comparable = held.diff && held.diff->same_size;
+    if (passes || !comparable) {
+        judge_pixels(result, held, golden, "");
+    } else {
+        result.remarks.push_back(what_differs(*held.diff));
+    }
+    show(result, drawn.picture(), std::move(held), golden);
+    if (!comparable) return;
+    if (has_draw_list(result.file, tested)) {
+        // With other fonts words lie elsewhere; pixels that agree say more then.
+        if (passes && !same_words) return;
+        compare_numbers(result, drawn.draw_list(), "the draw list", result.file.draw(), !same_words);
+        if (!passes || result.outcome != CaseOutcome::passed) result.decided_by = DecidedBy::draw_list;
+        if (!passes && same_words) judge_similarity(result, mask, kMostLossWithDrawList);
+    } else if (passes) {
         return;
+    } else if (same_words) {
+        result.decided_by = DecidedBy::ssim;
+        judge_similarity(result, mask, kMostLoss);
+        if (tested.shot.window) compare_state(result, drawn);
+    } else {
+        result.decided_by = DecidedBy::without_text;
+        compare_without_text(result, tested, drawn, mask);
     }
-    const Shot plain = without_text(shot);
-    compare_pictures(result, coarse_picture(maker.make(plain)), result.file.plain(), Tolerance::loose, which);
-    if (is_there(result.file.draw())) {
-        require_numbers(result, maker.draw_lists(plain), "the draw list", result.file.plain_draw());
-    }
+}
+
+/// All goldens of a case as they would be now, and those that go, as others take their place.
+std::vector<GoldenChange> goldens_of(const CaseFile& file, const Case& tested, DrawnCase& drawn, bool has_reference) {
+    std::vector<GoldenChange> out;
+    const auto add = [&out](const std::filesystem::path& golden, std::optional<std::string> bytes) {
+        std::optional<std::string> before = golden_bytes(golden);
+        if (bytes || before) out.push_back({golden, std::move(bytes), std::move(before)});
+    };
+    const auto if_wanted = [](bool wanted, const auto& make) {
+        return wanted ? std::optional<std::string>(make()) : std::nullopt;
+    };
+    const bool numbers = tested.terms.draw_list && !tested.shot.window;
+    const bool plain = !numbers;
+    add(file.golden(), png_bytes(drawn.picture()));
+    add(file.draw(), if_wanted(numbers, [&] { return drawn.draw_list(); }));
+    // Elsewhere NAME.plain may be a case of its own.
+    if (!has_reference) return out;
+    add(file.plain(), if_wanted(plain, [&] { return png_bytes(drawn.plain()); }));
+    add(file.plain_draw(), std::nullopt);
+    add(file.plain_state(), if_wanted(plain && tested.shot.window, [&] { return drawn.state(); }));
+    return out;
 }
 
 /// Reads and draws it, and compares.
-void run(CaseResult& result, PictureMaker& maker, GoldenSource source) {
+void run(CaseResult& result, PictureMaker& maker, const RunOptions& options) {
     const Case tested = read_case(result.file.file);
-    result.tolerance = tested.tolerance;
-    if (tested.skip) {
+    result.tolerance = tested.terms.tolerance;
+    if (tested.terms.skip) {
         result.outcome = CaseOutcome::skipped;
-        result.message = *tested.skip;
+        result.message = *tested.terms.skip;
         return;
     }
     if (tested.shot.window && is_there(result.file.draw())) {
@@ -140,26 +280,54 @@ void run(CaseResult& result, PictureMaker& maker, GoldenSource source) {
     }
     const Reference here = reference_of(maker.renderer());
     const std::optional<Reference> reference =
-        source == GoldenSource::here ? here : read_reference(result.file.file.parent_path());
+        options.source == GoldenSource::here ? here : read_reference(result.file.file.parent_path());
     if (reference && result.file.name.ends_with(".plain")) {
         throw InputError(result.file.file.string(), "",
                          "names that end in .plain are those of goldens without text; rename the case");
     }
     if (reference) result.other_here = what_is_other(here, *reference);
 
-    Image picture = maker.make(tested.shot);
-    if (result.other_here.empty()) compare_in_full(result, tested, picture, maker);
-    if (reference) compare_without_text(result, tested.shot, maker);
-    if (result.outcome != CaseOutcome::passed) return;
+    DrawnCase drawn(tested, maker);
+    std::optional<Image> mask;
+    if (tested.terms.mask) {
+        mask = read_mask(*tested.terms.mask, {drawn.picture().width, drawn.picture().height}, result.file.file);
+        result.mask = tested.terms.mask;
+    }
+    if (result.other_here.empty()) {
+        compare_on_reference(result, tested, drawn, reference.has_value(), mask ? &*mask : nullptr);
+    } else {
+        const bool same_words = same_text(here, *reference, tested.shot.window.has_value());
+        compare_elsewhere(result, tested, drawn, same_words, mask ? &*mask : nullptr);
+    }
+    const bool passed = result.outcome == CaseOutcome::passed;
+    if (!passed || options.fresh != FreshGoldens::of_failed) {
+        result.fresh = goldens_of(result.file, tested, drawn, reference.has_value());
+        if (passed && options.fresh == FreshGoldens::missing) {
+            const bool lacks = std::ranges::any_of(result.fresh, [](const GoldenChange& one) { return !one.replaces; });
+            std::erase_if(result.fresh, [&](const GoldenChange& one) { return !lacks || (one.bytes && one.replaces); });
+        }
+    }
+    if (!passed) return;
     // A run may have hundreds of cases: of those that passed one picture is enough.
-    result.actual = std::move(picture);
     result.golden = {};
     result.image->heat = {};
 }
 
 }  // namespace
 
-CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl, GoldenSource source) {
+double similarity_loss(const Image& actual, const Image& golden, const Image* mask) {
+    constexpr int kSide = 4;
+    if (!mask) return largest_ssim_loss(shrunk(actual, kSide), shrunk(golden, kSide));
+    Image seen = actual;
+    for (int y = 0; y < seen.height; ++y) {
+        for (int x = 0; x < seen.width; ++x) {
+            if (!is_compared(mask, x, y)) std::copy_n(golden.at(x, y), 4, seen.at(x, y));
+        }
+    }
+    return largest_ssim_loss(shrunk(seen, kSide), shrunk(golden, kSide));
+}
+
+CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl, const RunOptions& options) {
     CaseResult result;
     result.file = file;
     if (!maker) {
@@ -169,13 +337,14 @@ CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view 
     }
     const auto begin = std::chrono::steady_clock::now();
     try {
-        run(result, *maker, source);
+        run(result, *maker, options);
     } catch (const std::exception& error) {
         result.outcome = CaseOutcome::failed;
         result.message = error.what();
         result.actual = {};
         result.golden = {};
         result.image.reset();
+        result.remarks.clear();
         result.findings.clear();
         result.fresh.clear();
     }
@@ -193,21 +362,34 @@ void make_folder_of(const std::filesystem::path& file) {
 
 std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const std::filesystem::path& folder) {
     const std::filesystem::path stem = folder / result.file.name;
-    if (result.outcome != CaseOutcome::passed && !result.actual.rgba.empty()) make_folder_of(stem);
+    const bool keeps = result.outcome != CaseOutcome::passed && !result.actual.rgba.empty();
+    if (keeps) make_folder_of(stem);
     std::vector<std::filesystem::path> written;
-    const auto keep = [&](const char* what, const Image* image) {
-        const std::filesystem::path file = stem.string() + "." + what + ".png";
-        if (result.outcome == CaseOutcome::passed || !image || image->rgba.empty()) {
+    const auto keep = [&](const std::string& what, const std::optional<std::string>& bytes) {
+        const std::filesystem::path file = stem.string() + '.' + what;
+        if (!keeps || !bytes) {
             std::error_code ignored;
             std::filesystem::remove(file, ignored);
             return;
         }
-        write_png(file, *image);
+        write_file(file, *bytes);
         written.push_back(file);
     };
-    keep("actual", &result.actual);
-    keep("golden", &result.golden);
-    keep("heat", result.image ? &result.image->heat : nullptr);
+    const auto png = [](const Image* image) {
+        return image && !image->rgba.empty() ? std::optional(png_bytes(*image)) : std::nullopt;
+    };
+    for (const CaseFile::Golden golden : {&CaseFile::golden, &CaseFile::plain}) {
+        const std::filesystem::path file = (result.file.*golden)();
+        const std::string ending = result.file.ending_of(file);
+        const bool shown = file == result.shown;
+        keep("actual" + ending, shown ? png(&result.actual) : fresh_bytes(result, file));
+        keep("golden" + ending, shown ? png(&result.golden) : std::nullopt);
+        keep("heat" + ending, shown && result.image ? png(&result.image->heat) : std::nullopt);
+    }
+    for (const CaseFile::Golden golden : {&CaseFile::draw, &CaseFile::plain_state}) {
+        const std::filesystem::path file = (result.file.*golden)();
+        keep("actual" + result.file.ending_of(file), fresh_bytes(result, file));
+    }
     return written;
 }
 

@@ -17,17 +17,40 @@ enum class GoldenSource {
     here,       ///< here, whatever it says: this becomes the reference
 };
 
+/// Of which cases all goldens are made as they would be now (CaseResult::fresh), besides those that did not pass.
+enum class FreshGoldens {
+    of_failed,  ///< of no others
+    missing,    ///< of those that passed the goldens that are not there yet
+    of_all,
+};
+
+struct RunOptions {
+    GoldenSource source = GoldenSource::reference;
+    FreshGoldens fresh = FreshGoldens::of_failed;
+};
+
 /// Runs one case. `maker` null: there is no OpenGL, for the reason given; the case is skipped without being read. Never
 /// throws for what is wrong with a case.
 CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl,
-                    GoldenSource source = GoldenSource::reference);
+                    const RunOptions& options = {});
+
+/// The largest loss of structural similarity (ssim.h) of two pictures a quarter as wide and high: there edges of
+/// another rasteriser lose little. `mask`: of the whole pictures, null: none; what it leaves out counts as equal, so
+/// that what it leaves in is held however small it is.
+double similarity_loss(const Image& actual, const Image& golden, const Image* mask);
+
+/// The most that a picture may lose elsewhere and still be its golden's: without a draw list, and with one, which holds
+/// what is small (measured by bench/guard: docs/ci.md).
+inline constexpr double kMostLoss = 0.01;
+inline constexpr double kMostLossWithDrawList = 0.25;
 
 /// Makes the folder that a file goes to, if need be. Throws MachineError.
 void make_folder_of(const std::filesystem::path& file);
 
 /// Writes the pictures of a case into a folder that is made if need be: NAME.actual.png, NAME.golden.png and
-/// NAME.heat.png, those that there are, none of a case that passed; what an earlier run left of the others goes.
-/// Returns what it wrote. Throws MachineError.
+/// NAME.heat.png (of the golden without text NAME.actual.plain.png, ...), those that there are, and its other fresh
+/// goldens as NAME.actual.draw.json, ...; none of a case that passed. What an earlier run left of the others goes.
+/// Returns what it wrote, pictures first. Throws MachineError.
 std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const std::filesystem::path& folder);
 
 }  // namespace mobbscope::picture_tests

@@ -9,14 +9,13 @@ Case read_case(const std::filesystem::path& file) {
     const std::string name = file.string();
     const JsonValue value = parse_json(read_file(file), name);
     const JsonPlace root(value, name);
-    root.allow_only({"$schema", "mobbscope_case", "tolerance", "skip", "scene", "fit", "view", "panels", "columns",
-                     "select", "size", "scale", "samples", "background", "window"});
+    root.allow_only({"$schema", "mobbscope_case", "tolerance", "threshold", "allowed", "mask", "draw_list", "skip",
+                     "scene", "fit", "view", "panels", "columns", "select", "size", "scale", "samples", "background",
+                     "window"});
     if (const auto schema = root.find("$schema")) schema->string();
-    CaseTerms terms = read_terms(root);
     Case out;
-    out.tolerance = terms.tolerance;
-    out.skip = std::move(terms.skip);
-    if (!out.skip) {
+    out.terms = read_terms(root, file.parent_path());
+    if (!out.terms.skip) {
         out.shot = read_shot(root, file.parent_path());
         out.shot.file = file;
     }

@@ -11,9 +11,8 @@
 namespace mobbscope::picture_tests {
 
 struct Case {
-    Shot shot;
-    Tolerance tolerance = Tolerance::tight;
-    std::optional<std::string> skip;  ///< why; the shot is then not read
+    Shot shot;  ///< of a case that is skipped nothing is read
+    CaseTerms terms;
 };
 
 /// Throws InputError.

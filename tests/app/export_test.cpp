@@ -111,6 +111,7 @@ TEST_F(ExportTest, TheLineOfACasesSceneDrawsWhatTheCaseShows) {
         "cases/one.case.json",
         R"({"mobbscope_case": 1, "scene": "../scene.json", "view": {"levels": "leaves"}, "fit": {"tree": "umobb"}})");
     std::filesystem::create_directories(folder.file("drawn"));
+    folder.write("drawn/report.json", R"({"mobbscope_report": 1, "cases": []})");
     session.review(folder.file("cases"), folder.file("drawn"));
     session.open_case(0);
     window->settle();

@@ -29,6 +29,7 @@ struct AsideWorld {
     AsideWorld() {
         fs::create_directories(folder.file("cases"));
         fs::create_directories(folder.file("drawn"));
+        folder.write("drawn/report.json", R"({"mobbscope_report": 1, "cases": []})");
         folder.write("cases/one.case.json", R"({"mobbscope_case": 1, "scene": "../scene.json", "size": "160x120"})");
         session.open({folder.scene});
         window.settle();
@@ -176,6 +177,7 @@ TEST(PutAside, JobsOfWhatIsPutAsideAreTakenInOnceItIsBack) {
     folder.write("long.csv", long_csv());
     fs::create_directories(folder.file("cases"));
     fs::create_directories(folder.file("drawn"));
+    folder.write("drawn/report.json", R"({"mobbscope_report": 1, "cases": []})");
     folder.write("cases/one.case.json", R"({"mobbscope_case": 1, "scene": "../scene.json", "size": "160x120"})");
     session.open({folder.file("long.csv")});
     wait_for_jobs(session);

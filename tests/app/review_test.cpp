@@ -355,18 +355,8 @@ TEST(Review, NamesMayBeginAsOptionsDo) {
 
 TEST(Review, WhatDoesNotGoWellIsAWarning) {
     ReviewWorld w;
-    const fs::path out = w.files.path() / "out";
-    ThreeCases::run("test '" + w.files.cases().string() + "' --output '" + out.string() + "'");
-    w.session.review(w.files.cases(), out);
-    w.files.write("moved.json", walkers("1.6"));
-    w.show("moved");
-    w.key("A");
-    ASSERT_NE(w.said().find("moved: is drawn otherwise here"), std::string::npos) << w.said();
-    EXPECT_EQ(w.session.messages().back().level, MessageLevel::warning);
-    EXPECT_EQ(w.session.unread(), 1u) << "the bell tells";
-
+    w.open();
     // One of several refuses: the others are accepted, and both is said.
-    w.key("Shift+R");
     w.files.write("moved.png", "other");
     w.key("Ctrl+A");
     w.key("Shift+A");
@@ -420,28 +410,6 @@ TEST(Review, SeveralOfAnEarlierRunAreOneStep) {
     EXPECT_FALSE(w.review().has_undo());
 }
 
-TEST(Review, WhatIsNotAcceptedAsTheRunFailsIsSaid) {
-    ReviewWorld w;
-    const fs::path out = w.files.path() / "out";
-    ThreeCases::run("test '" + w.files.cases().string() + "' --output '" + out.string() + "'");
-    const fs::path program = w.files.file("program");
-    fs::create_symlink(MOBBSCOPE_PROGRAM, program);
-    w.session.case_drawer.program = program;
-    w.session.review(w.files.cases(), out);
-    w.show("missing");
-    w.key("R");
-    ASSERT_FALSE(w.one("missing").from_output) << "it needs no drawing anew";
-    w.key("Ctrl+A");
-    fs::remove(program);
-    w.key("Shift+A");
-    EXPECT_FALSE(w.review().has_undo());
-    const std::vector<Message>& said = w.session.messages();
-    const auto told = std::ranges::find(said, "Not accepted: missing, moved", &Message::text);
-    ASSERT_NE(told, said.end()) << w.said();
-    EXPECT_EQ(told->level, MessageLevel::warning);
-    EXPECT_TRUE(std::ranges::any_of(said, [](const Message& m) { return m.level == MessageLevel::error; })) << "why";
-}
-
 TEST(Review, WhatIsBeingDrawnIsNotTakenBack) {
     const TempFolder folder;
     const ThreeCases files(folder.path());
@@ -468,21 +436,6 @@ TEST(Review, WhatIsBeingDrawnIsNotTakenBack) {
     review.draw({review.index_of("same")});
     EXPECT_TRUE(review.can_redo()) << "another case is being drawn";
     finished(review);
-}
-
-TEST(Review, WhatIsStoppedIsNotAccepted) {
-    const TempFolder folder;
-    const ThreeCases files(folder.path());
-    const fs::path out = files.path() / "out";
-    ThreeCases::run("test '" + files.cases().string() + "' --output '" + out.string() + "'");
-    const HeldDrawer drawer(files);
-    Review review(find_review(files.cases(), out), {.attended = true, .drawer = {drawer.program(), "auto"}});
-    review.accept({review.index_of("moved"), review.index_of("missing")});
-    ASSERT_TRUE(review.drawing());
-    review.cancel();
-    EXPECT_FALSE(review.has_undo());
-    EXPECT_EQ(outcome_name(review.cases()[review.index_of("moved")]), "different");
-    EXPECT_FALSE(fs::exists(files.file("missing.png")));
 }
 
 TEST(Review, ARunEndsWithIt) {
@@ -870,27 +823,29 @@ TEST(Review, TheScenesCommandsAreNotForPictureTests) {
     EXPECT_EQ(why_not(w.session, command_named("review.accept")), "no picture tests are shown");
 }
 
-TEST(Review, AnEarlierRunsPicturesAreTakenIfTheyAreStillTheSame) {
+TEST(Review, AReportsGoldensAreTakenByteByByteAndDrawNothing) {
     ReviewWorld w;
     const fs::path out = w.files.path() / "out";
-    EXPECT_NE(ThreeCases::run("test '" + w.files.cases().string() + "' --output '" + out.string() + "'"), 0);
-    w.session.review(w.files.cases(), out);
-    w.window->settle();
-    EXPECT_EQ(outcome_name(w.one("moved")), "different");
-    EXPECT_TRUE(w.one("moved").from_output);
-    EXPECT_EQ(w.one("same").state, ReviewCase::State::not_drawn);
-    w.show("moved");
-    w.key("A");
-    EXPECT_TRUE(w.one("moved").accepted) << w.said();
-    w.key("Ctrl+Z");
-
-    // Drawn otherwise now: it has to be looked at again.
-    w.session.review(w.files.cases(), out);
+    const std::string page = (w.files.path() / "page.html").string();
+    const std::string command =
+        "test '" + w.files.cases().string() + "' --output '" + out.string() + "' --html '" + page;
+    EXPECT_NE(ThreeCases::run(command + "'"), 0);
+    const std::string before = w.files.bytes("moved.png");
+    w.session.case_drawer.program = w.files.file("none");
     w.files.write("moved.json", walkers("1.6"));
-    w.show("moved");
-    w.key("A");
-    EXPECT_FALSE(w.one("moved").accepted);
-    EXPECT_NE(w.said().find("is drawn otherwise here"), std::string::npos) << w.said();
+    for (const fs::path& report : {out, fs::path(page)}) {
+        w.session.review(w.files.cases(), report);
+        w.window->settle();
+        EXPECT_EQ(outcome_name(w.one("moved")), "different");
+        EXPECT_TRUE(w.one("moved").from_output);
+        EXPECT_EQ(w.one("same").state, ReviewCase::State::not_drawn);
+        w.show("moved");
+        w.key("A");
+        EXPECT_TRUE(w.one("moved").accepted) << w.said();
+        EXPECT_EQ(w.files.bytes("moved.png"), mobbscope::testing::slurp(out / "moved.actual.png"));
+        w.key("Ctrl+Z");
+        EXPECT_EQ(w.files.bytes("moved.png"), before);
+    }
 }
 
 TEST(Review, ARunIsLiveAndCanBeStopped) {

@@ -12,7 +12,9 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
@@ -205,8 +207,9 @@ TEST_F(DrawnTestCommandTest, EachResultIsALineOfJson) {
     const std::vector<nlohmann::json> lines = json_lines(run.out);
     std::vector<std::pair<std::string, std::string>> told;
     for (const nlohmann::json& line : lines) {
-        for (const char* key : {"name", "outcome", "message", "tolerance", "other_here", "backend", "renderer", "diff",
-                                "findings", "actual", "golden", "fresh"}) {
+        for (const char* key :
+             {"name", "outcome", "message", "remarks", "tolerance", "decided_by", "other_here", "backend", "renderer",
+              "diff", "findings", "shown", "mask", "actual", "golden", "fresh"}) {
             EXPECT_TRUE(line.contains(key)) << key;
         }
         told.emplace_back(line["name"], line["outcome"]);
@@ -282,13 +285,220 @@ TEST_F(DrawnTestCommandTest, UpdateTakesWhatIsNamedAndNothingElse) {
     EXPECT_EQ(test({"path"}).status, 0);
 }
 
-TEST_F(DrawnTestCommandTest, UpdateWritesOnlyWhatDiffers) {
+TEST_F(DrawnTestCommandTest, UpdateOfAllWritesOnlyWhatDoesNotPass) {
     take_all();
     const auto time = std::filesystem::last_write_time(cases.path() / "path.png");
     const Result run = test({"--update", "all"});
     EXPECT_EQ(run.status, 0);
     EXPECT_FALSE(says(run.out, "wrote")) << run.out;
     EXPECT_EQ(std::filesystem::last_write_time(cases.path() / "path.png"), time);
+    // ... and the draw list that an older golden lacks.
+    std::filesystem::remove(cases.path() / "path.draw.json");
+    EXPECT_PRED2(says, test({"--update", "all"}).out, "wrote " + (cases.path() / "path.draw.json").string());
+    EXPECT_EQ(std::filesystem::last_write_time(cases.path() / "path.png"), time);
+}
+
+TEST_F(DrawnTestCommandTest, UpdateOfANameAlwaysWrites) {
+    take_all();
+    const std::string right = slurp(cases.path() / "path.png");
+    Image wrong = read_png(cases.path() / "path.png");
+    wrong.at(80, 60)[0] ^= 0x80;
+    write_png(cases.path() / "path.png", wrong);
+    const Result passes = test({"path"});
+    EXPECT_EQ(passes.status, 0);
+    EXPECT_PRED2(says, passes.out, "passed: path: 1 of 19200 pixels");
+    EXPECT_PRED2(says, passes.out, "within 1x1 at (80, 60); allowed: 4");
+    EXPECT_PRED2(says, passes.out, "1 of those that passed differs from the golden in some pixels");
+    const Result all = test({"--update", "all"});
+    EXPECT_PRED2(says, all.out, "passed: path: 1 of 19200 pixels") << "it is named";
+    EXPECT_NE(slurp(cases.path() / "path.png"), right);
+    EXPECT_PRED2(says, test({"--update", "path"}).out, "wrote " + (cases.path() / "path.png").string());
+    EXPECT_EQ(slurp(cases.path() / "path.png"), right);
+    EXPECT_PRED2(says, test({"--update", "p*"}).out, "wrote " + (cases.path() / "path.png").string());
+}
+
+TEST_F(DrawnTestCommandTest, AnOrphanedGoldenIsToldAndFailsAStrictRun) {
+    take_all();
+    cases.folder().write("lost.png", "");
+    const Result told = test();
+    EXPECT_EQ(told.status, 0);
+    EXPECT_PRED2(says, told.out, "orphaned golden: " + (cases.path() / "lost.png").string() + ": no case has it");
+    EXPECT_FALSE(says(test({"path"}).out, "orphaned")) << "where only some are run, nothing is said of the others";
+    const std::string junit = (output / "junit.xml").string();
+    EXPECT_EQ(test({"--strict", "--junit", junit}).status, 1);
+    EXPECT_PRED2(says, slurp(junit), "tests=\"3\" failures=\"1\"");
+    EXPECT_PRED2(says, slurp(junit), "lost.png: no case has it");
+    EXPECT_EQ(nlohmann::json::parse(test({"--json"}).out)["orphans"].size(), 1u);
+    std::filesystem::remove(cases.path() / "lost.png");
+    std::filesystem::create_directory(cases.path() / "kept");
+    cases.folder().write("kept/path.actual.png", slurp(cases.path() / "path.png"));
+    EXPECT_EQ(test({"--strict"}).status, 1);
+    const std::string inside = (cases.path() / "kept").string();
+    EXPECT_EQ(run_program({"test", cases.path().string(), "--strict", "--output", inside}).status, 0)
+        << "an earlier run left it";
+}
+
+TEST_F(DrawnTestCommandTest, AMaskOfAnotherSizeEndsTheRun) {
+    cases.add("path", R"("mask": "small.png")");
+    write_png(cases.path() / "small.png", Image(10, 10));
+    EXPECT_EQ(test({"path"}).status, 1) << "there is no golden yet";
+    write_png(cases.path() / "path.png", Image(160, 120));
+    expect_test_refused(test({"path"}), "small.png: the mask has 10x10 pixels and ");
+    cases.add("path", R"("mask": "small.png", "skip": "later")");
+    EXPECT_EQ(test({"path"}).status, 0) << "nothing is compared";
+}
+
+TEST_F(DrawnTestCommandTest, APictureOfAnotherSizeIsTakenWithTheMaskThatFitsIt) {
+    cases.add("path", R"("mask": "mask.png")");
+    Image mask(160, 120);
+    std::ranges::fill(mask.rgba, std::uint8_t{255});
+    write_png(cases.path() / "mask.png", mask);
+    write_png(cases.path() / "path.png", Image(80, 60));
+    expect_test_refused(test({"path"}), "mask.png: the mask has 160x120 pixels and ");
+    EXPECT_EQ(test({"--update", "path"}).status, 0);
+    EXPECT_EQ(test({"path"}).status, 0);
+}
+
+// --- from a report
+
+/// Goldens, and a report of a run that found the first case another, the second without a golden.
+class AcceptTest : public DrawnTestCommandTest {
+  protected:
+    void SetUp() override {
+        DrawnTestCommandTest::SetUp();
+        if (IsSkipped()) return;
+        ASSERT_EQ(test({"path", "--update", "all"}).status, 0);
+        before = slurp(cases.path() / "path.png");
+        cases.add("path", R"("view": {"levels": 0})");
+        ASSERT_EQ(test({"--html", page.string()}).status, 1);
+    }
+    Result accept(const std::filesystem::path& report, const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> all{"test", cases.path().string(), "--accept", report.string()};
+        all.insert(all.end(), more.begin(), more.end());
+        // As on a machine without OpenGL.
+        ::setenv("MESA_GL_VERSION_OVERRIDE", "2.1", 1);
+        Result run = run_program(all);
+        ::unsetenv("MESA_GL_VERSION_OVERRIDE");
+        return run;
+    }
+
+    /// What the draw list was that the report was held against.
+    std::string old_draw() const {
+        const nlohmann::json report = nlohmann::json::parse(slurp(output / "report.json"));
+        for (const nlohmann::json& fresh : report["cases"][0]["fresh"]) {
+            if (fresh["golden"] == ".draw.json") return from_base64(fresh["replaces"].get<std::string>()).value();
+        }
+        return "";
+    }
+
+    std::string before;
+    const std::filesystem::path page = output / "page.html";
+};
+
+TEST_F(AcceptTest, TakesThePicturesOfAReportByteByByte) {
+    for (const std::filesystem::path& report : {page, output, output / "report.json"}) {
+        cases.folder().write("path.png", before);
+        std::filesystem::remove(cases.path() / "query/end.png");
+        std::filesystem::remove(cases.path() / "query/end.draw.json");
+        const std::string draw = slurp(output / "path.actual.draw.json");
+        const Result run = accept(report);
+        EXPECT_EQ(run.status, 0) << run.err;
+        EXPECT_PRED2(says, run.out, "wrote " + (cases.path() / "path.png").string());
+        EXPECT_PRED2(says, run.out, "accepted 2 cases of ");
+        EXPECT_EQ(slurp(cases.path() / "path.png"), slurp(output / "path.actual.png"));
+        EXPECT_EQ(slurp(cases.path() / "path.draw.json"), draw);
+        EXPECT_EQ(slurp(cases.path() / "query/end.png"), slurp(output / "query/end.actual.png"));
+        EXPECT_EQ(accept(report).status, 0) << "twice is once";
+        cases.folder().write("path.draw.json", old_draw());
+    }
+}
+
+TEST_F(AcceptTest, OfSomeOfItsCases) {
+    EXPECT_EQ(accept(page, {"path"}).status, 0);
+    EXPECT_EQ(slurp(cases.path() / "path.png"), slurp(output / "path.actual.png"));
+    EXPECT_FALSE(exists("query/end.png"));
+    expect_test_refused(accept(page, {"pth"}), "there is no case 'pth'");
+    cases.add("fine");
+    expect_test_refused(accept(page, {"fine"}), "'fine' passed there, or was not drawn");
+}
+
+TEST_F(AcceptTest, LeavesAGoldenThatIsAnotherThanInTheReport) {
+    cases.folder().write("path.png", "somebody else's");
+    expect_test_refused(accept(page), "path.png: has changed on the disk");
+    EXPECT_EQ(slurp(cases.path() / "path.png"), "somebody else's");
+    EXPECT_FALSE(exists("query/end.png")) << "all or none";
+}
+
+TEST_F(AcceptTest, SaysWhatItCannotTake) {
+    std::filesystem::remove(cases.path() / "query/end.case.json");
+    const Result gone = accept(page);
+    EXPECT_EQ(gone.status, 1);
+    EXPECT_PRED2(says, gone.err, "query/end: not accepted: there is no such case");
+    EXPECT_EQ(slurp(cases.path() / "path.png"), slurp(output / "path.actual.png")) << "the others are taken";
+    cases.add("path", R"("veiw": {})");
+    EXPECT_EQ(test().status, 1);
+    const Result failed = accept(output);
+    EXPECT_EQ(failed.status, 1);
+    EXPECT_PRED2(says, failed.err, "path: not accepted: there is no picture of it");
+}
+
+TEST_F(AcceptTest, RefusesWhatIsNoReport) {
+    expect_test_refused(accept(cases.path() / "none.html"), "there is no report; give the folder");
+    expect_test_refused(accept(cases.path()), "report.json");
+    expect_test_refused(accept(cases.path() / "scene.json"), "scene.json");
+    cases.folder().write("old.json", R"({"mobbscope_report": 9, "cases": []})");
+    expect_test_refused(accept(cases.path() / "old.json"), "version 9; this program reads version 1");
+    std::string cut = slurp(page);
+    cut.resize(cut.find("mobbscope_report") + 200);
+    cases.folder().write("cut.html", cut);
+    expect_test_refused(accept(cases.path() / "cut.html"), "cut.html");
+    for (const char* other : {"--strict", "--json"}) expect_test_refused(accept(page, {other}), "--accept: ");
+    expect_test_refused(accept(page, {"--update", "all"}), "--accept: ");
+}
+
+TEST_F(AcceptTest, RefusesADamagedReportAndWritesNothing) {
+    const std::string whole = slurp(output / "report.json");
+    const std::string before_draw = slurp(cases.path() / "path.draw.json");
+    const auto expect_refused = [&](const nlohmann::json& report, const std::string& words) {
+        cases.folder().write("damaged.json", report.dump());
+        expect_test_refused(accept(cases.path() / "damaged.json"), words);
+        EXPECT_EQ(slurp(cases.path() / "path.png"), before);
+        EXPECT_EQ(slurp(cases.path() / "path.draw.json"), before_draw);
+        EXPECT_FALSE(exists("query/end.png"));
+    };
+    nlohmann::json report = nlohmann::json::parse(whole);
+    report["cases"].push_back(report["cases"][0]);
+    expect_refused(report, "/cases/2/name: the case 'path' stands there twice");
+    for (nlohmann::json::size_type i = 0; i < 2; ++i) {
+        report = nlohmann::json::parse(whole);
+        report["cases"][1]["fresh"][i]["bytes"] = base64("damaged");
+        expect_refused(report, i == 0 ? "end.png as it would be: " : "end.draw.json as it would be: ");
+    }
+    report = nlohmann::json::parse(whole);
+    report["cases"][1]["fresh"][0]["golden"] = ".case.json";
+    expect_refused(report, "/cases/1/fresh/0/golden: '.case.json' is no golden of a case");
+
+    std::string text = slurp(page);
+    text.replace(text.find("\"mobbscope_report\": 1"), 21, "\"mobbscope_report\": 9");
+    const auto line =
+        1 + std::count(text.begin(), text.begin() + static_cast<long>(text.find("mobbscope_report")), '\n');
+    cases.folder().write("other.html", text);
+    expect_test_refused(accept(cases.path() / "other.html"), "other.html: line " + std::to_string(line) + ',');
+    cases.folder().write("other.html", "<!DOCTYPE html>\n<html></html>");
+    expect_test_refused(accept(cases.path() / "other.html"), "other.html: is a page without a report");
+}
+
+TEST_F(AcceptTest, SaysThatAReportIsFromElsewhere) {
+    EXPECT_EQ(test({"--update", "all", "--new-reference"}).status, 0);
+    nlohmann::json reference = nlohmann::json::parse(slurp(cases.path() / "reference.json"));
+    reference["opengl"] = "Mesa 1.0.0, llvmpipe";
+    cases.folder().write("reference.json", reference.dump());
+    cases.add("path", R"("view": {"levels": 1})");
+    EXPECT_EQ(test().status, 1);
+    const Result run = accept(output);
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_PRED2(says, run.err, "path: the report is not from where its goldens are: it was drawn with ");
+    EXPECT_EQ(slurp(cases.path() / "path.png"), slurp(output / "path.actual.png"));
 }
 
 TEST_F(DrawnTestCommandTest, AFailedPictureNeverTouchesItsGolden) {
@@ -299,35 +509,33 @@ TEST_F(DrawnTestCommandTest, AFailedPictureNeverTouchesItsGolden) {
     EXPECT_EQ(slurp(cases.path() / "path.png"), before);
 }
 
-TEST_F(DrawnTestCommandTest, DrawListsAreHeldAndTakenWhereTheirFileIs) {
+TEST_F(DrawnTestCommandTest, DrawListsAreHeldAndTaken) {
     take_all();
-    cases.folder().write("path.draw.json", "");
-    EXPECT_EQ(test({"path"}).status, 1);
-    const Result run = test({"--update", "path"});
-    EXPECT_PRED2(says, run.out, "wrote " + (cases.path() / "path.draw.json").string());
-    EXPECT_FALSE(says(run.out, "path.png")) << "the picture is the golden's";
-    EXPECT_EQ(test().status, 0);
-
+    ASSERT_TRUE(exists("path.draw.json"));
     nlohmann::json list = nlohmann::json::parse(slurp(cases.path() / "path.draw.json"));
-    list["boxes"][0]["color"] = "other";
     list["disks"][1]["radius"] = 0.2;
     cases.folder().write("path.draw.json", list.dump());
     const Result differs = test({"path"});
     EXPECT_EQ(differs.status, 1);
-    EXPECT_PRED2(says, differs.out, "different: path: path.draw.json: /");
+    EXPECT_PRED2(says, differs.out, "different: path: path.draw.json: disk of A, sample 1, radius: 0.4 instead of 0.2");
+    cases.folder().write("path.draw.json", "");
+    EXPECT_EQ(test({"path"}).status, 1);
+    EXPECT_PRED2(says, test({"--update", "path"}).out, "wrote " + (cases.path() / "path.draw.json").string());
+    EXPECT_EQ(test().status, 0);
 }
 
 TEST_F(DrawnTestCommandTest, ANewReferenceIsThatOfAllGoldens) {
     const Result made = test({"--update", "all", "--new-reference"});
     EXPECT_EQ(made.status, 0) << made.out << made.err;
     for (const char* file :
-         {"path.png", "path.plain.png", "reference.json", "query/end.plain.png", "query/reference.json"}) {
+         {"path.png", "path.draw.json", "reference.json", "query/end.draw.json", "query/reference.json"}) {
         EXPECT_TRUE(exists(file)) << file;
     }
     const Result run = test();
     EXPECT_EQ(run.status, 0) << run.out << run.err;
     EXPECT_PRED2(says, run.out, "2 passed");
-    EXPECT_FALSE(says(run.out, "not compared")) << run.out;
+    EXPECT_FALSE(exists("path.plain.png")) << "the draw list holds it elsewhere";
+    EXPECT_FALSE(says(run.out, "decided:")) << run.out;
 
     cases.add("path", R"("view": {"levels": 0})");
     EXPECT_EQ(test().status, 1);
@@ -342,17 +550,19 @@ TEST_F(DrawnTestCommandTest, NoGoldenIsTakenElsewhere) {
     cases.folder().write("reference.json", reference.dump());
     const Result run = test();
     EXPECT_EQ(run.status, 0) << run.out << run.err;
-    EXPECT_PRED2(says, run.out, "Pixels of text are not compared: drawn with Dear ImGui ");
+    EXPECT_PRED2(says, run.out, "Drawn with Dear ImGui ");
+    EXPECT_PRED2(says, run.out, "decided: 1 by pixels");
 
     cases.add("path", R"("view": {"levels": 0})");
-    const std::string before = slurp(cases.path() / "path.plain.png");
+    const std::string before = slurp(cases.path() / "path.png");
     EXPECT_EQ(test().status, 1);
-    expect_test_refused(test({"--update", "path"}), " for 0.1; take them there, or all anew with");
+    expect_test_refused(test({"--update", "path"}),
+                        " for 0.1; take them there, or from the report of a job there with");
     expect_test_refused(test({"--update", "all"}), "reference.json says where the goldens are from");
-    EXPECT_EQ(slurp(cases.path() / "path.plain.png"), before);
+    EXPECT_EQ(slurp(cases.path() / "path.png"), before);
     EXPECT_EQ(test({"--update", "query/end"}).status, 0) << "its folder is from here";
     EXPECT_EQ(test({"--update", "all", "--new-reference"}).status, 0);
-    EXPECT_FALSE(says(test().out, "not compared"));
+    EXPECT_FALSE(says(test().out, "decided:"));
 }
 
 TEST_F(DrawnTestCommandTest, AReferenceIsNotSaidOfGoldensThatAreNotTaken) {

@@ -31,13 +31,15 @@ TEST_P(BackendsAgreeTest, OnEveryCase) {
         // Those in the picture are drawn by another process of the program, which this is not.
         if (file.name.starts_with("review/")) continue;
         const Case tested = read_case(file.file);
-        if (tested.skip) continue;
+        if (tested.terms.skip) continue;
         CaseResult result;
         result.file = file;
         result.actual = egl->make(tested.shot);
         result.golden = osmesa->make(tested.shot);
-        result.image = diff(result.actual, result.golden, diff_options(tested.tolerance));
-        if (result.image->same) continue;
+        result.image = diff(result.actual, result.golden, tested.terms.diff);
+        if (result.image->passes) continue;
+        result.outcome = CaseOutcome::different;
+        result.shown = file.golden();
         keep_pictures(result, MOBBSCOPE_KEPT_PICTURES);
         ADD_FAILURE() << file.name << ": " << result.image->differing << " pixels differ, by up to "
                       << result.image->largest << "/255; see " MOBBSCOPE_KEPT_PICTURES;

@@ -45,8 +45,8 @@ TEST(FindCases, AFolderWithoutCasesIsRefused) {
 TEST(ReadCase, TakesTheSceneAsItIsWhereTheCaseSaysNothing) {
     const CaseFolder cases;
     const Case read = read_case(cases.write("a", R"({"mobbscope_case": 1, "scene": "scene.json"})").file);
-    EXPECT_EQ(read.tolerance, Tolerance::tight);
-    EXPECT_FALSE(read.skip);
+    EXPECT_EQ(read.terms.tolerance, Tolerance::tight);
+    EXPECT_FALSE(read.terms.skip);
     ASSERT_EQ(read.shot.panels.size(), 1u);
     EXPECT_EQ(read.shot.panels[0].view.levels, (LevelRange{1, 1}));
     EXPECT_EQ(read.shot.panels[0].fitted->options().leaf, 2);
@@ -63,7 +63,7 @@ TEST(ReadCase, EachLayerSaysWhatIsOtherThanInTheOneBelow) {
         "panels": [{"title": "one"}, {"title": "two", "fit": {"leaf": 1}, "view": {"query": null, "levels": 0}},
                    {"fit": {"leaf": 1}}], "columns": 2)")
                       .file);
-    EXPECT_EQ(read.tolerance, Tolerance::loose);
+    EXPECT_EQ(read.terms.tolerance, Tolerance::loose);
     EXPECT_EQ(read.shot.picture.scale, 2);
     EXPECT_EQ(read.shot.picture.samples, 8);
     EXPECT_EQ(read.shot.picture.background->r, 1);
@@ -82,11 +82,51 @@ TEST(ReadCase, EachLayerSaysWhatIsOtherThanInTheOneBelow) {
     EXPECT_EQ(panels[2].fitted, panels[1].fitted) << "equal fits are made once";
 }
 
+TEST(ReadCase, WhatMayDifferAndWhereIsTheCasesOwn) {
+    const CaseFolder cases;
+    const Case plain = read_case(cases.add("plain").file);
+    EXPECT_EQ(plain.terms.diff.allowed(640 * 360), 4);
+    EXPECT_EQ(plain.terms.diff.channel_tolerance, 3);
+    EXPECT_FALSE(plain.terms.mask);
+    EXPECT_TRUE(plain.terms.draw_list);
+    const Case own = read_case(
+        cases.add("own", R"("threshold": "2%", "allowed": "12px", "mask": "own.mask.png", "draw_list": false)").file);
+    EXPECT_DOUBLE_EQ(own.terms.diff.channel_tolerance, 5.1);
+    EXPECT_EQ(own.terms.diff.allowed(640 * 360), 12);
+    EXPECT_EQ(own.terms.mask, cases.path() / "own.mask.png");
+    EXPECT_FALSE(own.terms.draw_list);
+    const Case loose = read_case(cases.add("loose", R"("tolerance": "loose", "threshold": 4, "allowed": 0.001)").file);
+    EXPECT_EQ(loose.terms.diff.shift, 1);
+    EXPECT_EQ(loose.terms.diff.channel_tolerance, 4);
+    EXPECT_EQ(loose.terms.diff.allowed(10'000), 10);
+    for (const char* bad :
+         {R"("threshold": 300)", R"("allowed": 12)", R"("allowed": "many")", R"("mask": 1)", R"("draw_list": "no")"}) {
+        EXPECT_THROW(read_case(cases.add("bad", bad).file), InputError) << bad;
+    }
+}
+
+TEST(OrphanedGoldens, AreThoseThatNoCaseHas) {
+    const CaseFolder cases;
+    cases.add("kept", R"("mask": "mask.png")");
+    for (const char* file : {"kept.png", "kept.draw.json", "kept.plain.png", "mask.png", "lost.png", "gone.draw.json",
+                             "gone.plain.state.json", "notes.txt"}) {
+        cases.folder().write(file, "");
+    }
+    std::filesystem::create_directories(cases.path() / "deeper");
+    std::filesystem::create_directories(cases.path() / "report");
+    cases.folder().write("deeper/lost.plain.png", "");
+    cases.folder().write("report/report.json", "");
+    cases.folder().write("report/kept.actual.png", "");
+    const std::filesystem::path& at = cases.path();
+    EXPECT_EQ(orphaned_goldens(at, find_cases(at)), (std::vector{at / "deeper/lost.plain.png", at / "gone.draw.json",
+                                                                 at / "gone.plain.state.json", at / "lost.png"}));
+}
+
 TEST(ReadCase, ThatIsSkippedDoesNotNeedItsScene) {
     const CaseFolder cases;
     const Case read =
         read_case(cases.write("a", R"({"mobbscope_case": 1, "scene": "later.json", "skip": "waits"})").file);
-    EXPECT_EQ(read.skip, "waits");
+    EXPECT_EQ(read.terms.skip, "waits");
 }
 
 TEST(ReadCase, ReadsTheScriptOfAWindow) {

@@ -28,6 +28,7 @@ CaseResult result_of(const CaseFile& file, CaseOutcome outcome, const Image& act
     result.file = file;
     result.outcome = outcome;
     result.message = "why";
+    result.shown = file.golden();
     result.actual = actual;
     result.golden = golden;
     if (!golden.rgba.empty()) result.image = diff(actual, golden);

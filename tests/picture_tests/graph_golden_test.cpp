@@ -2,6 +2,7 @@
 // case of it.
 #include <cases/case_file.h>
 #include <picture_tests/reference.h>
+#include <render/image/image_diff.h>
 #include <render/image/png.h>
 #include <render/pictures/graph_picture.h>
 
@@ -24,7 +25,7 @@ void expect_golden(const Image& drawn, const std::string& file, Tolerance tolera
     const std::filesystem::path actual = std::filesystem::path(MOBBSCOPE_KEPT_PICTURES) / file;
     std::filesystem::create_directories(actual.parent_path());
     write_png(actual, drawn);
-    EXPECT_TRUE(std::filesystem::exists(golden) && diff(drawn, read_png(golden), diff_options(tolerance)).same)
+    EXPECT_TRUE(std::filesystem::exists(golden) && diff(drawn, read_png(golden), diff_options(tolerance)).passes)
         << "look at " << actual << "; if it is right, copy it to " << golden;
 }
 

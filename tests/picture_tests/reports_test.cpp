@@ -203,19 +203,20 @@ TEST(Reports, PicturesOfTwoSizesAreComparedByEye) {
               "command mobbscope test 'my pictures' --update sizes\n");
 }
 
-TEST(Reports, SayOnceWhyPixelsOfTextAreNotCompared) {
-    std::vector<CaseResult> results{passed("a"), passed("b")};
+TEST(Reports, SayOnceByWhatWasDecidedOnAnotherSystem) {
+    std::vector<CaseResult> results{passed("a"), passed("b"), passed("c")};
     const std::string sentence =
-        "Pixels of text are not compared: drawn with Dear ImGui 2 for 1 (my pictures/reference.json)";
+        "Drawn with Dear ImGui 2 for 1 (my pictures/reference.json); decided: 1 by pixels, 2 by draw list";
     for (const Writer writer : {write_text, write_json, write_junit, write_html}) {
-        EXPECT_EQ(times(written(writer, results), "not compared"), 0u);
+        EXPECT_EQ(times(written(writer, results), "decided:"), 0u);
     }
     for (CaseResult& result : results) result.other_here = "Dear ImGui 2 for 1";
+    results[1].decided_by = results[2].decided_by = DecidedBy::draw_list;
     for (const Writer writer : {write_text, write_json, write_junit, write_html}) {
         EXPECT_EQ(times(written(writer, results), sentence), 1u);
     }
     EXPECT_EQ(times(written(write_text, results), "\n"), 2u);
-    EXPECT_EQ(nlohmann::json::parse(written(write_json, results))["not_compared"], nlohmann::json{sentence});
+    EXPECT_EQ(nlohmann::json::parse(written(write_json, results))["other_system"], nlohmann::json{sentence});
     parsed(written(write_junit, results), "junit");
     parsed(written(write_html, results), "html");
 
@@ -224,6 +225,44 @@ TEST(Reports, SayOnceWhyPixelsOfTextAreNotCompared) {
     for (const Writer writer : {write_text, write_json, write_junit, write_html}) {
         EXPECT_EQ(times(written(writer, results), "--update"), 0u) << "goldens are not taken here";
     }
+}
+
+TEST(Reports, APassWithPixelsThatDifferIsSaidAndCanBeSorted) {
+    CaseResult some = passed("some");
+    some.golden.at(2, 3)[0] = 200;
+    some.image = diff(some.actual, some.golden, {.pixel_fraction = 0});
+    some.remarks = {what_differs(*some.image)};
+    const std::vector<CaseResult> results{passed("none"), some};
+    EXPECT_EQ(written(write_text, results),
+              "passed: some: 1 of 64 pixels (1.6 %) differs by more than 3/255, up to 170/255, within 1x1 at (2, 3); "
+              "allowed: 4\n"
+              "my pictures: 2 passed; drawn by osmesa, llvmpipe (LLVM 15.0.6, 256 bits)\n"
+              "1 of those that passed differs from the golden in some pixels, by up to 170 of 255\n");
+    const auto json = nlohmann::json::parse(written(write_json, results));
+    EXPECT_EQ(json["cases"][1]["remarks"].size(), 1u);
+    EXPECT_EQ(json["cases"][1]["diff"]["same"], false);
+    EXPECT_EQ(json["cases"][1]["diff"]["passes"], true);
+    const std::string page = written(write_html, results);
+    EXPECT_EQ(times(page, "data-name=\"some\" data-pixels=\"1\" data-largest=\"170\""), 1u);
+    EXPECT_EQ(times(page, "1 pixel, up to 170 of 255"), 1u);
+    EXPECT_EQ(times(written(write_junit, results), "<system-out>1 of 64 pixels"), 1u);
+    parsed(page, "html");
+    parsed(written(write_junit, results), "junit");
+}
+
+TEST(Reports, OrphansAreToldAndFailAStrictRun) {
+    RunFacts facts = kFacts;
+    facts.orphans = {"my pictures/lost.png"};
+    const std::vector<CaseResult> results{passed("a")};
+    EXPECT_EQ(times(written(write_text, results, facts), "orphaned golden: my pictures/lost.png: no case has it"), 1u);
+    EXPECT_TRUE(is_ok(facts, results));
+    EXPECT_EQ(times(written(write_junit, results, facts), "<failure"), 0u);
+    facts.strict = true;
+    EXPECT_FALSE(is_ok(facts, results));
+    const std::string junit = written(write_junit, results, facts);
+    EXPECT_EQ(times(junit, "tests=\"2\" failures=\"1\""), 2u);
+    parsed(junit, "junit");
+    EXPECT_EQ(times(written(write_html, results, facts), "<h1>1 golden has no case</h1>"), 1u);
 }
 
 TEST(Reports, AreTheSameEveryTime) {

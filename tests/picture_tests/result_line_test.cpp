@@ -2,7 +2,6 @@
 #include <base/base64.h>
 #include <cases/golden_change.h>
 #include <cases/result_line.h>
-#include <render/drawlist/draw_list_json.h>
 #include <render/image/png.h>
 #include <support/input_error.h>
 
@@ -12,7 +11,6 @@
 
 #include <sstream>
 #include <string>
-#include <vector>
 
 namespace mobbscope::picture_tests {
 namespace {
@@ -69,6 +67,53 @@ TEST(ResultLine, IsReadAsItIsWritten) {
     EXPECT_NE(input_error([&] { read_result_line(line.str(), {}); }), "");
 }
 
+/// As a report from elsewhere could have it.
+std::string line_with(const CaseFile& file, const std::string& golden, const std::string& other, const char* bytes) {
+    std::ostringstream line;
+    CaseResult result;
+    result.file = file;
+    result.outcome = CaseOutcome::different;
+    result.fresh = {{file.beside(golden), bytes, {}}, {file.beside(other), "{}", {}}};
+    write_result_line(line, result, {"osmesa", "llvmpipe"});
+    return line.str();
+}
+
+TEST(ResultLine, NamesNoFileButGoldensOfItsCase) {
+    const CaseFolder cases;
+    const CaseFile file = cases.add("a");
+    for (const char* golden : {".png", ".plain.png", ".plain.state.json"}) {
+        EXPECT_EQ(read_result_line(line_with(file, golden, ".draw.json", "new"), {file}).result.fresh[0].file,
+                  file.beside(golden));
+    }
+    for (const char* other : {".case.json", ".sh", ".PNG", "b.png", ""}) {
+        EXPECT_NE(input_error([&] {
+                      read_result_line(line_with(file, other, ".png", "new"), {file});
+                  }).find("is no golden of a case"),
+                  std::string::npos)
+            << other;
+    }
+    for (const char* key : {"shown", "golden"}) {
+        std::string line = line_with(file, ".png", ".draw.json", "new");
+        const std::string there = key == std::string("shown") ? R"("shown": "")" : R"("golden": ".png")";
+        ASSERT_NE(line.find(there), std::string::npos);
+        line.replace(line.find(there), there.size(), '"' + std::string(key) + R"(": "/../../b.png")");
+        EXPECT_NE(input_error([&] { read_result_line(line, {file}); }).find("'/../../b.png' is no golden of a case"),
+                  std::string::npos);
+    }
+    EXPECT_NE(input_error([&] { read_result_line(line_with(file, ".png", ".png", "new"), {file}); }).find("twice"),
+              std::string::npos);
+}
+
+TEST(ResultLine, HasItsMaskRelativeToTheCase) {
+    const CaseFolder there, here;
+    CaseResult result;
+    result.file = there.add("sub/a");
+    result.mask = there.path() / "sub/masks/a.png";
+    std::ostringstream line;
+    write_result_line(line, result, {"osmesa", "llvmpipe"});
+    EXPECT_EQ(read_result_line(line.str(), {here.add("sub/a")}).result.mask, here.path() / "sub/masks/a.png");
+}
+
 TEST(GoldenChange, IsTakenBackToTheByteAndRefusedWhereAnotherWas) {
     const CaseFolder cases;
     const CaseFile file = cases.add("a");
@@ -78,18 +123,6 @@ TEST(GoldenChange, IsTakenBackToTheByteAndRefusedWhereAnotherWas) {
     EXPECT_NE(input_error([&] { write_goldens(changes); }).find("has changed on the disk"), std::string::npos);
     write_goldens(taken_back(changes));
     EXPECT_FALSE(std::filesystem::exists(file.golden()));
-}
-
-TEST(DifferencesInWords, NameWhatIsOther) {
-    const std::string golden = R"({"participants": ["A", "B"], "camera": {"eye": [1, 2, 3]},
-        "boxes": [{"participant": 1, "node": 3, "extents": [1, 2]}], "texts": [{"text": "hi", "at": [0, 0]}]})";
-    const std::string actual = R"({"participants": ["A", "B"], "camera": {"eye": [1, 5, 6]},
-        "boxes": [{"participant": 1, "node": 3, "extents": [4, 2]}], "texts": [{"text": "hi", "at": [9, 0]}]})";
-    const auto words = [&](std::size_t most) { return differences_in_words(actual, "a", golden, "b", most); };
-    EXPECT_EQ(words(9),
-              (std::vector<std::string>{"camera, eye: 5 instead of 2", "box of B, node 3, extents: 4 instead of 1",
-                                        "text 'hi', at: 9 instead of 0"}));
-    EXPECT_EQ(words(1), (std::vector<std::string>{"camera, eye: 5 instead of 2", "and 2 more"}));
 }
 
 }  // namespace

@@ -25,8 +25,9 @@ TEST(DiffJson, HasAllFigures) {
     write_diff(out, report_difference(231, 87, {3, 0.001, 1}));
     const auto json = nlohmann::json::parse(text.str());
     EXPECT_EQ(testing::keys(json),
-              (std::set<std::string>{"same", "same_size", "size_a", "size_b", "pixels", "failing", "fraction",
-                                     "maximum", "mean", "bounds", "histogram", "threshold", "allowed", "shift"}));
+              (std::set<std::string>{"same", "passes", "same_size", "size_a", "size_b", "pixels", "unequal", "failing",
+                                     "fraction", "maximum", "mean", "unequal_bounds", "bounds", "histogram",
+                                     "threshold", "allowed", "least_pixels", "allowed_pixels", "shift"}));
     EXPECT_EQ(json["same"], false);
     EXPECT_EQ(json["same_size"], true);
     EXPECT_EQ(json["size_b"], nlohmann::json({640, 360}));
@@ -58,15 +59,16 @@ TEST(DiffJson, WithoutDifferencesThereAreNoBounds) {
 TEST(DiffSentence, SaysWhatWasFound) {
     EXPECT_EQ(diff_sentence(report_difference(412, 87)),
               "different: 412 of 230400 pixels (0.18 %) differ by more than 3/255, up to 87/255, within 412x1 at (12, "
-              "3); allowed: 230");
+              "3); allowed: 4");
     EXPECT_EQ(diff_sentence(report_difference(1, 87)),
-              "same: 1 of 230400 pixels (0.00043 %) differs by more than 3/255, up to 87/255, within 1x1 at (12, 3); "
-              "allowed: 230");
-    EXPECT_EQ(diff_sentence(report_difference(60000, 87, {2.5, 0})),
+              "passes: 1 of 230400 pixels (0.00043 %) differs by more than 3/255, up to 87/255, within 1x1 at (12, 3); "
+              "allowed: 4");
+    EXPECT_EQ(diff_sentence(report_difference(60000, 87, {2.5, 0, 0, 0})),
               "different: 60000 of 230400 pixels (26 %) differ by more than 2.5/255, up to 87/255, within 600x100 at "
               "(12, 3); allowed: 0");
-    EXPECT_EQ(diff_sentence(report_difference(5, 2)),
-              "same: none of 230400 pixels differs by more than 3/255, the most by 2/255");
+    EXPECT_EQ(
+        diff_sentence(report_difference(5, 2)),
+        "passes: none of 230400 pixels differs by more than 3/255; 5 differ by up to 2/255, within 5x1 at (12, 3)");
     EXPECT_EQ(diff_sentence(report_difference(0, 0)), "same: none of 230400 pixels differs");
     EXPECT_EQ(diff_sentence(diff(Image(2, 3), Image(4, 5))), "different: the sizes are 2x3 and 4x5");
 }

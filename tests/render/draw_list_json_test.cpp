@@ -4,7 +4,6 @@
 #include "render/backends.h"
 #include "render/pictures.h"
 #include "render/scenes.h"
-#include "support/input_error.h"
 #include "support/json_keys.h"
 
 #include <gtest/gtest.h>
@@ -27,10 +26,6 @@ using testing::kGoldenSize;
 using testing::text_of;
 
 using nlohmann::json;
-
-std::optional<std::string> difference(const std::string& actual, const std::string& golden) {
-    return first_difference(actual, "actual.json", golden, "golden.json");
-}
 
 /// Levels or a query, both with a time cursor: disks, boxes of nodes and others, lines of all kinds.
 DrawList levels() {
@@ -207,53 +202,6 @@ TEST(IdPicture, HasRoomForEveryNumber) {
     }
     const Image picture = id_picture(list, ids);
     EXPECT_EQ(picture.rgba, (std::vector<std::uint8_t>{1, 0x11, 0x70, 255, 0, 0, 0, 255})) << "a stranger is nothing";
-}
-
-TEST(FirstDifference, OfEqualListsThereIsNone) {
-    EXPECT_EQ(difference(text_of(levels()), text_of(levels())), std::nullopt);
-    EXPECT_EQ(difference(R"({"a": [1, null, true, "x"], "b": {}})", R"({"b": {}, "a": [1.00005, null, true, "x"]})"),
-              std::nullopt);
-}
-
-TEST(FirstDifference, NamesThePlaceAndBothValues) {
-    const auto check = [](const std::string& actual, const std::string& golden, const std::string& message) {
-        EXPECT_EQ(difference(actual, golden), message);
-    };
-    check(R"({"boxes": [1, {"extents": [[1, 2], [1.02]]}]})", R"({"boxes": [1, {"extents": [[1, 2], [1]]}]})",
-          "/boxes/1/extents/1/0: 1.02 instead of 1");
-    check(R"({"a": 0.0002})", R"({"a": 0})", "/a: 0.0002 instead of 0");
-    check(R"({"a": 10002})", R"({"a": 10000})", "/a: 10002 instead of 10000");
-    check(R"({"a": "B"})", R"({"a": "A"})", "/a: 'B' instead of 'A'");
-    check(R"({"a": false})", R"({"a": true})", "/a: false instead of true");
-    check(R"({"a": null})", R"({"a": 1})", "/a: null instead of 1");
-    check(R"({"a": {}})", R"({"a": []})", "/a: an object instead of an array");
-    check(R"({"a": 1})", R"({"a": 1, "b/c": 2})", "/b~1c: missing");
-    check(R"({"a": 1, "b": 2})", R"({"a": 1})", "/b: not expected");
-    check(R"({"ids": [2, 3], "disks": [1]})", R"({"ids": [1, 2], "disks": [1, 2]})", "/disks: 1 element instead of 2");
-    check("[[1, 2]]", "[[1]]", "/0: 2 elements instead of 1");
-    check("1", "2", "the whole: 1 instead of 2");
-    const std::string same(500, 'x');
-    EXPECT_TRUE(difference('"' + same + "a\"", '"' + same + "b\"")) << "beyond what a message quotes";
-}
-
-TEST(FirstDifference, NumbersAgreeWithinATenThousandth) {
-    EXPECT_EQ(difference("10000.9", "10000"), std::nullopt);
-    EXPECT_EQ(difference("-0.00009", "0"), std::nullopt);
-    EXPECT_TRUE(difference("-10002", "10000.9"));
-    EXPECT_TRUE(difference("-1", "1"));
-}
-
-TEST(FirstDifference, RasterisersMayDifferByAFewPixels) {
-    EXPECT_EQ(difference(R"({"pixels": 16})", R"({"pixels": 0})"), std::nullopt);
-    EXPECT_EQ(difference(R"({"pixels": 10090})", R"({"pixels": 10000})"), std::nullopt);
-    EXPECT_TRUE(difference(R"({"pixels": 17})", R"({"pixels": 0})"));
-    EXPECT_TRUE(difference(R"({"pixels": 10000})", R"({"pixels": 10200})"));
-    EXPECT_TRUE(difference(R"({"sample": 16})", R"({"sample": 0})"));
-}
-
-TEST(FirstDifference, WhatIsNoJsonIsNamed) {
-    EXPECT_NE(testing::input_error([] { difference("{", "{}"); }).find("actual.json"), std::string::npos);
-    EXPECT_NE(testing::input_error([] { difference("{}", "{]"); }).find("golden.json"), std::string::npos);
 }
 
 }  // namespace

@@ -14,6 +14,9 @@ namespace {
 
 using testing::filled;
 
+/// No pixel may differ.
+constexpr DiffOptions kNone{3, 0, 0, 0};
+
 Image grey(int width, int height) { return filled(width, height, 100); }
 
 void paint(Image& image, PixelRect where, std::uint8_t level) {
@@ -40,10 +43,10 @@ TEST(ImageDiff, SmallDifferencesCountAsEqual) {
     for (std::size_t i = 0; i < actual.rgba.size(); ++i)
         actual.rgba[i] = static_cast<std::uint8_t>(i % 4 == 3 ? 252 : 103);
     const ImageDiff result = diff(actual, reference);
-    EXPECT_TRUE(result.same);
+    EXPECT_TRUE(result.passes);
     EXPECT_EQ(result.differing, 0);
     EXPECT_EQ(result.largest, 3);
-    EXPECT_FALSE(diff(actual, reference, {2.9, 0.001}).same);
+    EXPECT_FALSE(diff(actual, reference, {2.9, 0.001}).passes);
     EXPECT_EQ(diff(actual, reference, {2.9, 0.001}).differing, 10000);
 }
 
@@ -60,25 +63,64 @@ TEST(ImageDiff, EachChannelCounts) {
     }
 }
 
-TEST(ImageDiff, AThousandthOfThePixelsMayDiffer) {
+TEST(ImageDiff, FourPixelsOrTwentyOfAMillionMayDiffer) {
     const Image reference = grey(100, 100);
     Image actual = reference;
-    for (int i = 0; i < 10; ++i) actual.at(i, 0)[1] = 0;
-    EXPECT_TRUE(diff(actual, reference).same);
-    actual.at(10, 0)[1] = 0;
+    for (int i = 0; i < 4; ++i) actual.at(i, 0)[1] = 0;
+    const ImageDiff enough = diff(actual, reference);
+    EXPECT_TRUE(enough.passes);
+    EXPECT_FALSE(enough.same) << "some bytes differ";
+    actual.at(4, 0)[1] = 0;
     const ImageDiff result = diff(actual, reference);
-    EXPECT_FALSE(result.same);
-    EXPECT_EQ(result.differing, 11);
+    EXPECT_FALSE(result.passes);
+    EXPECT_EQ(result.differing, 5);
     EXPECT_EQ(result.largest, 100);
-    EXPECT_DOUBLE_EQ(result.fraction(), 0.0011);
+    EXPECT_DOUBLE_EQ(result.fraction(), 0.0005);
+    EXPECT_EQ(DiffOptions{}.allowed(640 * 360), 4);
+    EXPECT_EQ(DiffOptions{}.allowed(1920 * 1080), 41);
+    EXPECT_EQ(DiffOptions{}.allowed(64 * 64), 4);
+    EXPECT_EQ(DiffOptions{}.allowed(32 * 32), 1) << "a thousandth of a small picture";
+    EXPECT_FALSE(diff(grey(2, 2), filled(2, 2, 0)).passes) << "all of it differs";
 }
 
 TEST(ImageDiff, TheAllowedShareIsExact) {
-    for (int side = 1; side < 200; ++side) {
-        ImageDiff result;
-        result.pixels = 1000LL * side;
-        EXPECT_EQ(result.allowed(), side);
+    for (int side = 1; side < 200; ++side) EXPECT_EQ((DiffOptions{3, 0.001, 0, 0}.allowed(1000LL * side)), side);
+}
+
+TEST(ImageDiff, AnAllowanceIsANumberOfPixelsOrAShare) {
+    const auto allowed = [](const std::string& text, std::int64_t pixels) {
+        DiffOptions options;
+        set_allowance(options, text);
+        return options.allowed(pixels);
+    };
+    EXPECT_EQ(allowed("12px", 100), 12);
+    EXPECT_EQ(allowed("0px", 1'000'000), 0);
+    EXPECT_EQ(allowed("50ppm", 1'000'000), 50);
+    EXPECT_EQ(allowed("0.1%", 5000), 5);
+    EXPECT_EQ(allowed("0.001", 5000), 5);
+    for (const char* bad : {"", "1", "12", "1.5px", "-1px", "px", "nanpx", "101%", "-1ppm", "1e9ppm"}) {
+        EXPECT_THROW(allowed(bad, 1), std::invalid_argument) << bad;
     }
+}
+
+TEST(ImageDiff, SameIsOnlyWhatNoByteDiffersIn) {
+    const Image reference = filled(10, 10, 100, 0);
+    Image actual = reference;
+    actual.at(3, 4)[0] = 7;  // nobody sees it
+    const ImageDiff hidden = diff(actual, reference);
+    EXPECT_TRUE(hidden.passes);
+    EXPECT_FALSE(hidden.same);
+    EXPECT_EQ(hidden.unequal, 0);
+    EXPECT_EQ(diff_sentence(hidden),
+              "passes: none of 100 pixels looks different; colours under transparent ones differ");
+    Image noisy = grey(10, 10);
+    noisy.at(3, 4)[0] = 102;
+    noisy.at(5, 4)[0] = 101;
+    const ImageDiff noise = diff(noisy, grey(10, 10));
+    EXPECT_EQ(noise.unequal, 2);
+    EXPECT_EQ(noise.unequal_bounds, (PixelRect{3, 4, 3, 1}));
+    EXPECT_EQ(diff_sentence(noise),
+              "passes: none of 100 pixels differs by more than 3/255; 2 differ by up to 2/255, within 3x1 at (3, 4)");
 }
 
 TEST(ImageDiff, TellsHowMuchAndWhere) {
@@ -107,7 +149,7 @@ TEST(ImageDiff, PicturesOfDifferentSizesDiffer) {
     EXPECT_EQ(result.heat.width, 0);
     EXPECT_EQ(result.actual_size, (PictureSize{10, 10}));
     EXPECT_EQ(result.reference_size, (PictureSize{10, 11}));
-    EXPECT_FALSE(diff(grey(11, 10), grey(10, 11), {255, 1, 1}).same);
+    EXPECT_FALSE(diff(grey(11, 10), grey(10, 11), {255, 1, 1}).passes);
 }
 
 TEST(ImageDiff, ColourThatNobodySeesIsNoDifference) {
@@ -133,8 +175,8 @@ TEST(ImageDiff, AShiftOfOnePixelIsForgivenInAnyDirection) {
                 Image actual = grey(40, 40);
                 paint(actual, moved, 255);
                 const bool near = std::max(std::abs(dx), std::abs(dy)) <= 1;
-                EXPECT_EQ(diff(actual, reference, {3, 0, 1}).same, near) << name << ' ' << dx << ' ' << dy;
-                EXPECT_EQ(diff(actual, reference, {3, 0, 0}).same, dx == 0 && dy == 0) << name;
+                EXPECT_EQ(diff(actual, reference, {3, 0, 1, 0}).passes, near) << name << ' ' << dx << ' ' << dy;
+                EXPECT_EQ(diff(actual, reference, {3, 0, 0, 0}).passes, dx == 0 && dy == 0) << name;
             }
         }
     }
@@ -157,17 +199,17 @@ TEST(ImageDiff, OnlyTheMaskIsCompared) {
     actual.at(9, 9)[0] = 255;
     Image mask = filled(10, 10, 255);
     paint(mask, {0, 0, 5, 10}, 0);
-    const ImageDiff result = diff(actual, reference, {3, 0}, &mask);
+    const ImageDiff result = diff(actual, reference, kNone, &mask);
     EXPECT_EQ(result.pixels, 50);
     EXPECT_EQ(result.differing, 1);
     EXPECT_EQ(result.bounds, (PixelRect{9, 9, 1, 1}));
     EXPECT_DOUBLE_EQ(result.mean, 155 / 50.0);
-    EXPECT_FALSE(result.same);
+    EXPECT_FALSE(result.passes);
     mask.at(9, 9)[3] = 0;
-    EXPECT_TRUE(diff(actual, reference, {3, 0}, &mask).same) << "transparent";
+    EXPECT_TRUE(diff(actual, reference, kNone, &mask).same) << "transparent";
     mask.at(9, 9)[3] = 1;
     std::fill_n(mask.at(9, 9), 2, std::uint8_t{0});
-    EXPECT_FALSE(diff(actual, reference, {3, 0}, &mask).same) << "neither black nor transparent";
+    EXPECT_FALSE(diff(actual, reference, kNone, &mask).passes) << "neither black nor transparent";
     const Image other = grey(10, 11);
     EXPECT_THROW(diff(actual, reference, {}, &other), std::invalid_argument);
 }

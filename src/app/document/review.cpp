@@ -38,59 +38,6 @@ std::shared_ptr<const Image> picture_from(const std::string& png) {
     return std::make_shared<const Image>(read_png_bytes(png));
 }
 
-bool same_size(const Image& a, const Image& b) { return a.width == b.width && a.height == b.height; }
-
-bool same_picture(const std::string& a, const std::string& b) {
-    if (a == b) return true;
-    if (a.empty() || b.empty()) return false;
-    const Image first = read_png_bytes(a);
-    const Image second = read_png_bytes(b);
-    return same_size(first, second) && first.rgba == second.rgba;
-}
-
-/// Which of the case's two goldens a picture was held against: the one of its size.
-std::filesystem::path golden_like(const CaseFile& file, const std::shared_ptr<const Image>& actual) {
-    std::error_code ignored;
-    if (!actual || !std::filesystem::exists(file.plain(), ignored)) return file.golden();
-    try {
-        const auto golden = picture_of(file.golden());
-        const auto plain = picture_of(file.plain());
-        if (plain && same_size(*plain, *actual) && !(golden && same_size(*golden, *actual))) return file.plain();
-    } catch (const InputError&) {
-        // What cannot be read is told where it is shown.
-    }
-    return file.golden();
-}
-
-PackedResult read_output_of(const CaseFile& file, const std::filesystem::path& picture) {
-    PackedResult out;
-    try {
-        out.tolerance = picture_tests::read_terms(file).tolerance;
-        out.actual = read_file(picture);
-        const auto actual = picture_of(picture);
-        const std::filesystem::path golden_file = golden_like(file, actual);
-        if (golden_file == file.plain()) out.tolerance = picture_tests::Tolerance::loose;
-        const auto golden = picture_of(golden_file);
-        if (!golden) {
-            out.outcome = CaseOutcome::missing_golden;
-            out.message = "there is no golden " + golden_file.string();
-            return out;
-        }
-        out.golden = read_file(golden_file);
-        const ImageDiff found = diff(*actual, *golden, diff_options(out.tolerance));
-        out.figures = picture_tests::figures_of(found);
-        if (found.same) return out;
-        out.outcome = CaseOutcome::different;
-        out.message = what_differs(found);
-        out.findings.push_back({golden_file, out.message, {}});
-    } catch (const InputError& error) {
-        out = {};
-        out.outcome = CaseOutcome::failed;
-        out.message = error.what();
-    }
-    return out;
-}
-
 }  // namespace
 
 // --- a case
@@ -102,34 +49,31 @@ bool ReviewCase::failing() const {
 }
 
 double ReviewCase::difference() const {
-    if (!failing()) return 0;
+    if (!drawn() || accepted) return 0;
+    if (!failing() && !result.figures) return 0;
     return result.figures && result.figures->same_size ? result.figures->fraction() : 1;
 }
 
 // --- the review
 
 ReviewFolder find_review(const std::filesystem::path& folder, const std::filesystem::path& output) {
-    ReviewFolder found{folder, output, picture_tests::find_cases(folder)};
-    std::error_code ignored;
-    if (output.empty() || std::filesystem::is_directory(output, ignored)) return found;
-    throw InputError(output.string(), "",
-                     "is no folder; give one that mobbscope test --output wrote, or leave --output out");
+    ReviewFolder found{folder, output, picture_tests::find_cases(folder), {}};
+    if (!output.empty()) found.report = picture_tests::read_case_report(output, found.cases);
+    return found;
 }
 
 Review::Review(ReviewFolder found, Surroundings surroundings)
     : folder_(std::move(found.folder)), output_(std::move(found.output)), surroundings_(std::move(surroundings)) {
     for (CaseFile& file : found.cases) cases_.push_back({.file = std::move(file)});
-    if (!output_.empty()) read_output();
+    read_output(found.report);
 }
 
 Review::~Review() { cancel(); }
 
-void Review::read_output() {
-    std::error_code ignored;
-    for (ReviewCase& one : cases_) {
-        const std::filesystem::path picture = output_ / (one.file.name + ".actual.png");
-        if (!std::filesystem::exists(picture, ignored)) continue;
-        one.result = read_output_of(one.file, picture);
+void Review::read_output(const picture_tests::CaseReport& report) {
+    for (const NamedResult& read : report.results) {
+        ReviewCase& one = cases_[index_of(read.name)];
+        one.result = read.result;
         one.state = ReviewCase::State::drawn;
         one.from_output = true;
     }
@@ -248,11 +192,13 @@ const ReviewPictures& Review::pictures() {
             // Of what passed, and of what there is no other picture of, the file.
             pictures_.golden = picture_of(one.file.golden());
         }
+        if (!one.result.shown.empty()) pictures_.golden_file = one.result.shown;
         if (!pictures_.golden || !pictures_.actual) return pictures_;
-        if (!one.result.findings.empty() || one.from_output) {
-            pictures_.golden_file = golden_like(one.file, pictures_.actual);
-        }
-        ImageDiff found = diff(*pictures_.actual, *pictures_.golden, diff_options(one.result.tolerance));
+        const PictureSize size{pictures_.golden->width, pictures_.golden->height};
+        std::optional<Image> mask;
+        if (one.result.mask) mask = read_mask(*one.result.mask, size, pictures_.golden_file);
+        const DiffOptions options = one.result.figures ? one.result.figures->options : DiffOptions{};
+        ImageDiff found = diff(*pictures_.actual, *pictures_.golden, options, mask ? &*mask : nullptr);
         Image heat = std::exchange(found.heat, {});
         if (!heat.rgba.empty()) pictures_.difference = std::make_shared<const Image>(std::move(heat));
         pictures_.diff = std::move(found);
@@ -303,7 +249,6 @@ void Review::cancel() {
     // Its process has ended then: the program may end now, and nothing else would end that one.
     job_->wait(kPatienceWithItsEnd);
     job_.reset();
-    taking_.clear();
     end_run();
 }
 
@@ -314,7 +259,6 @@ void Review::end_run() {
         if (one.state != ReviewCase::State::waiting) continue;
         const bool was_drawn = !one.result.actual.empty() || !one.result.message.empty();
         one.state = was_drawn ? ReviewCase::State::drawn : ReviewCase::State::not_drawn;
-        one.accept_if.reset();
         changed(i);
     }
 }
@@ -328,60 +272,29 @@ std::vector<ReviewNews> Review::poll() {
         const std::scoped_lock lock(results_->mutex);
         results.swap(results_->ready);
     }
-    for (const NamedResult& result : results) take_in(result, to_tell);
+    for (const NamedResult& result : results) take_in(result);
     show_first_failing();
     if (!done) return to_tell;
     const std::unique_ptr<Job> job = std::move(job_);
     try {
         job->finish();
-        accept_drawn(to_tell);
     } catch (const std::exception& error) {
         to_tell.push_back({MessageLevel::error, error.what()});
-        tell_not_accepted(to_tell);
     }
-    taking_.clear();
     end_run();
     return to_tell;
 }
 
-void Review::take_in(const NamedResult& result, std::vector<ReviewNews>& to_tell) {
+void Review::take_in(const NamedResult& result) {
     const std::size_t index = index_of(result.name);
     ReviewCase& one = cases_[index];
-    const std::optional<std::string> accept_if = std::exchange(one.accept_if, std::nullopt);
+    // Another picture than the one that was seen.
+    if (one.result.actual != result.result.actual) one.viewed = false;
     one.result = result.result;
     one.state = ReviewCase::State::drawn;
     one.from_output = false;
     one.accepted = false;
     changed(index);
-    if (accept_if && same_picture(*accept_if, one.result.actual)) return taking_.push_back(index);
-    // Another picture than the one that was seen.
-    one.viewed = false;
-    if (!accept_if) return;
-    to_tell.push_back({MessageLevel::warning,
-                       one.file.name + ": is drawn otherwise here than in " + output_.string() + "; look at it again"});
-}
-
-void Review::accept_drawn(std::vector<ReviewNews>& to_tell) {
-    std::vector<std::size_t> ready;
-    for (const std::size_t index : taking_) {
-        const std::string why = why_not_accept(index);
-        if (why.empty()) {
-            ready.push_back(index);
-        } else if (!cases_[index].accepted) {
-            to_tell.push_back({MessageLevel::warning, cases_[index].file.name + ": is not accepted: " + why});
-        }
-    }
-    if (ready.empty()) return;
-    for (ReviewNews& news : write(ready)) to_tell.push_back(std::move(news));
-}
-
-void Review::tell_not_accepted(std::vector<ReviewNews>& to_tell) const {
-    std::string names;
-    for (std::size_t i = 0; i < cases_.size(); ++i) {
-        const bool taken = std::ranges::find(taking_, i) != taking_.end() && why_not_accept(i).empty();
-        if (taken || cases_[i].accept_if) names += (names.empty() ? "" : ", ") + cases_[i].file.name;
-    }
-    if (!names.empty()) to_tell.push_back({MessageLevel::warning, "Not accepted: " + names});
 }
 
 // --- goldens
@@ -391,7 +304,7 @@ std::string Review::why_not_accept(std::size_t index) const {
     if (!one.drawn()) return "it is not drawn yet";
     if (one.accepted) return "it is accepted";
     const CaseOutcome outcome = one.outcome();
-    if (outcome == CaseOutcome::passed) return "its picture is the golden's";
+    if (outcome == CaseOutcome::passed) return "it passed";
     if (outcome == CaseOutcome::skipped) return "it was skipped";
     if (outcome == CaseOutcome::failed) return "there is no picture of it";
     if (!can_be_taken(outcome, one.result.other_here)) {
@@ -401,8 +314,7 @@ std::string Review::why_not_accept(std::size_t index) const {
 }
 
 std::vector<ReviewNews> Review::accept(const std::vector<std::size_t>& indices) {
-    std::vector<std::size_t> at_once;
-    std::vector<std::size_t> anew;
+    std::vector<std::size_t> ready;
     std::string not_accepted;
     for (const std::size_t index : indices) {
         if (const std::string why = why_not_accept(index); !why.empty()) {
@@ -410,22 +322,12 @@ std::vector<ReviewNews> Review::accept(const std::vector<std::size_t>& indices) 
             continue;
         }
         if (surroundings_.check_may_write) surroundings_.check_may_write(cases_[index].file.golden());
-        (cases_[index].from_output ? anew : at_once).push_back(index);
+        ready.push_back(index);
     }
-    if (at_once.empty() && anew.empty()) {
+    if (ready.empty()) {
         throw std::invalid_argument(indices.empty() ? "there is no case to accept" : not_accepted);
     }
-    std::vector<ReviewNews> news;
-    if (anew.empty()) {
-        news = write(at_once);
-    } else {
-        if (job_) throw std::invalid_argument("wait for the run, or stop it");
-        for (const std::size_t index : anew) cases_[index].accept_if = cases_[index].result.actual;
-        taking_ = at_once;
-        draw(anew);
-        news = {{MessageLevel::info,
-                 "Drawing " + counted(anew.size(), "case", "cases") + " anew, to accept what is still the same"}};
-    }
+    std::vector<ReviewNews> news = write(ready);
     if (!not_accepted.empty()) news.push_back({MessageLevel::warning, "Not accepted: " + not_accepted});
     return news;
 }

@@ -6,6 +6,7 @@
 #include <app/document/message_level.h>
 #include <base/file.h>
 #include <cases/case_file.h>
+#include <cases/case_report.h>
 #include <cases/case_result.h>
 #include <cases/drawing_child.h>
 #include <cases/golden_change.h>
@@ -75,15 +76,13 @@ struct ReviewCase {
     bool accepted = false;                 ///< its fresh goldens are written
     bool viewed = false;                   ///< somebody has seen its pictures
     bool marked = false;                   ///< chosen, among several
-    /// The picture that is accepted if the case, drawn anew, still looks like it.
-    std::optional<std::string> accept_if{};
 
     bool drawn() const { return state == State::drawn; }
     /// Passed, if its goldens were taken; only of what is drawn.
     picture_tests::CaseOutcome outcome() const;
     /// Drawn, and neither passed nor skipped.
     bool failing() const;
-    /// Share of the pixels that differ, 0..1; 1 where there is nothing to compare.
+    /// Share of the pixels that differ, 0..1, also of one that passed; 1 where there is nothing to compare.
     double difference() const;
 };
 
@@ -95,12 +94,14 @@ struct ReviewPictures {
     std::string why_not;                ///< a picture cannot be read; else empty
 };
 
-/// A folder of picture tests, and where an earlier `mobbscope test --output` left pictures of them; empty: nowhere.
+/// A folder of picture tests, and what an earlier `mobbscope test` left of them, the folder of its --output or the page
+/// of its --html; empty: nothing.
 struct ReviewFolder {
     std::filesystem::path folder, output;
     std::vector<picture_tests::CaseFile> cases;
+    picture_tests::CaseReport report;
 };
-/// Throws InputError if there are no cases or no such output.
+/// Throws InputError if there are no cases or no such report.
 ReviewFolder find_review(const std::filesystem::path& folder, const std::filesystem::path& output = {});
 
 /// A line for the person.
@@ -162,7 +163,7 @@ class Review {
     /// The run; null: none is under way.
     const Job* run() const { return job_.get(); }
     bool drawing() const { return job_ != nullptr; }
-    /// Ends the run and the process that draws; what waited to be accepted is not.
+    /// Ends the run and the process that draws.
     void cancel();
     /// Takes in what was drawn; call it before each frame. Returns what to tell the person.
     std::vector<ReviewNews> poll();
@@ -171,9 +172,8 @@ class Review {
     /// Why the case's picture cannot become its golden; empty if it can.
     std::string why_not_accept(std::size_t index) const;
     /// Those that can be: their pictures become goldens, as `mobbscope test --update` makes them, and undo takes all
-    /// back at once. Pictures of an earlier run are drawn anew first, and taken with the others if they are still the
-    /// same. Returns what it did. Throws std::invalid_argument if it can be done with none; InputError and MachineError
-    /// if nothing could be written.
+    /// back at once. Returns what it did. Throws std::invalid_argument if it can be done with none; InputError and
+    /// MachineError if nothing could be written.
     std::vector<ReviewNews> accept(const std::vector<std::size_t>& indices);
     bool has_undo() const { return done_ > 0; }
     bool has_redo() const { return done_ < steps_.size(); }
@@ -204,13 +204,9 @@ class Review {
         std::vector<picture_tests::NamedResult> ready;
     };
 
-    void read_output();
+    void read_output(const picture_tests::CaseReport& report);
     void show_first_failing();
-    void take_in(const picture_tests::NamedResult& result, std::vector<ReviewNews>& to_tell);
-    /// What was drawn anew to be accepted, and all that was accepted with it.
-    void accept_drawn(std::vector<ReviewNews>& to_tell);
-    /// The run failed, and with it what waited to be accepted; call it before end_run.
-    void tell_not_accepted(std::vector<ReviewNews>& to_tell) const;
+    void take_in(const picture_tests::NamedResult& result);
     /// Writes the goldens of the cases, as one step; those that refuse are left out of it, and said.
     std::vector<ReviewNews> write(const std::vector<std::size_t>& indices);
     void show_some_of(const Step& step);
@@ -227,8 +223,7 @@ class Review {
     std::optional<std::size_t> unpacked_;
     ReviewPictures pictures_;
     std::vector<Step> steps_;
-    std::size_t done_ = 0;             ///< steps that are not undone
-    std::vector<std::size_t> taking_;  ///< cases that are accepted together when the run is done
+    std::size_t done_ = 0;  ///< steps that are not undone
     std::shared_ptr<Results> results_;
     std::unique_ptr<Job> job_;
 };

@@ -25,6 +25,17 @@ std::string headline_of(const ReviewCase& one) {
     return words;
 }
 
+/// Of one that passed, whether the picture is the very golden.
+std::string passed_sentence(const ReviewCase& one) {
+    const auto& figures = one.result.figures;
+    if (!figures || figures->largest == 0) return "The picture is the golden's.";
+    if (figures->differing == 0)
+        return "No pixel differs by more than " + std::to_string(figures->largest) + " of 255.";
+    return counted(figures->differing, "pixel differs", "pixels differ") + ", by up to " +
+           std::to_string(figures->largest) + " of 255" +
+           (one.result.decided_by == picture_tests::DecidedBy::pixels ? ": no more than may." : "; see the remarks.");
+}
+
 /// What it comes to, in a sentence.
 std::string sentence_of(const Review& review, const ReviewCase& one) {
     if (one.state == ReviewCase::State::waiting) return "It is being drawn.";
@@ -34,7 +45,7 @@ std::string sentence_of(const Review& review, const ReviewCase& one) {
                                              ": it passed there, or was not drawn.";
     }
     if (one.accepted) return "The picture is the golden now; undo gives the one before back.";
-    if (one.outcome() == CaseOutcome::passed) return "The picture is the golden's.";
+    if (one.outcome() == CaseOutcome::passed) return passed_sentence(one);
     if (one.outcome() == CaseOutcome::failed || one.outcome() == CaseOutcome::skipped) return one.result.message;
     // All of it stands below.
     std::string out;
@@ -49,7 +60,7 @@ std::string sentence_of(const Review& review, const ReviewCase& one) {
         } else if (numbers) {
             out += "The numbers of " + file + " differ.";
         } else if (figures && figures->same_size) {
-            out += percent_text(figures->fraction()) + " of the pixels of " + file + " differ, by up to " +
+            out += counted(figures->differing, "pixel", "pixels") + " of " + file + " differ, by up to " +
                    std::to_string(figures->largest) + " of 255.";
         } else if (figures) {
             out += file + " has another size.";
@@ -176,6 +187,13 @@ void findings(Ui& ui, const ReviewCase& one, const ReviewPictures& pictures) {
     }
 }
 
+/// What is to be known besides.
+void remarks(Ui& ui, const ReviewCase& one) {
+    if (one.accepted || one.result.remarks.empty()) return;
+    heading(ui, "REMARKS", "decided by " + std::string(name(one.result.decided_by)));
+    for (const std::string& remark : one.result.remarks) words(ui.style.quiet, remark);
+}
+
 void text_row(Ui& ui, const char* label, const std::string& text) {
     labelled(ui, label, text, ImGui::GetWindowContentRegionMax().x);
 }
@@ -190,8 +208,8 @@ void numbers(Ui& ui, const ReviewCase& one, const ReviewPictures& pictures) {
         return;
     }
     text_row(ui, "size", size_text(diff.actual_size));
-    text_row(ui, "differ", std::to_string(diff.differing) + ", " + percent_text(diff.fraction()));
-    text_row(ui, "may differ", std::to_string(diff.allowed()) + ", " + percent_text(diff.options.pixel_fraction));
+    text_row(ui, "differ", std::to_string(diff.differing) + " of " + std::to_string(diff.pixels));
+    text_row(ui, "may differ", std::to_string(diff.allowed()));
     text_row(ui, "largest difference", std::to_string(diff.largest) + " of 255");
     text_row(ui, "counts above",
              brief(diff.options.channel_tolerance) + " of 255" + (diff.options.shift > 0 ? ", a pixel aside" : ""));
@@ -216,13 +234,12 @@ void files(Ui& ui, const Review& review, const ReviewCase& one, const ReviewPict
     heading(ui, "FILES");
     path_of_file(ui, "case", one.file.file.string());
     path_of_file(ui, "golden", pictures.golden_file.string());
-    if (one.from_output) path_of_file(ui, "actual", (review.output() / (one.file.name + ".actual.png")).string());
+    if (one.from_output) path_of_file(ui, "report", review.output().string());
     // "llvmpipe (LLVM 15.0.6, 256 bits)": the processor makes no difference.
     const std::string& renderer = one.result.drawn_by.renderer;
     if (one.from_output) {
         words(ui.style.quiet,
-              "The actual picture is one that an earlier run left. Accepting it draws the case first, "
-              "and takes the picture if it is still the same.");
+              "The actual picture is the report's. Accepting it takes the report's goldens byte by byte.");
     } else if (one.drawn() && !one.result.drawn_by.backend.empty()) {
         words(ui.style.quiet, "Drawn by mobbscope test with " + one.result.drawn_by.backend + ", " +
                                   renderer.substr(0, renderer.find(" (")) + ".");
@@ -245,6 +262,7 @@ void review_facts(Ui& ui, const std::optional<glm::ivec2>& pixel) {
     pixel_section(ui, pictures, pixel);
     numbers(ui, one, pictures);
     findings(ui, one, pictures);
+    remarks(ui, one);
     files(ui, review, one, pictures);
 }
 

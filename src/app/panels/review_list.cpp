@@ -14,12 +14,6 @@ namespace mobbscope::app {
 
 using picture_tests::CaseOutcome;
 
-std::string percent_text(double share) {
-    if (share == 0) return "0 %";
-    const double percent = 100 * share;
-    return formatted(percent >= 9.95 ? "%.0f %%" : percent >= 0.095 ? "%.1f %%" : "%.3f %%", percent);
-}
-
 std::string sum_of(const Review& review) {
     const auto left = std::ranges::count_if(review.cases(), [](const ReviewCase& one) { return !one.drawn(); });
     std::string out;
@@ -51,13 +45,15 @@ std::string outcome_word(const ReviewCase& one) {
 std::string outcome_words(const ReviewCase& one) {
     std::string out = outcome_word(one);
     const auto& figures = one.result.figures;
-    if (!one.drawn() || one.accepted || one.outcome() != CaseOutcome::different || !figures) return out;
+    if (!one.drawn() || one.accepted || !figures) return out;
     if (!figures->same_size) return out + ", another size";
+    const bool differs = one.outcome() == CaseOutcome::different;
     // The pixels are alike, but the numbers are not.
-    if (one.result.findings.size() == 1 && one.result.findings.front().golden.extension() == ".json") {
+    if (differs && one.result.findings.size() == 1 && one.result.findings.front().golden.extension() == ".json") {
         return out + " in numbers";
     }
-    return out + ", " + percent_text(figures->fraction()) + ", up to " + std::to_string(figures->largest);
+    if (!differs && figures->differing == 0) return out;
+    return out + ", " + std::to_string(figures->differing) + " px, up to " + std::to_string(figures->largest);
 }
 
 ImU32 outcome_color(const Style& style, const ReviewCase& one) {

@@ -8,7 +8,7 @@
 
 namespace mobbscope::app {
 
-/// "differs", and with the numbers: "differs, 2.4 %, up to 184".
+/// "differs", and with the numbers: "differs, 412 px, up to 184".
 std::string outcome_word(const ReviewCase& one);
 std::string outcome_words(const ReviewCase& one);
 /// Readable as text.
@@ -19,8 +19,5 @@ void outcome_shape(ImDrawList& list, const Style& style, ImVec2 middle, float si
 
 /// "12 passed, 3 different, 2 to draw".
 std::string sum_of(const Review& review);
-
-/// "2.4 %", "0.003 %".
-std::string percent_text(double share);
 
 }  // namespace mobbscope::app

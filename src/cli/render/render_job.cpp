@@ -266,7 +266,7 @@ void render_case(const Command& command, const RenderArguments& arguments) {
     refuse_other_options(command);
     if (arguments.outputs.image.empty()) throw UsageError("--output is required");
     const picture_tests::Case drawn = picture_tests::read_case(arguments.file);
-    if (drawn.skip) throw InputError(arguments.file.string(), "", "the case is skipped: " + *drawn.skip);
+    if (drawn.terms.skip) throw InputError(arguments.file.string(), "", "the case is skipped: " + *drawn.terms.skip);
     OutputCheck outputs;
     outputs.reads(arguments.file);
     outputs.reads(drawn.shot.panels.front().fitted->scene());

@@ -186,11 +186,11 @@ void GltfAccessors::fill_sparse(int index, std::size_t components, std::vector<d
     }
     const std::size_t index_size = component_size(index_type);
     const std::size_t value_size = component_size(accessor.componentType);
-    const Elements indices = elements(index, "sparse indices, ", sparse.indices.bufferView,
+    const Elements indices = elements(index, "sparse indices, ", static_cast<int>(sparse.indices.bufferView),
                                       as_index(sparse.indices.byteOffset), index_size, index_size, count, false);
     const Elements values =
-        elements(index, "sparse values, ", sparse.values.bufferView, as_index(sparse.values.byteOffset), value_size,
-                 value_size * components, count, false);
+        elements(index, "sparse values, ", static_cast<int>(sparse.values.bufferView),
+                 as_index(sparse.values.byteOffset), value_size, value_size * components, count, false);
     double last = -1;
     for (std::size_t i = 0; i < count; ++i) {
         const double target = component(indices[i], index_type, false);

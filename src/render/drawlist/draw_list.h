@@ -236,9 +236,22 @@ struct OverlayLine {
     Dash dash = kSolid;
 };
 
+/// What a line of text is in the picture. JSON has the names.
+enum class TextRole {
+    label,    ///< of a part of a diagram
+    tick,     ///< a number at the time axis or along the floor
+    name,     ///< of a participant, or of a hub
+    note,     ///< a measure beside what is measured
+    caption,  ///< headline, or what stands below it
+    legend,   ///< a row
+    header,   ///< of a folded panel
+    map,      ///< title of the map of the floor
+};
+
 /// One line of text over the picture.
 struct TextRun {
     std::string text;  ///< UTF-8
+    TextRole role = TextRole::label;
     FontFace face = FontFace::text;
     float size = 12;        ///< pixels
     glm::vec2 baseline{0};  ///< left end, pixels from the upper left corner

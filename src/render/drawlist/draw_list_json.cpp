@@ -1,8 +1,6 @@
 #include <render/drawlist/draw_list_json.h>
 
-#include <base/json.h>
 #include <base/json_writer.h>
-#include <base/text.h>
 #include <render/drawlist/draw_list.h>
 
 #include <glm/vec2.hpp>
@@ -10,10 +8,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <tuple>
-#include <variant>
 #include <vector>
 
 namespace mobbscope {
@@ -104,6 +105,12 @@ std::string_view name(Overlay::Kind kind) {
 
 std::string_view name(HighlightLine::Role role) {
     constexpr std::array<std::string_view, 5> kNames{"selection", "hover", "candidate", "conflict", "ghost"};
+    return kNames[static_cast<std::size_t>(role)];
+}
+
+std::string_view name(TextRole role) {
+    constexpr std::array<std::string_view, 8> kNames{"label",   "tick",   "name",   "note",
+                                                     "caption", "legend", "header", "map"};
     return kNames[static_cast<std::size_t>(role)];
 }
 
@@ -241,6 +248,7 @@ void write_overlay_line(JsonWriter& out, const OverlayLine& line) {
 
 void write_text(JsonWriter& out, const TextRun& text, const PictureSize& size) {
     out.member("text", text.text);
+    out.member("role", name(text.role));
     vector(out, "at", text.baseline);
     number(out, "size", text.size);
     out.member("face", text.face == FontFace::mono ? "mono" : "text");
@@ -273,205 +281,6 @@ std::vector<LineInstance> sorted(std::vector<LineInstance> lines) {
                std::tie(b.order, b.from.x, b.from.y, b.from.z, b.to.x, b.to.y, b.to.z);
     });
     return lines;
-}
-
-constexpr double kNear = 1e-4;
-constexpr double kNearPixels = 0.01;
-constexpr double kFewPixels = 16;
-
-bool agree(double a, double b, bool pixels) {
-    const double size = std::max(std::abs(a), std::abs(b));
-    return std::abs(a - b) <= (pixels ? std::max(kFewPixels, kNearPixels * size) : std::max(kNear, kNear * size));
-}
-
-/// Two values of one type that hold no others.
-bool agree(const JsonValue& a, const JsonValue& b, bool pixels) {
-    if (const auto* number = std::get_if<double>(&a.data)) return agree(*number, std::get<double>(b.data), pixels);
-    if (const auto* text = std::get_if<std::string>(&a.data)) return *text == std::get<std::string>(b.data);
-    if (const auto* boolean = std::get_if<bool>(&a.data)) return *boolean == std::get<bool>(b.data);
-    return true;
-}
-
-/// A place for a message.
-std::string named(const std::string& place) { return place.empty() ? "the whole" : place; }
-
-/// A value for a message.
-std::string shown(const JsonValue& value) {
-    struct Show {
-        std::string operator()(std::nullptr_t) const { return "null"; }
-        std::string operator()(bool boolean) const { return boolean ? "true" : "false"; }
-        std::string operator()(double number) const { return brief(number); }
-        std::string operator()(const std::string& text) const { return in_quotes(text); }
-        std::string operator()(const JsonValue::Array&) const { return "an array"; }
-        std::string operator()(const JsonValue::Object&) const { return "an object"; }
-    };
-    return std::visit(Show{}, value.data);
-}
-
-const JsonValue* find(const JsonValue::Object& object, const std::string& key) {
-    const auto found =
-        std::find_if(object.begin(), object.end(), [&](const JsonMember& member) { return member.key == key; });
-    return found == object.end() ? nullptr : &found->value;
-}
-
-/// What differs at a place (RFC 6901).
-struct Difference {
-    std::string place;
-    std::string what;  ///< "1.02 instead of 1"
-};
-
-/// Differences as they are found, until there are enough.
-class Differences {
-  public:
-    explicit Differences(std::size_t most) : most_(most) {}
-
-    bool full() const { return found_.size() >= most_; }
-    const std::vector<Difference>& found() const { return found_; }
-
-    /// `pixels`: whether they are numbers of pixels.
-    void compare(const std::string& place, const JsonValue& actual, const JsonValue& golden, bool pixels) {
-        if (full()) return;
-        if (actual.data.index() == golden.data.index()) {
-            if (const auto* object = std::get_if<JsonValue::Object>(&golden.data))
-                return compare(place, std::get<JsonValue::Object>(actual.data), *object);
-            if (const auto* array = std::get_if<JsonValue::Array>(&golden.data)) {
-                if (!add_length(place, actual, golden)) compare(place, std::get<JsonValue::Array>(actual.data), *array);
-                return;
-            }
-            if (agree(actual, golden, pixels)) return;
-        }
-        add(place, shown(actual) + " instead of " + shown(golden));
-    }
-
-  private:
-    void add(const std::string& place, std::string what) {
-        if (!full()) found_.push_back({place, std::move(what)});
-    }
-
-    /// Where two values have another number of elements: those that are missing shift all that come after.
-    bool add_length(const std::string& place, const JsonValue& actual, const JsonValue& golden) {
-        const auto* here = std::get_if<JsonValue::Array>(&actual.data);
-        const auto* there = std::get_if<JsonValue::Array>(&golden.data);
-        if (!here || !there || here->size() == there->size()) return false;
-        add(place, counted(static_cast<long long>(here->size()), "element", "elements") + " instead of " +
-                       std::to_string(there->size()));
-        return true;
-    }
-
-    void compare(const std::string& place, const JsonValue::Array& actual, const JsonValue::Array& golden) {
-        for (std::size_t i = 0; i < golden.size(); ++i) {
-            compare(place + '/' + std::to_string(i), actual[i], golden[i], false);
-        }
-    }
-
-    /// That something is missing or of another number comes before what differs in it.
-    void compare(const std::string& place, const JsonValue::Object& actual, const JsonValue::Object& golden) {
-        std::vector<const JsonMember*> alike;
-        for (const JsonMember& member : golden) {
-            const std::string there = place + pointer_token(member.key);
-            const JsonValue* found = find(actual, member.key);
-            if (!found) {
-                add(there, "missing");
-            } else if (!add_length(there, *found, member.value)) {
-                alike.push_back(&member);
-            }
-        }
-        for (const JsonMember& member : actual) {
-            if (!find(golden, member.key)) add(place + pointer_token(member.key), "not expected");
-        }
-        for (const JsonMember* member : alike) {
-            compare(place + pointer_token(member->key), *find(actual, member->key), member->value,
-                    member->key == "pixels");
-        }
-    }
-
-    std::size_t most_;
-    std::vector<Difference> found_;
-};
-
-// --- differences in words
-
-/// The keys and numbers of a place.
-std::vector<std::string> tokens_of(const std::string& place) {
-    std::vector<std::string> out;
-    for (std::size_t at = 0; at < place.size();) {
-        const std::size_t end = std::min(place.find('/', at + 1), place.size());
-        out.push_back(place.substr(at + 1, end - at - 1));
-        at = end;
-    }
-    return out;
-}
-
-/// What one element of a list is called.
-struct ElementName {
-    std::string_view list, element;
-    std::string_view number;  ///< the key that tells it from others of its agent; empty: its place does
-};
-constexpr std::array<ElementName, 9> kElementNames{{{"disks", "disk", "sample"},
-                                                    {"boxes", "box", "node"},
-                                                    {"lines", "line", ""},
-                                                    {"highlights", "highlight", ""},
-                                                    {"legend", "legend's row", ""},
-                                                    {"panels", "panel", ""},
-                                                    {"overlay_lines", "line over the scene", ""},
-                                                    {"marks", "mark", ""},
-                                                    {"texts", "text", ""}}};
-
-template <class Held>
-const Held* held(const JsonValue::Object& object, std::string_view key) {
-    const JsonValue* value = find(object, std::string(key));
-    return value ? std::get_if<Held>(&value->data) : nullptr;
-}
-
-/// "box of A, node 3", "line 4", "text 'A'". `list`: the draw list, which names the participants.
-std::string element_words(const ElementName& name, const JsonValue& element, std::size_t index,
-                          const JsonValue::Object& list) {
-    std::string numbered = std::string(name.element) + ' ' + std::to_string(index + 1);
-    const auto* object = std::get_if<JsonValue::Object>(&element.data);
-    if (!object) return numbered;
-    if (const auto* text = held<std::string>(*object, "text"))
-        return std::string(name.element) + ' ' + in_quotes(*text);
-    const auto* participant = held<double>(*object, "participant");
-    const auto* number = held<double>(*object, name.number);
-    const auto* names = held<JsonValue::Array>(list, "participants");
-    if (!participant || !number || !names || *participant >= static_cast<double>(names->size())) return numbered;
-    const auto* who = std::get_if<std::string>(&(*names)[static_cast<std::size_t>(*participant)].data);
-    return std::string(name.element) + " of " + cleaned(who ? *who : "?") + ", " + std::string(name.number) + ' ' +
-           brief(*number);
-}
-
-/// "box of A, node 3, extents"; what is deeper in an element is one.
-std::string place_words(const std::string& place, const JsonValue& golden) {
-    std::vector<std::string> tokens = tokens_of(place);
-    std::string out;
-    const JsonValue* at = &golden;
-    const auto add = [&out](const std::string& words) { out += (out.empty() ? "" : ", ") + words; };
-    std::size_t next = 0;
-    if (const auto* several = std::get_if<JsonValue::Array>(&at->data); several && !tokens.empty()) {
-        const int index = parse_int(tokens[0]).value_or(0);
-        add("picture " + std::to_string(index + 1));
-        at = &(*several)[static_cast<std::size_t>(index)];
-        next = 1;
-    }
-    for (int named_keys = 0; next < tokens.size() && named_keys < 2; ++next, ++named_keys) {
-        const std::string& key = tokens[next];
-        const auto* object = std::get_if<JsonValue::Object>(&at->data);
-        const JsonValue* list = object ? find(*object, key) : nullptr;
-        const auto name = std::ranges::find(kElementNames, key, &ElementName::list);
-        const auto* elements = list ? std::get_if<JsonValue::Array>(&list->data) : nullptr;
-        const std::optional<int> index =
-            next + 1 < tokens.size() && elements ? parse_int(tokens[next + 1]) : std::nullopt;
-        if (name == kElementNames.end() || !index) {
-            add(key);
-            if (!list) break;
-            at = list;
-            continue;
-        }
-        at = &(*elements)[static_cast<std::size_t>(*index)];
-        add(element_words(*name, *at, static_cast<std::size_t>(*index), *object));
-        ++next;
-    }
-    return out.empty() ? "the whole" : out;
 }
 
 }  // namespace
@@ -523,39 +332,6 @@ Image id_picture(const DrawList& list, const IdImage& ids) {
         }
     }
     return image;
-}
-
-std::optional<std::string> first_difference(std::string_view actual, const std::string& actual_name,
-                                            std::string_view golden, const std::string& golden_name) {
-    Differences differences(1);
-    differences.compare("", parse_json(actual, actual_name), parse_json(golden, golden_name), false);
-    if (differences.found().empty()) return std::nullopt;
-    const Difference& first = differences.found().front();
-    return named(first.place) + ": " + first.what;
-}
-
-std::vector<std::string> differences_in_words(std::string_view actual, const std::string& actual_name,
-                                              std::string_view golden, const std::string& golden_name,
-                                              std::size_t most) {
-    constexpr std::size_t kLookedAt = 10'000;  // a list that is another one differs all over
-    const JsonValue golden_value = parse_json(golden, golden_name);
-    Differences differences(kLookedAt);
-    differences.compare("", parse_json(actual, actual_name), golden_value, false);
-    std::vector<std::string> out;
-    std::string last;
-    std::size_t places = 0;
-    for (const Difference& difference : differences.found()) {
-        const std::string place = place_words(difference.place, golden_value);
-        // Of the numbers of one thing the first says enough.
-        if (place == last) continue;
-        // It follows from where the camera is.
-        if (places > 0 && difference.place.find("/clip_from_world") != std::string::npos) continue;
-        last = place;
-        if (++places <= most) out.push_back(place + ": " + difference.what);
-    }
-    if (places > most)
-        out.push_back("and " + std::to_string(places - most) + (differences.full() ? " or more" : "") + " more");
-    return out;
 }
 
 }  // namespace mobbscope

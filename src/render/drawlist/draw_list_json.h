@@ -12,7 +12,7 @@
 ///      "overlays": [{"name", "min", "max", "folded", "no_room", "more"}],
 ///      "panels": [{"min", "max", "radius", "fill", "border", "border_width"}],
 ///      "overlay_lines": [{"from", "to", "color", "width", "dash"}], "marks": [as panels],
-///      "texts":  [{"text", "at", "size", "face", "color", "on_screen"}]}
+///      "texts":  [{"text", "role", "at", "size", "face", "color", "on_screen"}]}
 ///
 /// Positions are in drawn metres, places on the screen in pixels from the upper left corner, colours "#RRGGBBAA";
 /// numbers have six significant digits. Disks and boxes are sorted by what they stand for and lines by their place in
@@ -23,17 +23,13 @@
 /// participant, disks before boxes, index; 0 is nothing. `id` and `participant` of a box that stands for no node are 0
 /// and null, likewise `node`. `on_screen` is false for what lies wholly beside the picture or nearer than anything is
 /// drawn. `pixels`, with an id picture only, is how many of its pixels the object has: 0 is hidden, null is in no id
-/// picture.
+/// picture. `role` is what a text is: label (of a diagram), tick, name, note, caption, legend, header (of a folded
+/// panel) or map.
 #pragma once
 
 #include <render/drawlist/draw_list.h>
 
-#include <cstddef>
-#include <optional>
 #include <ostream>
-#include <string>
-#include <string_view>
-#include <vector>
 
 namespace mobbscope {
 
@@ -43,18 +39,5 @@ void write_draw_list(std::ostream& out, const DrawList& list, const IdImage* ids
 /// The id picture as a picture: each pixel's number in its colour, opaque. Throws std::invalid_argument if the list has
 /// 2^24 objects or more.
 Image id_picture(const DrawList& list, const IdImage& ids);
-
-/// The first difference of two draw lists as JSON texts, "/boxes/3/extents/0/2: 1.02 instead of 1", or nothing; that
-/// something is missing comes before what differs. Numbers agree within 1e-4 of their size or 1e-4, numbers of pixels
-/// within 1 % or 16, as rasterisers differ by that. Throws InputError if a text is no JSON; the names stand for the
-/// files.
-std::optional<std::string> first_difference(std::string_view actual, const std::string& actual_name,
-                                            std::string_view golden, const std::string& golden_name);
-
-/// All that differs, for people: "box of A, node 3, extents: 1.02 instead of 1", at most `most` lines and one that says
-/// how many there are more. Throws as first_difference does.
-std::vector<std::string> differences_in_words(std::string_view actual, const std::string& actual_name,
-                                              std::string_view golden, const std::string& golden_name,
-                                              std::size_t most);
 
 }  // namespace mobbscope

@@ -1,5 +1,7 @@
+#include <base/error.h>
 #include <base/text.h>
 #include <render/image/image_diff.h>
+#include <render/image/png.h>
 
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
@@ -15,15 +17,10 @@ namespace mobbscope {
 
 namespace {
 
-/// What a channel adds to what is seen, 0..255; opacity itself is the fourth.
-int seen(const std::uint8_t* pixel, int channel) {
-    return channel == 3 || pixel[3] == 255 ? pixel[channel] : (pixel[channel] * pixel[3] + 127) / 255;
-}
-
 /// The largest difference of their channels, 0..255.
 int difference(const std::uint8_t* a, const std::uint8_t* b) {
     int largest = 0;
-    for (int c = 0; c < 4; ++c) largest = std::max(largest, std::abs(seen(a, c) - seen(b, c)));
+    for (int c = 0; c < 4; ++c) largest = std::max(largest, std::abs(seen_channel(a, c) - seen_channel(b, c)));
     return largest;
 }
 
@@ -48,10 +45,13 @@ void grow(std::optional<PixelRect>& rect, int x, int y) {
     rect->height = bottom - rect->y;
 }
 
-bool is_compared(const Image* mask, int x, int y) {
-    if (!mask) return true;
-    const std::uint8_t* p = mask->at(x, y);
-    return p[3] != 0 && (p[0] != 0 || p[1] != 0 || p[2] != 0);
+bool leaves_nothing(const Image& mask) {
+    for (int y = 0; y < mask.height; ++y) {
+        for (int x = 0; x < mask.width; ++x) {
+            if (is_compared(&mask, x, y)) return false;
+        }
+    }
+    return true;
 }
 
 using HeatColor = glm::vec3;  // 0..255
@@ -117,9 +117,9 @@ void write_size(JsonWriter& out, const char* key, PictureSize size) {
     out.values(key, std::array{size.width, size.height});
 }
 
-void write_bounds(JsonWriter& out, const std::optional<PixelRect>& bounds) {
-    if (!bounds) return out.member("bounds", std::optional<int>());
-    out.begin_object("bounds", JsonWriter::Layout::row);
+void write_bounds(JsonWriter& out, const char* key, const std::optional<PixelRect>& bounds) {
+    if (!bounds) return out.member(key, std::optional<int>());
+    out.begin_object(key, JsonWriter::Layout::row);
     out.member("x", bounds->x);
     out.member("y", bounds->y);
     out.member("width", bounds->width);
@@ -140,6 +140,41 @@ std::string level(double value) { return brief(value) + "/255"; }
 
 }  // namespace
 
+int seen_channel(const std::uint8_t* pixel, int channel) {
+    return channel == 3 || pixel[3] == 255 ? pixel[channel] : (pixel[channel] * pixel[3] + 127) / 255;
+}
+
+bool is_compared(const Image* mask, int x, int y) {
+    if (!mask) return true;
+    const std::uint8_t* p = mask->at(x, y);
+    return p[3] != 0 && (p[0] != 0 || p[1] != 0 || p[2] != 0);
+}
+
+Image read_mask(const std::filesystem::path& file, PictureSize size, const std::filesystem::path& picture) {
+    Image mask = read_png(file);
+    const PictureSize of_mask{mask.width, mask.height};
+    if (of_mask != size) {
+        throw InputError(file.string(), "",
+                         "the mask has " + size_word(of_mask) + " pixels and " + in_quotes(picture.string()) + ' ' +
+                             size_word(size) + "; make them one size");
+    }
+    if (leaves_nothing(mask)) {
+        throw InputError(file.string(), "", "the mask leaves nothing to compare; paint white what is to be compared");
+    }
+    return mask;
+}
+
+Image shrunk_mask(const Image& mask, int side, PictureSize size) {
+    Image out(size.width, size.height);
+    std::ranges::fill(out.rgba, std::uint8_t{255});
+    for (int y = 0; y < std::min(mask.height, side * size.height); ++y) {
+        for (int x = 0; x < std::min(mask.width, side * size.width); ++x) {
+            if (!is_compared(&mask, x, y)) std::fill_n(out.at(x / side, y / side), 4, std::uint8_t{0});
+        }
+    }
+    return out;
+}
+
 ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& options, const Image* mask) {
     ImageDiff result;
     result.options = options;
@@ -153,6 +188,7 @@ ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& o
     std::vector<std::int16_t> differences;
     differences.reserve(reference.rgba.size() / 4);
     std::int64_t sum = 0;
+    result.same = true;
     for (int y = 0; y < reference.height; ++y) {
         for (int x = 0; x < reference.width; ++x) {
             if (!is_compared(mask, x, y)) {
@@ -161,6 +197,7 @@ ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& o
             }
             const std::uint8_t* here = actual.at(x, y);
             const std::uint8_t* there = reference.at(x, y);
+            result.same = result.same && std::equal(here, here + 4, there);
             int found = difference(here, there);
             if (options.shift > 0 && found > options.channel_tolerance) {
                 found = std::max(least_difference(here, reference, x, y, options.shift),
@@ -171,6 +208,10 @@ ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& o
             ++result.histogram[static_cast<std::size_t>(found)];
             sum += found;
             result.largest = std::max(result.largest, found);
+            if (found > 0) {
+                ++result.unequal;
+                grow(result.unequal_bounds, x, y);
+            }
             if (found > options.channel_tolerance) {
                 ++result.differing;
                 grow(result.bounds, x, y);
@@ -178,7 +219,7 @@ ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& o
         }
     }
     if (result.pixels > 0) result.mean = static_cast<double>(sum) / static_cast<double>(result.pixels);
-    result.same = result.differing <= result.allowed();
+    result.passes = result.differing <= result.allowed();
     result.heat = heat_map(reference, differences, options.channel_tolerance);
     return result;
 }
@@ -206,18 +247,23 @@ Image heat_map(const Image& reference, std::span<const std::int16_t> differences
 void write_diff(JsonWriter& out, const ImageDiff& diff) {
     out.begin_object();
     out.member("same", diff.same);
+    out.member("passes", diff.passes);
     out.member("same_size", diff.same_size);
     write_size(out, "size_a", diff.actual_size);
     write_size(out, "size_b", diff.reference_size);
     out.member("pixels", diff.pixels);
+    out.member("unequal", diff.unequal);
     out.member("failing", diff.differing);
     out.member("fraction", diff.fraction());
     out.member("maximum", diff.largest);
     out.member("mean", diff.mean);
-    write_bounds(out, diff.bounds);
+    write_bounds(out, "unequal_bounds", diff.unequal_bounds);
+    write_bounds(out, "bounds", diff.bounds);
     out.values("histogram", diff.histogram);
     out.member("threshold", diff.options.channel_tolerance);
     out.member("allowed", diff.options.pixel_fraction);
+    out.member("least_pixels", diff.options.least_pixels);
+    out.member("allowed_pixels", diff.allowed());
     out.member("shift", diff.options.shift);
     out.end_object();
 }
@@ -228,18 +274,27 @@ std::string what_differs(const ImageDiff& diff) {
     }
     const std::string all = std::to_string(diff.pixels);
     const std::string beyond = " by more than " + level(diff.options.channel_tolerance);
-    if (diff.largest == 0) return "none of " + all + " pixels differs";
-    if (!diff.bounds) {
-        return "none of " + all + " pixels differs" + beyond + ", the most by " + level(diff.largest);
+    const auto plural = [](std::int64_t count) { return count == 1 ? "differs" : "differ"; };
+    const auto within = [](const PixelRect& at) {
+        return ", within " + size_word({at.width, at.height}) + " at (" + std::to_string(at.x) + ", " +
+               std::to_string(at.y) + ")";
+    };
+    if (diff.same) return "none of " + all + " pixels differs";
+    if (diff.unequal == 0) {
+        return "none of " + all + " pixels looks different; " +
+               (diff.options.shift > 0 ? "something lies a pixel aside" : "colours under transparent ones differ");
     }
-    const PixelRect& at = *diff.bounds;
-    const std::int64_t allowed = diff.allowed();
+    if (!diff.bounds) {
+        return "none of " + all + " pixels differs" + beyond + "; " + std::to_string(diff.unequal) + ' ' +
+               plural(diff.unequal) + " by up to " + level(diff.largest) + within(*diff.unequal_bounds);
+    }
     return std::to_string(diff.differing) + " of " + all + " pixels (" + percent(diff.fraction()) + ") " +
-           (diff.differing == 1 ? "differs" : "differ") + beyond + ", up to " + level(diff.largest) + ", within " +
-           size_word({at.width, at.height}) + " at (" + std::to_string(at.x) + ", " + std::to_string(at.y) +
-           "); allowed: " + std::to_string(allowed);
+           plural(diff.differing) + beyond + ", up to " + level(diff.largest) + within(*diff.bounds) +
+           "; allowed: " + std::to_string(diff.allowed());
 }
 
-std::string diff_sentence(const ImageDiff& diff) { return (diff.same ? "same: " : "different: ") + what_differs(diff); }
+std::string diff_sentence(const ImageDiff& diff) {
+    return (diff.same ? "same: " : diff.passes ? "passes: " : "different: ") + what_differs(diff);
+}
 
 }  // namespace mobbscope

@@ -2,24 +2,17 @@
 #pragma once
 
 #include <base/json_writer.h>
+#include <render/image/diff_options.h>
 #include <render/image/image.h>
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 
 namespace mobbscope {
-
-struct DiffOptions {
-    double channel_tolerance = 3;   ///< a pixel differs if one of its channels does by more than this, 0..255
-    double pixel_fraction = 0.001;  ///< pictures differ if more than this share of the compared pixels does, 0..1
-    /// Pixels (0 or 1) by which something may be elsewhere: a pixel differs only if it is unlike all pixels of the
-    /// other picture within that distance, in either direction; so a line that is missing is found, one that moved is
-    /// not.
-    int shift = 0;
-};
 
 /// Pixels x .. x + width - 1, y .. y + height - 1, from the upper left corner.
 struct PixelRect {
@@ -32,22 +25,22 @@ struct ImageDiff {
     PictureSize actual_size{};  ///< of the two pictures
     PictureSize reference_size{};
     bool same_size = false;
-    bool same = false;           ///< the verdict
+    bool same = false;           ///< no byte of a compared pixel differs
+    bool passes = false;         ///< the verdict: no more pixels than allowed differ beyond the tolerance
     std::int64_t pixels = 0;     ///< compared: all, or those of the mask
-    std::int64_t differing = 0;  ///< of them beyond the tolerance
+    std::int64_t unequal = 0;    ///< of them, those that look different, by however little
+    std::int64_t differing = 0;  ///< of them, those beyond the tolerance
     int largest = 0;             ///< largest difference of a channel, 0..255
     double mean = 0;             ///< of the compared pixels' differences, 0..255
     /// Compared pixels by their difference, the largest of their channels (with a shift: the least found).
     std::array<std::int64_t, 256> histogram{};
-    std::optional<PixelRect> bounds{};  ///< of the differing pixels
-    Image heat;                         ///< where they differ, see heat_map.h; empty if the sizes differ
+    std::optional<PixelRect> unequal_bounds{};  ///< of the unequal pixels
+    std::optional<PixelRect> bounds{};          ///< of the differing pixels
+    Image heat;                                 ///< where they differ, see heat_map.h; empty if the sizes differ
 
     double fraction() const { return pixels > 0 ? static_cast<double>(differing) / static_cast<double>(pixels) : 0; }
     /// The most pixels that may differ.
-    std::int64_t allowed() const {
-        // Rounding must not take a pixel off what is a whole number.
-        return static_cast<std::int64_t>(options.pixel_fraction * static_cast<double>(pixels) + 1e-6);
-    }
+    std::int64_t allowed() const { return options.allowed(pixels); }
 };
 
 /// Colours count by their opacity, as they are seen: under a transparent pixel none does. `mask`: of the same size;
@@ -55,6 +48,20 @@ struct ImageDiff {
 /// pictures have one size and the mask another.
 ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& options = {},
                const Image* mask = nullptr);
+
+/// A mask. Throws InputError if it cannot be read, has another size than the picture (`picture`: its name in the
+/// message), or leaves nothing to compare.
+Image read_mask(const std::filesystem::path& file, PictureSize size, const std::filesystem::path& picture);
+
+/// The mask of a picture in which each pixel stands for `side` x `side` of them: one is compared if all are that are
+/// there. `size`: of that picture.
+Image shrunk_mask(const Image& mask, int side, PictureSize size);
+
+/// What a channel (0..3, the last is opacity) adds to what is seen, 0..255.
+int seen_channel(const std::uint8_t* pixel, int channel);
+
+/// Whether a mask, null: none, lets this pixel be compared.
+bool is_compared(const Image* mask, int x, int y);
 
 /// In the place of a pixel's difference: it was not compared.
 inline constexpr std::int16_t kNotCompared = -1;
@@ -64,14 +71,15 @@ inline constexpr std::int16_t kNotCompared = -1;
 /// be seen in a large picture. `differences`: of each pixel, row by row, 0..255 or kNotCompared.
 Image heat_map(const Image& reference, std::span<const std::int16_t> differences, double tolerance);
 
-/// {"same", "same_size", "size_a": [w, h], "size_b", "pixels", "failing", "fraction", "maximum", "mean",
-/// "bounds": null | {"x", "y", "width", "height"}, "histogram": [256], "threshold", "allowed", "shift"}: A is the
-/// actual picture, B the reference; differences are 0..255, shares 0..1; the rest as in ImageDiff. Of pictures whose
-/// sizes differ no pixels are compared.
+/// {"same", "passes", "same_size", "size_a": [w, h], "size_b", "pixels", "unequal", "failing", "fraction", "maximum",
+/// "mean", "unequal_bounds", "bounds": null | {"x", "y", "width", "height"}, "histogram": [256], "threshold",
+/// "allowed", "least_pixels", "allowed_pixels", "shift"}: A is the actual picture, B the reference; differences are
+/// 0..255, `fraction` and `allowed` shares 0..1; `failing` is ImageDiff::differing, the rest as there. Of pictures
+/// whose sizes differ no pixels are compared.
 void write_diff(JsonWriter& out, const ImageDiff& diff);
 
 /// "different: 412 of 230400 pixels (0.18 %) differ by more than 3/255, up to 87/255, within 120x40 at (300, 12);
-/// allowed: 230".
+/// allowed: 4". A picture that passes is "same" where no byte differs, else "passes: ...".
 std::string diff_sentence(const ImageDiff& diff);
 
 /// The same without the verdict at its beginning.

@@ -33,6 +33,7 @@ void note(std::vector<LabelRequest>& notes, const DrawList& list, glm::vec3 at, 
     const auto anchor = list.projection.project(at);
     if (!anchor) return;
     notes.push_back({.text = std::move(text),
+                     .role = TextRole::note,
                      .face = FontFace::mono,
                      .size = text_size,
                      .color = readable(color, list.palette),
@@ -98,6 +99,7 @@ std::optional<LabelRequest> name_label(const DrawList& list, const DrawnAgent& a
     if (!anchor) return std::nullopt;
     const float pixels = static_cast<float>(radius) * list.projection.pixels_per_metre(top);
     LabelRequest label;
+    label.role = TextRole::name;
     label.text = fit_text(agent.label, FontFace::text, text_size, 0.3f * static_cast<float>(list.size.width));
     label.size = text_size;
     label.color = readable(agent.color, list.palette);
@@ -122,6 +124,7 @@ void add_cell_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAg
         const auto room = seen_rect(list, middle - 0.5 * cell.size, middle + 0.5 * cell.size, floor);
         if (!seen || !room) continue;
         LabelRequest label;
+        label.role = TextRole::name;
         label.text = fit_name(agent.name, FontFace::text, metrics.small,
                               std::max(room->max.x - room->min.x - metrics.small, kLeastCellName * metrics.small));
         label.size = metrics.small;

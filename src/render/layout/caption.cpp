@@ -156,7 +156,7 @@ void add_caption(DrawList& list, const Caption& caption, const CaptionLines& lin
         at.x += sizes.indent;
     }
     const auto add = [&](const std::string& line, float text_size, Rgba color) {
-        list.texts.push_back(text_at(line, FontFace::text, text_size, color, at));
+        list.texts.push_back(text_at(TextRole::caption, line, FontFace::text, text_size, color, at));
         at.y += line_height(FontFace::text, text_size);
     };
     for (const std::string& line : lines.headline) add(line, sizes.headline, list.palette.text);

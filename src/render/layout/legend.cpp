@@ -289,8 +289,8 @@ void add_legend(DrawList& list, std::span<const LegendEntry> rows, glm::vec2 cor
                                           std::max(entry.width, 1.4f) * text_size / 12,
                                           0.6f * entry.dash * text_size / 11.0f});
         }
-        list.texts.push_back(text_at(fit_text(entry.text, FontFace::text, text_size, text_room), FontFace::text,
-                                     text_size, remark ? list.palette.quiet_text : list.palette.text,
+        list.texts.push_back(text_at(TextRole::legend, fit_text(entry.text, FontFace::text, text_size, text_room),
+                                     FontFace::text, text_size, remark ? list.palette.quiet_text : list.palette.text,
                                      at + glm::vec2(legend_indent(entry, text_size), 0)));
         at.y += legend_row(text_size);
     }

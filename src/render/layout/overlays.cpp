@@ -230,8 +230,8 @@ class OverlayLayout {
                 x += 0.9f * spacing_.text;
             }
             if (!place.header.empty()) {
-                list_.texts.push_back(
-                    text_at(place.header, FontFace::text, spacing_.text, list_.palette.quiet_text, {x, corner.y}));
+                list_.texts.push_back(text_at(TextRole::header, place.header, FontFace::text, spacing_.text,
+                                              list_.palette.quiet_text, {x, corner.y}));
             }
         }
         list_.overlays.push_back(overlay);
@@ -276,8 +276,8 @@ class OverlayLayout {
     std::optional<Rect> draw_map() {
         const glm::vec2 corner = draw_panel(Kind::inset, *map_);
         if (!map_->open) return std::nullopt;
-        list_.texts.push_back(
-            text_at(contents_.map_title, FontFace::text, spacing_.text, list_.palette.quiet_text, corner));
+        list_.texts.push_back(text_at(TextRole::map, contents_.map_title, FontFace::text, spacing_.text,
+                                      list_.palette.quiet_text, corner));
         const Rect& panel = map_->rect;
         const glm::vec2 at(std::round(panel.center().x - 0.5f * contents_.map.x),
                            panel.max.y - spacing_.padding - contents_.map.y);

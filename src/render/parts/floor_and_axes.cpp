@@ -165,6 +165,7 @@ std::vector<LabelRequest> floor_and_axis_labels(const DrawList& list, const Floo
     const DrawnSpace& space = list.space;
     const ViewProjection& projection = list.projection;
     LabelRequest label;
+    label.role = TextRole::tick;
     label.face = FontFace::mono;
     label.size = size;
     label.color = list.palette.quiet_text;

@@ -149,6 +149,7 @@ class Drawer {
         if (!anchor) return;
         LabelRequest label;
         label.text = agent_name(scene_, blocker.agent);
+        label.role = TextRole::name;
         label.size = metrics_.text;
         label.color = readable(whose, list_.palette);
         label.border = color;
@@ -322,6 +323,7 @@ std::vector<LabelRequest> add_followed(DrawList& list, const DrawnAgent& followe
     if (!anchor) return {};
     LabelRequest label;
     label.text = followed.label;
+    label.role = TextRole::name;
     label.size = metrics.text;
     label.color = readable(followed.color, list.palette);
     label.border = list.palette.accent;

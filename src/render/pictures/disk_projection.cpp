@@ -198,17 +198,17 @@ void draw(Diagram& diagram, const DiskExtents& extents, const ViewProjection& pr
 
 std::vector<LegendEntry> legend(const DiskExtents& extents, const Palette& palette, Rgba disk, int sample, double dt) {
     std::vector<LegendEntry> out;
-    using Mark = LegendEntry::Mark;
     std::string lengths = ": r " + with_unit(extents.radius, "m");
     if (extents.top_radius != extents.radius) lengths += " to " + with_unit(extents.top_radius, "m");
     lengths += ", dt " + with_unit(dt, "s");
-    out.push_back({.mark = Mark::disk, .color = disk, .text = "sample " + std::to_string(sample) + lengths});
+    out.push_back(
+        {.mark = LegendEntry::Mark::disk, .color = disk, .text = "sample " + std::to_string(sample) + lengths});
     for (const AxisExtent& axis : extents.along) {
         out.push_back(
             line_entry({palette.accent, 5}, axis_name("min", axis.axis) + " \u2212" + with_unit(-axis.min, "m") + ", " +
                                                 axis_name("max", axis.axis) + ' ' + with_unit(axis.max, "m")));
     }
-    out.push_back({.mark = Mark::remark, .color = Rgba(0), .text = "lengths along the axes, from p"});
+    out.push_back({.mark = LegendEntry::Mark::remark, .color = Rgba(0), .text = "lengths along the axes, from p"});
     return out;
 }
 

@@ -147,7 +147,7 @@ class ArrowPicture {
             const float size = std::round(std::min(1.1F * r, 1.4F * canvas_.metrics.text));
             const std::string name = fit_text(graph_.hubs[h].name, FontFace::text, size, 1.7F * r);
             const glm::vec2 extent(Font::of(FontFace::text).width(name, size), line_height(FontFace::text, size));
-            canvas_.write(name, size, canvas_.palette().text, glm::round(places_[h] - 0.5F * extent));
+            canvas_.write(TextRole::name, name, size, canvas_.palette().text, glm::round(places_[h] - 0.5F * extent));
         }
     }
 

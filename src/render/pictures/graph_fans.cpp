@@ -102,11 +102,11 @@ class FanPicture {
         const float room = card.size().x - 14 * scale;
         const std::string name =
             fit_text(graph_.hubs[static_cast<std::size_t>(fan.hub)].name, FontFace::text, size, room);
-        canvas_.write(name, size, canvas_.palette().text, corner);
+        canvas_.write(TextRole::name, name, size, canvas_.palette().text, corner);
         const float used = Font::of(FontFace::text).width(name, size) + 7 * scale;
         const std::string count = counted(fan.paths.size(), "move", "moves");
         if (Font::of(FontFace::text).width(count, size) > room - used) return;
-        canvas_.write(count, size, canvas_.palette().quiet_text, corner + glm::vec2(used, 0));
+        canvas_.write(TextRole::note, count, size, canvas_.palette().quiet_text, corner + glm::vec2(used, 0));
     }
 
     void add_rings(glm::vec2 center, double step, const Rect& room) {
@@ -166,7 +166,8 @@ FanScale add_graph_fans(const GraphCanvas& canvas, const MotionGraph& graph, con
     std::sort(fans.begin(), fans.end(), [](const Fan& a, const Fan& b) { return a.hub < b.hub; });
     if (fans.size() < all) {
         const std::string text = "of " + std::to_string(all) + " hubs those with the most moves";
-        canvas.write(text, canvas.metrics.small, canvas.palette().quiet_text, {area.min.x, area.max.y - line});
+        canvas.write(TextRole::note, text, canvas.metrics.small, canvas.palette().quiet_text,
+                     {area.min.x, area.max.y - line});
     }
 
     FanPicture picture(canvas, graph);

@@ -42,8 +42,8 @@ struct GraphCanvas {
         list.marks.push_back({{middle - radius, middle + radius}, radius, fill, border, border_width});
     }
     /// A line of text with its upper left corner at a point.
-    void write(const std::string& text, float size, Rgba color, glm::vec2 corner) const {
-        list.texts.push_back(text_at(text, FontFace::text, size, color, corner));
+    void write(TextRole role, const std::string& text, float size, Rgba color, glm::vec2 corner) const {
+        list.texts.push_back(text_at(role, text, FontFace::text, size, color, corner));
     }
 };
 

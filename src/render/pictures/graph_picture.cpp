@@ -69,7 +69,8 @@ class GraphLegend {
 
     void write(const std::string& text, glm::vec2 corner, float share, Rgba color) {
         const float width = Font::of(FontFace::text).width(text, canvas_.metrics.small);
-        canvas_.write(text, canvas_.metrics.small, color, {std::round(corner.x - share * width), corner.y});
+        canvas_.write(TextRole::legend, text, canvas_.metrics.small, color,
+                      {std::round(corner.x - share * width), corner.y});
     }
 
     void add_speeds(glm::vec2 corner) {
@@ -169,9 +170,10 @@ DrawList graph_picture(const Scene& scene, PictureSize size, Theme theme, double
     const auto height = static_cast<float>(size.height);
     const float headline_size = std::round(1.4F * m.text);
     const float room = width - 2.8F * m.pad;
-    canvas.write(fit_text(headline, FontFace::text, headline_size, room), headline_size, list.palette.text, at);
+    canvas.write(TextRole::caption, fit_text(headline, FontFace::text, headline_size, room), headline_size,
+                 list.palette.text, at);
     at.y += 1.15F * line_height(FontFace::text, headline_size);
-    canvas.write(fit_text(below, FontFace::text, m.text, room), m.text, list.palette.quiet_text, at);
+    canvas.write(TextRole::caption, fit_text(below, FontFace::text, m.text, room), m.text, list.palette.quiet_text, at);
     at.y += line_height(FontFace::text, m.text) + m.pad;
 
     GraphLegend legend(canvas, room);

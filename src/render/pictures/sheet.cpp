@@ -58,7 +58,7 @@ Image title_picture(const std::string& title, PictureSize size, float text, cons
     const auto room = static_cast<float>(size.width);
     const std::string line = fit_text(title, kFace, text, room);
     const float left = std::round(0.5f * (room - Font::of(kFace).width(line, text)));
-    list.texts.push_back(text_at(line, kFace, text, palette.text, {left, 0}));
+    list.texts.push_back(text_at(TextRole::caption, line, kFace, text, palette.text, {left, 0}));
     return renderer.draw(list);
 }
 

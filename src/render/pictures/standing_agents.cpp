@@ -263,6 +263,7 @@ std::vector<LabelRequest> length_label(const DrawList& list, glm::vec3 from, glm
     if (!anchor || !ends.first || !ends.second || glm::length(*ends.second - *ends.first) < 1.5f * text_size) return {};
     LabelRequest label;
     label.text = with_unit(length, "m");
+    label.role = TextRole::note;
     label.face = FontFace::mono;
     label.size = text_size;
     label.color = readable(color, list.palette);

@@ -30,10 +30,11 @@ float line_height(FontFace face, float size) {
     return std::ceil(font.ascent(size) + font.descent(size));
 }
 
-TextRun text_at(const std::string& text, FontFace face, float size, Rgba color, glm::vec2 corner) {
+TextRun text_at(TextRole role, const std::string& text, FontFace face, float size, Rgba color, glm::vec2 corner) {
     const Font& font = Font::of(face);
     TextRun run;
     run.text = text;
+    run.role = role;
     run.face = face;
     run.size = size;
     run.color = color;
@@ -69,7 +70,7 @@ bool LabelLayout::place(const LabelRequest& request, DrawList& list) {
         taken_.push_back(rect);
         if (request.pill) list.panels.push_back({rect, 0.3f * request.size, list.palette.panel, request.border, 1});
         const glm::vec2 corner = rect.min + glm::vec2(padding, std::floor(0.5f * padding));
-        list.texts.push_back(text_at(request.text, request.face, request.size, request.color, corner));
+        list.texts.push_back(text_at(request.role, request.text, request.face, request.size, request.color, corner));
         return true;
     }
     return false;

@@ -11,6 +11,7 @@ namespace mobbscope {
 /// A label that wants to stand near a point of the picture.
 struct LabelRequest {
     std::string text;
+    TextRole role = TextRole::label;
     FontFace face = FontFace::text;
     float size = 12;
     Rgba color{1};
@@ -42,7 +43,7 @@ class LabelLayout {
 };
 
 /// A line of text with its upper left corner at a point; its `box` is filled in.
-TextRun text_at(const std::string& text, FontFace face, float size, Rgba color, glm::vec2 corner);
+TextRun text_at(TextRole role, const std::string& text, FontFace face, float size, Rgba color, glm::vec2 corner);
 
 /// The height of a line of text, pixels.
 float line_height(FontFace face, float size);

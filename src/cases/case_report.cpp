@@ -1,0 +1,90 @@
+#include <cases/case_report.h>
+
+#include <base/error.h>
+#include <base/file.h>
+#include <base/json.h>
+#include <base/json_writer.h>
+#include <base/text.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <sstream>
+#include <system_error>
+
+namespace mobbscope::picture_tests {
+
+namespace {
+
+constexpr int kReportVersion = 1;
+
+/// Leaves of a page its report, with the lines that stand before it empty, so that messages count its lines; of a text
+/// that is no page all of it.
+std::string report_in(std::string text, const std::string& name) {
+    const std::size_t begin = text.find(kReportBegins);
+    if (begin == text.npos) {
+        const std::size_t first = text.find_first_not_of(" \t\r\n");
+        if (first != text.npos && text[first] == '<')
+            throw InputError(name, "", "is a page without a report; give the one that mobbscope test --html wrote");
+        return text;
+    }
+    const std::size_t end = text.find(kReportEnds, begin);
+    if (end == text.npos) throw InputError(name, "", "ends within its report; copy the whole page");
+    text.resize(end);
+    const auto report = text.begin() + static_cast<std::ptrdiff_t>(begin + kReportBegins.size());
+    std::replace_if(
+        text.begin(), report, [](char c) { return c != '\n'; }, ' ');
+    return text;
+}
+
+}  // namespace
+
+void write_case_report(std::ostream& out, std::span<const CaseResult> results, const DrawnBy& drawn_by) {
+    std::ostringstream text;
+    JsonWriter json(text);
+    json.begin_object();
+    json.member("mobbscope_report", kReportVersion);
+    json.begin_array("cases");
+    for (const CaseResult& result : results) {
+        if (result.outcome == CaseOutcome::passed || result.outcome == CaseOutcome::skipped) continue;
+        write_result(json, result, drawn_by, Pictures::not_in_fresh);
+    }
+    json.end_array();
+    json.end_object();
+    // It can only stand in a string.
+    for (const char c : text.str()) c == '<' ? out << "\\u003c" : out << c;
+}
+
+CaseReport read_case_report(const std::filesystem::path& report, const std::vector<CaseFile>& cases) {
+    CaseReport out;
+    std::error_code ignored;
+    out.file = std::filesystem::is_directory(report, ignored) ? report / kReportFile : report;
+    const std::string name = out.file.string();
+    if (!std::filesystem::exists(out.file, ignored)) {
+        throw InputError(
+            name, "", "there is no report; give the folder that mobbscope test --output left, or the page of --html");
+    }
+    const JsonValue value = parse_json(report_in(read_file(out.file), name), name);
+    const JsonPlace root(value, name);
+    const JsonPlace version = root.require("mobbscope_report");
+    if (version.number() != kReportVersion) {
+        version.fail("the report has version " + short_double(version.number()) + "; this program reads version " +
+                     std::to_string(kReportVersion));
+    }
+    const JsonPlace results = root.require("cases");
+    std::set<std::string> seen;
+    for (int i = 0; i < results.size(); ++i) {
+        const JsonPlace result = results[i];
+        const JsonPlace named = result.require("name");
+        const std::string& of = named.string();
+        if (!seen.insert(of).second) named.fail("the case " + in_quotes(of) + " stands there twice");
+        if (std::ranges::find(cases, of, &CaseFile::name) == cases.end()) {
+            out.unknown.push_back(of);
+        } else {
+            out.results.push_back(read_result(result, cases));
+        }
+    }
+    return out;
+}
+
+}  // namespace mobbscope::picture_tests

@@ -1,0 +1,38 @@
+/// What a run keeps of the cases that did not pass, with their goldens as they would be now: enough to look at them,
+/// and to take them, on any system and without drawing anything.
+///
+///     {"mobbscope_report": 1, "cases": [{...}, ...]}      each as in result_line.h
+///
+/// It is `report.json` in the folder of `mobbscope test --output`, and in the page of `--html`.
+#pragma once
+
+#include <cases/case_file.h>
+#include <cases/case_result.h>
+#include <cases/result_line.h>
+
+#include <filesystem>
+#include <ostream>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope::picture_tests {
+
+/// What stands before a report in a page, and behind it.
+inline constexpr std::string_view kReportBegins = "<script type=\"application/json\" id=\"mobbscope-report\">";
+inline constexpr std::string_view kReportEnds = "</script>";
+
+/// Without those that passed or were skipped. No '<' is in it, so that a page can hold it.
+void write_case_report(std::ostream& out, std::span<const CaseResult> results, const DrawnBy& drawn_by);
+
+struct CaseReport {
+    std::filesystem::path file;  ///< that was read
+    std::vector<NamedResult> results;
+    std::vector<std::string> unknown;  ///< cases that are none of those given
+};
+
+/// `report`: the folder, its report.json, or the page. Throws InputError if there is no report.
+CaseReport read_case_report(const std::filesystem::path& report, const std::vector<CaseFile>& cases);
+
+}  // namespace mobbscope::picture_tests

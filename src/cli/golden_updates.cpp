@@ -1,0 +1,174 @@
+#include <base/error.h>
+#include <base/json.h>
+#include <base/text.h>
+#include <cases/case_report.h>
+#include <cli/golden_updates.h>
+#include <cli/program.h>
+#include <picture_tests/run_cases.h>
+#include <render/image/png.h>
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <iostream>
+#include <optional>
+#include <set>
+#include <string_view>
+
+namespace mobbscope::cli {
+
+using picture_tests::CaseFile;
+using picture_tests::CaseResult;
+using picture_tests::GoldenChange;
+
+namespace {
+
+enum class Reply { yes, no, all, quit };
+
+Reply ask(const CaseResult& result, const std::filesystem::path& folder, std::ostream& say) {
+    say << cleaned(result.file.name) << ": " << name(result.outcome) << ": " << cleaned(result.message) << '\n';
+    for (const std::filesystem::path& picture : keep_pictures(result, folder)) {
+        say << "  " << cleaned(picture.string()) << '\n';
+    }
+    say << "take it? [y/N/a/q] " << std::flush;
+    std::string line;
+    if (!std::getline(std::cin, line)) return Reply::quit;
+    const std::string_view answer = trimmed(line);
+    if (answer == "y") return Reply::yes;
+    if (answer == "a") return Reply::all;
+    return answer == "q" ? Reply::quit : Reply::no;
+}
+
+void take_one(CaseResult& result, std::ostream& say) {
+    for (const std::filesystem::path& file : take(result)) say << "wrote " << cleaned(file.string()) << '\n';
+}
+
+/// The folders that the cases stand in.
+std::set<std::filesystem::path> folders_of(const std::vector<CaseFile>& cases) {
+    std::set<std::filesystem::path> out;
+    for (const CaseFile& file : cases) out.insert(file.file.parent_path());
+    return out;
+}
+
+/// Throws InputError if what a report would write is no such file: a damaged one must not become a golden.
+void check_bytes(const GoldenChange& change, const std::filesystem::path& report) {
+    if (!change.bytes) return;
+    const std::string name = report.string() + ": " + change.file.string() + " as it would be";
+    if (change.file.extension() == ".png") {
+        read_png_bytes(*change.bytes, name);
+    } else {
+        parse_json(*change.bytes, name);
+    }
+}
+
+/// Throws InputError for a pattern that names no case of the report.
+void check_patterns(const picture_tests::CaseReport& read, const std::vector<std::string>& patterns) {
+    for (const std::string& pattern : patterns) {
+        const auto is_named = [&](const std::string& name) { return matches_any({pattern}, name); };
+        if (std::ranges::any_of(read.unknown, is_named) ||
+            std::ranges::any_of(read.results, is_named, &picture_tests::NamedResult::name))
+            continue;
+        throw InputError(read.file.string(), "",
+                         in_quotes(pattern) + " passed there, or was not drawn; leave it out, or name another");
+    }
+}
+
+}  // namespace
+
+bool matches_any(const std::vector<std::string>& patterns, const std::string& name) {
+    return std::ranges::any_of(patterns, [&](const std::string& pattern) {
+        return pattern == name || ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+    });
+}
+
+void take_named(std::span<CaseResult> results, const std::vector<std::string>& patterns, std::ostream& say) {
+    for (CaseResult& result : results) {
+        if (result.fresh.empty() || !result.other_here.empty()) continue;
+        if (patterns.empty() || matches_any(patterns, result.file.name)) take_one(result, say);
+    }
+}
+
+void take_asked(std::span<CaseResult> results, const std::filesystem::path& folder, std::ostream& say) {
+    bool all = false;
+    for (CaseResult& result : results) {
+        if (!can_be_taken(result)) continue;
+        const Reply answer = all ? Reply::yes : ask(result, folder, say);
+        if (answer == Reply::quit) return;
+        all = all || answer == Reply::all;
+        if (answer != Reply::no) take_one(result, say);
+    }
+}
+
+void check_references(const std::filesystem::path& folder, const std::vector<CaseFile>& cases,
+                      const picture_tests::Reference& here) {
+    for (const std::filesystem::path& of_cases : folders_of(cases)) {
+        const std::optional<picture_tests::Reference> reference = picture_tests::read_reference(of_cases);
+        const std::string other = reference ? picture_tests::what_is_other(here, *reference) : "";
+        if (other.empty()) continue;
+        throw InputError("--update: " + picture_tests::reference_file(of_cases).string() +
+                         " says where the goldens are from, and here are " + other +
+                         "; take them there, or from the report of a job there with mobbscope test " +
+                         shell_word(folder.string()) +
+                         " --accept REPORT, or all anew with --update all --new-reference");
+    }
+}
+
+void take_as_reference(std::vector<CaseResult>& results, const std::vector<CaseFile>& cases,
+                       const picture_tests::Reference& here, std::ostream& say) {
+    const picture_tests::Summary sum = picture_tests::summary(results);
+    if (sum[picture_tests::CaseOutcome::failed] > 0 || sum[picture_tests::CaseOutcome::skipped] > 0) {
+        warn(
+            "nothing is taken, as some of the cases cannot be drawn or are skipped: all goldens of a reference are "
+            "from one place");
+        return;
+    }
+    take_named(results, {}, say);
+    for (const std::filesystem::path& folder : folders_of(cases)) {
+        picture_tests::write_reference(folder, here);
+        say << "wrote " << cleaned(picture_tests::reference_file(folder).string()) << '\n';
+    }
+}
+
+bool take_report(const std::filesystem::path& report, const std::vector<CaseFile>& cases,
+                 const std::vector<std::string>& patterns, std::ostream& say) {
+    const picture_tests::CaseReport read = picture_tests::read_case_report(report, cases);
+    check_patterns(read, patterns);
+    const auto is_meant = [&](const std::string& name) { return patterns.empty() || matches_any(patterns, name); };
+    std::vector<GoldenChange> changes;
+    bool all = true;
+    int taken = 0;
+    const auto leave_out = [&](const std::string& name, const std::string& why) {
+        warn(name + ": not accepted: " + why);
+        all = false;
+    };
+    for (const std::string& name : read.unknown) {
+        if (!is_meant(name)) continue;
+        leave_out(name, "there is no such case");
+    }
+    for (const picture_tests::NamedResult& one : read.results) {
+        if (!is_meant(one.name)) continue;
+        if (one.result.fresh.empty()) {
+            leave_out(one.name, "there is no picture of it: " + one.result.message);
+            continue;
+        }
+        if (!one.result.other_here.empty()) {
+            warn(one.name + ": the report is not from where its goldens are: it was drawn with " +
+                 one.result.other_here);
+        }
+        ++taken;
+        for (const GoldenChange& change : one.result.fresh) {
+            // Whoever accepts twice has it already.
+            if (picture_tests::golden_bytes(change.file) == change.bytes) continue;
+            check_bytes(change, read.file);
+            changes.push_back(change);
+        }
+    }
+    write_goldens(changes);
+    for (const GoldenChange& change : changes) {
+        say << (change.bytes ? "wrote " : "removed ") << cleaned(change.file.string()) << '\n';
+    }
+    say << "accepted " << counted(taken, "case", "cases") << " of " << cleaned(read.file.string()) << '\n';
+    return all;
+}
+
+}  // namespace mobbscope::cli
