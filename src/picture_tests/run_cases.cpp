@@ -125,7 +125,7 @@ void judge_pixels(CaseResult& result, const Held& held, const std::filesystem::p
         add_missing(result, file);
     } else if (!held.diff->passes) {
         add_finding(result, CaseOutcome::different, {file, which + what_differs(*held.diff), {}});
-    } else if (held.diff->differing > 0 && which.empty()) {
+    } else if (!held.diff->same && which.empty()) {
         result.remarks.push_back(what_differs(*held.diff));
     }
 }

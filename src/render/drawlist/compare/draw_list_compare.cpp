@@ -80,6 +80,8 @@ class Comparer {
 
     /// `most`: lines in each part.
     DrawListComparison result(std::size_t most) && {
+        // It frames the scene, and moves where that does.
+        other_.insert(other_.end(), cameras_.begin(), cameras_.end());
         if (gone_.empty() && other_.empty()) other_ = std::move(follows_);
         gone_.insert(gone_.end(), std::make_move_iterator(other_.begin()), std::make_move_iterator(other_.end()));
         const std::size_t count = gone_.size();
@@ -234,7 +236,7 @@ class Comparer {
         ElementTerms terms;
         terms.kind.list = "camera";
         const std::string words = members_unlike(terms, actual, golden, true);
-        if (!words.empty()) return other_.push_back(in_ + "camera" + words);
+        if (!words.empty()) return cameras_.push_back(in_ + "camera" + words);
         const std::string follows = members_unlike(ElementTerms{}, actual, golden, true);
         if (!follows.empty()) follows_.push_back(in_ + "camera" + follows);
     }
@@ -281,6 +283,7 @@ class Comparer {
     bool other_fonts_;
     Words gone_;     ///< what is missing or not in the golden
     Words other_;    ///< what differs
+    Words cameras_;  ///< ... and what differs in cameras
     Words follows_;  ///< what differs where something else does
     Words pixels_;
     // Of the draw lists that are compared:
