@@ -5,6 +5,7 @@
 #include <base/json.h>
 #include <base/json_writer.h>
 #include <base/text.h>
+#include <render/image/png.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -85,6 +86,18 @@ CaseReport read_case_report(const std::filesystem::path& report, const std::vect
         }
     }
     return out;
+}
+
+void check_bytes(std::span<const GoldenChange> changes, const std::filesystem::path& report) {
+    for (const GoldenChange& change : changes) {
+        if (!change.bytes) continue;
+        const std::string name = report.string() + ": " + change.file.string() + " as it would be";
+        if (change.file.extension() == ".png") {
+            read_png_bytes(*change.bytes, name);
+        } else {
+            parse_json(*change.bytes, name);
+        }
+    }
 }
 
 }  // namespace mobbscope::picture_tests

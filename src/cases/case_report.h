@@ -8,6 +8,7 @@
 
 #include <cases/case_file.h>
 #include <cases/case_result.h>
+#include <cases/golden_change.h>
 #include <cases/result_line.h>
 
 #include <filesystem>
@@ -34,5 +35,8 @@ struct CaseReport {
 
 /// `report`: the folder, its report.json, or the page. Throws InputError if there is no report.
 CaseReport read_case_report(const std::filesystem::path& report, const std::vector<CaseFile>& cases);
+
+/// Throws InputError if what a report would write is no picture, or no JSON: a damaged one must not become a golden.
+void check_bytes(std::span<const GoldenChange> changes, const std::filesystem::path& report);
 
 }  // namespace mobbscope::picture_tests

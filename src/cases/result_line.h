@@ -4,8 +4,9 @@
 ///     {"name", "outcome", "message", "remarks": [...], "tolerance", "decided_by", "other_here", "backend", "renderer",
 ///      "diff": {...} | null,                             as `mobbscope diff --json`
 ///      "findings": [{"golden": ".draw.json", "message", "words": [...]}],
-///      "shown": ".png", "mask": FILE | null,             the golden that the pictures are of; FILE relative to the
-///      case "actual": PNG | null, "golden": PNG | null,       in base64; the golden of a case that did not pass
+///      "shown": ".png",                                  the golden that the pictures are of
+///      "mask": FILE | null,                              relative to the case
+///      "actual": PNG | null, "golden": PNG | null,       in base64; the golden of a case that did not pass
 ///      "fresh": [{"golden": ".png", "bytes": ... | null, "replaces": ... | null}]}   in base64; null: no such file
 ///
 /// Goldens are told by what follows the case's name.

@@ -355,9 +355,8 @@ void add_test_command(Command& program, int& status) {
                     "NAME")
                 .any_number();
             command.add_flag("--new-reference", arguments->new_reference,
-                             "With --update all: say in reference.json what the goldens are drawn with; the program "
-                             "then knows where "
-                             "they must be the very same");
+                             "With --update all: say in reference.json what the goldens are drawn with, where they "
+                             "must be the very same");
             add_parsed(command, "--accept", arguments->accept, parse_file_name,
                        "Draw nothing: take the goldens of a report, the folder of --output or the page of --html, byte "
                        "by byte, on any system",

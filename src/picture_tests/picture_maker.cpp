@@ -55,8 +55,8 @@ std::vector<DrawList> lists_of(const Shot& shot) {
 PictureMaker::PictureMaker(Backend backend) : renderer_(backend) {}
 
 Image PictureMaker::make(const Shot& shot) {
-    refuse_warnings(renderer_.backend(), renderer_.warnings());
     if (shot.window) {
+        refuse_warnings(renderer_.backend(), renderer_.warnings());
         return work_window([&] {
             return window_picture(*shot.panels.front().fitted, shot.panels.front().view, shot.scene_file,
                                   *backend_from_name(renderer_.backend()), shot.picture.size, shot.window->scale,
@@ -67,6 +67,7 @@ Image PictureMaker::make(const Shot& shot) {
 }
 
 Image PictureMaker::make(const Shot& shot, const std::vector<DrawList>& lists) {
+    refuse_warnings(renderer_.backend(), renderer_.warnings());
     const PictureOptions& options = shot.picture;
     if (lists.size() == 1) return renderer_.draw(lists.front(), options.samples);
     std::vector<SheetCell> cells;
@@ -77,8 +78,6 @@ Image PictureMaker::make(const Shot& shot, const std::vector<DrawList>& lists) {
     return make_sheet(cells, shot.columns, colors, options.background.value_or(colors.background),
                       metrics_of(options.size, options.scale), renderer_, options.size);
 }
-
-std::string PictureMaker::draw_lists(const Shot& shot) { return draw_lists(panel_lists(shot)); }
 
 std::string PictureMaker::draw_lists(const std::vector<DrawList>& lists) {
     std::ostringstream out;

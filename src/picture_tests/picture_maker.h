@@ -27,9 +27,8 @@ class PictureMaker {
     /// The picture of a shot without a window, of what its panels draw (panel_lists). Throws as make does.
     Image make(const Shot& shot, const std::vector<DrawList>& lists);
 
-    /// What a shot draws, as JSON with the number of pixels of each object (draw_list_json.h): an object, or for
-    /// several panels an array of them. Not for a window. Throws as make does.
-    std::string draw_lists(const Shot& shot);
+    /// What panels draw, as JSON with the number of pixels of each object (draw_list_json.h): an object, or for several
+    /// panels an array of them. Throws as make does.
     std::string draw_lists(const std::vector<DrawList>& lists);
 
     /// What a window shows: the scene in it without text, and its state as JSON. Throws as make does.

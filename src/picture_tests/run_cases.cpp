@@ -47,12 +47,14 @@ void add_missing(CaseResult& result, const std::filesystem::path& file) {
 /// What a case draws; each part is made when it is first asked for.
 class DrawnCase {
   public:
-    DrawnCase(const Case& tested, PictureMaker& maker)
-        : shot_(tested.shot), maker_(maker), picture_(maker.make(tested.shot)) {}
+    DrawnCase(const Case& tested, PictureMaker& maker) : shot_(tested.shot), maker_(maker) {
+        if (!shot_.window) lists_ = panel_lists(shot_);
+        picture_ = shot_.window ? maker.make(shot_) : maker.make(shot_, lists_);
+    }
 
     const Image& picture() const { return picture_; }
     const std::string& draw_list() {
-        if (!draw_list_) draw_list_ = maker_.draw_lists(shot_);
+        if (!draw_list_) draw_list_ = maker_.draw_lists(lists_);
         return *draw_list_;
     }
     /// Without text, and coarse.
@@ -79,6 +81,7 @@ class DrawnCase {
 
     const Shot& shot_;
     PictureMaker& maker_;
+    std::vector<DrawList> lists_;  ///< of its panels; none of a window
     Image picture_;
     std::optional<std::string> draw_list_, state_;
     std::optional<Image> plain_;
@@ -254,14 +257,13 @@ std::vector<GoldenChange> goldens_of(const CaseFile& file, const Case& tested, D
         return wanted ? std::optional<std::string>(make()) : std::nullopt;
     };
     const bool numbers = tested.terms.draw_list && !tested.shot.window;
-    const bool plain = !numbers;
     add(file.golden(), png_bytes(drawn.picture()));
     add(file.draw(), if_wanted(numbers, [&] { return drawn.draw_list(); }));
     // Elsewhere NAME.plain may be a case of its own.
     if (!has_reference) return out;
-    add(file.plain(), if_wanted(plain, [&] { return png_bytes(drawn.plain()); }));
+    add(file.plain(), if_wanted(!numbers, [&] { return png_bytes(drawn.plain()); }));
     add(file.plain_draw(), std::nullopt);
-    add(file.plain_state(), if_wanted(plain && tested.shot.window, [&] { return drawn.state(); }));
+    add(file.plain_state(), if_wanted(tested.shot.window.has_value(), [&] { return drawn.state(); }));
     return out;
 }
 
@@ -382,7 +384,9 @@ std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const
         const std::filesystem::path file = (result.file.*golden)();
         const std::string ending = result.file.ending_of(file);
         const bool shown = file == result.shown;
-        keep("actual" + ending, shown ? png(&result.actual) : fresh_bytes(result, file));
+        // What accepting writes, to the byte.
+        const std::optional<std::string> fresh = fresh_bytes(result, file);
+        keep("actual" + ending, shown && !fresh ? png(&result.actual) : fresh);
         keep("golden" + ending, shown ? png(&result.golden) : std::nullopt);
         keep("heat" + ending, shown && result.image ? png(&result.image->heat) : std::nullopt);
     }

@@ -848,6 +848,26 @@ TEST(Review, AReportsGoldensAreTakenByteByByteAndDrawNothing) {
     }
 }
 
+TEST(Review, OfADamagedReportNothingIsTaken) {
+    ReviewWorld w;
+    const fs::path out = w.files.path() / "out";
+    EXPECT_NE(ThreeCases::run("test '" + w.files.cases().string() + "' --output '" + out.string() + "'"), 0);
+    const std::string before = w.files.bytes("moved.png");
+    nlohmann::json report = nlohmann::json::parse(mobbscope::testing::slurp(out / "report.json"));
+    for (nlohmann::json& one : report["cases"]) {
+        for (nlohmann::json& fresh : one["fresh"]) {
+            if (fresh["golden"] == ".draw.json") fresh["bytes"] = "e30x";  // "{}1"
+        }
+    }
+    write_file(out / "report.json", report.dump());
+    w.session.review(w.files.cases(), out);
+    w.show("moved");
+    w.key("A");
+    EXPECT_FALSE(w.one("moved").accepted);
+    EXPECT_NE(w.said().find("moved.draw.json as it would be"), std::string::npos) << w.said();
+    EXPECT_EQ(w.files.bytes("moved.png"), before);
+}
+
 TEST(Review, ARunIsLiveAndCanBeStopped) {
     const TempFolder folder;
     const ThreeCases files(folder.path());

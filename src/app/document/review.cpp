@@ -17,7 +17,6 @@ using picture_tests::CaseFile;
 using picture_tests::CaseOutcome;
 using picture_tests::GoldenChange;
 using picture_tests::NamedResult;
-using picture_tests::PackedResult;
 
 namespace {
 
@@ -339,6 +338,7 @@ std::vector<ReviewNews> Review::write(const std::vector<std::size_t>& indices) {
     for (const std::size_t index : indices) {
         ReviewCase& one = cases_[index];
         try {
+            if (one.from_output) picture_tests::check_bytes(one.result.fresh, output_);
             picture_tests::write_goldens(one.result.fresh);
         } catch (const std::exception& error) {
             if (!first_refusal) first_refusal = std::current_exception();
