@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <mutex>
 #include <new>
-#include <optional>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -19,16 +18,11 @@ namespace mobbscope {
 
 namespace {
 
-struct WorkerLimit {
+struct Workers {
     std::mutex mutex;
-    bool is_measured = false;
-    std::optional<tbb::global_control> control;  ///< where not all of them can be started
+    bool are_limited = false;
 };
-
-WorkerLimit& worker_limit() {
-    static WorkerLimit limit;
-    return limit;
-}
+Workers workers;
 
 /// A thread that was joined still counts for a moment, and would keep the next from starting.
 void wait_until_gone(int left) {
@@ -74,20 +68,19 @@ int startable_threads(int wanted) {
 }
 
 void limit_worker_threads() {
-    WorkerLimit& limit = worker_limit();
-    const std::scoped_lock lock(limit.mutex);
-    if (std::exchange(limit.is_measured, true)) return;
+    const std::scoped_lock lock(workers.mutex);
+    if (std::exchange(workers.are_limited, true)) return;
     const int wanted = tbb::info::default_concurrency() - 1;
     const int startable = startable_threads(wanted);
     if (startable == wanted) return;
-    limit.control.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(startable) + 1);
+    // It stays for good: as it ended, TBB would start what it held back.
+    static_cast<void>(
+        new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(startable) + 1));
 }
 
 void end_worker_threads() {
-    WorkerLimit& limit = worker_limit();
-    const std::scoped_lock lock(limit.mutex);
-    if (!std::exchange(limit.is_measured, false)) return;
-    limit.control.reset();
+    const std::scoped_lock lock(workers.mutex);
+    if (!std::exchange(workers.are_limited, false)) return;
     tbb::task_scheduler_handle all{tbb::attach{}};
     if (tbb::finalize(all, std::nothrow)) wait_until_gone(1);
 }
