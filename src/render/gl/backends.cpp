@@ -209,7 +209,7 @@ std::unique_ptr<GlContext> GlContext::open(Backend backend) {
             reasons += (reasons.empty() ? "" : "; ") + std::string(row.name) + ": " + error.what();
         }
     }
-    throw MachineError("no OpenGL 3.3 context without a display (" + reasons + ")" + mesa_advice());
+    throw MachineError("no OpenGL 3.3 context without a display (" + reasons + ")" + driver_advice());
 }
 
 SharedLibrary::SharedLibrary(const std::vector<std::string>& names) {

@@ -1,9 +1,11 @@
+#include <base/text.h>
 #include <base/threads.h>
 #include <render/gl/driver_crash.h>
 #include <render/gl/driver_watch.h>
 
 #include <glad/gl.h>
 
+#include <malloc.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -150,7 +152,7 @@ void end_as(int status, const Told& told) {
     if (told.crash.signal == 0) end_by(WTERMSIG(status));
     if (!told.has_drawn) return;
     watching.asked->say("OpenGL (" + std::string(told.name.data()) + ") " + described(told.crash) + " while drawing" +
-                        mesa_advice());
+                        driver_advice());
     ::_exit(watching.asked->status_of_crash);
 }
 
@@ -182,6 +184,10 @@ std::optional<DriverCrash> go_on_watched(int backend, const std::string& name, c
     std::optional<DriverCrash> crash;
     if (child > 0) {
         signals.to(child);
+#ifdef __GLIBC__
+        // Memory that is free here too need not be copied before the child writes to it.
+        ::malloc_trim(0);
+#endif
         end_as(wait_for(child), *told);
         const std::string before = told->text.data();
         watching.has_crashed = true;
@@ -199,10 +205,10 @@ void note_drawn() {
     watching.told->has_drawn = true;
     if (watching.notice.empty()) return;
     watching.asked->say("warning: OpenGL by " + std::string(watching.told->name.data()) +
-                        " draws, as another cannot (" + watching.notice + ")" + mesa_advice());
+                        " draws, as another cannot (" + watching.notice + ")" + driver_advice());
 }
 
-std::string done_in_child(const std::function<std::string()>& work, std::chrono::seconds longest) {
+std::string done_in_child(const std::function<std::string()>& work, std::chrono::milliseconds longest) {
     Told* told = make_told();
     const pid_t child = fork_to_watch(told);
     if (child < 0) {
@@ -226,8 +232,8 @@ std::string done_in_child(const std::function<std::string()>& work, std::chrono:
             ::kill(child, SIGKILL);
             wait_for(child);
             drop(told);
-            throw std::runtime_error("hangs: it has drawn nothing after " + std::to_string(longest.count()) + " s" +
-                                     mesa_advice());
+            throw std::runtime_error("hangs: not done after " + std::to_string(longest.count()) + " ms" +
+                                     driver_advice());
         }
         std::this_thread::sleep_for(kAskEvery);
     }
@@ -235,22 +241,29 @@ std::string done_in_child(const std::function<std::string()>& work, std::chrono:
     const bool has_failed = told->has_failed;
     const std::string crash = told->crash.signal != 0 ? described(told->crash) : "";
     drop(told);
-    if (!crash.empty()) throw std::runtime_error(crash + mesa_advice());
+    if (!crash.empty()) throw std::runtime_error(crash + driver_advice());
     if (WIFSIGNALED(status)) throw std::runtime_error(std::string("crashed (") + ::strsignal(WTERMSIG(status)) + ")");
     if (has_failed) throw std::runtime_error(text);
     return text;
 }
 
-std::string mesa_advice() {
+std::string driver_advice() {
     std::string found;
     for (char** variable = environ; *variable; ++variable) {
         const std::string_view text = *variable;
         const auto is_read = [&](std::string_view beginning) { return text.starts_with(beginning); };
+        if (text.starts_with("LP_NUM_THREADS=")) continue;  // may be our own
         if (std::any_of(kReadByMesa.begin(), kReadByMesa.end(), is_read)) {
             found += (found.empty() ? "" : ", ") + std::string(text);
         }
     }
-    return found.empty() ? "" : "; Mesa reads " + found + " from the environment: unset what is not needed";
+    std::string out;
+    if (!found.empty()) out += "; Mesa reads " + found + " from the environment: unset what is not needed";
+    rlimit memory{};
+    if (::getrlimit(RLIMIT_AS, &memory) == 0 && memory.rlim_cur != RLIM_INFINITY) {
+        out += "; memory is limited to " + bytes_text(memory.rlim_cur) + ": raise it (ulimit -v)";
+    }
+    return out;
 }
 
 }  // namespace mobbscope

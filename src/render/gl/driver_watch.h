@@ -36,9 +36,10 @@ void note_drawn();
 
 /// What `work` returns or throws (std::runtime_error), done in a child process. Throws std::runtime_error if a driver
 /// crashes in it, or it takes longer than that. In this process where there can be no child.
-std::string done_in_child(const std::function<std::string()>& work, std::chrono::seconds longest);
+std::string done_in_child(const std::function<std::string()>& work, std::chrono::milliseconds longest);
 
-/// "; Mesa reads from the environment: GALLIUM_DRIVER=d3d12 (unset what is not needed)", or "" if nothing is set there.
-std::string mesa_advice();
+/// What may keep a driver from drawing, to end a message with: what Mesa reads from the environment, and a limit of
+/// memory. "" if there is neither.
+std::string driver_advice();
 
 }  // namespace mobbscope
