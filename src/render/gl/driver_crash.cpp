@@ -8,6 +8,7 @@
 #include <unistd.h>
 #include <unwind.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstddef>
@@ -36,6 +37,7 @@ struct Code {
 /// Read by a handler of signals: it stays as it is once there is one.
 std::vector<Code> loaded_first;
 CrashNote* noted = nullptr;
+std::array<struct sigaction, kCrashes.size()> handled_before;
 
 int add_object(dl_phdr_info* object, std::size_t /*size*/, void* first) {
     bool& is_first = *static_cast<bool*>(first);
@@ -101,7 +103,6 @@ _Unwind_Reason_Code step(_Unwind_Context* frame, void* state) {
 }
 
 void note_crash(int signal, siginfo_t* info, void* context) {
-    ::signal(signal, SIG_DFL);
     // It may have come while what is needed here was locked.
     ::signal(SIGALRM, SIG_DFL);
     ::alarm(kLongestLook);
@@ -116,7 +117,15 @@ void note_crash(int signal, siginfo_t* info, void* context) {
             std::strncpy(noted->library.data(), slash ? slash + 1 : library.dli_fname, noted->library.size() - 1);
         }
     }
-    ::raise(signal);
+    // Others that handle crashes (sanitizers) hear of the program's own.
+    const std::size_t which =
+        static_cast<std::size_t>(std::find(kCrashes.begin(), kCrashes.end(), signal) - kCrashes.begin());
+    struct sigaction usual {};
+    usual.sa_handler = SIG_DFL;
+    ::sigaction(signal, walk.in_driver != 0 ? &usual : &handled_before[which], nullptr);
+    ::alarm(0);
+    // A fault comes again by itself, with its place.
+    if (info->si_code <= 0) ::raise(signal);
 }
 
 }  // namespace
@@ -129,14 +138,10 @@ void note_program() {
 
 void note_crashes(CrashNote& note) {
     noted = &note;
-    for (const int signal : kCrashes) {
-        struct sigaction before {};
-        if (::sigaction(signal, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) continue;
-        struct sigaction action {};
-        action.sa_sigaction = note_crash;
-        action.sa_flags = SA_SIGINFO;
-        ::sigaction(signal, &action, nullptr);
-    }
+    struct sigaction action {};
+    action.sa_sigaction = note_crash;
+    action.sa_flags = SA_SIGINFO;
+    for (std::size_t i = 0; i < kCrashes.size(); ++i) ::sigaction(kCrashes[i], &action, &handled_before[i]);
 }
 
 std::string described(const CrashNote& note) {

@@ -17,7 +17,7 @@ struct CrashNote {
 void note_program();
 
 /// From now on a crash of this process is noted if code that was loaded or made since note_program stands between it
-/// and the program's own, and goes on as it would. Where somebody else handles crashes (a sanitizer), they keep them.
+/// and the program's own, and ends the process by its signal. Any other goes to who handled it before.
 void note_crashes(CrashNote& note);
 
 /// "crashed (Segmentation fault in libOSMesa.so.8)".
