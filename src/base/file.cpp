@@ -230,9 +230,10 @@ void write_file(const std::filesystem::path& file, std::string_view bytes) {
 }
 
 std::filesystem::path whole_path(const std::filesystem::path& path) {
-    std::error_code ignored;
-    const std::filesystem::path whole =
-        std::filesystem::absolute(path.empty() ? "." : path, ignored).lexically_normal();
+    std::error_code gone;
+    const std::filesystem::path given = path.empty() ? "." : path;
+    const std::filesystem::path absolute = std::filesystem::absolute(given, gone);
+    const std::filesystem::path whole = (gone ? given : absolute).lexically_normal();
     return whole.has_filename() || !whole.has_relative_path() ? whole : whole.parent_path();
 }
 

@@ -31,7 +31,8 @@ std::string read_beginning(const std::filesystem::path& file, std::size_t most);
 /// MachineError; InputError for what check_file_name refuses.
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 
-/// The path from the root, without a slash at its end, "." and ".."; "" is the present folder.
+/// The path from the root, without a slash at its end, "." and ".."; "" is the present folder. The path as it is given,
+/// made normal, where the present folder is gone.
 std::filesystem::path whole_path(const std::filesystem::path& path);
 
 /// What a file or folder is called in its folder, also one that is written "." or with a slash at its end.

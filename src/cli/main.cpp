@@ -1,8 +1,10 @@
 // mobbscope: see and debug bounding-volume trees in space-time.
 #include <base/error.h>
+#include <base/threads.h>
 #include <cli/command_line.h>
 #include <cli/program.h>
 #include <cli/window_command.h>
+#include <render/gl/driver_watch.h>
 
 #include <malloc.h>
 
@@ -12,6 +14,7 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <system_error>
 
 namespace mobbscope::cli {
 
@@ -26,6 +29,11 @@ void keep_freed_memory() {
     mallopt(M_TRIM_THRESHOLD, 2 * kLargestKept);
     mallopt(M_TOP_PAD, 1 << 20);
 #endif
+}
+
+bool is_lack_of_threads(const std::exception& error) {
+    const auto* system = dynamic_cast<const std::system_error*>(&error);
+    return system && system->code() == std::errc::resource_unavailable_try_again;
 }
 
 int run(int argc, char** argv) {
@@ -72,6 +80,7 @@ int main(int argc, char** argv) {
     // A reader that goes away and a file that may not grow are errors to report, not signals to die of.
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
+    watch_drivers({cli::complain, end_worker_threads, cli::kNoMachine});
     try {
         return cli::run(argc, argv);
     } catch (const InputError& error) {
@@ -84,7 +93,9 @@ int main(int argc, char** argv) {
         cli::complain("there is not enough memory for this");
         return cli::kNoMachine;
     } catch (const std::exception& error) {
-        cli::complain(std::string("this should not happen, please report it: ") + error.what());
+        cli::complain(cli::is_lack_of_threads(error)
+                          ? "the system starts no more threads or processes; end some, or raise the limit (ulimit -u)"
+                          : std::string("this should not happen, please report it: ") + error.what());
         return cli::kNoMachine;
     }
 }

@@ -34,8 +34,9 @@ namespace fs = std::filesystem;
 
 fs::path meant(const fs::path& file) {
     // A bare name has no folder of its own until it is made absolute.
-    const fs::path absolute = fs::absolute(file);
     std::error_code error;
+    const fs::path absolute = fs::absolute(file, error);
+    if (error) return file;  // the present folder is gone
     const fs::path target = fs::weakly_canonical(absolute, error);
     return error ? absolute : target;
 }
@@ -51,6 +52,7 @@ void check_writable(const fs::path& output) {
     std::error_code error;
     if (fs::is_directory(output, error)) refuse("is a folder");
     const fs::path target = meant(output);
+    if (target.is_relative()) refuse("the present folder is gone; change to another, or give the whole name");
     const fs::path folder = target.parent_path();
     if (!fs::is_directory(folder, error)) refuse("there is no folder " + in_quotes(folder.string()));
     const bool there = fs::exists(target, error);

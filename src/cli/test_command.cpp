@@ -257,7 +257,9 @@ picture_tests::RunOptions run_options(const TestCommandArguments& arguments, con
 
 std::vector<std::string> orphans_of(const TestCommandArguments& arguments, const std::vector<CaseFile>& all) {
     const auto whole = [](const std::filesystem::path& file) {
-        return std::filesystem::absolute(file).lexically_normal();
+        std::error_code gone;
+        const std::filesystem::path absolute = std::filesystem::absolute(file, gone);
+        return (gone ? file : absolute).lexically_normal();
     };
     const std::filesystem::path output = whole(arguments.output / "");
     std::vector<std::string> out;

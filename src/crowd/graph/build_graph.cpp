@@ -2,6 +2,7 @@
 #include <base/file.h>
 #include <base/random.h>
 #include <base/text.h>
+#include <base/threads.h>
 #include <crowd/graph/build_graph.h>
 #include <crowd/graph/continuity.h>
 #include <crowd/graph/cut_search.h>
@@ -163,6 +164,7 @@ class Builder {
             std::vector<Hub> candidates(of_rig.size());
             for (std::size_t begin = 0; begin < of_rig.size(); begin += kBatch) {
                 if (progress_) progress_(done + begin, all);
+                limit_worker_threads();
                 tbb::parallel_for(begin, std::min(begin + kBatch, of_rig.size()), [&](std::size_t i) {
                     candidates[i] = {of_rig[i], cuts_like(recordings_, of_rig[i], options_.bounds)};
                 });

@@ -1,6 +1,7 @@
 #include <base/error.h>
 #include <base/random.h>
 #include <base/text.h>
+#include <base/threads.h>
 #include <crowd/simulation/plan_search.h>
 #include <crowd/simulation/simulate.h>
 
@@ -207,6 +208,7 @@ void check(const SimulateOptions& options) {
 Simulation simulate(const MoveSet& moves, const SimulateOptions& options, QuerySample* sample,
                     const SimulationProgress& progress) {
     check(options);
+    limit_worker_threads();
     tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
     return arena.execute([&] { return Simulator(moves, options, sample, progress).run(); });
 }
