@@ -101,7 +101,7 @@ class CaseProcess {
         const std::optional<int> status = process_.wait(kPatienceWithItsEnd);
         read(true);
         if (status == 0) return "";
-        return "after its last case the process that draws " + (status ? how_it_ended_here() : "did not end");
+        return "after its last case: " + (status ? how_it_ended_here() : "the process that draws did not end");
     }
 
   private:
@@ -188,9 +188,7 @@ class OrderQueue {
             left_ = left_.subspan(1);
             const CaseFile& file = order.file;
             std::error_code ignored;
-            if (skipped_) {
-                tell_(without_picture(file, CaseOutcome::skipped, *skipped_));
-            } else if (!std::filesystem::exists(file.file, ignored)) {
+            if (!std::filesystem::exists(file.file, ignored)) {
                 tell_(failed(file, file.file.string() + " is gone; draw all again"));
             } else if (!is_utf8(file.name)) {
                 // Of one whose name is no text no line could tell.
@@ -203,11 +201,14 @@ class OrderQueue {
     }
     bool is_empty() const { return left_.empty(); }
     /// All that are left are told to be skipped.
-    void skip_rest(const std::string& why) { skipped_ = why; }
+    void skip_rest(const std::string& why) {
+        for (const DrawOrder& order : std::exchange(left_, {})) {
+            tell_(without_picture(order.file, CaseOutcome::skipped, why));
+        }
+    }
 
   private:
     std::span<const DrawOrder> left_;
-    std::optional<std::string> skipped_;  ///< why
     const std::function<void(const CaseResult&)>& tell_;
 };
 

@@ -104,10 +104,15 @@ void copy_picture_to_clipboard(std::string_view png) {
     const ClipboardProgram* program = usable_program();
     if (!program) throw MachineError("the picture cannot be copied: " + std::string(why_no_picture_clipboard()));
     const auto picture = nameless_file(*program, png);
-    // It stays in the background when this program is gone, and must not hold its terminal.
-    Process process(found_in_path(program->name), {program->arguments.begin(), program->arguments.end()},
-                    {.in = ::fileno(picture.get())});
-    wait_for_end(*program, process);
+    const std::vector<std::string> arguments(program->arguments.begin(), program->arguments.end());
+    std::optional<Process> process;
+    try {
+        // It stays in the background when this program is gone, and must not hold its terminal.
+        process.emplace(found_in_path(program->name), arguments, Process::Streams{.in = ::fileno(picture.get())});
+    } catch (const MachineError& error) {
+        refuse_copy(*program, error.what());
+    }
+    wait_for_end(*program, *process);
 }
 
 }  // namespace mobbscope::app
