@@ -1,5 +1,6 @@
 #include <base/base64.h>
 #include <picture_tests/reports.h>
+#include <render/image/png.h>
 
 #include "support/temp_folder.h"
 
@@ -33,27 +34,30 @@ CaseResult result(const std::string& name, CaseOutcome outcome, const std::strin
     return out;
 }
 
+CaseResult with_pictures(CaseResult result, const Image& actual, const Image& golden, const DiffOptions& options = {}) {
+    result.actual = png_bytes(actual);
+    result.golden = png_bytes(golden);
+    result.image = diff(actual, golden, options);
+    return result;
+}
+
 CaseResult different(const std::string& name) {
-    CaseResult out = result(name, CaseOutcome::different, "50 pixels differ");
-    out.golden = grey(40, 20, 100);
-    out.actual = out.golden;
+    const CaseResult out = result(name, CaseOutcome::different, "50 pixels differ");
+    const Image golden = grey(40, 20, 100);
+    Image actual = golden;
     for (int x = 5; x < 15; ++x) {
-        for (int y = 4; y < 9; ++y) out.actual.at(x, y)[1] = 200;
+        for (int y = 4; y < 9; ++y) actual.at(x, y)[1] = 200;
     }
-    out.image = diff(out.actual, out.golden, diff_options(Tolerance::tight));
-    return out;
+    return with_pictures(out, actual, golden);
 }
 
 CaseResult passed(const std::string& name) {
-    CaseResult out = result(name, CaseOutcome::passed);
-    out.golden = out.actual = grey(8, 8, 30);
-    out.image = diff(out.actual, out.golden, diff_options(Tolerance::tight));
-    return out;
+    return with_pictures(result(name, CaseOutcome::passed), grey(8, 8, 30), grey(8, 8, 30));
 }
 
 CaseResult missing(const std::string& name) {
     CaseResult out = result(name, CaseOutcome::missing_golden, "there is no golden");
-    out.actual = grey(8, 8, 30);
+    out.actual = png_bytes(grey(8, 8, 30));
     return out;
 }
 
@@ -118,8 +122,10 @@ TEST(Reports, TextHasALineForEachThatDidNotPass) {
               "15.0.6, 256 bits)\n"
               "Look at the pictures. Those that are right become goldens with\n"
               "  mobbscope test 'my pictures' --update 'levels/new one' moved\n");
-    EXPECT_EQ(written(write_text, {passed("fine")}, {"d", "", ""}),
-              "d: 1 passed; drawn by nothing: there is no OpenGL\n");
+    EXPECT_EQ(written(write_text, {result("a", CaseOutcome::skipped, "no OpenGL")}, {"d", "", ""}),
+              "skipped: a: no OpenGL\nd: 1 skipped; drawn by nothing: there is no OpenGL\n");
+    EXPECT_EQ(written(write_text, {result("a", CaseOutcome::failed, "crashed")}, {"d", "", ""}),
+              "failed: a: crashed\nd: 1 failed; drawn by nothing\n");
 }
 
 TEST(Reports, TextHoldsNoControlCharacters) {
@@ -193,10 +199,9 @@ TEST(Reports, ThePageShowsTheNumbersOfADifference) {
 }
 
 TEST(Reports, PicturesOfTwoSizesAreComparedByEye) {
-    CaseResult sizes = result("sizes", CaseOutcome::different, "the picture is 8x8, the golden 40x20");
-    sizes.golden = grey(40, 20, 100);
-    sizes.actual = grey(8, 8, 30);
-    sizes.image = diff(sizes.actual, sizes.golden);
+    const CaseResult sizes =
+        with_pictures(result("sizes", CaseOutcome::different, "the picture is 8x8, the golden 40x20"), grey(8, 8, 30),
+                      grey(40, 20, 100));
     EXPECT_EQ(parsed(written(write_html, {sizes}), "html"),
               "title 1 of 1 picture test did not pass - my pictures\n"
               "case ≠ different sizes: golden 40x20, actual 8x8\n"
@@ -228,9 +233,9 @@ TEST(Reports, SayOnceByWhatWasDecidedOnAnotherSystem) {
 }
 
 TEST(Reports, APassWithPixelsThatDifferIsSaidAndCanBeSorted) {
-    CaseResult some = passed("some");
-    some.golden.at(2, 3)[0] = 200;
-    some.image = diff(some.actual, some.golden, {.pixel_fraction = 0});
+    Image golden = grey(8, 8, 30);
+    golden.at(2, 3)[0] = 200;
+    CaseResult some = with_pictures(passed("some"), grey(8, 8, 30), golden, {.pixel_fraction = 0});
     some.remarks = {what_differs(*some.image)};
     const std::vector<CaseResult> results{passed("none"), some};
     EXPECT_EQ(written(write_text, results),
@@ -263,6 +268,18 @@ TEST(Reports, OrphansAreToldAndFailAStrictRun) {
     EXPECT_EQ(times(junit, "tests=\"2\" failures=\"1\""), 2u);
     parsed(junit, "junit");
     EXPECT_EQ(times(written(write_html, results, facts), "<h1>1 golden has no case</h1>"), 1u);
+}
+
+TEST(Reports, AShardSaysSo) {
+    RunFacts facts = kFacts;
+    facts.shard = "2/3";
+    EXPECT_EQ(times(written(write_text, {passed("a")}, facts), "my pictures, shard 2/3: 1 passed"), 1u);
+    EXPECT_EQ(nlohmann::json::parse(written(write_json, {passed("a")}, facts))["shard"], "2/3");
+    EXPECT_EQ(times(written(write_junit, {passed("a")}, facts), "<property name=\"shard\" value=\"2/3\"/>"), 1u);
+    EXPECT_EQ(times(written(write_html, {passed("a")}, facts), "<dt>Shard</dt><dd>2/3</dd>"), 1u);
+    for (const Writer writer : {write_text, write_json, write_junit, write_html}) {
+        EXPECT_EQ(times(written(writer, {passed("a")}), "shard"), 0u);
+    }
 }
 
 TEST(Reports, AreTheSameEveryTime) {

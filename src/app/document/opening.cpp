@@ -421,8 +421,8 @@ void Session::leave_excerpt() {
 
 void Session::review(const ReviewFolder& found) {
     const auto opened = std::make_shared<Review>(
-        found,
-        Review::Surroundings{attended_, hooks.wake, [this](const auto& file) { check_may_write(file); }, case_drawer});
+        found, Review::Surroundings{attended_, hooks.wake, [this](const auto& file) { check_may_write(file); },
+                                    case_drawer, may_write});
     close_case([this, opened] {
         stop();
         if (review_) opened->begin_as(*review_);
