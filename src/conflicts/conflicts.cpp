@@ -310,7 +310,8 @@ PeopleConflicts::PeopleConflicts(std::span<const mobb::PlacedTree> crowd, std::s
     }
     first_path_.push_back(paths);
     if (search == Search::trees) near_ = near_pairs(crowd_);
-    const std::size_t all = search == Search::trees ? near_.size() : crowd_.size() * (std::max<std::size_t>(crowd_.size(), 1) - 1) / 2;
+    const std::size_t all =
+        search == Search::trees ? near_.size() : crowd_.size() * (std::max<std::size_t>(crowd_.size(), 1) - 1) / 2;
     std::size_t done = 0;
     std::vector<int> asked(static_cast<std::size_t>(people()), -1);  // by person: the last whose paths were asked
     for (int person = 0; person < people(); ++person) {
@@ -324,14 +325,11 @@ PeopleConflicts::PeopleConflicts(std::span<const mobb::PlacedTree> crowd, std::s
         });
         for (const auto& [other, conflicts] : met) {
             const PeopleConflict found = put_together(person, other, conflicts);
-            ranked_.push_back(
-                {found.deepest.least_clearance, found.seconds(), found.worst().t0, found.a, found.b});
+            ranked_.push_back({found.deepest.least_clearance, found.seconds(), found.worst().t0, found.a, found.b});
         }
     }
     std::sort(ranked_.begin(), ranked_.end(), [](const Ranked& x, const Ranked& y) {
-        const auto rank = [](const Ranked& c) {
-            return std::tuple(c.least_clearance, -c.seconds, c.begin, c.a, c.b);
-        };
+        const auto rank = [](const Ranked& c) { return std::tuple(c.least_clearance, -c.seconds, c.begin, c.a, c.b); };
         return rank(x) < rank(y);
     });
 }

@@ -61,9 +61,9 @@ class PeopleConflicts {
     PeopleConflict operator[](std::size_t index) const;
     std::vector<PeopleConflict> all() const;
 
-    std::size_t pairs() const;                                ///< of people
-    std::size_t pairs_tested() const { return tested_; }      ///< of people: of whose paths any two were searched
-    double seconds() const;                                   ///< of all conflicts
+    std::size_t pairs() const;                            ///< of people
+    std::size_t pairs_tested() const { return tested_; }  ///< of people: of whose paths any two were searched
+    double seconds() const;                               ///< of all conflicts
 
   private:
     struct Ranked {
@@ -71,7 +71,8 @@ class PeopleConflicts {
         int a, b;
     };
 
-    /// Calls test(a, b) for the paths of a person and of later ones that may collide, a by a; `with`: of that one alone.
+    /// Calls test(a, b) for the paths of a person and of later ones that may collide, a by a; `with`: of that one
+    /// alone.
     template <class Test>
     void for_each_pair(int person, std::optional<int> with, const Test& test) const;
     std::optional<Conflict> conflict_between(int a, int b) const;

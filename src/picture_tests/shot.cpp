@@ -4,6 +4,7 @@
 #include <base/text.h>
 #include <cases/case_scene.h>
 #include <render/drawlist/picture_options.h>
+#include <render/image/png.h>
 
 #include <algorithm>
 #include <stdexcept>

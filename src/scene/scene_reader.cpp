@@ -358,7 +358,8 @@ class SceneReader {
 
     /// One source may be named any number of times.
     void count_samples(const JsonPlace& source, const SceneClip& clip) {
-        const std::size_t joints = clip.skeleton ? clip.skeleton->joints.size() : static_cast<std::size_t>(clip.facts.joints);
+        const std::size_t joints =
+            clip.skeleton ? clip.skeleton->joints.size() : static_cast<std::size_t>(clip.facts.joints);
         if (sources_.insert({*clip.source, clip.facts.animation, clip.options.id.value_or("")}).second)
             made_.add_stored(static_cast<std::size_t>(clip.facts.frames), joints);
         if (made_.add(static_cast<std::size_t>(clip.clip->count()), joints)) return;

@@ -47,7 +47,8 @@ class MadeSamples {
     /// What add refused, for a message.
     static std::string too_many() {
         return "become more than " + std::to_string(kMostMadeSamples) + " samples, or " +
-               std::to_string(kMostMadePoses) + " poses of single joints, beyond what the files hold; lower fps, give "
+               std::to_string(kMostMadePoses) +
+               " poses of single joints, beyond what the files hold; lower fps, give "
                "trim";
     }
     /// Of frames that no clip before came from.

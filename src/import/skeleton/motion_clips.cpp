@@ -115,8 +115,8 @@ class MotionImport {
         const auto posed = static_cast<std::size_t>(motion_.posed());
         made.add_stored(static_cast<std::size_t>(times.frames), posed);
         if (poses_left < 0 || !made.add(grid.count, posed)) {
-            throw std::invalid_argument(
-                "its clips " + MadeSamples::too_many() + ", or name one with animation or root");
+            throw std::invalid_argument("its clips " + MadeSamples::too_many() +
+                                        ", or name one with animation or root");
         }
         ImportedClip out;
         SourceFacts& facts = out.facts;

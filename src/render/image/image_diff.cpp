@@ -185,8 +185,7 @@ ImageDiff diff_of_sizes(PictureSize actual, PictureSize reference, const DiffOpt
 }
 
 ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& options, const Image* mask) {
-    ImageDiff result =
-        diff_of_sizes({actual.width, actual.height}, {reference.width, reference.height}, options);
+    ImageDiff result = diff_of_sizes({actual.width, actual.height}, {reference.width, reference.height}, options);
     if (!result.same_size) return result;
     if (mask && (mask->width != reference.width || mask->height != reference.height)) {
         throw std::invalid_argument("the mask has another size than the picture");

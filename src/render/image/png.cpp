@@ -184,20 +184,13 @@ class PngWriter {
     png_infop info_ = nullptr;
 };
 
-/// Reads the header; throws InputError where the bytes are no PNG, damaged, or of too many pixels.
+/// Reads the header; throws InputError where the bytes are no PNG, or damaged.
 PictureSize read_header(PngReader& reader, std::string_view bytes, const std::string& name) {
     if (png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, std::min<std::size_t>(bytes.size(), 8)) != 0) {
         throw InputError(name, "", "is no PNG picture; give a .png file");
     }
     if (!reader.read_header()) refuse(reader, name);
-    const long long width = reader.width();
-    const long long height = reader.height();
-    if (width > kMostPngPixels / height) {
-        throw InputError(name, "",
-                         "the picture of " + std::to_string(width) + "x" + std::to_string(height) +
-                             " pixels is too large; up to " + std::to_string(kMostPngPixels) + " pixels are read");
-    }
-    return {static_cast<int>(width), static_cast<int>(height)};
+    return {static_cast<int>(reader.width()), static_cast<int>(reader.height())};
 }
 
 }  // namespace
@@ -235,6 +228,11 @@ PictureSize png_size(std::string_view bytes, const std::string& name) {
 Image read_png_bytes(std::string_view bytes, const std::string& name) {
     PngReader reader(bytes);
     const PictureSize size = read_header(reader, bytes, name);
+    if (size.width > kMostPngPixels / size.height) {
+        throw InputError(name, "",
+                         "the picture of " + size_word(size) + " pixels is too large; up to " +
+                             std::to_string(kMostPngPixels) + " pixels are read");
+    }
     Image image(size.width, size.height);
     if (!reader.read_pixels(image)) refuse(reader, name);
     return image;

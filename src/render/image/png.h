@@ -25,7 +25,7 @@ void write_png(const std::filesystem::path& file, const Image& image);
 Image read_png(const std::filesystem::path& file);
 /// The same of the bytes of a file; `name` stands for it in messages.
 Image read_png_bytes(std::string_view bytes, const std::string& name = "a picture");
-/// By its header alone; throws likewise.
+/// By its header alone, of any number of pixels; else throws likewise.
 PictureSize png_size(std::string_view bytes, const std::string& name);
 
 }  // namespace mobbscope
