@@ -10,6 +10,7 @@
 #include <render/drawlist/picture_options.h>
 #include <render/image/image.h>
 #include <render/image/png.h>
+#include <render/pictures/build_draw_list.h>
 #include <support/png_file.h>
 #include <support/temp_folder.h>
 
@@ -59,6 +60,7 @@ TEST(Limits, AreThoseOfTheTable) {
     expect_row("its pixels", kMaxPixels);
     expect_row("its pixels with 4 samples each", kMostDrawn / (4 + 2));
     expect_row("its pixels with 8 samples each", kMostDrawn / (8 + 2));
+    expect_row("disks drawn of agents that share clips", kMostDisksOfSharedClips);
     expect_row("conflicts in the window", kMostSceneConflicts);
     expect_row("`simulate --agents`", kMaxAgents);
     expect_row("plays of a run", kMostPlays);
@@ -82,13 +84,13 @@ class LimitsTest : public ::testing::Test {
 };
 
 TEST_F(LimitsTest, AFewRowsDoNotBecomeAnyNumberOfSamples) {
-    // 110,000 seconds at 30 samples each: out of step, so made anew.
-    write("long.csv", "t,x,y,r\n0,0,0,1\n1,1,0,1\n110000,0,1,1\n");
+    // 50,000 seconds at 30 samples each: out of step, so made anew.
+    write("long.csv", "t,x,y,r\n0,0,0,1\n1,1,0,1\n50000,0,1,1\n");
     EXPECT_EQ(run_program({"info", folder.path() / "long.csv"}).status, 0);
     const std::string twice =
         write("twice.json", R"({"clips": {"a": {"source": "long.csv"}, "b": {"source": "long.csv"}}})");
     const Result run = run_program({"fit", twice});
-    expect_refused(run, "twice.json: /clips/b/source: with this one the scene's clips become more than 4000000");
+    expect_refused(run, "twice.json: /clips/b/source: with this one the scene's clips become more than 2000000");
 }
 
 TEST_F(LimitsTest, AFewJointsDoNotBecomeAnyNumberOfPoses) {
@@ -96,7 +98,7 @@ TEST_F(LimitsTest, AFewJointsDoNotBecomeAnyNumberOfPoses) {
     for (int i = 0; i < 100; ++i) bvh += "JOINT j\n{\nOFFSET 0 1 0\nCHANNELS 0\n}\n";
     bvh += "}\nMOTION\nFrames: 5\nFrame Time: 1000\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n4 0 0\n";
     const std::string file = write("joints.bvh", bvh);
-    expect_refused(run_program({"info", file}), "joints.bvh: its clips become more than 4000000 samples, or 10000000");
+    expect_refused(run_program({"info", file}), "joints.bvh: its clips become more than 2000000 samples, or 10000000");
     EXPECT_EQ(run_program({"info", file, "--fps", "3"}).status, 0);
 }
 
@@ -148,6 +150,19 @@ TEST_F(LimitsTest, PicturesBeyondTheirPixelsAreRefusedByTheirHeader) {
                    "large.png: the picture of 12000x11000 pixels is too large; up to 33554432 pixels are read");
     const std::string tall = write("tall.png", header_alone(1, 134217728));
     expect_refused(run_program({"diff", tall, tall}), "too large");
+}
+
+TEST_F(LimitsTest, AgentsThatShareALongClipAreNotDrawnInAnyNumber) {
+    write("long.csv", "t,x,y,r\n0,0,0,1\n1,1,0,1\n5000,0,1,1\n");
+    std::string text = R"({"clips": {"c": {"source": "long.csv"}}, "agents": [)";
+    for (int i = 0; i < 20; ++i)
+        text += std::string(i > 0 ? "," : "") + R"({"name": ")" + std::to_string(i) + R"(", "clip": "c"})";
+    const Result run =
+        run_program({"render", write("agents.json", text + "]}"), "--draw-list", folder.path() / "l.json"});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_NE(run.err.find("agents.json: its agents have 3000020 disks, and of clips that agents share 2000000"),
+              std::string::npos)
+        << run.err;
 }
 
 TEST_F(LimitsTest, PicturesWithTooManySamplesAreRefused) {

@@ -31,7 +31,7 @@ inline constexpr std::size_t kMaxSamples = 10'000'000;
 
 /// The most samples, and poses of single joints, that a file or the sources of a scene become together beyond what they
 /// hold: with a high fps a small file would fill the memory, and take minutes to pose.
-inline constexpr std::size_t kMostMadeSamples = 4'000'000;
+inline constexpr std::size_t kMostMadeSamples = 2'000'000;
 inline constexpr std::size_t kMostMadePoses = 10'000'000;
 
 /// What was made so far, and what the files hold.
