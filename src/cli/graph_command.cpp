@@ -11,8 +11,6 @@
 #include <render/pictures/graph_picture.h>
 #include <scene/motion_graph.h>
 
-#include <unistd.h>
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -52,19 +50,6 @@ struct DrawArguments {
     Theme theme = Theme::dark;
     Backend backend = Backend::automatic;
 };
-
-/// Tells a person who waits how far the work is; a script's log stays empty.
-Progress tell(const std::string& doing, const std::string& things) {
-    using Clock = std::chrono::steady_clock;
-    const auto said = std::make_shared<Clock::time_point>(Clock::now());
-    const bool watched = ::isatty(STDERR_FILENO) == 1;
-    return [=](std::size_t done, std::size_t all) {
-        constexpr std::chrono::seconds kPause{2};
-        if (!watched || Clock::now() - *said < kPause) return;
-        *said = Clock::now();
-        complain(doing + ' ' + std::to_string(done) + " of " + std::to_string(all) + ' ' + things);
-    };
-}
 
 std::string moves_text(std::size_t count) { return counted(count, "move", "moves"); }
 
@@ -163,6 +148,12 @@ void draw(const DrawArguments& arguments) {
     write_png(arguments.out, renderer.draw(list));
 }
 
+PictureSize parse_drawn_size(const std::string& text) {
+    const PictureSize size = parse_size(text);
+    check(PictureOptions{.size = size});
+    return size;
+}
+
 /// "1:4" in seconds.
 std::pair<double, double> parse_seconds(const std::string& text) {
     const auto range = parse_range(text);
@@ -234,7 +225,7 @@ void add_draw(Command& graph) {
         const auto arguments = std::make_shared<DrawArguments>();
         add_parsed(command, "GRAPH", arguments->file, parse_file_name, "A scene with a motion graph", "").required();
         command.add_option("-o,--output", arguments->out, "The picture", "OUT.png").required();
-        add_parsed(command, "--size", arguments->size, parse_size, "In pixels (1280x720)", "WxH");
+        add_parsed(command, "--size", arguments->size, parse_drawn_size, "In pixels (1280x720)", "WxH");
         add_parsed(command, "--scale", arguments->scale, number_within(kLeastScale, kMostScale),
                    "Of text and lines; by itself it suits the size", "X");
         add_parsed(command, "--theme", arguments->theme, one_of(theme_from_name, "dark, light"), "dark or light",

@@ -31,7 +31,7 @@ namespace mobbscope::cli {
 
 namespace {
 
-constexpr int kMostRecorded = 10'000'000;
+constexpr int kMostRecorded = 1'000'000;  // some 1.5 KB each, with what is written
 
 struct SimulateCommandArguments {
     std::filesystem::path graph;
@@ -100,13 +100,16 @@ void write_scene(Scene scene, const std::filesystem::path& file, bool inline_sam
     write_file(file, to_json(scene, inline_samples));
 }
 
-/// A line on standard error for every tenth of a run.
+/// A line on standard error for every tenth of a run, and every few seconds of a slow one.
 class Report {
   public:
     explicit Report(double seconds) : seconds_(seconds) {}
 
     void operator()(const SimulationCounts& counts) {
-        if (counts.simulated < next_ * seconds_ / 10) return;
+        const bool is_slow = std::chrono::steady_clock::now() - said_ > std::chrono::seconds(5);
+        if (counts.simulated < next_ * seconds_ / 10 && !is_slow) return;
+        said_ = std::chrono::steady_clock::now();
+        if (counts.choices == 0) return say("placed " + counted(counts.agents, "agent", "agents"));
         next_ = std::floor(counts.simulated * 10 / seconds_) + 1;
         say("simulated " + brief(std::round(counts.simulated * 10) / 10) + " of " + brief(seconds_) +
             " s: " + std::to_string(counts.agents) + " agents, " + std::to_string(counts.choices) + " choices, " +
@@ -117,6 +120,7 @@ class Report {
   private:
     double seconds_;
     double next_ = 1;  ///< tenth
+    std::chrono::steady_clock::time_point said_ = std::chrono::steady_clock::now();
 };
 
 struct Summary {
@@ -194,8 +198,8 @@ void run_simulate(const SimulateCommandArguments& arguments) {
     std::optional<QuerySample> sample;
     if (!arguments.record.empty()) {
         const bool all = arguments.record_all_pairs || arguments.record_within;
-        sample.emplace(all ? Recorded::all : Recorded::asked, static_cast<std::size_t>(arguments.record_queries),
-                       arguments.options.seed,
+        const int most = arguments.record_queries > 0 ? arguments.record_queries : kMostRecorded;
+        sample.emplace(all ? Recorded::all : Recorded::asked, static_cast<std::size_t>(most), arguments.options.seed,
                        arguments.record_within.value_or(std::numeric_limits<double>::infinity()));
     }
     Summary summary;
@@ -248,7 +252,7 @@ void add_simulate_command(Command& program) {
             const Option record = add_parsed(command, "--record", arguments->record, parse_file_name,
                                              "Queries that were asked, as a scene", "FILE.json");
             add_parsed(command, "--record-queries", arguments->record_queries, whole_number_within(0, kMostRecorded),
-                       "How many, drawn at random; 0 is all (20000)", "N")
+                       "How many, drawn at random; 0 is all, up to a million (20000)", "N")
                 .needs(record);
             const Option all = command
                                    .add_flag("--record-all-pairs", arguments->record_all_pairs,

@@ -1,115 +1,197 @@
-// Where the system gives little, a command does with it or says what is missing.
-#include <base/threads.h>
+// What small files and single options may cost: refused where it is too much, said in docs/limits.md.
+#include "run_program.h"
+
+#include <base/file.h>
+#include <conflicts/conflicts.h>
+#include <crowd/simulation/simulate.h>
+#include <import/clip/sampling.h>
+#include <import/skeleton/motion.h>
+#include <paper_tables/workload.h>
+#include <render/drawlist/picture_options.h>
+#include <render/image/image.h>
+#include <render/image/png.h>
+#include <render/pictures/build_draw_list.h>
+#include <support/png_file.h>
 #include <support/temp_folder.h>
 
-#include "cli/run_program.h"
-#include "render/backends.h"
-
-#include <grp.h>
-#include <gtest/gtest.h>
+#include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstdlib>
+#include <gtest/gtest.h>
+
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mobbscope {
 namespace {
 
+using testing::is_one_line;
 using testing::Result;
 using testing::run_program;
+using testing::TempFolder;
 
-constexpr const char* kStandingScene =
-    R"({"mobbscope": 1, "clips": {"p": {"dt": 1, "samples": [[0, 0, 0.4], [0.1, 0, 0.4]]}}, "agents": [{"clip": "p"}]})";
-
-/// The system starts no more threads and processes. Limits do not bind root, so somebody else does it then.
-void start_nothing_more() {
-    constexpr unsigned kNobodyElse = 61'973;
-    const rlimit one{1, 1};
-    ::setrlimit(RLIMIT_NPROC, &one);
-    if (::getuid() != 0) return;
-    if (::setgroups(0, nullptr) != 0 || ::setgid(kNobodyElse) != 0 || ::setuid(kNobodyElse) != 0) ::_exit(126);
-    if (::access(MOBBSCOPE_PROGRAM, X_OK) != 0) ::_exit(126);
+/// "33,554,432".
+std::string with_commas(std::int64_t number) {
+    std::string out = std::to_string(number);
+    for (auto at = static_cast<std::ptrdiff_t>(out.size()) - 3; at > 0; at -= 3) out.insert(out.begin() + at, ',');
+    return out;
 }
 
-class FewThreads : public ::testing::Test {
+TEST(Limits, AreThoseOfTheTable) {
+    const std::string table = read_file(std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "docs/limits.md");
+    const auto expect_row = [&table](std::string_view what, std::int64_t limit) {
+        const std::size_t row = table.find("| " + std::string(what) + " |");
+        ASSERT_NE(row, std::string::npos) << what;
+        const std::string line = table.substr(row, table.find('\n', row) - row);
+        EXPECT_NE(line.find(' ' + with_commas(limit)), std::string::npos) << line << " but " << limit;
+    };
+    expect_row("samples of a file of tracks or a table", kMaxSamples);
+    expect_row("samples made of a file, or of the sources of a scene", kMostMadeSamples);
+    expect_row("poses of single joints likewise", kMostMadePoses);
+    expect_row("characters in a file", kMostCharacters);
+    expect_row("pixels of a picture that is read", kMostPngPixels);
+    expect_row("pixels of a strip", kMostStripPixels);
+    expect_row("side of a picture that is drawn", kMaxSide);
+    expect_row("its pixels", kMaxPixels);
+    expect_row("its pixels with 4 samples each", kMostDrawn / (4 + 2));
+    expect_row("its pixels with 8 samples each", kMostDrawn / (8 + 2));
+    expect_row("disks drawn of agents that share clips", kMostDisksOfSharedClips);
+    expect_row("conflicts in the window", kMostSceneConflicts);
+    expect_row("`simulate --agents`", kMaxAgents);
+    expect_row("plays of a run", kMostPlays);
+    expect_row("`bench --queries`", kMaxQueries);
+}
+
+class LimitsTest : public ::testing::Test {
   protected:
-    void SetUp() override {
-        folder_.write("scene.json", kStandingScene);
-        folder_.write("s.script", "picture " + file("p.png") + "\n");
-        std::filesystem::permissions(folder_.path(), std::filesystem::perms::all);
+    std::string write(const std::string& name, const std::string& text) const {
+        write_file(folder.path() / name, text);
+        return folder.path() / name;
     }
-    std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
-    void expect_done(const std::vector<std::string>& arguments) const {
-        const Result result = run_program(arguments, {}, "/dev/null", start_nothing_more);
-        if (result.status == 126) GTEST_SKIP() << "the program is not to be read by others than root here";
-        EXPECT_EQ(result.status, 0) << arguments.front() << ": " << result.err;
+    static void expect_refused(const Result& run, const std::string& why) {
+        EXPECT_EQ(run.status, 2) << run.err;
+        EXPECT_TRUE(is_one_line(run.err)) << run.err;
+        EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
+        EXPECT_EQ(run.out, "");
     }
 
-    testing::TempFolder folder_;
+    const TempFolder folder;
 };
 
-TEST_F(FewThreads, ACrowdIsSimulated) {
-    expect_done({"simulate", "--whole", MOBBSCOPE_SOURCE_DIR "/assets/clips", "-o", file("run.json"), "--agents", "3",
-                 "--seconds", "2"});
+TEST_F(LimitsTest, AFewRowsDoNotBecomeAnyNumberOfSamples) {
+    // 50,000 seconds at 30 samples each: out of step, so made anew.
+    write("long.csv", "t,x,y,r\n0,0,0,1\n1,1,0,1\n50000,0,1,1\n");
+    EXPECT_EQ(run_program({"info", folder.path() / "long.csv"}).status, 0);
+    const std::string twice =
+        write("twice.json", R"({"clips": {"a": {"source": "long.csv"}, "b": {"source": "long.csv"}}})");
+    const Result run = run_program({"fit", twice});
+    expect_refused(run, "twice.json: /clips/b/source: with this one the scene's clips become more than 2000000");
 }
 
-TEST_F(FewThreads, APictureIsDrawn) {
-    if (!testing::open_or_skip(Backend::automatic)) return;
-    expect_done({"render", file("scene.json"), "-o", file("p.png")});
+TEST_F(LimitsTest, AFewJointsDoNotBecomeAnyNumberOfPoses) {
+    std::string bvh = "HIERARCHY\nROOT r\n{\nOFFSET 0 0 0\nCHANNELS 3 Xposition Yposition Zposition\n";
+    for (int i = 0; i < 100; ++i) bvh += "JOINT j\n{\nOFFSET 0 1 0\nCHANNELS 0\n}\n";
+    bvh += "}\nMOTION\nFrames: 5\nFrame Time: 1000\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n4 0 0\n";
+    const std::string file = write("joints.bvh", bvh);
+    expect_refused(run_program({"info", file}), "joints.bvh: its clips become more than 2000000 samples, or 10000000");
+    EXPECT_EQ(run_program({"info", file, "--fps", "3"}).status, 0);
 }
 
-TEST_F(FewThreads, AScriptIsRun) {
-    if (!testing::open_or_skip(Backend::automatic)) return;
-    expect_done({file("scene.json"), "--headless", "--script", file("s.script")});
-}
-
-TEST(Threads, ThoseThatWereStartedAreGone) {
-    const int before = thread_count();
-    EXPECT_EQ(startable_threads(0), 0);
-    EXPECT_EQ(startable_threads(3), 3);
-    EXPECT_EQ(thread_count(), before);
-}
-
-/// In a folder that is removed.
-Result run_nowhere(const std::vector<std::string>& arguments) {
-    const testing::TempFolder folder;
-    const std::filesystem::path gone = folder.path() / "gone";
-    std::filesystem::create_directory(gone);
-    return run_program(arguments, {}, "/dev/null", [&] {
-        if (::chdir(gone.c_str()) != 0 || ::rmdir(gone.c_str()) != 0) ::_exit(126);
-    });
-}
-
-TEST(DeletedFolder, WholeNamesWork) {
-    const testing::TempFolder folder;
-    const std::string run = (folder.path() / "run.json").string();
-    const Result simulated = run_nowhere(
-        {"simulate", "--whole", MOBBSCOPE_SOURCE_DIR "/assets/clips", "-o", run, "--agents", "2", "--seconds", "1"});
-    EXPECT_EQ(simulated.status, 0) << simulated.err;
-    const Result drawn = run_nowhere({"render", run, "--draw-list", (folder.path() / "list.json").string()});
-    EXPECT_EQ(drawn.status, 0) << drawn.err;
-    const Result listed = run_nowhere({"test", MOBBSCOPE_SOURCE_DIR "/tests/goldens", "--list"});
-    EXPECT_EQ(listed.status, 0) << listed.err;
-}
-
-TEST(DeletedFolder, OthersAreRefusedInALine) {
-    const testing::TempFolder folder;
-    folder.write("scene.json", kStandingScene);
-    const std::string scene = (folder.path() / "scene.json").string();
-    const std::vector<std::vector<std::string>> commands{
-        {"render", scene, "-o", "x.png"},
-        {"convert", scene, "-o", "x.csv"},
-        {"simulate", "--whole", MOBBSCOPE_SOURCE_DIR "/assets/clips", "-o", "x.json"},
-    };
-    for (const std::vector<std::string>& command : commands) {
-        const Result result = run_nowhere(command);
-        EXPECT_EQ(result.status, 3) << result.err;
-        EXPECT_TRUE(testing::is_one_line(result.err)) << result.err;
-        EXPECT_NE(result.err.find("present folder is gone"), std::string::npos) << result.err;
+/// Bytes that the program takes at most.
+std::int64_t peak_memory(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), MOBBSCOPE_PROGRAM);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const int nothing = ::open("/dev/null", O_WRONLY);
+        ::dup2(nothing, STDOUT_FILENO);
+        std::vector<char*> words;
+        for (std::string& word : arguments) words.push_back(word.data());
+        words.push_back(nullptr);
+        ::execv(words.front(), words.data());
+        ::_exit(127);
     }
+    int status = -1;
+    rusage usage{};
+    ::wait4(child, &status, 0, &usage);
+    EXPECT_EQ(status, 0);
+    constexpr std::int64_t kKilobyte = 1024;
+    return usage.ru_maxrss * kKilobyte;
+}
+
+TEST_F(LimitsTest, ConflictsAreWrittenAsTheyAreFound) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "a sanitizer's memory is not the program's";
+#endif
+    const auto crowd = [this](int count) {
+        std::string text = R"({"clips": {"c": {"dt": 0.1, "samples": [[0, 0, 1]]}}, "agents": [)";
+        for (int i = 0; i < count; ++i)
+            text += std::string(i > 0 ? "," : "") + R"({"name": ")" + std::to_string(i) + R"(", "clip": "c"})";
+        return write("crowd.json", text + "]}");
+    };
+    const std::int64_t few = peak_memory({"conflicts", crowd(2)});
+    constexpr int kCount = 500;
+    constexpr std::int64_t kConflicts = std::int64_t{kCount} * (kCount - 1) / 2;
+    // What sorts them is kept, 32 bytes each, and who is near whom; each whole takes over 200.
+    EXPECT_LT(peak_memory({"conflicts", crowd(kCount)}) - few, 80 * kConflicts);
+}
+
+std::string header_alone(int width, int height) {
+    return testing::png_header({.width = width, .height = height}) + testing::png_chunk("IDAT", "");
+}
+
+TEST_F(LimitsTest, PicturesBeyondTheirPixelsAreRefusedByTheirHeader) {
+    const std::string large = write("large.png", header_alone(12000, 11000));
+    expect_refused(run_program({"diff", large, large, "--shift", "1"}),
+                   "large.png: the picture of 12000x11000 pixels is too large; up to 33554432 pixels are read");
+    const std::string tall = write("tall.png", header_alone(1, 134217728));
+    expect_refused(run_program({"diff", tall, tall}), "too large");
+}
+
+TEST_F(LimitsTest, AgentsThatShareALongClipAreNotDrawnInAnyNumber) {
+    write("long.csv", "t,x,y,r\n0,0,0,1\n1,1,0,1\n5000,0,1,1\n");
+    std::string text = R"({"clips": {"c": {"source": "long.csv"}}, "agents": [)";
+    for (int i = 0; i < 20; ++i)
+        text += std::string(i > 0 ? "," : "") + R"({"name": ")" + std::to_string(i) + R"(", "clip": "c"})";
+    const Result run =
+        run_program({"render", write("agents.json", text + "]}"), "--draw-list", folder.path() / "l.json"});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_NE(run.err.find("agents.json: its agents have 3000020 disks, and of clips that agents share 2000000"),
+              std::string::npos)
+        << run.err;
+}
+
+TEST_F(LimitsTest, PicturesWithTooManySamplesAreRefused) {
+    const std::string scene =
+        write("scene.json", R"({"clips": {"c": {"dt": 0.1, "samples": [[0, 0, 1]]}}, "agents": []})");
+    const std::string out = folder.path() / "out.png";
+    expect_refused(run_program({"render", scene, "-o", out, "--size", "7680x4320"}),
+                   "--size, --samples: a picture of 7680x4320 pixels with 4 samples each takes too much memory");
+    expect_refused(run_program({"render", scene, "-o", out, "--size", "7680x4320", "--ui"}), "takes too much memory");
+    expect_refused(run_program({"render", scene, "-o", out, "--size", "4096x4096", "--samples", "8"}),
+                   "at most 9953280");
+    EXPECT_FALSE(std::filesystem::exists(out));
+    const std::string list = folder.path() / "list.json";
+    EXPECT_EQ(run_program({"render", scene, "--draw-list", list, "--size", "7680x4320"}).status, 0)
+        << "needs no pixels";
+    write("a.case.json", R"({"mobbscope_case": 1, "scene": "scene.json", "size": "7680x4320"})");
+    EXPECT_NE(run_program({"test", folder.path(), "--output", folder.path() / "o"}).out.find("takes too much memory"),
+              std::string::npos);
+    write("a.case.json",
+          R"({"mobbscope_case": 1, "scene": "scene.json", "size": "4096x4096", "panels": [{}, {}, {}]})");
+    EXPECT_NE(run_program({"test", folder.path(), "--output", folder.path() / "o"}).out.find("more than 33554432"),
+              std::string::npos);
+}
+
+TEST_F(LimitsTest, QueriesThatAreRecordedAndMeasuredAreLimited) {
+    expect_refused(run_program({"bench", "table1", "--queries", "1000001"}), "1 to 1000000");
+    expect_refused(
+        run_program({"simulate", "g.json", "-o", "r.json", "--record", "q.json", "--record-queries", "1000001"}),
+        "0 to 1000000");
 }
 
 }  // namespace

@@ -35,6 +35,13 @@ class Patience {
   public:
     explicit Patience(std::size_t all) : all_(all) {}
 
+    /// Of many disks a single picture takes long.
+    void begins(const DrawList& list) const {
+        constexpr std::size_t kMany = 50'000;
+        if (watched_ && list.disks.size() > kMany)
+            say("drawing " + std::to_string(list.disks.size()) + " disks: this may take a while");
+    }
+
     void one_more() {
         ++done_;
         constexpr std::chrono::seconds kPause{4};
@@ -80,10 +87,11 @@ void check_selection(const RenderJob& job) {
 }
 
 /// `renderer`: null where nothing of it needs OpenGL.
-void draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* renderer) {
+void draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* renderer, const Patience& patience) {
     const RenderOutputs& outputs = picture.outputs;
     if (!picture.list) picture.list = build_draw_list(*job.paths, picture.view, job.arguments.picture);
     DrawList list = *std::exchange(picture.list, {});
+    patience.begins(list);
     if (job.arguments.select) {
         try {
             highlight_selected(job, picture.view, list);
@@ -187,7 +195,10 @@ void RenderPlan::check_and_frame(RenderJob& job) {
     if (turns_about_all) {
         camera = turning_camera(*job.paths, job.pictures.front().view, job.arguments.picture.size);
     }
+    const Progress progress = tell("planned", "pictures");
+    std::size_t planned = 0;
     for (RenderPicture& picture : job.pictures) {
+        progress(planned++, job.pictures.size());
         DrawList list = build_draw_list(*job.paths, picture.view, job.arguments.picture);
         note_glyphs(list);
         if (near) {
@@ -252,7 +263,7 @@ void RenderPlan::draw(Backend backend) {
                                                      *job.paths->fitted(), picture.view, job.arguments.file, backend,
                                                      job.arguments.picture.size, job.arguments.ui_scale.value_or(1)));
             } else {
-                draw_scene(job, picture, renderer ? &*renderer : nullptr);
+                draw_scene(job, picture, renderer ? &*renderer : nullptr, patience);
             }
             patience.one_more();
         }

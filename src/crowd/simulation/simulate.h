@@ -68,9 +68,10 @@ struct SimulateOptions {
 
 inline constexpr int kMaxAgents = 1'000'000;
 inline constexpr int kMaxThreads = 1024;
-inline constexpr double kMinSimulated = 1e-3;  ///< seconds
-inline constexpr double kMaxSimulated = 1e6;   ///< seconds, also of `ahead`, `grace` and `plan`
-inline constexpr double kMinArea = 1e-3;       ///< metres along a wall
+inline constexpr std::int64_t kMostPlays = 2'000'000;  ///< of a run: with their clips they take some 850 bytes each
+inline constexpr double kMinSimulated = 1e-3;          ///< seconds
+inline constexpr double kMaxSimulated = 1e6;           ///< seconds, also of `ahead`, `grace` and `plan`
+inline constexpr double kMinArea = 1e-3;               ///< metres along a wall
 inline constexpr double kMaxArea = 1e6;
 
 /// Throws std::invalid_argument, naming the option, if one is out of range.
@@ -111,7 +112,7 @@ void remove_run(Scene& scene);
 
 /// Runs a crowd. Every agent is placed at random, in mid-move, where it collides with nobody; then choices are made in
 /// the order of (time, agent) until every agent's moves reach the end. `sample` is offered the queries of all choices.
-/// Throws InputError if a hub is a dead end, or if there is no room for all agents.
+/// Throws InputError if a hub is a dead end, if there is no room for all agents, or for more than kMostPlays plays.
 Simulation simulate(const MoveSet& moves, const SimulateOptions& options, QuerySample* sample = nullptr,
                     const SimulationProgress& progress = {});
 
