@@ -1,5 +1,6 @@
 // mobbscope: see and debug bounding-volume trees in space-time.
 #include <base/error.h>
+#include <base/file.h>
 #include <cli/command_line.h>
 #include <cli/program.h>
 #include <cli/window_command.h>
@@ -26,6 +27,20 @@ void keep_freed_memory() {
     mallopt(M_TRIM_THRESHOLD, 2 * kLargestKept);
     mallopt(M_TOP_PAD, 1 << 20);
 #endif
+}
+
+/// Ends by the signal, without the files that are being written.
+void end_by_signal(int signal) {
+    remove_unfinished_files();
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+}
+
+void leave_no_unfinished_files() {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        // Whoever ignores one, as nohup does, goes on.
+        if (std::signal(signal, end_by_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
+    }
 }
 
 int run(int argc, char** argv) {
@@ -72,6 +87,7 @@ int main(int argc, char** argv) {
     // A reader that goes away and a file that may not grow are errors to report, not signals to die of.
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
+    cli::leave_no_unfinished_files();
     try {
         return cli::run(argc, argv);
     } catch (const InputError& error) {

@@ -478,6 +478,38 @@ TEST_F(ClipFolders, ABadFileIsLeftOutUnlessItWasNamed) {
               std::string::npos);
 }
 
+TEST_F(ClipFolders, AFolderThatCannotBeReadIsLeftOutAndNamed) {
+    std::filesystem::create_directory(path("b/closed"));
+    folder_.write("b/closed/x.csv", "t,x,y,r\n0,0,0,0.4\n");
+    std::filesystem::permissions(folder_.path(), std::filesystem::perms::all);
+    std::filesystem::permissions(path("b/closed"), std::filesystem::perms::none);
+    const bool was_root = ::geteuid() == 0;  // who may read everything
+    if (was_root) ASSERT_EQ(::seteuid(65534), 0);
+    std::vector<ClipFile> files;
+    std::string closed;
+    try {
+        files = clip_files({path("b")});
+        closed = testing::input_error([&] { clip_files({path("b/closed")}); });
+    } catch (const InputError& error) {
+        ADD_FAILURE() << error.what();
+    }
+    if (was_root) ASSERT_EQ(::seteuid(0), 0);
+    const std::string why = path("b/closed").string() + ": the folder cannot be read: Permission denied";
+    EXPECT_EQ(closed, why);
+    const Recordings recordings = load_recordings(files, path("graph.json"), {}, false);
+    EXPECT_EQ(recordings.left_out, std::vector<std::string>{why});
+    EXPECT_FALSE(recordings.scene.clips.empty());
+    EXPECT_EQ(testing::input_error([&] { load_recordings(files, path("graph.json"), {}, true); }), why);
+}
+
+TEST(GraphBuild, ClipsThatAreTooLongForTheirJointsAreNotSaidToHaveNone) {
+    Scene scene = load_recordings(clip_files({kClips}), "graph.json", {}, true).scene;
+    // As an import leaves them of which there would be too many positions.
+    for (SceneClip& clip : scene.clips) clip.skeleton.reset();
+    EXPECT_NE(testing::input_error([&] { build_graph(scene, {}, "clips"); }).find("has too many samples"),
+              std::string::npos);
+}
+
 TEST(GraphBuild, OnlyPiecesThatDifferAreKept) {
     // A walk along +x at 1 m/s and the same one later, and one that turns.
     PoseTrack track;

@@ -138,7 +138,9 @@ class Builder {
     BuiltGraph build() {
         BuiltGraph out;
         report_.recordings = scene_.clips.size();
-        report_.without_joints = scene_.clips.size() - recordings_.size();
+        for (const SceneClip& clip : scene_.clips) {
+            if (!clip.skeleton) ++(clip.facts.joints > 0 ? report_.too_long : report_.without_joints);
+        }
         report_.rigs = rigs_.rigs.size();
         for (const Recording& recording : recordings_) report_.seconds += recording.track.frames() * recording.track.dt;
         find_hubs();
@@ -463,7 +465,9 @@ std::vector<ClipFile> clip_files(const std::vector<std::filesystem::path>& place
     for (const std::filesystem::path& place : places) {
         std::error_code ignored;
         if (std::filesystem::is_directory(place, ignored)) {
-            for (std::filesystem::path& file : clips_in(place, true)) all.push_back({std::move(file), true});
+            std::vector<UnreadableFolder> unreadable;
+            for (std::filesystem::path& file : clips_in(place, &unreadable)) all.push_back({std::move(file), true});
+            for (UnreadableFolder& of : unreadable) all.push_back({std::move(of.folder), true, std::move(of.why)});
         } else if (lower_extension(place) == ".json") {
             throw InputError(place.string(), "", "a graph is built from clip files; name those of the scene");
         } else {
@@ -496,6 +500,7 @@ Recordings load_recordings(const std::vector<ClipFile>& files, const std::filesy
     for (std::size_t i = 0; i < files.size(); ++i) {
         if (progress) progress(i, files.size());
         try {
+            if (!files[i].why_not.empty()) throw InputError(files[i].why_not);
             loaded.push_back(load_scene(files[i].path, options));
         } catch (const InputError& error) {
             if (strict || !files[i].in_folder) throw;
@@ -520,6 +525,11 @@ BuiltGraph build_graph(const Scene& recordings, const GraphOptions& options, con
                        const Progress& progress) {
     check_options(options);
     BuiltGraph out = Builder(recordings, options, progress).build();
+    if (out.report.too_long > 0 && out.report.without_joints + out.report.too_long == out.report.recordings) {
+        throw InputError(place, "",
+                         "every clip with joints has too many samples to keep the joints of each; lower --fps, or give "
+                         "--trim");
+    }
     if (out.report.without_joints == out.report.recordings) {
         throw InputError(place, "", "no clip has joints, so no pose can be compared; give motion files, or --whole");
     }

@@ -6,14 +6,11 @@
 #include <png.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <csetjmp>
 #include <cstring>
-#include <fstream>
 #include <new>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 namespace mobbscope {
@@ -144,19 +141,7 @@ std::string png_bytes(const Image& image) {
     return bytes;
 }
 
-void write_png(const std::filesystem::path& file, const Image& image) {
-    const std::string bytes = png_bytes(image);
-    std::error_code ignored;
-    const std::filesystem::file_status status = std::filesystem::status(file, ignored);
-    const bool stream = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
-                        !std::filesystem::is_directory(status);
-    if (!stream) return write_file(file, bytes);
-    // A pipe or a device takes the bytes; it must not be replaced by a file.
-    std::ofstream out(file, std::ios::binary);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    if (!out) throw MachineError(file.string() + ": cannot be written: " + std::generic_category().message(errno));
-}
+void write_png(const std::filesystem::path& file, const Image& image) { write_file(file, png_bytes(image)); }
 
 Image read_png(const std::filesystem::path& file) { return read_png_bytes(read_file(file), file.string()); }
 
