@@ -16,6 +16,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <ctime>
+#include <iterator>
 #include <list>
 #include <map>
 #include <memory>
@@ -117,6 +118,11 @@ class UnfinishedName {
         if (std::rename(name_.c_str(), target.c_str()) != 0) return false;
         name_.clear();
         return true;
+    }
+
+    /// The other file has this name then, and is removed with it; false if they cannot.
+    bool swap_with(const fs::path& other) const {
+        return ::renameat2(AT_FDCWD, name_.c_str(), AT_FDCWD, other.c_str(), RENAME_EXCHANGE) == 0;
     }
 
   private:
@@ -256,22 +262,21 @@ class UnfinishedFile {
         if (name_->error() != 0) throw unwritable(file_, name_->error());
     }
 
-    /// Keeps a second name of what is replaced, for put_back; as good as it can.
-    void keep_old() {
-        if (!replaces_) return;
-        old_.emplace(folder(), [&](const char* name) { return ::link(target_.c_str(), name) == 0; });
-    }
-
-    void take_place() {
-        if (!name_->rename_to(target_)) throw unwritable(file_, errno);
+    /// `with_return`: so that put_back can take it back, where the file system lets two files swap their names.
+    void take_place(bool with_return) {
+        if (with_return && replaces_ && name_->swap_with(target_)) {
+            swapped_ = true;
+        } else if (!name_->rename_to(target_)) {
+            throw unwritable(file_, errno);
+        }
     }
 
     /// After take_place: what was there before.
     void put_back() {
         if (!replaces_) {
             ::unlink(target_.c_str());
-        } else if (old_ && old_->error() == 0) {
-            old_->rename_to(target_);
+        } else if (swapped_) {
+            name_->swap_with(target_);
         }
     }
 
@@ -295,7 +300,7 @@ class UnfinishedFile {
     bool replaces_ = false;
     std::optional<CloseDescriptor> descriptor_;
     std::optional<UnfinishedName> name_;
-    std::optional<UnfinishedName> old_;
+    bool swapped_ = false;
 };
 
 bool is_stream(const fs::path& file) {
@@ -350,13 +355,10 @@ void write_files(std::span<const FileBytes> files) {
     for (const FileBytes& wanted : files) {
         if (is_stream(wanted.file)) write_stream(wanted);
     }
-    for (UnfinishedFile& file : unfinished) {
-        file.name_it();
-        if (unfinished.size() > 1) file.keep_old();
-    }
+    for (UnfinishedFile& file : unfinished) file.name_it();
     for (auto file = unfinished.begin(); file != unfinished.end(); ++file) {
         try {
-            file->take_place();
+            file->take_place(std::next(file) != unfinished.end());
         } catch (const MachineError&) {
             std::for_each(unfinished.begin(), file, [](UnfinishedFile& done) { done.put_back(); });
             throw;

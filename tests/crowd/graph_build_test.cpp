@@ -1,6 +1,7 @@
 // Graphs cut out of recordings: what they promise holds at every transition.
 #include "walker_moves.h"
 
+#include <base/error.h>
 #include <crowd/graph/build_graph.h>
 #include <crowd/graph/graph_figures.h>
 #include <crowd/graph/pose_distance.h>
@@ -14,6 +15,8 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <tbb/global_control.h>
 
 #include <glm/geometric.hpp>
@@ -21,6 +24,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -484,7 +488,7 @@ TEST_F(ClipFolders, AFolderThatCannotBeReadIsLeftOutAndNamed) {
     std::filesystem::permissions(folder_.path(), std::filesystem::perms::all);
     std::filesystem::permissions(path("b/closed"), std::filesystem::perms::none);
     const bool was_root = ::geteuid() == 0;  // who may read everything
-    if (was_root) ASSERT_EQ(::seteuid(65534), 0);
+    if (was_root && ::seteuid(65534) != 0) GTEST_SKIP() << "root stays root";
     std::vector<ClipFile> files;
     std::string closed;
     try {
@@ -493,7 +497,7 @@ TEST_F(ClipFolders, AFolderThatCannotBeReadIsLeftOutAndNamed) {
     } catch (const InputError& error) {
         ADD_FAILURE() << error.what();
     }
-    if (was_root) ASSERT_EQ(::seteuid(0), 0);
+    if (was_root && ::seteuid(0) != 0) std::abort();
     const std::string why = path("b/closed").string() + ": the folder cannot be read: Permission denied";
     EXPECT_EQ(closed, why);
     const Recordings recordings = load_recordings(files, path("graph.json"), {}, false);

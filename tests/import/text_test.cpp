@@ -90,7 +90,7 @@ TEST(Text, Utf8IsToldFromOtherBytes) {
 }
 
 TEST(Text, QuotesAreShortAndOnOneLine) {
-    EXPECT_EQ(in_quotes("a\nb"), "'a?b'");
+    EXPECT_EQ(in_quotes("a\nb"), R"('a\u000ab')");
     EXPECT_EQ(in_quotes("A" + std::string(10'000, 'x') + "Z"),
               "'A" + std::string(29, 'x') + "\u2026" + std::string(28, 'x') + "Z'");
     EXPECT_TRUE(is_utf8(in_quotes(std::string(10'000, '\xe9')))) << "whatever a file holds";
