@@ -48,13 +48,21 @@ ReadFiles& read_files() {
     return files;
 }
 
-/// By which name a file was read, if it was.
-std::optional<fs::path> name_when_read(const fs::path& file) {
+std::optional<std::pair<dev_t, ino_t>> identity(const fs::path& file) {
     struct stat status {};
     if (::stat(file.c_str(), &status) != 0) return std::nullopt;
+    return std::pair(status.st_dev, status.st_ino);
+}
+
+/// By which name a file was read, if it was.
+std::optional<fs::path> name_when_read(const fs::path& file) {
+    const auto present = identity(file);
+    if (!present) return std::nullopt;
     const std::lock_guard lock(read_files().mutex);
-    const auto found = read_files().names.find({status.st_dev, status.st_ino});
-    return found == read_files().names.end() ? std::nullopt : std::optional(found->second);
+    const auto found = read_files().names.find(*present);
+    // Of a file that is gone, a new one may have the number.
+    if (found == read_files().names.end() || identity(found->second) != present) return std::nullopt;
+    return found->second;
 }
 
 // --- names of unfinished files
@@ -312,10 +320,10 @@ bool is_stream(const fs::path& file) {
 }  // namespace
 
 void note_read(const fs::path& file) {
-    struct stat status {};
-    if (::stat(file.c_str(), &status) != 0) return;
+    const auto present = identity(file);
+    if (!present) return;
     const std::lock_guard lock(read_files().mutex);
-    read_files().names.insert_or_assign({status.st_dev, status.st_ino}, file);
+    read_files().names.insert_or_assign(*present, file);
 }
 
 void check_not_read(const fs::path& file) {
