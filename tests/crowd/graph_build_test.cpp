@@ -514,6 +514,17 @@ TEST(GraphBuild, ClipsThatAreTooLongForTheirJointsAreNotSaidToHaveNone) {
               std::string::npos);
 }
 
+TEST(GraphBuild, MoreSamplesASecondThanMotionHasAreRefused) {
+    ImportOptions options;
+    options.fps = 1000;
+    EXPECT_NO_THROW(load_recordings(clip_files({kClips / "run.glb"}), "graph.json", options, true));
+    options.fps = 1001;
+    EXPECT_NE(testing::input_error([&] {
+                  load_recordings(clip_files({kClips / "run.glb"}), "graph.json", options, false);
+              }).find("has 1001 samples a second; graphs are built from up to 1000: lower --fps"),
+              std::string::npos);
+}
+
 TEST(GraphBuild, OnlyPiecesThatDifferAreKept) {
     // A walk along +x at 1 m/s and the same one later, and one that turns.
     PoseTrack track;

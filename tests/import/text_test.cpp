@@ -115,7 +115,8 @@ TEST(Text, WhatSteersATerminalIsCleaned) {
 
 TEST(Text, WhatMisleadsTheEyeIsCleaned) {
     EXPECT_EQ(cleaned("walk\u202egpj.exe"), "walk\\u202egpj.exe");
-    for (const char32_t code : {0xad, 0x61c, 0x200b, 0x200d, 0x200f, 0x2028, 0x2029, 0x202a, 0x2066, 0x2069, 0xfeff}) {
+    for (const char32_t code :
+         {0xadU, 0x61cU, 0x200bU, 0x200dU, 0x200fU, 0x2028U, 0x2029U, 0x202aU, 0x2066U, 0x2069U, 0xfeffU}) {
         const std::string text{static_cast<char>(code < 0x800 ? 0xc0 | code >> 6 : 0xe0 | code >> 12),
                                static_cast<char>(0x80 | (code < 0x800 ? code & 0x3f : code >> 6 & 0x3f)),
                                static_cast<char>(0x80 | (code & 0x3f))};

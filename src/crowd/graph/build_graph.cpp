@@ -34,6 +34,8 @@ namespace mobbscope {
 
 namespace {
 
+// Faster motion than that is noise, and joints of every frame are kept.
+constexpr double kMostRate = 1000;  // samples per second
 constexpr int kFramesApart = 5;     // of moments looked at as hubs, at least
 constexpr std::size_t kBatch = 32;  // of those looked at between two reports of progress
 
@@ -447,6 +449,17 @@ Stance stance_at_end(const mobb::Clip& clip) {
     return {last + step, stance_at_begin(clip).heading_deg};
 }
 
+/// Throws InputError for motion that is sampled more often than a graph can use.
+void check_rate(const Scene& scene) {
+    for (const SceneClip& clip : scene.clips) {
+        const double rate = 1 / clip.clip->dt();
+        if (clip.facts.joints == 0 || rate <= kMostRate * (1 + 1e-6)) continue;
+        throw InputError(scene.file.string(), "clip " + in_quotes(clip.name),
+                         "has " + brief(rate) + " samples a second; graphs are built from up to " + brief(kMostRate) +
+                             ": lower --fps");
+    }
+}
+
 bool is_near(const Stance& stance) {
     return std::abs(stance.position.x) <= kMostStance && std::abs(stance.position.y) <= kMostStance;
 }
@@ -505,7 +518,9 @@ Recordings load_recordings(const std::vector<ClipFile>& files, const std::filesy
         } catch (const InputError& error) {
             if (strict || !files[i].in_folder) throw;
             out.left_out.emplace_back(error.what());
+            continue;
         }
+        check_rate(loaded.back());
     }
     if (loaded.empty()) {
         const std::size_t others = out.left_out.size() - 1;

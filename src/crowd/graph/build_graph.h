@@ -54,8 +54,8 @@ struct Recordings {
 
 /// Clips of the files as one scene, with sources relative to `scene_file`, which need not exist. They are in the order
 /// of what they hold, and of their paths only where they hold the same. A bad file or folder that was found in a folder
-/// is left out, unless `strict`. `progress` is told before each file. Throws InputError for another bad file, and if
-/// all are left out.
+/// is left out, unless `strict`. `progress` is told before each file. Throws InputError for another bad file, if all
+/// are left out, and for motion of joints that is sampled more than 1000 times a second.
 Recordings load_recordings(const std::vector<ClipFile>& files, const std::filesystem::path& scene_file,
                            const ImportOptions& options, bool strict, const Progress& progress = {});
 
