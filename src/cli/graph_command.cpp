@@ -71,6 +71,10 @@ void print_report(const BuildReport& report) {
     if (report.without_joints > 0) {
         warn(counted(report.without_joints, "clip has", "clips have") + " no joints, and no part in the graph");
     }
+    if (report.too_long > 0) {
+        warn(counted(report.too_long, "clip has", "clips have") +
+             " too many samples to keep the joints of each, and no part in the graph; lower --fps");
+    }
 }
 
 BuiltGraph whole_graph(Scene recordings) {
@@ -93,11 +97,12 @@ void warn_of_left_out(const std::vector<std::string>& left_out, std::size_t file
 int build(const BuildArguments& arguments) {
     check_file_name(arguments.out);
     check_extension(arguments.out, ".json", "a graph is written as .json; rename the output");
-    check_writable(arguments.out);
+    check_output(arguments.out);
     const auto files = clip_files(arguments.places);
     Recordings recordings =
         load_recordings(files, arguments.out, arguments.import_options, arguments.strict, tell("read", "files"));
     warn_of_left_out(recordings.left_out, files.size());
+    check_output(arguments.out);  // again: now the files are known
     const std::string place = place_of(arguments.places);
     BuiltGraph built = arguments.whole
                            ? whole_graph(std::move(recordings.scene))
@@ -141,8 +146,8 @@ int info(const InfoArguments& arguments) {
 void draw(const DrawArguments& arguments) {
     check_file_name(arguments.out);
     check_extension(arguments.out, ".png", "a picture is written as .png; rename the output");
-    check_writable(arguments.out);
     const Scene scene = load_graph(arguments.file);
+    check_output(arguments.out);
     const DrawList list = graph_picture(scene, arguments.size, arguments.theme, arguments.scale);
     Renderer renderer(arguments.backend);
     write_png(arguments.out, renderer.draw(list));

@@ -1,5 +1,6 @@
 // mobbscope: see and debug bounding-volume trees in space-time.
 #include <base/error.h>
+#include <base/file.h>
 #include <base/threads.h>
 #include <cli/command_line.h>
 #include <cli/program.h>
@@ -34,6 +35,20 @@ void keep_freed_memory() {
 bool is_lack_of_threads(const std::exception& error) {
     const auto* system = dynamic_cast<const std::system_error*>(&error);
     return system && system->code() == std::errc::resource_unavailable_try_again;
+}
+
+/// Ends by the signal, without the files that are being written.
+void end_by_signal(int signal) {
+    remove_unfinished_files();
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+}
+
+void leave_no_unfinished_files() {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        // Whoever ignores one, as nohup does, goes on.
+        if (std::signal(signal, end_by_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
+    }
 }
 
 int run(int argc, char** argv) {
@@ -81,6 +96,7 @@ int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
     watch_drivers({cli::complain, end_worker_threads, cli::kNoMachine});
+    cli::leave_no_unfinished_files();
     try {
         return cli::run(argc, argv);
     } catch (const InputError& error) {

@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <iostream>
 #include <system_error>
 
@@ -32,20 +33,12 @@ void flush_results() {
 
 namespace fs = std::filesystem;
 
-fs::path meant(const fs::path& file) {
-    // A bare name has no folder of its own until it is made absolute.
-    std::error_code error;
-    const fs::path absolute = fs::absolute(file, error);
-    if (error) return file;  // the present folder is gone
-    const fs::path target = fs::weakly_canonical(absolute, error);
-    return error ? absolute : target;
-}
-
 void check_extension(const fs::path& file, std::string_view extension, const std::string& message) {
     if (!file.empty() && lower_extension(file) != extension) throw InputError(file.string(), "", message);
 }
 
-void check_writable(const fs::path& output) {
+void check_output(const fs::path& output) {
+    check_not_read(output);
     const auto refuse = [&](const std::string& why) {
         throw MachineError(output.string() + ": cannot be written: " + why);
     };

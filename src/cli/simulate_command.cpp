@@ -86,18 +86,14 @@ void check_run_outputs(const SimulateCommandArguments& arguments) {
         throw InputError(arguments.record.string(), "", "-o and --record name the same file; rename one");
     }
     for (const std::filesystem::path& out : {arguments.out, arguments.record}) {
-        if (out.empty()) continue;
-        if (meant(out) == meant(arguments.graph)) {
-            throw InputError(out.string(), "", "it would replace the graph; rename it");
-        }
-        check_writable(out);
+        if (!out.empty()) check_output(out);
     }
 }
 
-/// Writes a scene; its relative sources lead where they led.
-void write_scene(Scene scene, const std::filesystem::path& file, bool inline_samples) {
+/// What a scene's file holds; its relative sources lead where they led.
+std::string text_for(Scene scene, const std::filesystem::path& file, bool inline_samples) {
     move_to_file(scene, file);
-    write_file(file, to_json(scene, inline_samples));
+    return to_json(scene, inline_samples);
 }
 
 /// A line on standard error for every tenth of a run, and every few seconds of a slow one.
@@ -192,6 +188,7 @@ void run_simulate(const SimulateCommandArguments& arguments) {
     check_run_outputs(arguments);
     Importer importer;
     Scene scene = load_moves(arguments, importer);
+    check_run_outputs(arguments);  // again: now all that is read is known
     const mobb::FitOptions fit = scene.fit;
     const FittedScene fitted(std::move(scene), fit);
     const MoveSet moves(fitted, arguments.turn_rate, queried_by(arguments.fit));
@@ -209,13 +206,17 @@ void run_simulate(const SimulateCommandArguments& arguments) {
     summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     summary.counts = simulation.counts;
     summary.turn_rate = arguments.turn_rate;
+    std::string record;
     if (sample) {
         summary.recorded.emplace(sample->size(), sample->offered());
-        write_scene(sample->workload(moves), arguments.record, arguments.inline_samples);
+        record = text_for(sample->workload(moves), arguments.record, arguments.inline_samples);
     }
     const Scene played = scene_of_run(moves, std::move(simulation.run), TurnedSkeletons::left_out);
     summary.continuity = run_continuity(played, importer);
-    write_scene(played, arguments.out, arguments.inline_samples);
+    const std::string run = text_for(played, arguments.out, arguments.inline_samples);
+    std::vector<FileBytes> files{{arguments.out, run}};
+    if (sample) files.push_back({arguments.record, record});
+    write_files(files);
     arguments.json ? print_run_json(played, summary) : print_run_text(summary);
     flush_results();
 }

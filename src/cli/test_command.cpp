@@ -154,14 +154,14 @@ void check_reports(const TestCommandArguments& arguments, const std::vector<Case
     check_extension(arguments.junit, ".xml", "the report for CI servers is written as .xml; rename it");
     check_extension(arguments.html, ".html", "the report as a page is written as .html; rename it");
     check_extension(arguments.contact_sheet, ".png", "the contact sheet is written as .png; rename it");
-    std::error_code ignored;
     for (const CaseFile& file : all) {
-        for (const std::filesystem::path& golden : {file.golden(), file.plain()}) {
-            if (!std::filesystem::equivalent(arguments.contact_sheet, golden, ignored)) continue;
-            throw InputError(arguments.contact_sheet.string(), "",
-                             "the contact sheet would replace the golden of " + in_quotes(file.name) + "; rename it");
-        }
+        for (const auto& read :
+             {file.file, file.golden(), file.plain(), file.draw(), file.plain_draw(), file.plain_state()})
+            note_read(read);
     }
+    for (const std::filesystem::path& report : {arguments.junit, arguments.html, arguments.contact_sheet})
+        check_not_read(report);
+    std::error_code ignored;
     if (std::filesystem::equivalent(arguments.output, arguments.folder, ignored)) {
         throw InputError("--output: " + in_quotes(arguments.output.string()) +
                          " is where the goldens are; give another folder");
@@ -177,6 +177,7 @@ using WriteReport = void (*)(std::ostream& out, const RunFacts& facts, std::span
 void write_report(const std::filesystem::path& file, WriteReport write, const RunFacts& facts,
                   std::span<const CaseResult> results) {
     if (file.empty()) return;
+    check_not_read(file);  // again: scenes and masks are known now
     std::ostringstream text;
     write(text, facts, results);
     picture_tests::make_folder_of(file);
@@ -255,6 +256,7 @@ bool keep_all(const TestCommandArguments& arguments, std::span<const CaseResult>
     std::ostringstream report;
     write_case_report(report, results);
     picture_tests::make_folder_of(file);
+    check_stays_in_folder(file);
     write_file(file, std::move(report).str());
     return kept;
 }

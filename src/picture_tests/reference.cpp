@@ -91,6 +91,7 @@ void write_reference(const std::filesystem::path& folder, const Reference& refer
     json.member("imgui", reference.imgui);
     json.member("opengl", reference.opengl);
     json.end_object();
+    check_stays_in_folder(reference_file(folder));
     write_file(reference_file(folder), text.str());
 }
 

@@ -402,6 +402,7 @@ std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const
             std::filesystem::remove(file, ignored);
             return;
         }
+        check_stays_in_folder(file);
         write_file(file, *bytes);
         written.push_back(file);
     };

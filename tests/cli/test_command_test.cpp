@@ -89,7 +89,8 @@ TEST_F(TestCommandTest, RefusesWhatIsNoRun) {
     expect_test_refused(test({"--html", (cases.path() / "scene.json").string()}), "is written as .html");
     expect_test_refused(test({"--junit", ""}), "the name is empty");
     cases.folder().write("path.png", "no picture");
-    expect_test_refused(test({"query/*", "--contact-sheet", (cases.path() / "path.png").string()}), "golden of 'path'");
+    expect_test_refused(test({"query/*", "--contact-sheet", (cases.path() / "path.png").string()}),
+                        "path.png', which it is made from");
     const std::string folder = cases.path().string();
     expect_test_refused(run_program({"test", folder, "--output", folder}), "where the goldens are");
     expect_test_refused(test({"--update", "all", "path"}), "--update: all");

@@ -9,8 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace mobbscope::picture_tests {
 namespace {
@@ -18,6 +20,7 @@ namespace {
 using mobbscope::testing::CaseFolder;
 using mobbscope::testing::input_error;
 using mobbscope::testing::slurp;
+using mobbscope::testing::TempFolder;
 
 TEST(Base64, ReadsWhatItWrites) {
     std::string bytes;
@@ -149,6 +152,19 @@ TEST(GoldenChange, IsTakenBackToTheByteAndRefusedWhereAnotherWas) {
     EXPECT_NE(input_error([&] { write_goldens(changes); }).find("has changed on the disk"), std::string::npos);
     write_goldens(taken_back(changes));
     EXPECT_FALSE(std::filesystem::exists(file.golden()));
+}
+
+TEST(GoldenChange, IsRefusedThroughALinkOutOfTheFolder) {
+    const CaseFolder cases;
+    const TempFolder elsewhere;
+    const auto victim = elsewhere.write("victim.txt", "precious");
+    const CaseFile a = cases.add("a"), b = cases.add("b");
+    std::filesystem::create_symlink(victim, b.golden());
+    const std::vector<GoldenChange> changes{{a.golden(), "new", {}}, {b.golden(), "new", "precious"}};
+    EXPECT_NE(input_error([&] { write_goldens(changes); }).find("b.png: is a link that leads out of its folder"),
+              std::string::npos);
+    EXPECT_EQ(slurp(victim), "precious");
+    EXPECT_FALSE(std::filesystem::exists(a.golden()));
 }
 
 }  // namespace

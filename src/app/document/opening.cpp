@@ -275,6 +275,11 @@ void Session::save_as(const std::filesystem::path& file) {
                          "another program has written it since it was opened: save under another name, or once more "
                          "to overwrite it");
     }
+    for (const SceneClip& clip : scene().clips) {
+        if (!clip.source || !same_file(file, source_path(scene(), clip))) continue;
+        throw InputError(file.string(), "",
+                         "clip " + in_quotes(clip.name) + " comes from this file; save under another name");
+    }
     Scene saved = scene();
     saved.view = view();
     saved.fit = document().fitted->options();

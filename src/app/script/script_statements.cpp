@@ -272,6 +272,7 @@ void put(ScriptRun& run, const std::string& file, const std::string& text) {
     if (file.empty()) {
         run.out << text;
     } else {
+        check_not_read(file);
         write_file(file, text);
     }
 }

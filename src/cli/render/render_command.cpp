@@ -81,7 +81,7 @@ void list_backends(bool json) {
 void render_one(const RenderArguments& arguments) {
     RenderPlan plan;
     plan.add(arguments);
-    OutputCheck outputs = plan.sources();
+    OutputCheck outputs;
     RenderPlan::check_outputs(plan.jobs().front(), outputs);
     plan.draw(arguments.backend.value_or(Backend::automatic));
 }

@@ -99,16 +99,25 @@ void draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* renderer
             // Another picture of the sequence shows it.
         }
     }
-    if (!outputs.image.empty()) write_png(outputs.image, renderer->draw(list, job.arguments.picture.samples));
-    std::optional<IdImage> ids;
-    if (!outputs.ids.empty()) {
-        ids = renderer->draw_ids(list);
-        write_png(outputs.ids, id_picture(list, *ids));
+    std::string image, ids, text;
+    std::vector<FileBytes> files;
+    if (!outputs.image.empty()) {
+        image = png_bytes(renderer->draw(list, job.arguments.picture.samples));
+        files.push_back({outputs.image, image});
     }
-    if (outputs.draw_list.empty()) return;
-    std::ostringstream text;
-    write_draw_list(text, list, ids ? &*ids : nullptr);
-    write_file(outputs.draw_list, text.str());
+    std::optional<IdImage> drawn_ids;
+    if (!outputs.ids.empty()) {
+        drawn_ids = renderer->draw_ids(list);
+        ids = png_bytes(id_picture(list, *drawn_ids));
+        files.push_back({outputs.ids, ids});
+    }
+    if (!outputs.draw_list.empty()) {
+        std::ostringstream out;
+        write_draw_list(out, list, drawn_ids ? &*drawn_ids : nullptr);
+        text = out.str();
+        files.push_back({outputs.draw_list, text});
+    }
+    write_files(files);
 }
 
 /// Whether --follow says where the camera is: it does unless there is a target.
@@ -160,10 +169,6 @@ std::shared_ptr<KeptPaths> SceneStore::paths(const RenderArguments& arguments) {
     }
     found.paths.push_back(std::make_shared<KeptPaths>(std::make_shared<const FittedScene>(found.scene, options)));
     return found.paths.back();
-}
-
-void SceneStore::note_sources(OutputCheck& check) const {
-    for (const auto& loaded : scenes_) check.reads(loaded->scene);
 }
 
 void RenderPlan::add(RenderArguments arguments) {
@@ -229,15 +234,6 @@ void RenderPlan::note_glyphs(const DrawList& list) {
     }
 }
 
-OutputCheck RenderPlan::sources() const {
-    OutputCheck check;
-    scenes_.note_sources(check);
-    for (const RenderJob& job : jobs_) {
-        if (!job.arguments.view.state.empty()) check.reads(job.arguments.view.state);
-    }
-    return check;
-}
-
 void RenderPlan::check_outputs(const RenderJob& job, OutputCheck& outputs) {
     for (const RenderPicture& picture : job.pictures) outputs.writes(picture.outputs);
 }
@@ -278,10 +274,7 @@ void render_case(const Command& command, const RenderArguments& arguments) {
     if (arguments.outputs.image.empty()) throw UsageError("--output is required");
     const picture_tests::Case drawn = picture_tests::read_case(arguments.file);
     if (drawn.terms.skip) throw InputError(arguments.file.string(), "", "the case is skipped: " + *drawn.terms.skip);
-    OutputCheck outputs;
-    outputs.reads(arguments.file);
-    outputs.reads(drawn.shot.panels.front().fitted->scene());
-    outputs.writes(arguments.outputs);
+    check_output(arguments.outputs.image);
     std::error_code ignored;
     if (std::filesystem::equivalent(arguments.outputs.image, picture_tests::CaseFile{{}, arguments.file}.golden(),
                                     ignored)) {

@@ -6,14 +6,11 @@
 #include <png.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <csetjmp>
 #include <cstring>
-#include <fstream>
 #include <new>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -44,6 +41,8 @@ class PngReader {
         png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
         // The caller checks the size, and speaks of it in pixels.
         png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+        // Pixels alone are wanted; a text of a few bytes can unpack to megabytes.
+        png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
         png_read_info(png_, info_);
         return true;
     }
@@ -204,19 +203,7 @@ std::string png_bytes(const Image& image) {
     return writer.take();
 }
 
-void write_png(const std::filesystem::path& file, const Image& image) {
-    const std::string bytes = png_bytes(image);
-    std::error_code ignored;
-    const std::filesystem::file_status status = std::filesystem::status(file, ignored);
-    const bool stream = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
-                        !std::filesystem::is_directory(status);
-    if (!stream) return write_file(file, bytes);
-    // A pipe or a device takes the bytes; it must not be replaced by a file.
-    std::ofstream out(file, std::ios::binary);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    if (!out) throw MachineError(file.string() + ": cannot be written: " + std::generic_category().message(errno));
-}
+void write_png(const std::filesystem::path& file, const Image& image) { write_file(file, png_bytes(image)); }
 
 Image read_png(const std::filesystem::path& file) { return read_png_bytes(read_file(file), file.string()); }
 
