@@ -10,7 +10,9 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
@@ -25,6 +27,10 @@ struct Chosen {
     std::vector<std::string> seeds;
     bool plain = false;  ///< bytes are changed without any knowledge of them, to compare
     std::size_t accepted = 0, refused = 0;
+    std::unordered_set<std::size_t> accepted_hashes;
+    /// Inputs that were read, and that libFuzzer kept. Refusals are of many kinds, so it keeps more that were refused,
+    /// and what is made of those is mostly refused for the same reason.
+    std::vector<std::string> sound;
 };
 
 Chosen& chosen() {
@@ -79,7 +85,12 @@ extern "C" int LLVMFuzzerInitialize(int*, char***) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace mobbscope::fuzz;
     const std::string bytes(reinterpret_cast<const char*>(data), size);
-    ++(accepts(*chosen().target, bytes) ? chosen().accepted : chosen().refused);
+    if (accepts(*chosen().target, bytes)) {
+        ++chosen().accepted;
+        chosen().accepted_hashes.insert(std::hash<std::string>{}(bytes));
+    } else {
+        ++chosen().refused;
+    }
     return 0;
 }
 
@@ -96,8 +107,16 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
     Mutation mutation{std::mt19937(seed), chosen().seeds, as_bytes};
     // Now and then what a reader looks at first is damaged too.
     if (mutation.one_in(10)) return LLVMFuzzerMutate(data, size, most);
-    const std::string out =
-        mutated(chosen().target->form, std::string(reinterpret_cast<const char*>(data), size), mutation);
+    std::string from(reinterpret_cast<const char*>(data), size);
+    std::vector<std::string>& sound = chosen().sound;
+    if (chosen().accepted_hashes.contains(std::hash<std::string>{}(from))) {
+        constexpr std::size_t kMostSound = 500;
+        if (sound.size() < kMostSound) sound.emplace_back();
+        sound[sound.size() < kMostSound ? sound.size() - 1 : mutation.below(kMostSound)] = from;
+    } else if (!sound.empty() && !mutation.one_in(4)) {
+        from = sound[mutation.below(sound.size())];
+    }
+    const std::string out = mutated(chosen().target->form, from, mutation);
     if (out.size() > most) return LLVMFuzzerMutate(data, size, most);
     std::ranges::copy(out, data);
     return out.size();

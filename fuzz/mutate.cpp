@@ -1,11 +1,11 @@
 #include <fuzz/mutate.h>
 
-#include "import/gltf_bytes.h"
 #include <support/gzip.h>
 #include <support/png_file.h>
+#include "import/gltf_bytes.h"
 
-#include <nlohmann/json.hpp>
 #include <zlib.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -22,10 +22,34 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array kOddNumbers{
-    "0",     "-0.0", "1",   "-1",   "2",         "3",           "7",          "64",    "1000",   "65536", "1000000",
-    "1e9",   "1e-9", "0.5", "1e15", "2147483647", "-2147483648", "4294967295", "1e300", "-1e300", "1e-320", "360",
-    "9007199254740993", "1e308", "0.1", "1e6", "1e5", "-0.5"};
+constexpr std::array kOddNumbers{"0",
+                                 "-0.0",
+                                 "1",
+                                 "-1",
+                                 "2",
+                                 "3",
+                                 "7",
+                                 "64",
+                                 "1000",
+                                 "65536",
+                                 "1000000",
+                                 "1e9",
+                                 "1e-9",
+                                 "0.5",
+                                 "1e15",
+                                 "2147483647",
+                                 "-2147483648",
+                                 "4294967295",
+                                 "1e300",
+                                 "-1e300",
+                                 "1e-320",
+                                 "360",
+                                 "9007199254740993",
+                                 "1e308",
+                                 "0.1",
+                                 "1e6",
+                                 "1e5",
+                                 "-0.5"};
 
 constexpr std::size_t kDeepest = 200;
 
@@ -65,7 +89,8 @@ void edit_json(Json& document, Mutation& by) {
     const std::vector<JsonSpot> spots = spots_of(document);
     const JsonSpot spot = spots[by.below(spots.size())];
     Json& value = *spot.value;
-    switch (by.below(10)) {
+    constexpr std::size_t kWithin = 2;  // where there is a plain value it is mostly changed within
+    switch (value.is_structured() || by.one_in(3) ? by.below(10) : kWithin) {
         case 0:
             value = Json::parse(by.odd_number());
             break;
@@ -95,8 +120,8 @@ void edit_json(Json& document, Mutation& by) {
             std::vector<JsonSpot> alike;
             std::ranges::copy_if(others, std::back_inserter(alike),
                                  [&](const JsonSpot& other) { return other.key == spot.key; });
-            const JsonSpot& taken = alike.empty() || by.one_in(4) ? others[by.below(others.size())]
-                                                                   : alike[by.below(alike.size())];
+            const JsonSpot& taken =
+                alike.empty() || by.one_in(4) ? others[by.below(others.size())] : alike[by.below(alike.size())];
             if (spot.value->is_object() && by.one_in(2)) {
                 (*spot.value)[taken.key] = *taken.value;
             } else {
@@ -120,8 +145,8 @@ void edit_json(Json& document, Mutation& by) {
             }
             break;
         default: {
-            const std::array<Json, 7> plain{Json(), Json(true), Json(false), Json(""), Json::array(), Json::object(),
-                                            Json("1")};
+            const std::array<Json, 7> plain{Json(),        Json(true),     Json(false), Json(""),
+                                            Json::array(), Json::object(), Json("1")};
             value = plain[by.below(plain.size())];
         }
     }
@@ -149,6 +174,31 @@ std::vector<std::string> pieces_of(const std::string& line) {
     return out;
 }
 
+/// `word` is one of the pieces.
+void edit_word(std::string& word, std::vector<std::string>& pieces, Mutation& by) {
+    switch (by.below(5)) {
+        case 0:
+            word = by.odd_number();
+            break;
+        case 1:
+            word.clear();
+            break;
+        case 2: {
+            const std::vector<std::string> others = lines_of(by.donor());
+            const std::vector<std::string> taken = pieces_of(others[by.below(others.size())]);
+            word = taken[by.below(taken.size())];
+            break;
+        }
+        case 3:
+            std::swap(word, pieces[1 + 2 * by.below(pieces.size() / 2)]);
+            break;
+        default: {
+            std::string& other = pieces[by.below(pieces.size())];
+            other = by.one_in(2) ? other + other : by.bytes(other);
+        }
+    }
+}
+
 void edit_line(std::string& line, Mutation& by) {
     std::vector<std::string> pieces = pieces_of(line);
     if (pieces.size() < 2) {
@@ -157,41 +207,17 @@ void edit_line(std::string& line, Mutation& by) {
     }
     std::string& word = pieces[1 + 2 * by.below(pieces.size() / 2)];
     char* end = nullptr;
-    switch (by.below(7)) {
-        case 0:
-            word = by.odd_number();
-            break;
-        case 1:
-        case 2:
-            if (const double number = std::strtod(word.c_str(), &end); end != word.c_str()) {
-                char text[40];
-                std::snprintf(text, sizeof text, "%.9g", by.other_number(number));
-                word = text;
-            } else {
-                word = by.bytes(word);
-            }
-            break;
-        case 3:
-            word.clear();
-            break;
-        case 4: {
-            const std::vector<std::string> others = lines_of(by.donor());
-            const std::vector<std::string> taken = pieces_of(others[by.below(others.size())]);
-            word = taken[by.below(taken.size())];
-            break;
-        }
-        case 5:
-            std::swap(word, pieces[1 + 2 * by.below(pieces.size() / 2)]);
-            break;
-        default: {
-            std::string& other = pieces[by.below(pieces.size())];
-            other = by.one_in(2) ? other + other : by.bytes(other);
-        }
+    const double number = std::strtod(word.c_str(), &end);
+    if (end != word.c_str() && !by.one_in(4)) {
+        char text[40];
+        std::snprintf(text, sizeof text, "%.9g", by.other_number(number));
+        word = by.one_in(6) ? by.odd_number() : text;
+    } else {
+        edit_word(word, pieces, by);
     }
     line.clear();
     for (const std::string& piece : pieces) line += piece;
 }
-
 /// The text of a chunk of a GLB, and the binary one.
 struct GlbParts {
     std::string json, binary;
@@ -335,13 +361,13 @@ double Mutation::other_number(double number) {
 std::string mutated_json(const std::string& text, Mutation& mutation) {
     Json document = parsed_json(text);
     if (document.is_discarded()) return "";
-    for (std::size_t edits = 1 + mutation.below(4); edits > 0; --edits) edit_json(document, mutation);
+    for (std::size_t edits = mutation.edits(); edits > 0; --edits) edit_json(document, mutation);
     return document.dump(mutation.one_in(8) ? 1 : -1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string mutated_lines(const std::string& text, Mutation& mutation) {
     std::vector<std::string> lines = lines_of(text);
-    for (std::size_t edits = 1 + mutation.below(4); edits > 0 && !lines.empty(); --edits) {
+    for (std::size_t edits = mutation.edits(); edits > 0 && !lines.empty(); --edits) {
         const std::size_t at = mutation.below(lines.size());
         const auto place = lines.begin() + static_cast<std::ptrdiff_t>(at);
         switch (mutation.below(10)) {
@@ -375,7 +401,7 @@ std::string mutated_glb(const std::string& bytes, Mutation& mutation) {
     if (!bytes.starts_with("glTF")) return "";
     GlbParts parts = glb_parts(bytes);
     if (!parts.binary.empty() && mutation.one_in(3)) {
-        for (std::size_t edits = 1 + mutation.below(4); edits > 0; --edits) edit_numbers(parts.binary, mutation);
+        for (std::size_t edits = mutation.edits(); edits > 0; --edits) edit_numbers(parts.binary, mutation);
     } else {
         std::vector<std::string> texts;
         for (const std::string& donor : mutation.donors) {
@@ -391,7 +417,7 @@ std::string mutated_glb(const std::string& bytes, Mutation& mutation) {
 std::string mutated_png(const std::string& bytes, Mutation& mutation) {
     std::vector<PngPart> parts = png_parts(bytes);
     if (parts.empty()) return "";
-    for (std::size_t edits = 1 + mutation.below(3); edits > 0; --edits) edit_png(parts, mutation);
+    for (std::size_t edits = mutation.edits(); edits > 0; --edits) edit_png(parts, mutation);
     std::string out(testing::kPngSignature);
     for (const PngPart& part : parts) out += testing::png_chunk(part.type, part.data);
     return out;

@@ -21,6 +21,12 @@ struct Mutation {
 
     std::size_t below(std::size_t limit) { return static_cast<std::size_t>(random() % limit); }
     bool one_in(std::size_t many) { return below(many) == 0; }
+    /// How many changes are made: mostly one, as many changes together are refused for the first of them.
+    std::size_t edits() {
+        std::size_t out = 1;
+        while (out < 8 && one_in(3)) ++out;
+        return out;
+    }
     const std::string& donor() { return donors[below(donors.size())]; }
     /// A number that readers trip over, as text.
     std::string odd_number();

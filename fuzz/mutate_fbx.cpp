@@ -50,9 +50,8 @@ FbxWrite written(FbxDocument& document, FbxDocument::Index at, int deep = 0) {
     }
     constexpr int kDeep = 50;
     if (deep < kDeep) {
-        document.each_inside(at, [&](FbxDocument::Index inside) {
-            out.inside.push_back(written(document, inside, deep + 1));
-        });
+        document.each_inside(
+            at, [&](FbxDocument::Index inside) { out.inside.push_back(written(document, inside, deep + 1)); });
     }
     return out;
 }
@@ -137,7 +136,8 @@ void edit_value(FbxWritten& value, const std::vector<FbxSpot>& spots, Mutation& 
         if (!other.values.empty()) value = FbxWritten(other.values[by.below(other.values.size())]);
         return;
     }
-    if (auto* whole = std::get_if<std::int64_t>(&value)) *whole = whole_of(by.other_number(static_cast<double>(*whole)));
+    if (auto* whole = std::get_if<std::int64_t>(&value))
+        *whole = whole_of(by.other_number(static_cast<double>(*whole)));
     if (auto* real = std::get_if<double>(&value)) *real = by.other_number(*real);
     if (auto* text = std::get_if<std::string>(&value)) *text = by.bytes(*text);
     if (auto* list = std::get_if<std::vector<std::int64_t>>(&value)) edit_list(*list, by);
@@ -180,7 +180,7 @@ void edit_fbx(std::vector<FbxWrite>& records, Mutation& by) {
 std::string mutated_fbx(const std::string& bytes, Mutation& mutation) {
     FbxFile file = fbx_file(bytes);
     if (file.records.empty()) return "";
-    for (std::size_t edits = 1 + mutation.below(4); edits > 0; --edits) edit_fbx(file.records, mutation);
+    for (std::size_t edits = mutation.edits(); edits > 0; --edits) edit_fbx(file.records, mutation);
     testing::FbxForm form{file.version, mutation.one_in(4), mutation.one_in(2), mutation.one_in(8)};
     if (mutation.one_in(16)) form.version = form.version == 7400 ? 7500 : 7100;
     return testing::fbx_bytes(std::move(file.records), form);

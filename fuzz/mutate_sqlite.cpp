@@ -57,7 +57,7 @@ Cell cell_of(sqlite3_stmt* row, int column) {
     }
 }
 
-std::string quoted(const std::string& name, char quote = '"') {
+std::string sql_name(const std::string& name, char quote = '"') {
     std::string out(1, quote);
     for (const char c : name) out += c == quote ? std::string(2, c) : std::string(1, c == '\0' ? '?' : c);
     return out + quote;
@@ -72,13 +72,13 @@ std::vector<Table> tables_in(const std::string& bytes) {
     if (sqlite3_deserialize(database.get(), "main", copy, size, size, SQLITE_DESERIALIZE_FREEONCLOSE) != SQLITE_OK)
         return {};
     std::vector<Table> out;
-    each_row(database.get(), "SELECT name FROM sqlite_schema WHERE type = 'table' LIMIT 20",
-             [&](sqlite3_stmt* row) { out.push_back({text_of(row, 0), {}, {}}); });
+    each_row(database.get(), "SELECT name FROM sqlite_schema WHERE type = 'table' LIMIT 20", [&](sqlite3_stmt* row) {
+        out.push_back({text_of(row, 0), {}, {}});
+    });
     for (Table& table : out) {
-        each_row(database.get(), "PRAGMA table_info(" + quoted(table.name) + ")", [&](sqlite3_stmt* row) {
-            table.columns.emplace_back(text_of(row, 1), text_of(row, 2));
-        });
-        each_row(database.get(), "SELECT * FROM " + quoted(table.name) + " LIMIT 500", [&](sqlite3_stmt* row) {
+        each_row(database.get(), "PRAGMA table_info(" + sql_name(table.name) + ")",
+                 [&](sqlite3_stmt* row) { table.columns.emplace_back(text_of(row, 1), text_of(row, 2)); });
+        each_row(database.get(), "SELECT * FROM " + sql_name(table.name) + " LIMIT 500", [&](sqlite3_stmt* row) {
             std::vector<Cell> cells;
             for (int i = 0; i < sqlite3_column_count(row); ++i) cells.push_back(cell_of(row, i));
             table.rows.push_back(std::move(cells));
@@ -121,8 +121,9 @@ void edit_tables(std::vector<Table>& tables, Mutation& by) {
             Cell& cell = row[by.below(row.size())];
             constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
             if (by.one_in(6)) {
-                const std::vector<Cell> odd{nullptr, kMost, -kMost, std::numeric_limits<double>::infinity(), 1e300,
-                                            std::string(), by.odd_number()};
+                const std::vector<Cell> odd{
+                    nullptr, kMost,         -kMost,         std::numeric_limits<double>::infinity(),
+                    1e300,   std::string(), by.odd_number()};
                 cell = odd[by.below(odd.size())];
             } else if (auto* whole = std::get_if<std::int64_t>(&cell)) {
                 const double number = by.other_number(static_cast<double>(*whole));
@@ -144,13 +145,13 @@ std::string database_of(const std::vector<Table>& tables, Mutation& by) {
     for (const Table& table : tables) {
         std::string columns, places;
         for (const auto& [name, type] : table.columns) {
-            columns += (columns.empty() ? "" : ", ") + quoted(name) + ' ' + type;
+            columns += (columns.empty() ? "" : ", ") + sql_name(name) + ' ' + type;
             places += places.empty() ? "?" : ", ?";
         }
-        run("CREATE TABLE " + quoted(table.name) + '(' + columns + ')');
+        run("CREATE TABLE " + sql_name(table.name) + '(' + columns + ')');
         sqlite3_stmt* prepared = nullptr;
-        sqlite3_prepare_v2(database.get(), ("INSERT INTO " + quoted(table.name) + " VALUES(" + places + ')').c_str(), -1,
-                           &prepared, nullptr);
+        sqlite3_prepare_v2(database.get(), ("INSERT INTO " + sql_name(table.name) + " VALUES(" + places + ')').c_str(),
+                           -1, &prepared, nullptr);
         const std::unique_ptr<sqlite3_stmt, decltype(&sqlite3_finalize)> insert(prepared, &sqlite3_finalize);
         if (!insert) continue;
         for (const std::vector<Cell>& row : table.rows) {
@@ -168,9 +169,10 @@ std::string database_of(const std::vector<Table>& tables, Mutation& by) {
     }
     if (by.one_in(16)) {
         run("ALTER TABLE trajectory_data RENAME TO points");
-        run(by.one_in(2) ? "CREATE VIEW trajectory_data AS SELECT * FROM points"
-                         : "CREATE VIEW trajectory_data AS WITH RECURSIVE n(i) AS (SELECT 0 UNION ALL SELECT i + 1 FROM n) "
-                           "SELECT i AS frame, 1 AS id, 0 AS pos_x, 0 AS pos_y FROM n");
+        run(by.one_in(2)
+                ? "CREATE VIEW trajectory_data AS SELECT * FROM points"
+                : "CREATE VIEW trajectory_data AS WITH RECURSIVE n(i) AS (SELECT 0 UNION ALL SELECT i + 1 FROM n) "
+                  "SELECT i AS frame, 1 AS id, 0 AS pos_x, 0 AS pos_y FROM n");
     }
     run("COMMIT");
     sqlite3_int64 size = 0;
@@ -184,7 +186,7 @@ std::string database_of(const std::vector<Table>& tables, Mutation& by) {
 std::string mutated_sqlite(const std::string& bytes, Mutation& mutation) {
     std::vector<Table> tables = tables_in(bytes);
     if (tables.empty()) return "";
-    for (std::size_t edits = 1 + mutation.below(4); edits > 0; --edits) edit_tables(tables, mutation);
+    for (std::size_t edits = mutation.edits(); edits > 0; --edits) edit_tables(tables, mutation);
     return database_of(tables, mutation);
 }
 

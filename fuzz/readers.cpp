@@ -20,11 +20,11 @@
 #include <import/tracks/csv.h>
 #include <import/tracks/mapf_plan.h>
 #include <import/tracks/tracks.h>
+#include <mobb/tree.h>
 #include <picture_tests/reference.h>
 #include <picture_tests/shot.h>
 #include <render/drawlist/draw_list_compare.h>
 #include <render/image/png.h>
-#include <mobb/tree.h>
 #include <scene/fitted_scene.h>
 #include <scene/scene.h>
 #include <scene/view_options.h>

@@ -9,8 +9,6 @@
 #include <crowd/simulation/move_set.h>
 #include <crowd/simulation/simulate.h>
 #include <fuzz/readers.h>
-#include "import/fbx_scene.h"
-#include "import/gltf_bytes.h"
 #include <mobb/clip.h>
 #include <render/image/image_diff.h>
 #include <render/image/png.h>
@@ -19,6 +17,8 @@
 #include <support/gzip.h>
 #include <support/png_file.h>
 #include <support/temp_folder.h>
+#include "import/fbx_scene.h"
+#include "import/gltf_bytes.h"
 
 #include <sqlite3.h>
 
@@ -43,8 +43,7 @@ std::vector<std::string> files_in(const std::filesystem::path& folder, std::stri
     std::vector<std::filesystem::path> paths;
     if (std::filesystem::is_directory(folder)) {
         for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-            if (entry.is_regular_file() && entry.file_size() <= kLargestSeed &&
-                entry.path().native().ends_with(ending))
+            if (entry.is_regular_file() && entry.file_size() <= kLargestSeed && entry.path().native().ends_with(ending))
                 paths.push_back(entry.path());
         }
     }
@@ -87,9 +86,8 @@ std::vector<std::string> fbx_seeds() {
     rich.scene.model_template({{"Lcl Translation", vector(0, 1, 0)}});
     rich.scene.stack("Take 002", {{"LocalStart", choice(0)}, {"LocalStop", choice(46'186'158'000)}});
     std::vector<std::string> out;
-    for (const testing::FbxForm form :
-         {testing::FbxForm{7400}, testing::FbxForm{7500, false, true}, testing::FbxForm{7400, true},
-          testing::FbxForm{7100, false, false, true}}) {
+    for (const testing::FbxForm form : {testing::FbxForm{7400}, testing::FbxForm{7500, false, true},
+                                        testing::FbxForm{7400, true}, testing::FbxForm{7100, false, false, true}}) {
         out.push_back(walk.scene.bytes(form));
         out.push_back(rich.scene.bytes(form));
     }
@@ -98,8 +96,7 @@ std::vector<std::string> fbx_seeds() {
 
 std::vector<std::string> gltf_seeds() {
     using namespace testing;
-    const std::string data =
-        "data:application/octet-stream;base64,AAAAAAAAgD8AAAAAAAAAAAAAAAAAAABAAAAAAAAAAAA=";
+    const std::string data = "data:application/octet-stream;base64,AAAAAAAAgD8AAAAAAAAAAAAAAAAAAABAAAAAAAAAAAA=";
     GltfBytes small;
     const int times = small.add_floats("SCALAR", {0, 1});
     const int places = small.add_floats("VEC3", {0, 0, 0, 2, 0, 0});
@@ -121,7 +118,8 @@ std::vector<std::string> sqlite_seeds() {
         "INSERT INTO metadata VALUES('version','1'),('fps','10.0');"
         "CREATE TABLE trajectory_data(frame INTEGER NOT NULL, id INTEGER NOT NULL, pos_x REAL, pos_y REAL, ori_x REAL, "
         "ori_y REAL);"
-        "INSERT INTO trajectory_data VALUES(0,1,0,0,1,0),(1,1,0.1,0,1,0),(5,2,4,2.5,1,0),(2,1,0.2,0,1,0),(6,2,5,2,1,0);";
+        "INSERT INTO trajectory_data "
+        "VALUES(0,1,0,0,1,0),(1,1,0.1,0,1,0),(5,2,4,2.5,1,0),(2,1,0.2,0,1,0),(6,2,5,2,1,0);";
     const std::string of_version_2 =
         "UPDATE metadata SET value = '2' WHERE key = 'version'; INSERT INTO metadata VALUES('xmin','0');"
         "CREATE TABLE geometry(hash INTEGER NOT NULL, wkt TEXT NOT NULL); INSERT INTO geometry VALUES(1,'POLYGON');"
@@ -134,8 +132,8 @@ std::vector<std::string> sqlite_seeds() {
         const std::unique_ptr<sqlite3, decltype(&sqlite3_close)> database(opened, &sqlite3_close);
         sqlite3_exec(opened, sql.c_str(), nullptr, nullptr, nullptr);
         sqlite3_int64 size = 0;
-        const std::unique_ptr<unsigned char, decltype(&sqlite3_free)> bytes(
-            sqlite3_serialize(opened, "main", &size, 0), &sqlite3_free);
+        const std::unique_ptr<unsigned char, decltype(&sqlite3_free)> bytes(sqlite3_serialize(opened, "main", &size, 0),
+                                                                            &sqlite3_free);
         out.emplace_back(reinterpret_cast<const char*>(bytes.get()), static_cast<std::size_t>(size));
     }
     return out;
@@ -191,7 +189,8 @@ std::vector<std::string> png_seeds() {
     std::vector<std::string> out = files_in(kSource / "tests/render/goldens", ".plain.png");
     out.push_back(png_file({2, 1, 8, 6, false}, {0, 1, 2, 3, 4, 5, 6, 7, 8}));
     out.push_back(png_file({2, 2, 8, 0, false}, {1, 10, 20, 2, 30, 40}));
-    out.push_back(png_file({3, 1, 2, 3, false}, {0, 0x1b}, png_chunk("PLTE", bytes_of({0, 0, 0, 255, 0, 0, 0, 9, 9, 1, 2, 3}))));
+    out.push_back(
+        png_file({3, 1, 2, 3, false}, {0, 0x1b}, png_chunk("PLTE", bytes_of({0, 0, 0, 255, 0, 0, 0, 9, 9, 1, 2, 3}))));
     out.push_back(png_file({1, 1, 16, 2, false}, {4, 1, 2, 3, 4, 5, 6}, png_chunk("gAMA", big_endian(45455))));
     out.push_back(png_file({2, 2, 8, 4, true}, {0, 1, 2, 0, 3, 4, 0, 5, 6, 7, 8}));
     return out;

@@ -85,9 +85,8 @@ template <class Index, class Value, class Body, class Join>
 Value parallel_reduce(const blocked_range<Index>& range, const Value& identity, const Body& body, const Join& join) {
     const std::size_t pieces = by_threads::pieces_of(range);
     std::vector<Value> parts(pieces, identity);
-    by_threads::each_piece(pieces, [&](std::size_t i) {
-        parts[i] = body(by_threads::piece_of(range, i, pieces), identity);
-    });
+    by_threads::each_piece(pieces,
+                           [&](std::size_t i) { parts[i] = body(by_threads::piece_of(range, i, pieces), identity); });
     Value out = identity;
     for (const Value& part : parts) out = join(out, part);
     return out;
