@@ -403,12 +403,9 @@ std::string mutated_glb(const std::string& bytes, Mutation& mutation) {
     if (!parts.binary.empty() && mutation.one_in(3)) {
         for (std::size_t edits = mutation.edits(); edits > 0; --edits) edit_numbers(parts.binary, mutation);
     } else {
-        std::vector<std::string> texts;
-        for (const std::string& donor : mutation.donors) {
-            if (donor.starts_with("glTF")) texts.push_back(glb_parts(donor).json);
-        }
+        const std::vector<std::string> texts{glb_parts(mutation.donor()).json};
         Mutation inside{mutation.random, texts, mutation.bytes};
-        parts.json = texts.empty() ? "" : mutated_json(parts.json, inside);
+        parts.json = mutated_json(parts.json, inside);
         mutation.random = inside.random;
     }
     return parts.json.empty() ? "" : testing::join_glb(parts.json, parts.binary);
@@ -426,8 +423,7 @@ std::string mutated_png(const std::string& bytes, Mutation& mutation) {
 std::string mutated_gzip(const std::string& bytes, Mutation& mutation) {
     const std::string unpacked = inflated(bytes);
     if (unpacked.empty()) return "";
-    std::vector<std::string> texts;
-    for (const std::string& donor : mutation.donors) texts.push_back(inflated(donor));
+    const std::vector<std::string> texts{inflated(mutation.donor())};
     Mutation inside{mutation.random, texts, mutation.bytes};
     std::string out = testing::gzipped(mutated_lines(unpacked, inside));
     mutation.random = inside.random;

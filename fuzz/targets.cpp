@@ -21,6 +21,7 @@
 #include "import/gltf_bytes.h"
 
 #include <sqlite3.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -166,10 +167,18 @@ std::vector<std::string> run_seeds() {
     return out;
 }
 
+/// Of the scene beside the seeds.
 std::vector<std::string> case_seeds() {
-    return joined(std::array{files_in(kSource / "tests/goldens", ".case.json"),
-                             files_in(kSource / "assets/figures", ".case.json"),
-                             files_in(kSource / "tests/app/goldens/menus", ".case.json")});
+    std::vector<std::string> out = joined(std::array{files_in(kSource / "tests/goldens", ".case.json"),
+                                                     files_in(kSource / "assets/figures", ".case.json"),
+                                                     files_in(kSource / "tests/app/goldens/menus", ".case.json")});
+    for (std::string& text : out) {
+        nlohmann::ordered_json json = nlohmann::ordered_json::parse(text);
+        json["scene"] = "scene.json";
+        if (json.contains("window")) json["window"]["script"] = "a.script";
+        text = json.dump(1);
+    }
+    return out;
 }
 
 std::vector<std::string> script_seeds() {
