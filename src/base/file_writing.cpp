@@ -323,7 +323,15 @@ void note_read(const fs::path& file) {
     const auto present = identity(file);
     if (!present) return;
     const std::lock_guard lock(read_files().mutex);
-    read_files().names.insert_or_assign(*present, file);
+    // The present folder may be another later.
+    read_files().names.insert_or_assign(*present, whole_path(file));
+}
+
+std::vector<fs::path> files_read() {
+    const std::lock_guard lock(read_files().mutex);
+    std::vector<fs::path> out;
+    for (const auto& [number, file] : read_files().names) out.push_back(file);
+    return out;
 }
 
 void check_not_read(const fs::path& file) {

@@ -192,6 +192,7 @@ void write_contact_sheet(const TestCommandArguments& arguments, const picture_te
     const std::optional<Image> drawn = at_place(arguments.contact_sheet.string(), "",
                                                 [&] { return sheet.draw(results, arguments.columns, renderer); });
     if (!drawn) return warn("there is no case for a contact sheet");
+    check_not_read(arguments.contact_sheet);
     picture_tests::make_folder_of(arguments.contact_sheet);
     write_png(arguments.contact_sheet, *drawn);
 }
@@ -352,13 +353,14 @@ void take(const TestCommandArguments& arguments, const std::vector<CaseFile>& ca
 }
 
 /// Draws the cases; of each the result goes where it is wanted as soon as it is there. Returns what else went wrong.
-std::vector<std::string> draw(const TestCommandArguments& arguments, const std::vector<CaseFile>& cases,
-                              OrderedResults& results, picture_tests::ContactSheet& sheet) {
+std::vector<std::string> draw_all(const TestCommandArguments& arguments, const std::vector<CaseFile>& cases,
+                                  OrderedResults& results, picture_tests::ContactSheet& sheet) {
     std::vector<picture_tests::DrawOrder> orders;
     for (const CaseFile& file : cases) orders.push_back({file, run_options(arguments, file)});
     const auto take_in = [&](CaseResult result) {
         if (arguments.update && !arguments.new_reference) check_is_from_here(arguments.folder, result);
         if (!arguments.contact_sheet.empty()) sheet.add(result);
+        for (const std::filesystem::path& file : result.read) note_read(file);
         const bool passed = result.outcome == picture_tests::CaseOutcome::passed;
         // A run may have thousands.
         if (passed && arguments.html.empty() && !arguments.json_lines) result.actual.clear();
@@ -400,7 +402,7 @@ int run_test(const TestCommandArguments& arguments) {
 
     OrderedResults ordered(cases);
     picture_tests::ContactSheet sheet(cases.size());
-    const std::vector<std::string> complaints = draw(arguments, cases, ordered, sheet);
+    const std::vector<std::string> complaints = draw_all(arguments, cases, ordered, sheet);
     for (const std::string& complaint : complaints) warn(complaint);
     std::vector<CaseResult>& results = ordered.all();
     const std::string no_opengl = add_facts(facts, results);

@@ -202,6 +202,19 @@ TEST_F(Outputs, NothingThatIsReadIsReplaced) {
     EXPECT_FALSE(std::filesystem::exists(path("failed")));
 }
 
+TEST_F(Outputs, AReportReplacesNothingThatACaseIsDrawnFrom) {
+    for (const std::string& read : {"scene.json", "clip.csv"}) {
+        const std::string before = slurp(path(read));
+        std::filesystem::create_hard_link(path(read), path("report.html"));
+        const Result run =
+            run_program({"test", path("cases"), "--output", path("failed"), "--html", path("report.html")});
+        if (run.status == 3) GTEST_SKIP() << run.err;
+        expect_refused(run, 2, "would replace");
+        EXPECT_EQ(slurp(path(read)), before);
+        std::filesystem::remove(path("report.html"));
+    }
+}
+
 TEST_F(Outputs, AreAllThatIsLeft) {
     std::filesystem::create_directory(path("out"));
     for (const Writer& writer : writers()) {
