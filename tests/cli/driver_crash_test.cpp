@@ -26,7 +26,7 @@ using testing::Result;
 using testing::run_program;
 
 constexpr const char* kSmallScene =
-    R"({"mobbscope": 1, "clips": {"p": {"dt": 1, "samples": [[0, 0, 0.4], [0.1, 0, 0.4]]}}, "agents": [{"clip": "p"}]})";
+    R"({"mobbscope": 1, "clips": {"p": {"dt": 1, "samples": [[0, 0, 0.4], [0.1, 0, 0.4]]}}, "agents": [{"name": "A", "clip": "p"}]})";
 
 /// What puts the libraries that crash before the real ones.
 std::function<void()> with_drivers(const std::vector<std::string>& libraries, const std::string& fault) {
