@@ -64,21 +64,28 @@ Owner owner_of(Address address) {
     return is_mapped(address) ? Owner::driver : Owner::nobody;
 }
 
-/// Where a process was, and who called what it was in if that is the last thing that it did.
-struct Stop {
-    Address at = 0, caller = 0;  ///< both 0 where that is not known
-};
-
-Stop stop_of(const ucontext_t& context) {
+/// Where a process was.
+Address stop_of(const ucontext_t& context) {
 #if defined(__x86_64__)
-    const auto stack = static_cast<Address>(context.uc_mcontext.gregs[REG_RSP]);
-    return {static_cast<Address>(context.uc_mcontext.gregs[REG_RIP]),
-            is_mapped(stack) ? *reinterpret_cast<const Address*>(stack) : 0};
+    return static_cast<Address>(context.uc_mcontext.gregs[REG_RIP]);
 #elif defined(__aarch64__)
-    return {static_cast<Address>(context.uc_mcontext.pc), static_cast<Address>(context.uc_mcontext.regs[30])};
+    return static_cast<Address>(context.uc_mcontext.pc);
 #else
     static_cast<void>(context);
-    return {};
+    return reinterpret_cast<Address>(&note_program);  // unknown: as if it were in some code
+#endif
+}
+
+/// Who called, if a call is the last thing that it did. No sanitizer knows of a frame that is only begun.
+[[gnu::no_sanitize_address]] Address caller_of_stop(const ucontext_t& context) {
+#if defined(__x86_64__)
+    const auto stack = static_cast<Address>(context.uc_mcontext.gregs[REG_RSP]);
+    return is_mapped(stack) ? *reinterpret_cast<const Address*>(stack) : 0;
+#elif defined(__aarch64__)
+    return static_cast<Address>(context.uc_mcontext.regs[30]);
+#else
+    static_cast<void>(context);
+    return 0;
 #endif
 }
 
@@ -103,11 +110,10 @@ _Unwind_Reason_Code step(_Unwind_Context* frame, void* state) {
 
 /// An address in the driver, if it is the driver that crashed; else 0.
 Address driver_at(const ucontext_t& context) {
-    const Stop stop = stop_of(context);
-    const bool is_known = stop.at != 0 || stop.caller != 0;
     // A call that led nowhere cannot be walked from.
-    if (is_known && owner_of(stop.at) == Owner::nobody) {
-        return owner_of(stop.caller) == Owner::driver ? stop.caller : 0;
+    if (owner_of(stop_of(context)) == Owner::nobody) {
+        const Address caller = caller_of_stop(context);
+        return owner_of(caller) == Owner::driver ? caller : 0;
     }
     Walk walk;
     _Unwind_Backtrace(step, &walk);
