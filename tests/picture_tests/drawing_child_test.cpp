@@ -9,8 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include <fcntl.h>
-#include <poll.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,9 +16,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <filesystem>
 #include <fstream>
-#include <map>
+#include <functional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -32,7 +32,7 @@ using mobbscope::testing::CaseFolder;
 using mobbscope::testing::slurp;
 using mobbscope::testing::TempFolder;
 
-/// Whether a file becomes so within a few seconds.
+/// Whether it holds within a few seconds.
 bool comes(const std::function<bool()>& holds) {
     for (int i = 0; i < 1000 && !holds(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     return holds();
