@@ -743,7 +743,7 @@ TEST_F(DrawnTestCommandTest, ACaseStartsNoOther) {
     cases.add("chain", R"("window": {"script": "chain.script"})");
     const Result run = test({"chain"});
     EXPECT_EQ(run.status, 1);
-    EXPECT_PRED2(says, run.out, "chain.script: line 1: .: no case is drawn here: a picture test starts no other");
+    EXPECT_PRED2(says, run.out, "chain.script: line 1: no case is drawn here: a picture test starts no other");
     // What an earlier run left may be looked at, but not drawn again.
     EXPECT_EQ(test({"path"}).status, 1);
     cases.folder().write("chain.script",
