@@ -419,6 +419,15 @@ void check_new_reference(const TestCommandArguments& arguments) {
     throw InputError("--new-reference: goldens are from one place; take all of them, with --update all and no NAME");
 }
 
+/// Throws InputError for an option that says nothing where standard input says which cases are drawn.
+void check_requests(const Command& command) {
+    for (const GivenOption& option : command.given()) {
+        if (option.name == "DIR" || option.name == "--backend" || option.name == "--requests") continue;
+        throw InputError("--requests: standard input says what is drawn, and nothing else is done; leave out " +
+                         option.name);
+    }
+}
+
 /// "all" alone stands for all cases that are run.
 void read_update(TestCommandArguments& arguments) {
     arguments.update = true;
@@ -491,6 +500,7 @@ void add_test_command(Command& program, int& status) {
                 },
                 "Of the contact sheet", "N");
             command.callback([&command, arguments, &status] {
+                if (arguments->requests) check_requests(command);
                 if (command.is_given("--update")) read_update(*arguments);
                 check_new_reference(*arguments);
                 status = run_test(*arguments);

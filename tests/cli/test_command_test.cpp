@@ -760,6 +760,9 @@ TEST_F(TestCommandTest, RequestsAreLinesOfJson) {
     };
     expect_test_refused(asked("path\n"), "a request: line 1");
     EXPECT_EQ(asked("").status, 0);
+    expect_test_refused(run_program({"test", cases.path().string(), "path", "--requests"}), "leave out NAME");
+    expect_test_refused(run_program({"test", cases.path().string(), "--requests", "--update", "all"}),
+                        "leave out --up");
     const Result run = asked(R"({"name": "none", "source": "reference", "fresh": "missing"})"
                              "\n");
     EXPECT_EQ(run.status, 0) << run.err;
