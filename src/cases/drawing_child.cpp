@@ -83,7 +83,7 @@ class CaseProcess {
         const CaseFile& file = order_->file;
         if (has_ended) return over(lacks_something() ? skipped(file) : failed(file, how_it_ended_here()));
         if (said_.size() > kMostLine) return over(failed(file, "the process that draws said what is no result"));
-        if (std::chrono::duration<double>(Clock::now() - begun_).count() <= limit_) return std::nullopt;
+        if (seconds() <= limit_) return std::nullopt;
         return over(failed(file, "took longer than " + brief(limit_) + " s (time_limit)"));
     }
 
@@ -134,9 +134,12 @@ class CaseProcess {
         }
     }
 
+    double seconds() const { return std::chrono::duration<double>(Clock::now() - begun_).count(); }
+
     CaseResult over(CaseResult result) {
         process_.kill();
         is_over_ = true;
+        result.seconds = seconds();
         return result;
     }
 
@@ -266,10 +269,12 @@ class CaseProcesses {
             at_work_.push_back(std::make_unique<CaseProcess>(drawer_, folder_));
             return true;
         } catch (const MachineError& error) {
-            if (at_work_.empty() && !has_told_) throw;
+            const std::string why = std::string("no process that draws can be started: ") + error.what();
+            if (at_work_.empty() && !has_told_) throw MachineError(why);
+            // Fewer do; without any, each case tries anew.
             most_ = std::max<std::size_t>(at_work_.size(), 1);
             const DrawOrder* order = at_work_.empty() ? queue_.next() : nullptr;
-            if (order) told(failed(order->file, error.what()));
+            if (order) told(failed(order->file, why));
             return false;
         }
     }

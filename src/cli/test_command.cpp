@@ -361,9 +361,9 @@ std::vector<std::string> draw_all(const TestCommandArguments& arguments, const s
         if (arguments.update && !arguments.new_reference) check_is_from_here(arguments.folder, result);
         if (!arguments.contact_sheet.empty()) sheet.add(result);
         for (const std::filesystem::path& file : result.read) note_read(file);
+        // A run may have thousands, and of those that passed only a page shows pictures, or goldens are taken.
         const bool passed = result.outcome == picture_tests::CaseOutcome::passed;
-        // A run may have thousands.
-        if (passed && arguments.html.empty() && !arguments.json_lines) result.actual.clear();
+        if (passed && arguments.html.empty() && !arguments.json_lines && !arguments.update) result.actual.clear();
         results.add(std::move(result));
         while (CaseResult* next = arguments.json_lines ? results.next() : nullptr) {
             write_result_line(std::cout, *next);
@@ -423,6 +423,15 @@ void check_new_reference(const TestCommandArguments& arguments) {
     const bool takes_all = arguments.update_all && arguments.names.empty() && arguments.shard.is_all();
     if (!arguments.new_reference || takes_all) return;
     throw InputError("--new-reference: goldens are from one place; take all of them, with --update all and no NAME");
+}
+
+/// Throws InputError for an option that says nothing where standard input says which cases are drawn.
+void check_requests(const Command& command) {
+    for (const GivenOption& option : command.given()) {
+        if (option.name == "DIR" || option.name == "--backend" || option.name == "--requests") continue;
+        throw InputError("--requests: standard input says what is drawn, and nothing else is done; leave out " +
+                         option.name);
+    }
 }
 
 /// "all" alone stands for all cases that are run.
@@ -497,6 +506,7 @@ void add_test_command(Command& program, int& status) {
                 },
                 "Of the contact sheet", "N");
             command.callback([&command, arguments, &status] {
+                if (arguments->requests) check_requests(command);
                 if (command.is_given("--update")) read_update(*arguments);
                 check_new_reference(*arguments);
                 status = run_test(*arguments);

@@ -9,8 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include <fcntl.h>
-#include <poll.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,9 +16,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <filesystem>
 #include <fstream>
-#include <map>
+#include <functional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -32,7 +32,7 @@ using mobbscope::testing::CaseFolder;
 using mobbscope::testing::slurp;
 using mobbscope::testing::TempFolder;
 
-/// Whether a file becomes so within a few seconds.
+/// Whether it holds within a few seconds.
 bool comes(const std::function<bool()>& holds) {
     for (int i = 0; i < 1000 && !holds(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     return holds();
@@ -83,9 +83,13 @@ class DrawCasesTest : public ::testing::Test {
             {.program = script, .backend = "auto", .jobs = jobs}, cases.path(), orders,
             [&](const CaseResult& result) { told.push_back(result); }, [] {});
     }
-    std::string message_of(const std::string& name) const {
+    CaseResult result_of(const std::string& name) const {
         const auto at = std::ranges::find(told, name, [](const CaseResult& one) { return one.file.name; });
-        return at == told.end() ? "nothing" : std::string(picture_tests::name(at->outcome)) + ": " + at->message;
+        return at == told.end() ? CaseResult{} : *at;
+    }
+    std::string message_of(const std::string& name) const {
+        const CaseResult result = result_of(name);
+        return std::string(picture_tests::name(result.outcome)) + ": " + result.message;
     }
     Summary sum() const { return summary(told); }
     std::size_t processes() const {
@@ -127,6 +131,7 @@ TEST_F(DrawCasesTest, WhatTakesTooLongIsEnded) {
     draw("    c) exec sleep 100 ;;", 2);
     EXPECT_EQ(told.size(), kCases);
     EXPECT_EQ(message_of("c"), "failed: took longer than 0.2 s (time_limit)");
+    EXPECT_GE(result_of("c").seconds, 0.2);
     EXPECT_EQ(sum()[CaseOutcome::passed], static_cast<int>(kCases) - 1);
     std::istringstream pids(slurp(cases.path() / "pids"));
     for (pid_t process = 0; pids >> process;) EXPECT_FALSE(is_alive(process));
@@ -159,7 +164,13 @@ TEST_F(DrawCasesTest, WhereTheMachineLacksSomethingAllIsSkippedAtOnce) {
 
 TEST_F(DrawCasesTest, AProgramThatIsNotThereIsNoMachine) {
     const auto nothing = [](const CaseResult&) {};
-    EXPECT_THROW(draw_cases({.program = cases.path() / "none"}, cases.path(), orders, nothing, [] {}), MachineError);
+    try {
+        draw_cases({.program = "/no/program"}, cases.path(), orders, nothing, [] {});
+        ADD_FAILURE();
+    } catch (const MachineError& error) {
+        EXPECT_STREQ(error.what(),
+                     "no process that draws can be started: /no/program: cannot be started: No such file or directory");
+    }
 }
 
 TEST_F(DrawCasesTest, WhenNobodyWantsTheRestItIsEnded) {
