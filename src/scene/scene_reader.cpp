@@ -228,7 +228,11 @@ class SceneReader {
             scene_.graph = std::make_shared<MotionGraph>(
                 read_graph(*graph, [this](const JsonPlace& clip) { return clip_names_.find(clip, "clip"); }));
         }
-        if (scene_.graph) check_turned_clips();
+        if (scene_.graph) {
+            check_turned_clips();
+            const std::string why = why_moves_are_too_long(scene_, *scene_.graph);
+            if (!why.empty()) root_.require("graph").require("moves").fail(why);
+        }
         if (const auto agents = root_.find("agents")) {
             for (int i = 0; i < agents->size(); ++i) scene_.agents.push_back(read_agent((*agents)[i]));
         }
