@@ -227,12 +227,10 @@ class SceneReader {
         if (const auto graph = root_.find("graph")) {
             scene_.graph = std::make_shared<MotionGraph>(
                 read_graph(*graph, [this](const JsonPlace& clip) { return clip_names_.find(clip, "clip"); }));
-        }
-        if (scene_.graph) {
-            check_turned_clips();
             const std::string why = why_moves_are_too_long(scene_, *scene_.graph);
-            if (!why.empty()) root_.require("graph").require("moves").fail(why);
+            if (!why.empty()) graph->require("moves").fail(why);
         }
+        if (scene_.graph) check_turned_clips();
         if (const auto agents = root_.find("agents")) {
             for (int i = 0; i < agents->size(); ++i) scene_.agents.push_back(read_agent((*agents)[i]));
         }
