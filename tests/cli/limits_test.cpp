@@ -152,6 +152,18 @@ TEST_F(LimitsTest, PicturesBeyondTheirPixelsAreRefusedByTheirHeader) {
     expect_refused(run_program({"diff", tall, tall}), "too large");
 }
 
+TEST_F(LimitsTest, MovesOfAGraphAreShort) {
+    write("long.csv", "t,x,y,r\n0,0,0,1\n1,1,0,1\n20000,0,1,1\n");
+    const std::string graph = R"({"clips": {"c": {"source": "long.csv"}}, "graph": {"hubs": [{"name": "h"}],
+        "moves": [{"clip": "c", "from": 0, "to": 0, "entry": [0, 0, 0], "exit": [0, 1, 0]}]}})";
+    expect_refused(run_program({"graph", "info", write("graph.json", graph)}),
+                   "/graph/moves: of 1 move there are 600001 samples, more than 500000 and 1000 for each");
+    const std::string run = folder.path() / "run.json";
+    const Result whole = run_program({"simulate", folder.path() / "long.csv", "--whole", "-o", run});
+    EXPECT_EQ(whole.status, 2) << whole.err;
+    EXPECT_NE(whole.err.find("long.csv: of 1 move there are 600001 samples"), std::string::npos) << whole.err;
+}
+
 TEST_F(LimitsTest, AgentsThatShareALongClipAreNotDrawnInAnyNumber) {
     write("long.csv", "t,x,y,r\n0,0,0,1\n1,1,0,1\n5000,0,1,1\n");
     std::string text = R"({"clips": {"c": {"source": "long.csv"}}, "agents": [)";
