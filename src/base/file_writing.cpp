@@ -98,12 +98,9 @@ class UnfinishedName {
     /// `make` creates the file and returns whether it could; EEXIST leads to another name.
     template <class Make>
     UnfinishedName(const fs::path& folder, const Make& make) {
-        static std::atomic<unsigned> number{0};
         do {
             free_slot();
-            const std::string name =
-                std::string(kUnfinished) + std::to_string(::getpid()) + '-' + std::to_string(number++);
-            name_ = folder / name;
+            name_ = folder / (std::string(kUnfinished) + std::to_string(::getpid()) + '-' + std::to_string(made_++));
             slot_ = put_in_slot(name_.native());
             if (make(name_.c_str())) return;
         } while (errno == EEXIST);
@@ -139,6 +136,7 @@ class UnfinishedName {
         slot_ = nullptr;
     }
 
+    static inline std::atomic<unsigned> made_{0};
     fs::path name_;
     NameSlot* slot_ = nullptr;
     int error_ = 0;
