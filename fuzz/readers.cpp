@@ -269,11 +269,18 @@ void read_draw_list(const std::string& bytes) {
 
 void read_result_line(const std::string& bytes) { picture_tests::read_result_line(bytes, the_case()); }
 
+void read_request_line(const std::string& bytes) {
+    const picture_tests::CaseRequest request = picture_tests::read_request_line(bytes);
+    const std::string written = picture_tests::request_line(request);
+    require(picture_tests::request_line(picture_tests::read_request_line(written)) == written,
+            "a request that was written is read as another one");
+}
+
 void read_report(const std::string& bytes) {
     const MemoryFile file(bytes);
     const picture_tests::CaseReport report = picture_tests::read_case_report(file.path(), the_case());
-    for (const picture_tests::NamedResult& result : report.results)
-        picture_tests::check_bytes(result.result.fresh, report.file);
+    for (const picture_tests::CaseResult& result : report.results)
+        picture_tests::check_bytes(result.fresh, report.file);
 }
 
 void read_reference(const std::string& bytes) {

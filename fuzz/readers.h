@@ -24,6 +24,7 @@ void read_settings(const std::string& bytes);
 void read_png_file(const std::string& bytes);
 void read_draw_list(const std::string& bytes);
 void read_result_line(const std::string& bytes);
+void read_request_line(const std::string& bytes);
 void read_report(const std::string& bytes);
 void read_reference(const std::string& bytes);
 

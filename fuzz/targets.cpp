@@ -206,33 +206,41 @@ std::vector<std::string> png_seeds() {
 }
 
 picture_tests::CaseResult a_result() {
+    Image actual(2, 1);
+    actual.at(1, 0)[3] = 200;
+    const Image golden(2, 1);
     picture_tests::CaseResult result;
     result.file = {"a", "a.case.json"};
     result.outcome = picture_tests::CaseOutcome::different;
     result.message = "two things";
-    result.actual = Image(2, 1);
-    result.golden = Image(2, 1);
-    result.actual.at(1, 0)[3] = 200;
-    result.image = diff(result.actual, result.golden);
+    result.actual = png_bytes(actual);
+    result.golden = png_bytes(golden);
+    result.image = diff(actual, golden);
     result.findings = {{result.file.golden(), "pixels", {}}, {result.file.draw(), "numbers", {"box of A"}}};
-    result.fresh = {{result.file.golden(), png_bytes(result.actual), png_bytes(result.golden)},
-                    {result.file.draw(), "{}", {}}};
+    result.fresh = {{result.file.golden(), result.actual, result.golden}, {result.file.draw(), "{}", {}}};
+    result.drawn_by = {"osmesa", "llvmpipe", "Mesa 22.3.6, llvmpipe"};
     return result;
 }
 
 std::vector<std::string> result_line_seeds() {
     std::ostringstream line;
-    picture_tests::write_result_line(line, a_result(), {"osmesa", "llvmpipe"});
+    picture_tests::write_result_line(line, a_result());
     return {line.str()};
 }
 
 std::vector<std::string> report_seeds() {
     const std::vector<picture_tests::CaseResult> results{a_result()};
     std::ostringstream report;
-    picture_tests::write_case_report(report, results, {"osmesa", "llvmpipe"});
+    picture_tests::write_case_report(report, results);
     const std::string page = "<!DOCTYPE html>\n" + std::string(picture_tests::kReportBegins) + report.str() +
                              std::string(picture_tests::kReportEnds) + "\n";
     return {report.str(), page};
+}
+
+std::vector<std::string> request_line_seeds() {
+    return {
+        picture_tests::request_line({"a", {}}),
+        picture_tests::request_line({"b", {picture_tests::GoldenSource::here, picture_tests::FreshGoldens::of_all}})};
 }
 
 std::vector<std::string> reference_seeds() { return files_in(kSource / "tests/goldens", "reference.json"); }
@@ -269,6 +277,7 @@ constexpr Target kTargets[] = {
     {"png", Form::png, read_png_file, png_seeds},
     {"draw-list", Form::json, read_draw_list, draw_list_seeds},
     {"result-line", Form::json, read_result_line, result_line_seeds},
+    {"request-line", Form::json, read_request_line, request_line_seeds},
     {"report", Form::json, read_report, report_seeds},
     {"reference", Form::json, read_reference, reference_seeds},
 };

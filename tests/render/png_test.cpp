@@ -52,6 +52,14 @@ TEST(Png, TextsThatUnpackToMuchAreNotUnpacked) {
     EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 200'000);  // kB, of the 700'000
 }
 
+TEST(Png, AFewBytesAreNoLargePicture) {
+    // 400 MB of pixels, if they were made before the file ends.
+    const std::string file = testing::png_header({3, 33'000'000, 2, 0, false}) +
+                             testing::png_chunk("IDAT", testing::packed("0")) + testing::png_chunk("IEND", "");
+    EXPECT_EQ(testing::input_error([&] { read_png_bytes(file, "a.png"); }),
+              "a.png: the PNG picture of 3x33000000 pixels is cut short: it has 66 B; write or copy it again");
+}
+
 TEST(Png, WhatCannotBeWrittenIsTheMachines) {
     const testing::TempFolder folder;
     EXPECT_THROW(write_png(folder.path() / "none" / "a.png", pattern()), MachineError);

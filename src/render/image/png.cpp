@@ -2,6 +2,7 @@
 
 #include <base/error.h>
 #include <base/file.h>
+#include <base/text.h>
 
 #include <png.h>
 
@@ -47,6 +48,11 @@ class PngReader {
         return true;
     }
 
+    /// Whether what is left of the file can be all pixels, as far as their packing can go.
+    bool may_be_whole() const {
+        constexpr std::size_t kMostPacked = 1032;  // bytes in one: Deflate's limit
+        return png_get_rowbytes(png_, info_) <= kMostPacked * bytes_.size() / static_cast<std::size_t>(height());
+    }
     long long width() const { return png_get_image_width(png_, info_); }
     long long height() const { return png_get_image_height(png_, info_); }
 
@@ -219,6 +225,11 @@ Image read_png_bytes(std::string_view bytes, const std::string& name) {
         throw InputError(name, "",
                          "the picture of " + size_word(size) + " pixels is too large; up to " +
                              std::to_string(kMostPngPixels) + " pixels are read");
+    }
+    if (!reader.may_be_whole()) {
+        throw InputError(name, "",
+                         "the PNG picture of " + size_word(size) + " pixels is cut short: it has " +
+                             bytes_text(bytes.size()) + "; write or copy it again");
     }
     Image image(size.width, size.height);
     if (!reader.read_pixels(image)) refuse(reader, name);
