@@ -70,11 +70,12 @@ class DrawCasesTest : public ::testing::Test {
         write_result_line(line, result);
         cases.folder().write(name + ".line", line.str());
     }
-    /// `otherwise`: lines of a shell's `case`, by name; `at_begin`: what it does first.
-    std::vector<std::string> draw(const std::string& otherwise, int jobs, const std::string& at_begin = "") {
+    /// `otherwise`: lines of a shell's `case`, by name.
+    std::vector<std::string> draw(const std::string& otherwise, int jobs) {
         const std::string folder = cases.path().string();
         const std::filesystem::path script = cases.folder().write(
-            "draw.sh", "#!/bin/sh\necho $$ >>'" + folder + "/pids'\n" + at_begin +
+            "draw.sh", "#!/bin/sh\necho $$ >>'" + folder +
+                           "/pids'\n"
                            "\nwhile read -r line; do\n  name=$(printf %s \"$line\" | sed 's/.*\"name\": "
                            "\"\\([^\"]*\\)\".*/\\1/')\n  case $name in\n" +
                            otherwise + "\n    *) cat '" + folder + "'/\"$name\".line ;;\n  esac\ndone\n");
@@ -152,14 +153,6 @@ TEST_F(DrawCasesTest, AProcessThatDiesBetweenCasesIsSaidAndReplaced) {
         draw("    f) cat '" + (cases.path() / "f.line").string() + "'; exit 5 ;;", 1);
     EXPECT_EQ(sum()[CaseOutcome::passed], static_cast<int>(kCases));
     EXPECT_EQ(complaints, std::vector<std::string>{"after its last case: the process that draws ended with status 5"});
-}
-
-TEST_F(DrawCasesTest, WhereTheMachineLacksSomethingAllIsSkippedAtOnce) {
-    draw("", 1, "echo 'mobbscope: there is no OpenGL' >&2; exit 3");
-    EXPECT_EQ(sum()[CaseOutcome::skipped], static_cast<int>(kCases));
-    EXPECT_EQ(message_of("f"), "skipped: there is no OpenGL");
-    EXPECT_TRUE(std::ranges::all_of(told, lacks_opengl));
-    EXPECT_EQ(processes(), 1u);
 }
 
 TEST_F(DrawCasesTest, AProgramThatIsNotThereIsNoMachine) {
