@@ -90,7 +90,7 @@ TEST_F(LimitsTest, AFewRowsDoNotBecomeAnyNumberOfSamples) {
     const std::string twice =
         write("twice.json", R"({"clips": {"a": {"source": "long.csv"}, "b": {"source": "long.csv"}}})");
     const Result run = run_program({"fit", twice});
-    expect_refused(run, "twice.json: /clips/b/source: with this one the scene's clips become more than 2000000");
+    expect_refused(run, "/clips/b/source: with this one the scene's clips become more than 2000000");
 }
 
 TEST_F(LimitsTest, AFewJointsDoNotBecomeAnyNumberOfPoses) {
@@ -136,8 +136,8 @@ TEST_F(LimitsTest, ConflictsAreWrittenAsTheyAreFound) {
     const std::int64_t few = peak_memory({"conflicts", crowd(2)});
     constexpr int kCount = 500;
     constexpr std::int64_t kConflicts = std::int64_t{kCount} * (kCount - 1) / 2;
-    // What sorts them is kept, 32 bytes each, and who is near whom; each whole takes over 200.
-    EXPECT_LT(peak_memory({"conflicts", crowd(kCount)}) - few, 80 * kConflicts);
+    // What sorts them is kept, 32 bytes each, and who is near whom; each whole takes over 400.
+    EXPECT_LT(peak_memory({"conflicts", crowd(kCount)}) - few, 200 * kConflicts);
 }
 
 std::string header_alone(int width, int height) {
@@ -194,7 +194,7 @@ TEST_F(LimitsTest, PicturesWithTooManySamplesAreRefused) {
     EXPECT_NE(run_program({"test", folder.path(), "--output", folder.path() / "o"}).out.find("takes too much memory"),
               std::string::npos);
     write("a.case.json",
-          R"({"mobbscope_case": 1, "scene": "scene.json", "size": "4096x4096", "panels": [{}, {}, {}]})");
+          R"({"mobbscope_case": 1, "scene": "scene.json", "size": "4096x4096", "samples": 1, "panels": [{}, {}, {}]})");
     EXPECT_NE(run_program({"test", folder.path(), "--output", folder.path() / "o"}).out.find("more than 33554432"),
               std::string::npos);
 }
@@ -202,8 +202,8 @@ TEST_F(LimitsTest, PicturesWithTooManySamplesAreRefused) {
 TEST_F(LimitsTest, QueriesThatAreRecordedAndMeasuredAreLimited) {
     expect_refused(run_program({"bench", "table1", "--queries", "1000001"}), "1 to 1000000");
     expect_refused(
-        run_program({"simulate", "g.json", "-o", "r.json", "--record", "q.json", "--record-queries", "1000001"}),
-        "0 to 1000000");
+        run_program({"simulate", "g.json", "-o", "r.json", "--record", "q.json", "--record-queries", "500001"}),
+        "0 to 500000");
 }
 
 }  // namespace
