@@ -125,10 +125,9 @@ TEST_F(DriverCrash, MesaDrawsOrIsTold) {
 
 TEST_F(DriverCrash, ResultsComeOnce) {
     if (!testing::open_or_skip(Backend::automatic)) return;
-    folder_.write("says.script", "state\npicture " + picture() + "\nstate\n");
-    const Result watched = run({scene(), "--headless", "--script", (folder_.path() / "says.script").string()}, [] {});
-    const Result alone = run({scene(), "--headless", "--script", (folder_.path() / "says.script").string()},
-                             [] { ::setenv("MOBBSCOPE_NO_WATCH", "1", 1); });
+    const std::string says = folder_.write("says.script", "state\n").string();
+    const Result watched = run({scene(), "--headless", "--script", says}, [] {});
+    const Result alone = run({scene(), "--headless", "--script", says}, [] { ::setenv("MOBBSCOPE_NO_WATCH", "1", 1); });
     EXPECT_EQ(watched.status, 0) << watched.err;
     EXPECT_FALSE(watched.out.empty());
     EXPECT_EQ(watched.out, alone.out);
