@@ -14,6 +14,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <ctime>
 #include <iterator>
@@ -24,6 +25,7 @@
 #include <optional>
 #include <set>
 #include <system_error>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -215,10 +217,21 @@ void write_all(int descriptor, const FileBytes& wanted) {
     }
 }
 
+/// Of a pipe or a device; -1: errno says why it cannot be opened.
+int open_waiting(const fs::path& file) {
+    constexpr std::chrono::milliseconds kAskEvery{5};
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+    for (;;) {
+        const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+        if (descriptor >= 0 || errno != ENXIO || std::chrono::steady_clock::now() >= end) return descriptor;
+        std::this_thread::sleep_for(kAskEvery);
+    }
+}
+
 /// A pipe or a device, which must not be replaced by a file.
 void write_stream(const FileBytes& wanted) {
-    // Without a reader, opening a pipe would wait for one.
-    const CloseDescriptor out(::open(wanted.file.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+    // Without a reader, opening a pipe would wait for ever; one that was started together with this is soon there.
+    const CloseDescriptor out(open_waiting(wanted.file));
     if (out.descriptor < 0)
         throw errno == ENXIO ? unwritable(wanted.file, "nobody reads from it") : unwritable(wanted.file, errno);
     ::fcntl(out.descriptor, F_SETFL, O_WRONLY);
