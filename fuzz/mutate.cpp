@@ -281,13 +281,13 @@ std::vector<PngPart> png_parts(const std::string& file) {
     return out;
 }
 
-/// What zlib or gzip packed, up to a megabyte; what there is of it where it is damaged.
+/// What zlib or gzip packed, up to 256 KiB; what there is of it where it is damaged.
 std::string inflated(const std::string& packed) {
     constexpr int kEither = 32;
     z_stream stream{};
     if (inflateInit2(&stream, MAX_WBITS + kEither) != Z_OK) return "";
     std::string in = packed;
-    std::string out(1 << 20, '\0');
+    std::string out(1 << 18, '\0');
     stream.next_in = reinterpret_cast<Bytef*>(in.data());
     stream.avail_in = static_cast<uInt>(in.size());
     stream.next_out = reinterpret_cast<Bytef*>(out.data());

@@ -16,8 +16,8 @@ class InputError : public std::runtime_error {
     /// "file: place: message"; an empty place is left out, and the file "-" is called standard input. Of a name that
     /// is no line of text what is none becomes '?'.
     InputError(const std::string& file, const std::string& place, const std::string& message)
-        : std::runtime_error((file == "-" ? "standard input" : cleaned(file)) + ": " + (place.empty() ? "" : place + ": ") +
-                             message) {}
+        : std::runtime_error((file == "-" ? "standard input" : cleaned(file)) + ": " +
+                             (place.empty() ? "" : place + ": ") + message) {}
 };
 
 /// What `work` gives. A std::invalid_argument that it throws becomes an InputError at this place of the file.
