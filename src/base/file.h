@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mobbscope {
 
@@ -29,6 +30,9 @@ std::string read_beginning(const std::filesystem::path& file, std::size_t most);
 
 /// Remembers that a file is read. read_file does by itself; this is for one that will be.
 void note_read(const std::filesystem::path& file);
+
+/// All that were read, from the root, in any order.
+std::vector<std::filesystem::path> files_read();
 
 /// Throws InputError if a file is one that was read, by whatever name or link: it must not be replaced by what is made
 /// from it.

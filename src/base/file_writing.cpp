@@ -14,6 +14,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <ctime>
 #include <iterator>
@@ -24,6 +25,7 @@
 #include <optional>
 #include <set>
 #include <system_error>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -98,12 +100,9 @@ class UnfinishedName {
     /// `make` creates the file and returns whether it could; EEXIST leads to another name.
     template <class Make>
     UnfinishedName(const fs::path& folder, const Make& make) {
-        static std::atomic<unsigned> number{0};
         do {
             free_slot();
-            const std::string name =
-                std::string(kUnfinished) + std::to_string(::getpid()) + '-' + std::to_string(number++);
-            name_ = folder / name;
+            name_ = folder / (std::string(kUnfinished) + std::to_string(::getpid()) + '-' + std::to_string(made_++));
             slot_ = put_in_slot(name_.native());
             if (make(name_.c_str())) return;
         } while (errno == EEXIST);
@@ -139,6 +138,7 @@ class UnfinishedName {
         slot_ = nullptr;
     }
 
+    static inline std::atomic<unsigned> made_{0};
     fs::path name_;
     NameSlot* slot_ = nullptr;
     int error_ = 0;
@@ -217,10 +217,21 @@ void write_all(int descriptor, const FileBytes& wanted) {
     }
 }
 
+/// Of a pipe or a device; -1: errno says why it cannot be opened.
+int open_waiting(const fs::path& file) {
+    constexpr std::chrono::milliseconds kAskEvery{5};
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+    for (;;) {
+        const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+        if (descriptor >= 0 || errno != ENXIO || std::chrono::steady_clock::now() >= end) return descriptor;
+        std::this_thread::sleep_for(kAskEvery);
+    }
+}
+
 /// A pipe or a device, which must not be replaced by a file.
 void write_stream(const FileBytes& wanted) {
-    // Without a reader, opening a pipe would wait for one.
-    const CloseDescriptor out(::open(wanted.file.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+    // Without a reader, opening a pipe would wait for ever; one that was started together with this is soon there.
+    const CloseDescriptor out(open_waiting(wanted.file));
     if (out.descriptor < 0)
         throw errno == ENXIO ? unwritable(wanted.file, "nobody reads from it") : unwritable(wanted.file, errno);
     ::fcntl(out.descriptor, F_SETFL, O_WRONLY);
@@ -323,7 +334,15 @@ void note_read(const fs::path& file) {
     const auto present = identity(file);
     if (!present) return;
     const std::lock_guard lock(read_files().mutex);
-    read_files().names.insert_or_assign(*present, file);
+    // The present folder may be another later.
+    read_files().names.insert_or_assign(*present, whole_path(file));
+}
+
+std::vector<fs::path> files_read() {
+    const std::lock_guard lock(read_files().mutex);
+    std::vector<fs::path> out;
+    for (const auto& [number, file] : read_files().names) out.push_back(file);
+    return out;
 }
 
 void check_not_read(const fs::path& file) {

@@ -21,6 +21,7 @@ namespace {
 struct Workers {
     std::mutex mutex;
     bool are_limited = false;
+    tbb::global_control* control = nullptr;  ///< never ended: as it ended, TBB would start what it held back
 };
 Workers workers;
 
@@ -73,9 +74,8 @@ void limit_worker_threads() {
     const int wanted = tbb::info::default_concurrency() - 1;
     const int startable = startable_threads(wanted);
     if (startable == wanted) return;
-    // It stays for good: as it ended, TBB would start what it held back.
-    static_cast<void>(
-        new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(startable) + 1));
+    workers.control =
+        new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(startable) + 1);
 }
 
 void end_worker_threads() {

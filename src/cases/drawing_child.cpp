@@ -27,7 +27,6 @@ constexpr std::chrono::milliseconds kAskEvery(50);
 constexpr std::size_t kMostComplaint = 4096;   // bytes that are kept of standard error
 constexpr std::size_t kMostLine = 1ull << 30;  // bytes of a result
 constexpr double kPatienceWithItsEnd = 5;      // seconds, of a process that has nothing left to do
-constexpr int kLacksSomething = 3;             // the status of a program on a machine that does
 
 /// Of a case that cannot be read the default: what is wrong is told where it is drawn.
 double time_limit_of(const CaseFile& file) {
@@ -81,9 +80,9 @@ class CaseProcess {
         if (std::optional<CaseResult> result = answer_in_line()) return result;
         if (is_idle() || is_over_) return std::nullopt;
         const CaseFile& file = order_->file;
-        if (has_ended) return over(lacks_something() ? skipped(file) : failed(file, how_it_ended_here()));
+        if (has_ended) return over(failed(file, how_it_ended_here()));
         if (said_.size() > kMostLine) return over(failed(file, "the process that draws said what is no result"));
-        if (std::chrono::duration<double>(Clock::now() - begun_).count() <= limit_) return std::nullopt;
+        if (seconds() <= limit_) return std::nullopt;
         return over(failed(file, "took longer than " + brief(limit_) + " s (time_limit)"));
     }
 
@@ -127,29 +126,19 @@ class CaseProcess {
             said_.erase(0, end + 1);
             looked_at_ = 0;
             order_ = nullptr;
-            has_answered_ = true;
             return result;
         } catch (const InputError&) {
             return over(failed(file, "the process that draws said what is no result"));
         }
     }
 
+    double seconds() const { return std::chrono::duration<double>(Clock::now() - begun_).count(); }
+
     CaseResult over(CaseResult result) {
         process_.kill();
         is_over_ = true;
+        result.seconds = seconds();
         return result;
-    }
-
-    /// It had to end before it drew anything, and said why.
-    bool lacks_something() {
-        const int status = process_.ended().value_or(0);
-        return !has_answered_ && WIFEXITED(status) && WEXITSTATUS(status) == kLacksSomething;
-    }
-    CaseResult skipped(const CaseFile& file) const {
-        std::string_view why = first_complaint();
-        constexpr std::string_view kPrefix = "mobbscope: ";
-        if (why.starts_with(kPrefix)) why.remove_prefix(kPrefix.size());
-        return without_picture(file, CaseOutcome::skipped, cleaned(why));
     }
 
     std::string_view first_complaint() const {
@@ -171,7 +160,6 @@ class CaseProcess {
     double limit_ = 0;  ///< seconds
     std::string said_, complaint_;
     std::size_t looked_at_ = 0;  ///< of what it said, to here there is no end of a line
-    bool has_answered_ = false;
     bool is_over_ = false;
 };
 
@@ -200,12 +188,6 @@ class OrderQueue {
         return nullptr;
     }
     bool is_empty() const { return left_.empty(); }
-    /// All that are left are told to be skipped.
-    void skip_rest(const std::string& why) {
-        for (const DrawOrder& order : std::exchange(left_, {})) {
-            tell_(without_picture(order.file, CaseOutcome::skipped, why));
-        }
-    }
 
   private:
     std::span<const DrawOrder> left_;
@@ -225,11 +207,7 @@ class CaseProcesses {
     /// Whether there is still something to be drawn.
     bool work() {
         for (const auto& process : at_work_) {
-            const std::optional<CaseResult> result = process->answer();
-            if (!result) continue;
-            // Nor would another process have what this one lacks.
-            if (lacks_opengl(*result)) queue_.skip_rest(result->message);
-            told(*result);
+            if (const std::optional<CaseResult> result = process->answer()) told(*result);
         }
         std::erase_if(at_work_, [&](const auto& process) {
             if (!process->is_over()) return false;
@@ -266,10 +244,12 @@ class CaseProcesses {
             at_work_.push_back(std::make_unique<CaseProcess>(drawer_, folder_));
             return true;
         } catch (const MachineError& error) {
-            if (at_work_.empty() && !has_told_) throw;
+            const std::string why = std::string("no process that draws can be started: ") + error.what();
+            if (at_work_.empty() && !has_told_) throw MachineError(why);
+            // Fewer do; without any, each case tries anew.
             most_ = std::max<std::size_t>(at_work_.size(), 1);
             const DrawOrder* order = at_work_.empty() ? queue_.next() : nullptr;
-            if (order) told(failed(order->file, error.what()));
+            if (order) told(failed(order->file, why));
             return false;
         }
     }

@@ -8,9 +8,11 @@
 #include <render/image/png.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace mobbscope::picture_tests {
 
@@ -112,7 +114,14 @@ void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures)
     json.member("outcome", name(result.outcome));
     json.member("message", result.message);
     json.values("remarks", result.remarks);
-    if (pictures == Pictures::all) json.member("seconds", result.seconds);
+    if (pictures == Pictures::all) {
+        json.member("seconds", result.seconds);
+        std::vector<std::string> read;
+        for (const std::filesystem::path& file : result.read) {
+            if (is_utf8(file.string())) read.push_back(file.string());
+        }
+        json.values("read", read);
+    }
     json.member("tolerance", name(result.tolerance));
     json.member("decided_by", name(result.decided_by));
     json.member("other_here", result.other_here);
@@ -159,6 +168,9 @@ CaseResult read_result(const JsonPlace& root, const std::vector<CaseFile>& cases
     const JsonPlace remarks = root.require("remarks");
     for (int i = 0; i < remarks.size(); ++i) result.remarks.push_back(remarks[i].string());
     if (const auto seconds = root.find("seconds")) result.seconds = seconds->number();
+    if (const auto read = root.find("read")) {
+        for (int i = 0; i < read->size(); ++i) result.read.emplace_back((*read)[i].string());
+    }
     result.tolerance = named<Tolerance>(root.require("tolerance"), tolerance_from_name);
     result.decided_by = named<DecidedBy>(root.require("decided_by"), decided_by_from_name);
     result.other_here = root.require("other_here").string();

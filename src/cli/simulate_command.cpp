@@ -31,7 +31,7 @@ namespace mobbscope::cli {
 
 namespace {
 
-constexpr int kMostRecorded = 1'000'000;  // some 1.5 KB each, with what is written
+constexpr int kMostRecorded = 500'000;  // some 2 KB each, with what is written
 
 struct SimulateCommandArguments {
     std::filesystem::path graph;
@@ -73,6 +73,8 @@ Scene load_moves(const SimulateCommandArguments& arguments, Importer& importer) 
                          "there is no motion graph; make one with graph build, or give --whole, and every clip may "
                          "follow every other");
     }
+    const std::string why_too_long = why_moves_are_too_long(scene, *scene.graph);
+    if (!why_too_long.empty()) throw InputError(arguments.graph.string(), "", why_too_long);
     scene.view = {};
     scene.fit = arguments.fit.over(scene.fit);
     return scene;
@@ -253,7 +255,7 @@ void add_simulate_command(Command& program) {
             const Option record = add_parsed(command, "--record", arguments->record, parse_file_name,
                                              "Queries that were asked, as a scene", "FILE.json");
             add_parsed(command, "--record-queries", arguments->record_queries, whole_number_within(0, kMostRecorded),
-                       "How many, drawn at random; 0 is all, up to a million (20000)", "N")
+                       "How many, drawn at random; 0 is all, up to half a million (20000)", "N")
                 .needs(record);
             const Option all = command
                                    .add_flag("--record-all-pairs", arguments->record_all_pairs,

@@ -17,6 +17,7 @@
 #include <picture_tests/run_cases.h>
 #include <render/image/image_diff.h>
 #include <render/image/png.h>
+#include <render/pictures/draw_a_little.h>
 
 #include <unistd.h>
 
@@ -192,6 +193,7 @@ void write_contact_sheet(const TestCommandArguments& arguments, const picture_te
     const std::optional<Image> drawn = at_place(arguments.contact_sheet.string(), "",
                                                 [&] { return sheet.draw(results, arguments.columns, renderer); });
     if (!drawn) return warn("there is no case for a contact sheet");
+    check_not_read(arguments.contact_sheet);
     picture_tests::make_folder_of(arguments.contact_sheet);
     write_png(arguments.contact_sheet, *drawn);
 }
@@ -279,6 +281,8 @@ int answer_requests(const TestCommandArguments& arguments) {
     std::string no_opengl;
     try {
         maker = std::make_unique<picture_tests::PictureMaker>(*backend_from_name(arguments.backend));
+        // A driver that crashes over its first shaders must do so before a case is asked for, which would be blamed.
+        draw_a_little(maker->renderer());
     } catch (const MachineError& error) {
         no_opengl = error.what();
     }
@@ -352,16 +356,17 @@ void take(const TestCommandArguments& arguments, const std::vector<CaseFile>& ca
 }
 
 /// Draws the cases; of each the result goes where it is wanted as soon as it is there. Returns what else went wrong.
-std::vector<std::string> draw(const TestCommandArguments& arguments, const std::vector<CaseFile>& cases,
-                              OrderedResults& results, picture_tests::ContactSheet& sheet) {
+std::vector<std::string> draw_all(const TestCommandArguments& arguments, const std::vector<CaseFile>& cases,
+                                  OrderedResults& results, picture_tests::ContactSheet& sheet) {
     std::vector<picture_tests::DrawOrder> orders;
     for (const CaseFile& file : cases) orders.push_back({file, run_options(arguments, file)});
     const auto take_in = [&](CaseResult result) {
         if (arguments.update && !arguments.new_reference) check_is_from_here(arguments.folder, result);
         if (!arguments.contact_sheet.empty()) sheet.add(result);
+        for (const std::filesystem::path& file : result.read) note_read(file);
+        // A run may have thousands, and of those that passed only a page shows pictures, or goldens are taken.
         const bool passed = result.outcome == picture_tests::CaseOutcome::passed;
-        // A run may have thousands.
-        if (passed && arguments.html.empty() && !arguments.json_lines) result.actual.clear();
+        if (passed && arguments.html.empty() && !arguments.json_lines && !arguments.update) result.actual.clear();
         results.add(std::move(result));
         while (CaseResult* next = arguments.json_lines ? results.next() : nullptr) {
             write_result_line(std::cout, *next);
@@ -400,7 +405,7 @@ int run_test(const TestCommandArguments& arguments) {
 
     OrderedResults ordered(cases);
     picture_tests::ContactSheet sheet(cases.size());
-    const std::vector<std::string> complaints = draw(arguments, cases, ordered, sheet);
+    const std::vector<std::string> complaints = draw_all(arguments, cases, ordered, sheet);
     for (const std::string& complaint : complaints) warn(complaint);
     std::vector<CaseResult>& results = ordered.all();
     const std::string no_opengl = add_facts(facts, results);
@@ -421,6 +426,15 @@ void check_new_reference(const TestCommandArguments& arguments) {
     const bool takes_all = arguments.update_all && arguments.names.empty() && arguments.shard.is_all();
     if (!arguments.new_reference || takes_all) return;
     throw InputError("--new-reference: goldens are from one place; take all of them, with --update all and no NAME");
+}
+
+/// Throws InputError for an option that says nothing where standard input says which cases are drawn.
+void check_requests(const Command& command) {
+    for (const GivenOption& option : command.given()) {
+        if (option.name == "DIR" || option.name == "--backend" || option.name == "--requests") continue;
+        throw InputError("--requests: standard input says what is drawn, and nothing else is done; leave out " +
+                         option.name);
+    }
 }
 
 /// "all" alone stands for all cases that are run.
@@ -495,6 +509,7 @@ void add_test_command(Command& program, int& status) {
                 },
                 "Of the contact sheet", "N");
             command.callback([&command, arguments, &status] {
+                if (arguments->requests) check_requests(command);
                 if (command.is_given("--update")) read_update(*arguments);
                 check_new_reference(*arguments);
                 status = run_test(*arguments);

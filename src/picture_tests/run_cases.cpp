@@ -379,6 +379,7 @@ CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view 
         result.fresh.clear();
     }
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.read = files_read();
     return result;
 }
 

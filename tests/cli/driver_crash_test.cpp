@@ -1,4 +1,6 @@
 // A driver of OpenGL that crashes takes nothing down, and the program has no more processes than one would think.
+#include <base/threads.h>
+#include <render/gl/driver_watch.h>
 #include <support/temp_folder.h>
 
 #include "cli/run_program.h"
@@ -15,6 +17,8 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -26,7 +30,7 @@ using testing::Result;
 using testing::run_program;
 
 constexpr const char* kSmallScene =
-    R"({"mobbscope": 1, "clips": {"p": {"dt": 1, "samples": [[0, 0, 0.4], [0.1, 0, 0.4]]}}, "agents": [{"clip": "p"}]})";
+    R"({"mobbscope": 1, "clips": {"p": {"dt": 1, "samples": [[0, 0, 0.4], [0.1, 0, 0.4]]}}, "agents": [{"name": "A", "clip": "p"}]})";
 
 /// What puts the libraries that crash before the real ones.
 std::function<void()> with_drivers(const std::vector<std::string>& libraries, const std::string& fault) {
@@ -121,13 +125,30 @@ TEST_F(DriverCrash, MesaDrawsOrIsTold) {
 
 TEST_F(DriverCrash, ResultsComeOnce) {
     if (!testing::open_or_skip(Backend::automatic)) return;
-    folder_.write("says.script", "state\npicture " + picture() + "\nstate\n");
-    const Result watched = run({scene(), "--headless", "--script", (folder_.path() / "says.script").string()}, [] {});
-    const Result alone = run({scene(), "--headless", "--script", (folder_.path() / "says.script").string()},
-                             [] { ::setenv("MOBBSCOPE_NO_WATCH", "1", 1); });
+    const std::string says = folder_.write("says.script", "state\n").string();
+    const Result watched = run({scene(), "--headless", "--script", says}, [] {});
+    const Result alone = run({scene(), "--headless", "--script", says}, [] { ::setenv("MOBBSCOPE_NO_WATCH", "1", 1); });
     EXPECT_EQ(watched.status, 0) << watched.err;
     EXPECT_FALSE(watched.out.empty());
     EXPECT_EQ(watched.out, alone.out);
+}
+
+TEST(DoneInChild, WhatHangsIsEnded) {
+    if (thread_count() != 1) GTEST_SKIP() << "other tests have left threads in this process";
+    constexpr std::chrono::seconds kEnough{20};
+    EXPECT_EQ(done_in_child([] { return std::string("done"); }, kEnough), "done");
+    const auto complaint = [](const std::function<std::string()>& work, std::chrono::milliseconds longest) {
+        try {
+            return "came back with " + done_in_child(work, longest);
+        } catch (const std::runtime_error& error) {
+            return std::string(error.what());
+        }
+    };
+    EXPECT_EQ(complaint([]() -> std::string { throw std::runtime_error("no"); }, kEnough), "no");
+    const auto hang = []() -> std::string {
+        for (;;) ::pause();
+    };
+    EXPECT_EQ(complaint(hang, std::chrono::milliseconds(50)).find("hangs"), 0);
 }
 
 /// A program whose driver hangs, so that it stays.
@@ -153,10 +174,13 @@ class WatchedProgram : public DriverCrash {
     }
     void TearDown() override {
         if (child_ > 0) ::kill(child_, SIGKILL);
+        if (program_ <= 0) return;
+        ::kill(program_, SIGKILL);
+        ::waitpid(program_, nullptr, 0);
     }
 
     static bool soon(const std::function<bool()>& holds) {
-        for (int i = 0; i < 2000; ++i) {
+        for (int i = 0; i < 600; ++i) {
             if (holds()) return true;
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         }
@@ -175,9 +199,10 @@ class WatchedProgram : public DriverCrash {
         return text.empty() || text.find(") Z") != std::string::npos || text.find(") X") != std::string::npos;
     }
     /// The signal that ended the program; 0 if none did.
-    int ended_by() const {
+    int ended_by() {
         int status = 0;
         ::waitpid(program_, &status, 0);
+        program_ = 0;
         return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     }
 

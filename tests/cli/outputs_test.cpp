@@ -69,7 +69,7 @@ class Outputs : public ::testing::Test {
         write_png(folder.path() / "b.png", Image(300, 300));
         write_png(folder.path() / "mask.png", image);
         std::filesystem::create_directory(folder.path() / "cases");
-        folder.write("cases/c.case.json", R"({"mobbscope_case": 1, "scene": "../scene.json", "size": "64x48"})");
+        folder.write("cases/c.case.json", R"({"mobbscope_case": 1, "scene": "../scene.json", "size": "80x80"})");
         folder.write("cases/c.png", slurp(folder.path() / "a.png"));
         folder.write("cases/c.draw.json", "{}");
     }
@@ -78,7 +78,7 @@ class Outputs : public ::testing::Test {
 
     std::vector<Writer> writers() const {
         const auto picture = [this](const std::string& option) -> std::vector<std::string> {
-            return {"render", path("scene.json"), "--size", "64x48", "--view-state", path("view.json"), option};
+            return {"render", path("scene.json"), "--size", "80x80", "--view-state", path("view.json"), option};
         };
         const auto test = [this](const std::string& option) -> std::vector<std::string> {
             return {"test", path("cases"), "--output", path("failed"), option};
@@ -200,6 +200,19 @@ TEST_F(Outputs, NothingThatIsReadIsReplaced) {
     }
     EXPECT_FALSE(std::filesystem::exists(path("run.json")));
     EXPECT_FALSE(std::filesystem::exists(path("failed")));
+}
+
+TEST_F(Outputs, AReportReplacesNothingThatACaseIsDrawnFrom) {
+    for (const std::string& read : {"scene.json", "clip.csv"}) {
+        const std::string before = slurp(path(read));
+        std::filesystem::create_hard_link(path(read), path("report.html"));
+        const Result run =
+            run_program({"test", path("cases"), "--output", path("failed"), "--html", path("report.html")});
+        if (run.status == 3) GTEST_SKIP() << run.err;
+        expect_refused(run, 2, "would replace");
+        EXPECT_EQ(slurp(path(read)), before);
+        std::filesystem::remove(path("report.html"));
+    }
 }
 
 TEST_F(Outputs, AreAllThatIsLeft) {

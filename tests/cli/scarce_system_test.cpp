@@ -22,7 +22,7 @@ using testing::Result;
 using testing::run_program;
 
 constexpr const char* kStandingScene =
-    R"({"mobbscope": 1, "clips": {"p": {"dt": 1, "samples": [[0, 0, 0.4], [0.1, 0, 0.4]]}}, "agents": [{"clip": "p"}]})";
+    R"({"mobbscope": 1, "clips": {"p": {"dt": 1, "samples": [[0, 0, 0.4], [0.1, 0, 0.4]]}}, "agents": [{"name": "A", "clip": "p"}]})";
 
 /// The system starts no more threads and processes. Limits do not bind root, so somebody else does it then.
 void start_nothing_more() {
@@ -38,7 +38,7 @@ class FewThreads : public ::testing::Test {
   protected:
     void SetUp() override {
         folder_.write("scene.json", kStandingScene);
-        folder_.write("s.script", "picture " + file("p.png") + "\n");
+        folder_.write("s.script", "state\n");
         std::filesystem::permissions(folder_.path(), std::filesystem::perms::all);
     }
     std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
@@ -58,7 +58,9 @@ TEST_F(FewThreads, ACrowdIsSimulated) {
 
 TEST_F(FewThreads, APictureIsDrawn) {
     if (!testing::open_or_skip(Backend::automatic)) return;
-    expect_done({"render", file("scene.json"), "-o", file("p.png")});
+    // Shaders are compiled anew, as whoever draws has no cache: few of them.
+    expect_done({"render", file("scene.json"), "-o", file("p.png"), "--size", "64x64", "--samples", "1", "--no-disks",
+                 "--no-labels", "--no-floor", "--no-legend", "--no-inset"});
 }
 
 TEST_F(FewThreads, AScriptIsRun) {
@@ -108,7 +110,7 @@ TEST(DeletedFolder, OthersAreRefusedInALine) {
         const Result result = run_nowhere(command);
         EXPECT_EQ(result.status, 3) << result.err;
         EXPECT_TRUE(testing::is_one_line(result.err)) << result.err;
-        EXPECT_NE(result.err.find("present folder is gone"), std::string::npos) << result.err;
+        EXPECT_NE(result.err.find("cannot be written"), std::string::npos) << result.err;
     }
 }
 

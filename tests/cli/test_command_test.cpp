@@ -636,7 +636,7 @@ TEST_F(DrawnTestCommandTest, TheSheetBeginsWithWhatDidNotPass) {
         return count;
     };
     EXPECT_GT(marked(0, image.width / 3), 1000);
-    EXPECT_EQ(marked(image.width / 3, image.width), 0);
+    EXPECT_LT(marked(image.width / 3, image.width), 500) << "a hit in a picture has that colour too";
 }
 
 TEST_F(DrawnTestCommandTest, ShardsTogetherAreAllCases) {
@@ -669,7 +669,7 @@ TEST_F(DrawnTestCommandTest, ResultsStandInTheOrderOfTheCases) {
     // The first takes longest.
     cases.add("a", R"("panels": [{}, {}, {}, {}], "size": "1600x1200")");
     for (const char* name : {"b", "c", "d"}) cases.add(name, R"("skip": "later")");
-    for (const std::string& how : {"--json", "--json-lines"}) {
+    for (const std::string how : {"--json", "--json-lines"}) {
         const Result run = test({how, "--jobs", "3"});
         const std::vector<nlohmann::json> lines =
             how == "--json" ? nlohmann::json::parse(run.out)["cases"].get<std::vector<nlohmann::json>>()
@@ -744,7 +744,7 @@ TEST_F(DrawnTestCommandTest, ACaseStartsNoOther) {
     cases.add("chain", R"("window": {"script": "chain.script"})");
     const Result run = test({"chain"});
     EXPECT_EQ(run.status, 1);
-    EXPECT_PRED2(says, run.out, "chain.script: line 1: .: no case is drawn here: a picture test starts no other");
+    EXPECT_PRED2(says, run.out, "chain.script: line 1: no case is drawn here: a picture test starts no other");
     // What an earlier run left may be looked at, but not drawn again.
     EXPECT_EQ(test({"path"}).status, 1);
     cases.folder().write("chain.script",
@@ -761,6 +761,9 @@ TEST_F(TestCommandTest, RequestsAreLinesOfJson) {
     };
     expect_test_refused(asked("path\n"), "a request: line 1");
     EXPECT_EQ(asked("").status, 0);
+    expect_test_refused(run_program({"test", cases.path().string(), "path", "--requests"}), "leave out NAME");
+    expect_test_refused(run_program({"test", cases.path().string(), "--requests", "--update", "all"}),
+                        "leave out --up");
     const Result run = asked(R"({"name": "none", "source": "reference", "fresh": "missing"})"
                              "\n");
     EXPECT_EQ(run.status, 0) << run.err;

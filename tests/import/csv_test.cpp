@@ -236,7 +236,7 @@ TEST(Csv, AbsurdCountsAreRefusedBeforeTheyAreMade) {
     // The limit is for the file, not for each of its tracks.
     std::string tracks = "id,t,x,y,r\n";
     for (char id = 'a'; id < 'd'; ++id) {
-        for (const char* t : {"0", "1", "1.37", "150000"}) tracks += std::string(1, id) + ',' + t + ",0,0,0\n";
+        for (const char* t : {"0", "1", "1.37", "25000"}) tracks += std::string(1, id) + ',' + t + ",0,0,0\n";
     }
     EXPECT_NE(csv_refusal(tracks).find("track 'c'"), std::string::npos);
     // A gap may hold a hundred times what the file holds, and ten thousand.

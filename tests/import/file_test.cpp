@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/file.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -188,6 +190,28 @@ TEST(File, IsWrittenWhereFilesNeedNames) {
     EXPECT_EQ(status, 0);
     EXPECT_EQ(slurp(folder.path() / "x.csv") + slurp(folder.path() / "y.csv"), "xy");
     EXPECT_EQ(files_in(folder.path()), 2u);
+}
+
+TEST(File, AFullDiskLeavesWhatWasThere) {
+    const TempFolder folder;
+    const auto file = folder.write("x.csv", "old");
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const rlimit least{1000, 1000};
+        ::signal(SIGXFSZ, SIG_IGN);
+        ::setrlimit(RLIMIT_FSIZE, &least);
+        try {
+            write_file(file, std::string(5000, 'x'));
+        } catch (const MachineError& error) {
+            ::_exit(error.what() == file.string() + ": cannot be written: File too large" ? 0 : 1);
+        }
+        ::_exit(2);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+    EXPECT_EQ(slurp(file), "old");
+    EXPECT_EQ(files_in(folder.path()), 1u);
 }
 
 TEST(File, WhatWasReadIsKnownByAnyName) {

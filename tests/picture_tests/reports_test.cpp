@@ -159,8 +159,8 @@ TEST(Reports, JUnitTellsFailuresFromErrors) {
               "skip: skipped: not yet\n"
               "levels/new one: failure (missing golden): there is no golden\n"
               "moved: failure (different): 50 pixels differ\n"
-              "<b>\"A\" & 'B'</b>??[31m ? </script> ???: error (failed): scene.json: line 3: <b>\"A\" & "
-              "'B'</b>??[31m ? </script> ???\n");
+              "<b>\"A\" & 'B'</b>\\u0001\\u001b[31m ? </script> ???: error (failed): scene.json: line 3: <b>\"A\" & "
+              "'B'</b>\\u0001\\u001b[31m ? </script> ???\n");
 }
 
 TEST(Reports, JUnitOfNoCasesIsWellFormed) {
@@ -171,7 +171,7 @@ TEST(Reports, JUnitOfNoCasesIsWellFormed) {
 TEST(Reports, ThePageIsWellFormedAndNeedsNothingElse) {
     EXPECT_EQ(parsed(written(write_html, one_of_each()), "html"),
               "title 3 of 5 picture tests did not pass - my pictures\n"
-              "case ✕ failed <b>\"A\" & 'B'</b>??[31m ? </script> ???: \n"
+              "case ✕ failed <b>\"A\" & 'B'</b>\\u0001\\u001b[31m ? </script> ???: \n"
               "case ≠ different moved: golden 40x20, actual 40x20, difference 40x20\n"
               "case ∅ no golden levels/new one: actual 8x8\n"
               "folded – skipped 1: \n"

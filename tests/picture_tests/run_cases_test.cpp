@@ -3,6 +3,7 @@
 #include <picture_tests/reference.h>
 #include <picture_tests/run_cases.h>
 #include <render/image/png.h>
+#include <support/png_file.h>
 
 #include "picture_tests/case_folder.h"
 #include "render/backends.h"
@@ -75,6 +76,12 @@ TEST_F(RunCaseTest, IsDifferentWhenTheGoldenHasAnotherSize) {
     const CaseResult result = run(larger);
     EXPECT_EQ(result.outcome, CaseOutcome::different);
     EXPECT_EQ(result.message, "the sizes are 200x120 and 160x120");
+    // What its header says is all that is read of it: there may be any number of pixels behind.
+    cases.folder().write("a.png",
+                         testing::png_header({.width = 1, .height = 134'217'728}) + testing::png_chunk("IDAT", ""));
+    const CaseResult huge = run(larger);
+    EXPECT_EQ(huge.message, "the sizes are 200x120 and 1x134217728");
+    EXPECT_TRUE(huge.golden.rgba.empty());
 }
 
 TEST_F(RunCaseTest, IsDifferentFromAGoldenThatIsNoPicture) {

@@ -214,8 +214,7 @@ void Review::draw_all() {
 void Review::draw(const std::vector<std::size_t>& indices) {
     if (job_) throw std::invalid_argument("wait for the run, or stop it");
     if (!surroundings_.may_draw) {
-        throw InputError(folder_.string(), "",
-                         "no case is drawn here: a picture test starts no other; remove this from its script");
+        throw InputError("no case is drawn here: a picture test starts no other; remove this from its script");
     }
     std::vector<picture_tests::DrawOrder> orders;
     for (const std::size_t index : indices) {

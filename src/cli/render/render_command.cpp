@@ -6,16 +6,11 @@
 #include <cli/render/render_job.h>
 #include <cli/render/render_options.h>
 #include <render/gl/backends.h>
-#include <render/gl/renderer.h>
-#include <render/pictures/build_draw_list.h>
-#include <scene/fitted_scene.h>
+#include <render/pictures/draw_a_little.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <memory>
-#include <optional>
-#include <utility>
 #include <vector>
 
 namespace mobbscope::cli {
@@ -54,19 +49,6 @@ void print_backends_json(const std::vector<BackendReport>& backends) {
         json.end_object();
     });
     json.end_object();
-}
-
-/// With all that pictures are made of: disks, boxes, lines, words and ids.
-void draw_a_little(Renderer& renderer) {
-    Scene scene;
-    const std::vector<mobb::Disk> disks(8, {0, 0, 0.4});
-    scene.clips.push_back({"stand", std::nullopt, {}, std::make_shared<const mobb::Clip>(0.1, disks)});
-    scene.agents.push_back({"A", 0, {}, std::nullopt});
-    PictureOptions options;
-    options.size = {160, 120};
-    const DrawList list = build_draw_list(FittedScene(std::move(scene), mobb::FitOptions{}), {}, options);
-    renderer.draw(list);
-    renderer.draw_ids(list);
 }
 
 /// On standard output, in words or as JSON. Throws MachineError if none works.

@@ -116,12 +116,16 @@ void remove_run(Scene& scene);
 Simulation simulate(const MoveSet& moves, const SimulateOptions& options, QuerySample* sample = nullptr,
                     const SimulationProgress& progress = {});
 
+/// The most samples of the people of a run together: so many, and so many for each play, which is half a minute.
+inline constexpr std::size_t kMostWalkedSamples = 10'000'000;
+inline constexpr std::size_t kSamplesOfPlay = 1'000;
+
 /// The people of a run as agents of an ordinary scene: one for each person, whose clip is the chain of all that the
 /// person plays, from the begin of the first play. A chain has one dt, and is held or linear: where a person goes on
 /// with a clip of another dt or motion, a further agent begins, called "17 from 4.2 s", and a linear clip before it has
 /// one more sample, what its last one runs on to. Agent::run_agent says who it is, counting those who play anything.
 /// Names and the fit are the run's. The scene must have a crowd and its graph. Throws InputError if a person plays more
-/// than a chain can hold.
+/// than a chain can hold, or all of them more than kMostWalkedSamples allows.
 Scene scene_of_people(const Scene& run);
 
 }  // namespace mobbscope

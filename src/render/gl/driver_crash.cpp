@@ -64,42 +64,60 @@ Owner owner_of(Address address) {
     return is_mapped(address) ? Owner::driver : Owner::nobody;
 }
 
-/// Where a call that led nowhere came from; 0 where that is not known.
-Address caller_of_nowhere(const ucontext_t& at) {
+/// Where a process was.
+Address stop_of(const ucontext_t& context) {
 #if defined(__x86_64__)
-    const auto stack = static_cast<Address>(at.uc_mcontext.gregs[REG_RSP]);
+    return static_cast<Address>(context.uc_mcontext.gregs[REG_RIP]);
+#elif defined(__aarch64__)
+    return static_cast<Address>(context.uc_mcontext.pc);
+#else
+    static_cast<void>(context);
+    return reinterpret_cast<Address>(&note_program);  // unknown: as if it were in some code
+#endif
+}
+
+/// Who called, if a call is the last thing that it did. No sanitizer knows of a frame that is only begun.
+[[gnu::no_sanitize_address]] Address caller_of_stop(const ucontext_t& context) {
+#if defined(__x86_64__)
+    const auto stack = static_cast<Address>(context.uc_mcontext.gregs[REG_RSP]);
     return is_mapped(stack) ? *reinterpret_cast<const Address*>(stack) : 0;
 #elif defined(__aarch64__)
-    return static_cast<Address>(at.uc_mcontext.regs[30]);
+    return static_cast<Address>(context.uc_mcontext.regs[30]);
 #else
-    static_cast<void>(at);
+    static_cast<void>(context);
     return 0;
 #endif
 }
 
 /// A walk from the handler of a signal outwards.
 struct Walk {
-    const ucontext_t& at;
-    enum class Place { handler, between, crash } place = Place::handler;
+    bool is_in_handler = true;
     Address in_driver = 0;
 };
 
 _Unwind_Reason_Code step(_Unwind_Context* frame, void* state) {
     Walk& walk = *static_cast<Walk*>(state);
-    Address address = _Unwind_GetIP(frame);
-    Owner owner = owner_of(address);
-    if (walk.place == Walk::Place::handler) {
-        // Between a handler and where the signal came there is a frame of the system.
-        if (owner != Owner::program) walk.place = Walk::Place::between;
+    const Address address = _Unwind_GetIP(frame);
+    const Owner owner = owner_of(address);
+    if (walk.is_in_handler) {
+        // Its caller is the system's, and then comes where the signal did.
+        walk.is_in_handler = owner == Owner::program;
         return _URC_NO_REASON;
     }
-    if (walk.place == Walk::Place::between && owner == Owner::nobody) {
-        address = caller_of_nowhere(walk.at);
-        owner = owner_of(address);
-    }
-    walk.place = Walk::Place::crash;
     if (owner == Owner::driver) walk.in_driver = address;
     return owner == Owner::system ? _URC_NO_REASON : _URC_NORMAL_STOP;
+}
+
+/// An address in the driver, if it is the driver that crashed; else 0.
+Address driver_at(const ucontext_t& context) {
+    // A call that led nowhere cannot be walked from.
+    if (owner_of(stop_of(context)) == Owner::nobody) {
+        const Address caller = caller_of_stop(context);
+        return owner_of(caller) == Owner::driver ? caller : 0;
+    }
+    Walk walk;
+    _Unwind_Backtrace(step, &walk);
+    return walk.in_driver;
 }
 
 void note_crash(int signal, siginfo_t* info, void* context) {
@@ -107,12 +125,11 @@ void note_crash(int signal, siginfo_t* info, void* context) {
     ::signal(SIGALRM, SIG_DFL);
     ::alarm(kLongestLook);
     const bool was_sent = info->si_code <= 0 && signal != SIGABRT;
-    Walk walk{*static_cast<const ucontext_t*>(context)};
-    if (!was_sent) _Unwind_Backtrace(step, &walk);
-    if (walk.in_driver != 0 && noted->signal == 0) {
+    const Address driver = was_sent ? 0 : driver_at(*static_cast<const ucontext_t*>(context));
+    if (driver != 0 && noted->signal == 0) {
         noted->signal = signal;
         Dl_info library{};
-        if (::dladdr(reinterpret_cast<void*>(walk.in_driver), &library) != 0 && library.dli_fname) {
+        if (::dladdr(reinterpret_cast<void*>(driver), &library) != 0 && library.dli_fname) {
             const char* slash = std::strrchr(library.dli_fname, '/');
             std::strncpy(noted->library.data(), slash ? slash + 1 : library.dli_fname, noted->library.size() - 1);
         }
@@ -122,7 +139,7 @@ void note_crash(int signal, siginfo_t* info, void* context) {
         static_cast<std::size_t>(std::find(kCrashes.begin(), kCrashes.end(), signal) - kCrashes.begin());
     struct sigaction usual {};
     usual.sa_handler = SIG_DFL;
-    ::sigaction(signal, walk.in_driver != 0 ? &usual : &handled_before[which], nullptr);
+    ::sigaction(signal, driver != 0 ? &usual : &handled_before[which], nullptr);
     ::alarm(0);
     // A fault comes again by itself, with its place.
     if (info->si_code <= 0) ::raise(signal);

@@ -237,7 +237,7 @@ std::string done_in_child(const std::function<std::string()>& work, std::chrono:
         }
         std::this_thread::sleep_for(kAskEvery);
     }
-    const std::string text = told->text.data();
+    std::string text = told->text.data();
     const bool has_failed = told->has_failed;
     const std::string crash = told->crash.signal != 0 ? described(told->crash) : "";
     drop(told);

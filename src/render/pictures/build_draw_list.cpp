@@ -8,6 +8,8 @@
 #include <scene/arrangement.h>
 #include <scene/crowd_scene.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <set>
 #include <stdexcept>
