@@ -203,7 +203,7 @@ TEST_F(Outputs, NothingThatIsReadIsReplaced) {
 }
 
 TEST_F(Outputs, AReportReplacesNothingThatACaseIsDrawnFrom) {
-    for (const std::string& read : {"scene.json", "clip.csv"}) {
+    for (const std::string read : {"scene.json", "clip.csv"}) {
         const std::string before = slurp(path(read));
         std::filesystem::create_hard_link(path(read), path("report.html"));
         const Result run =
