@@ -224,10 +224,10 @@ std::uint64_t parse_seed(const std::string& text) {
 Progress tell(const std::string& doing, const std::string& things) {
     using Clock = std::chrono::steady_clock;
     const auto said = std::make_shared<Clock::time_point>(Clock::now());
-    const bool watched = ::isatty(STDERR_FILENO) == 1;
+    // A script's log stays short, and yet shows that something is done.
+    const std::chrono::seconds pause(::isatty(STDERR_FILENO) == 1 ? 2 : 8);
     return [=](std::size_t done, std::size_t all) {
-        constexpr std::chrono::seconds kPause{2};
-        if (!watched || Clock::now() - *said < kPause) return;
+        if (Clock::now() - *said < pause) return;
         *said = Clock::now();
         say(doing + ' ' + std::to_string(done) + " of " + std::to_string(all) + ' ' + things);
     };

@@ -30,7 +30,7 @@ namespace mobbscope::cli {
 
 namespace {
 
-/// For a person who waits; a script's log stays empty.
+/// For who waits: a script hears of a single large picture only, as its pictures show how far it is.
 class Patience {
   public:
     explicit Patience(std::size_t all) : all_(all) {}
@@ -38,7 +38,7 @@ class Patience {
     /// Of many disks a single picture takes long.
     void begins(const DrawList& list) const {
         constexpr std::size_t kMany = 50'000;
-        if (watched_ && list.disks.size() > kMany)
+        if (list.disks.size() > kMany)
             say("drawing " + std::to_string(list.disks.size()) + " disks: this may take a while");
     }
 

@@ -145,6 +145,7 @@ void ask_for_few_threads() {
 template <class Context>
 std::unique_ptr<GlContext> open_current() {
     ask_for_few_threads();
+    ::setenv("EGL_LOG_LEVEL", "fatal", 0);  // the one line that says why there is no OpenGL is ours
     std::unique_ptr<GlContext> context = std::make_unique<Context>();
     context->make_current();
     return context;

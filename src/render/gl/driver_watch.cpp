@@ -252,7 +252,7 @@ std::string driver_advice() {
     for (char** variable = environ; *variable; ++variable) {
         const std::string_view text = *variable;
         const auto is_read = [&](std::string_view beginning) { return text.starts_with(beginning); };
-        if (text.starts_with("LP_NUM_THREADS=")) continue;  // may be our own
+        if (text.starts_with("LP_NUM_THREADS=") || text.starts_with("EGL_LOG_LEVEL=")) continue;  // may be our own
         if (std::any_of(kReadByMesa.begin(), kReadByMesa.end(), is_read)) {
             found += (found.empty() ? "" : ", ") + std::string(text);
         }
