@@ -164,7 +164,7 @@ bool is_left_behind(int folder, const char* name) {
     if (status.st_uid != ::geteuid() || std::time(nullptr) - status.st_mtime < kLeftBehind) return false;
     const int file = ::openat(folder, name, O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (file < 0) return false;
-    const bool unlocked = ::flock(file, LOCK_SH | LOCK_NB) == 0;
+    const bool unlocked = ::flock(file, LOCK_EX | LOCK_NB) == 0;
     ::close(file);
     return unlocked;
 }
@@ -267,8 +267,8 @@ class UnfinishedFile {
         ::flock(descriptor_->descriptor, LOCK_EX | LOCK_NB);  // see is_left_behind
         write_all(descriptor_->descriptor, wanted);
         if (replaces_) keep_owner_and_rights(descriptor_->descriptor, wanted, replaced);
-        // Else a loss of power after the renaming may leave an empty file.
-        if (::fsync(descriptor_->descriptor) != 0 && errno != EINVAL) throw unwritable(file_, errno);
+        // Else a loss of power after the renaming may leave an empty file in the place of the old one.
+        if (replaces_ && ::fsync(descriptor_->descriptor) != 0 && errno != EINVAL) throw unwritable(file_, errno);
     }
 
     /// Gives it a name in its folder, which a file needs that is to replace another.
@@ -283,6 +283,11 @@ class UnfinishedFile {
 
     /// `with_return`: so that put_back can take it back, where the file system lets two files swap their names.
     void take_place(bool with_return) {
+        if (with_return && replaces_) {
+            // Under its other name it must not be taken for one that was left behind.
+            old_.emplace(::open(target_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+            if (old_->descriptor >= 0) ::flock(old_->descriptor, LOCK_SH | LOCK_NB);
+        }
         if (with_return && replaces_ && name_->swap_with(target_)) {
             swapped_ = true;
         } else if (!name_->rename_to(target_)) {
@@ -319,6 +324,7 @@ class UnfinishedFile {
     bool replaces_ = false;
     std::optional<CloseDescriptor> descriptor_;
     std::optional<UnfinishedName> name_;
+    std::optional<CloseDescriptor> old_;
     bool swapped_ = false;
 };
 

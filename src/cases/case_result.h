@@ -92,7 +92,7 @@ struct CaseResult {
     /// What is other here than where the goldens are from (picture_tests/reference.h); empty if nothing is.
     std::string other_here;
     DrawnBy drawn_by;
-    std::vector<std::filesystem::path> read;  ///< by the process that drew it, to here
+    std::vector<std::filesystem::path> read;  ///< by the process that drew it and not told before; from the root
 };
 
 /// Whether it was skipped as there is no OpenGL; why is its message.

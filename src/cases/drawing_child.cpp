@@ -27,6 +27,7 @@ constexpr std::chrono::milliseconds kAskEvery(50);
 constexpr std::size_t kMostComplaint = 4096;   // bytes that are kept of standard error
 constexpr std::size_t kMostLine = 1ull << 30;  // bytes of a result
 constexpr double kPatienceWithItsEnd = 5;      // seconds, of a process that has nothing left to do
+constexpr double kPatienceWithItsStart = 60;   // seconds, until it has opened OpenGL
 
 /// Of a case that cannot be read the default: what is wrong is told where it is drawn.
 double time_limit_of(const CaseFile& file) {
@@ -64,6 +65,7 @@ class CaseProcess {
     void ask(const DrawOrder& order) {
         order_ = &order;
         begun_ = Clock::now();
+        complaint_.clear();
         limit_ = time_limit_of(order.file);
         // One that cannot hear it any more has ended, which is seen in time.
         send_all(talk_.here, request_line({order.file.name, order.options}));
@@ -82,8 +84,9 @@ class CaseProcess {
         const CaseFile& file = order_->file;
         if (has_ended) return over(failed(file, how_it_ended_here()));
         if (said_.size() > kMostLine) return over(failed(file, "the process that draws said what is no result"));
-        if (seconds() <= limit_) return std::nullopt;
-        return over(failed(file, "took longer than " + brief(limit_) + " s (time_limit)"));
+        if (seconds() <= (is_ready_ ? limit_ : kPatienceWithItsStart)) return std::nullopt;
+        return over(failed(file, is_ready_ ? "took longer than " + brief(limit_) + " s (time_limit)"
+                                           : "OpenGL did not start within " + brief(kPatienceWithItsStart) + " s"));
     }
 
     /// Whether it draws no more.
@@ -117,6 +120,12 @@ class CaseProcess {
 
     std::optional<CaseResult> answer_in_line() {
         if (is_idle() || is_over_) return std::nullopt;
+        if (!is_ready_ && !said_.empty()) {
+            // An empty line says that it can draw; from then on the case takes its time.
+            is_ready_ = true;
+            begun_ = Clock::now();
+            if (said_.front() == '\n') said_.erase(0, 1);
+        }
         const std::size_t end = said_.find('\n', looked_at_);
         looked_at_ = said_.size();
         if (end == std::string::npos) return std::nullopt;
@@ -141,8 +150,17 @@ class CaseProcess {
         return result;
     }
 
+    /// Its own first line that is no warning; else the first, which a library said.
     std::string_view first_complaint() const {
-        return trimmed(std::string_view(complaint_).substr(0, complaint_.find('\n')));
+        std::string_view first;
+        for (std::string_view rest = complaint_; !rest.empty();) {
+            const std::size_t end = std::min(rest.find('\n'), rest.size());
+            const std::string_view line = trimmed(rest.substr(0, end));
+            rest.remove_prefix(std::min(end + 1, rest.size()));
+            if (first.empty()) first = line;
+            if (line.starts_with("mobbscope: ") && !line.starts_with("mobbscope: warning: ")) return line;
+        }
+        return first;
     }
     std::string how_it_ended_here() {
         const int status = process_.ended().value_or(0);
@@ -160,6 +178,7 @@ class CaseProcess {
     double limit_ = 0;  ///< seconds
     std::string said_, complaint_;
     std::size_t looked_at_ = 0;  ///< of what it said, to here there is no end of a line
+    bool is_ready_ = false;      ///< it has opened OpenGL
     bool is_over_ = false;
 };
 
@@ -273,7 +292,10 @@ class CaseProcesses {
 
 }  // namespace
 
-int default_jobs() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+int default_jobs() {
+    constexpr int kMost = 8;  // each takes some 250 MB, and Mesa draws with threads of its own
+    return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMost);
+}
 
 std::vector<std::string> draw_cases(const CaseDrawer& drawer, const std::filesystem::path& folder,
                                     std::span<const DrawOrder> orders,

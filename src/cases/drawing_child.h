@@ -20,7 +20,7 @@ struct CaseDrawer {
     int jobs = 0;                  ///< processes at a time; 0: default_jobs()
 };
 
-/// As many as there are processors for this program.
+/// As many as there are processors for this program, at most 8.
 int default_jobs();
 
 struct DrawOrder {

@@ -120,7 +120,7 @@ void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures)
         for (const std::filesystem::path& file : result.read) {
             if (is_utf8(file.string())) read.push_back(file.string());
         }
-        json.values("read", read);
+        if (!read.empty()) json.values("read", read);
     }
     json.member("tolerance", name(result.tolerance));
     json.member("decided_by", name(result.decided_by));

@@ -95,6 +95,8 @@ int main(int argc, char** argv) {
     // A reader that goes away and a file that may not grow are errors to report, not signals to die of.
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
+    // Who is started with it ignored would never hear how a child ended.
+    std::signal(SIGCHLD, SIG_DFL);
     watch_drivers({cli::complain, end_worker_threads, cli::kNoMachine});
     cli::leave_no_unfinished_files();
     try {

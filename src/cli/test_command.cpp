@@ -28,6 +28,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <sstream>
 #include <stdexcept>
@@ -286,10 +287,15 @@ int answer_requests(const TestCommandArguments& arguments) {
     } catch (const MachineError& error) {
         no_opengl = error.what();
     }
+    std::cout << '\n';  // it can draw
+    flush_results();
+    std::set<std::filesystem::path> told;
     for (std::string line; std::getline(std::cin, line);) {
         const picture_tests::CaseRequest request = picture_tests::read_request_line(line);
         const CaseFile file = picture_tests::case_named(arguments.folder, request.name);
-        write_result_line(std::cout, run_case(file, maker.get(), no_opengl, request.options));
+        CaseResult result = run_case(file, maker.get(), no_opengl, request.options);
+        std::erase_if(result.read, [&](const std::filesystem::path& read) { return !told.insert(read).second; });
+        write_result_line(std::cout, result);
         flush_results();
     }
     return kDone;
@@ -363,7 +369,7 @@ std::vector<std::string> draw_all(const TestCommandArguments& arguments, const s
     const auto take_in = [&](CaseResult result) {
         if (arguments.update && !arguments.new_reference) check_is_from_here(arguments.folder, result);
         if (!arguments.contact_sheet.empty()) sheet.add(result);
-        for (const std::filesystem::path& file : result.read) note_read(file);
+        for (const std::filesystem::path& file : std::exchange(result.read, {})) note_read(file);
         // A run may have thousands, and of those that passed only a page shows pictures, or goldens are taken.
         const bool passed = result.outcome == picture_tests::CaseOutcome::passed;
         if (passed && arguments.html.empty() && !arguments.json_lines && !arguments.update) result.actual.clear();
@@ -465,7 +471,7 @@ void add_test_command(Command& program, int& status) {
                 },
                 "OpenGL without a display: auto, osmesa or egl", "NAME");
             add_parsed(command, "--jobs", arguments->jobs, parse_jobs,
-                       "Processes that draw at a time; default: as many as there are processors", "N");
+                       "Processes that draw at a time; default: as many as there are processors, at most 8", "N");
             add_parsed(command, "--shard", arguments->shard, parse_shard,
                        "Only every N-th case, from the K-th: all shards together are all cases", "K/N");
             command

@@ -388,6 +388,7 @@ std::vector<SceneConflict> conflicts_in(const FittedScene& fitted, const Progres
     std::vector<SceneConflict> out;
     out.reserve(conflicts.size());
     for (std::size_t i = 0; i < conflicts.size(); ++i) {
+        if (progress) progress(i, conflicts.size());
         PeopleConflict found = conflicts[i];
         const Walked& a = walked[static_cast<std::size_t>(found.begins.a)];
         const Walked& b = walked[static_cast<std::size_t>(found.begins.b)];

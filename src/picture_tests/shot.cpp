@@ -4,7 +4,6 @@
 #include <base/text.h>
 #include <cases/case_scene.h>
 #include <render/drawlist/picture_options.h>
-#include <render/image/png.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -111,11 +110,6 @@ Shot read_shot(const JsonPlace& place, const std::filesystem::path& folder) {
     shot.columns = static_cast<int>(shot.panels.size());
     if (const auto columns = place.find("columns")) {
         shot.columns = std::min(shot.columns, columns->integer(1, kMostColumns));
-    }
-    const std::int64_t pixels = std::int64_t{shot.picture.size.width} * shot.picture.size.height;
-    if (static_cast<std::int64_t>(shot.panels.size()) * pixels > kMostPngPixels) {
-        place.fail("its panels have more than " + std::to_string(kMostPngPixels) +
-                   " pixels together; make them fewer or smaller");
     }
     return shot;
 }

@@ -227,8 +227,6 @@ class SceneReader {
         if (const auto graph = root_.find("graph")) {
             scene_.graph = std::make_shared<MotionGraph>(
                 read_graph(*graph, [this](const JsonPlace& clip) { return clip_names_.find(clip, "clip"); }));
-            const std::string why = why_moves_are_too_long(scene_, *scene_.graph);
-            if (!why.empty()) graph->require("moves").fail(why);
         }
         if (scene_.graph) check_turned_clips();
         if (const auto agents = root_.find("agents")) {

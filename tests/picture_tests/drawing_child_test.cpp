@@ -76,7 +76,7 @@ class DrawCasesTest : public ::testing::Test {
         const std::filesystem::path script = cases.folder().write(
             "draw.sh", "#!/bin/sh\necho $$ >>'" + folder +
                            "/pids'\n"
-                           "\nwhile read -r line; do\n  name=$(printf %s \"$line\" | sed 's/.*\"name\": "
+                           "echo\nwhile read -r line; do\n  name=$(printf %s \"$line\" | sed 's/.*\"name\": "
                            "\"\\([^\"]*\\)\".*/\\1/')\n  case $name in\n" +
                            otherwise + "\n    *) cat '" + folder + "'/\"$name\".line ;;\n  esac\ndone\n");
         std::filesystem::permissions(script, std::filesystem::perms::owner_all);

@@ -43,7 +43,8 @@ void check_disks(const FittedScene& fitted, const ViewState& view) {
     const auto samples_of = [&](int clip) {
         return static_cast<std::size_t>(scene.clips[static_cast<std::size_t>(clip)].clip->count());
     };
-    if (view.query) return;
+    const bool draws_all = view.show != Show::moment && !view.projection && view.disks && !view.query;
+    if (!draws_all) return;
     const std::unordered_set<std::string_view> hidden(view.hidden.begin(), view.hidden.end());
     std::size_t shown = 0, own = 0;
     for (const PlacedAgent& agent : fitted.placed_agents()) {
