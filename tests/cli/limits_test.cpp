@@ -124,7 +124,7 @@ std::int64_t peak_memory(std::vector<std::string> arguments) {
 }
 
 TEST_F(LimitsTest, ConflictsAreWrittenAsTheyAreFound) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef MOBBSCOPE_SANITIZED
     GTEST_SKIP() << "a sanitizer's memory is not the program's";
 #endif
     const auto crowd = [this](int count) {
