@@ -62,7 +62,7 @@ class CaseProcess {
     }
 
     bool is_idle() const { return order_ == nullptr; }
-    void ask(const DrawOrder& order) {
+    void ask(const CaseOrder& order) {
         order_ = &order;
         begun_ = Clock::now();
         complaint_.clear();
@@ -173,7 +173,7 @@ class CaseProcess {
     Connection talk_ = Connection::make();
     Connection complaints_ = Connection::make();
     Process process_;
-    const DrawOrder* order_ = nullptr;  ///< that is being drawn
+    const CaseOrder* order_ = nullptr;  ///< that is being drawn
     Clock::time_point begun_;
     double limit_ = 0;  ///< seconds
     std::string said_, complaint_;
@@ -185,13 +185,13 @@ class CaseProcess {
 /// The orders in turn, but for those that cannot be drawn, of which it tells at once.
 class OrderQueue {
   public:
-    OrderQueue(std::span<const DrawOrder> orders, const std::function<void(const CaseResult&)>& tell)
+    OrderQueue(std::span<const CaseOrder> orders, const std::function<void(const CaseResult&)>& tell)
         : left_(orders), tell_(tell) {}
 
     /// Null: there are no more.
-    const DrawOrder* next() {
+    const CaseOrder* next() {
         while (!left_.empty()) {
-            const DrawOrder& order = left_.front();
+            const CaseOrder& order = left_.front();
             left_ = left_.subspan(1);
             const CaseFile& file = order.file;
             std::error_code ignored;
@@ -209,13 +209,13 @@ class OrderQueue {
     bool is_empty() const { return left_.empty(); }
 
   private:
-    std::span<const DrawOrder> left_;
+    std::span<const CaseOrder> left_;
     const std::function<void(const CaseResult&)>& tell_;
 };
 
 class CaseProcesses {
   public:
-    CaseProcesses(const CaseDrawer& drawer, const std::filesystem::path& folder, std::span<const DrawOrder> orders,
+    CaseProcesses(const CaseDrawer& drawer, const std::filesystem::path& folder, std::span<const CaseOrder> orders,
                   const std::function<void(const CaseResult&)>& tell)
         : drawer_(drawer),
           folder_(folder),
@@ -235,10 +235,10 @@ class CaseProcesses {
         });
         for (const auto& process : at_work_) {
             if (!process->is_idle()) continue;
-            if (const DrawOrder* order = queue_.next()) process->ask(*order);
+            if (const CaseOrder* order = queue_.next()) process->ask(*order);
         }
         while (at_work_.size() < most_ && !queue_.is_empty() && start()) {
-            if (const DrawOrder* order = queue_.next()) at_work_.back()->ask(*order);
+            if (const CaseOrder* order = queue_.next()) at_work_.back()->ask(*order);
         }
         return !queue_.is_empty() || std::ranges::any_of(at_work_, [](const auto& one) { return !one->is_idle(); });
     }
@@ -267,7 +267,7 @@ class CaseProcesses {
             if (at_work_.empty() && !has_told_) throw MachineError(why);
             // Fewer do; without any, each case tries anew.
             most_ = std::max<std::size_t>(at_work_.size(), 1);
-            const DrawOrder* order = at_work_.empty() ? queue_.next() : nullptr;
+            const CaseOrder* order = at_work_.empty() ? queue_.next() : nullptr;
             if (order) told(failed(order->file, why));
             return false;
         }
@@ -298,7 +298,7 @@ int default_jobs() {
 }
 
 std::vector<std::string> draw_cases(const CaseDrawer& drawer, const std::filesystem::path& folder,
-                                    std::span<const DrawOrder> orders,
+                                    std::span<const CaseOrder> orders,
                                     const std::function<void(const CaseResult&)>& tell,
                                     const std::function<void()>& go_on) {
     CaseProcesses processes(drawer, folder, orders, tell);

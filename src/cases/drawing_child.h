@@ -23,7 +23,7 @@ struct CaseDrawer {
 /// As many as there are processors for this program, at most 8.
 int default_jobs();
 
-struct DrawOrder {
+struct CaseOrder {
     CaseFile file;
     RunOptions options{};
 };
@@ -33,7 +33,7 @@ struct DrawOrder {
 /// a second; when it or `tell` throws, the processes are ended and the exception goes on. Returns what went wrong
 /// outside of cases, one line each. Throws MachineError if no process can be started.
 std::vector<std::string> draw_cases(const CaseDrawer& drawer, const std::filesystem::path& folder,
-                                    std::span<const DrawOrder> orders,
+                                    std::span<const CaseOrder> orders,
                                     const std::function<void(const CaseResult&)>& tell,
                                     const std::function<void()>& go_on);
 

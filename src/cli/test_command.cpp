@@ -364,7 +364,7 @@ void take(const TestCommandArguments& arguments, const std::vector<CaseFile>& ca
 /// Draws the cases; of each the result goes where it is wanted as soon as it is there. Returns what else went wrong.
 std::vector<std::string> draw_all(const TestCommandArguments& arguments, const std::vector<CaseFile>& cases,
                                   OrderedResults& results, picture_tests::ContactSheet& sheet) {
-    std::vector<picture_tests::DrawOrder> orders;
+    std::vector<picture_tests::CaseOrder> orders;
     for (const CaseFile& file : cases) orders.push_back({file, run_options(arguments, file)});
     const auto take_in = [&](CaseResult result) {
         if (arguments.update && !arguments.new_reference) check_is_from_here(arguments.folder, result);

@@ -61,7 +61,7 @@ class DrawCasesTest : public ::testing::Test {
     }
     void add(const std::string& name, const std::string& more) {
         const CaseFile file = cases.add(name, more);
-        std::erase_if(orders, [&](const DrawOrder& order) { return order.file.name == name; });
+        std::erase_if(orders, [&](const CaseOrder& order) { return order.file.name == name; });
         orders.push_back({file});
         CaseResult result;
         result.file = file;
@@ -99,7 +99,7 @@ class DrawCasesTest : public ::testing::Test {
     }
 
     const CaseFolder cases;
-    std::vector<DrawOrder> orders;
+    std::vector<CaseOrder> orders;
     std::vector<CaseResult> told;
 };
 

@@ -216,7 +216,7 @@ void Review::draw(const std::vector<std::size_t>& indices) {
     if (!surroundings_.may_draw) {
         throw InputError("no case is drawn here: a picture test starts no other; remove this from its script");
     }
-    std::vector<picture_tests::DrawOrder> orders;
+    std::vector<picture_tests::CaseOrder> orders;
     for (const std::size_t index : indices) {
         orders.push_back({cases_[index].file});
         cases_[index].state = ReviewCase::State::waiting;
