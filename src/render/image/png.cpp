@@ -133,18 +133,17 @@ class PngWriter {
     /// False where that is refused.
     bool write(const Image& image) {
         // Opaque pictures, as all of ours are, do without alpha: a quarter less to write.
-        bool opaque = true;
-        for (std::size_t i = 3; i < image.rgba.size(); i += 4) opaque = opaque && image.rgba[i] == 255;
-        if (opaque) row_.resize(3 * static_cast<std::size_t>(image.width));
+        if (is_opaque(image)) row_.resize(3 * static_cast<std::size_t>(image.width));
         if (setjmp(png_jmpbuf(png_))) return false;
         png_set_write_fn(png_, this, take_bytes, nullptr);
         png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
         png_set_IHDR(png_, info_, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
-                     opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
+                     row_.empty() ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                      PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
         png_set_sRGB(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
         png_write_info(png_, info_);
-        for (int y = 0; y < image.height; ++y) png_write_row(png_, opaque ? without_alpha(image, y) : image.at(0, y));
+        for (int y = 0; y < image.height; ++y)
+            png_write_row(png_, row_.empty() ? image.at(0, y) : without_alpha(image, y));
         png_write_end(png_, nullptr);
         return true;
     }
@@ -154,6 +153,13 @@ class PngWriter {
     const std::string& reason() const { return reason_; }
 
   private:
+    static bool is_opaque(const Image& image) {
+        for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
+            if (image.rgba[i] != 255) return false;
+        }
+        return true;
+    }
+
     const std::uint8_t* without_alpha(const Image& image, int y) {
         const std::uint8_t* from = image.at(0, y);
         for (std::size_t i = 0; i < row_.size(); i += 3, from += 4) std::copy_n(from, 3, row_.data() + i);
