@@ -1,6 +1,8 @@
 /// What goes wrong outside the program's control, said in one line.
 #pragma once
 
+#include <base/text.h>
+
 #include <stdexcept>
 #include <string>
 
@@ -11,10 +13,11 @@ namespace mobbscope {
 class InputError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
-    /// "file: place: message"; an empty place is left out, and the file "-" is called standard input.
+    /// "file: place: message"; an empty place is left out, and the file "-" is called standard input. Of a name that
+    /// is no line of text what is none becomes '?'.
     InputError(const std::string& file, const std::string& place, const std::string& message)
-        : std::runtime_error((file == "-" ? "standard input" : file) + ": " + (place.empty() ? "" : place + ": ") +
-                             message) {}
+        : std::runtime_error((file == "-" ? "standard input" : cleaned(file)) + ": " +
+                             (place.empty() ? "" : place + ": ") + message) {}
 };
 
 /// What `work` gives. A std::invalid_argument that it throws becomes an InputError at this place of the file.

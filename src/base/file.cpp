@@ -2,14 +2,9 @@
 #include <base/file.h>
 #include <base/text.h>
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <zlib.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -102,30 +97,6 @@ std::string unpacked(std::string_view packed, const std::string& name, std::uint
     }
 }
 
-/// Where a link points, so that writing through it leaves the link in place.
-std::filesystem::path resolved(const std::filesystem::path& file) {
-    std::error_code error;
-    const std::filesystem::path target = std::filesystem::weakly_canonical(file, error);
-    return error ? file : target;
-}
-
-/// A new file with the rights that the process gives to new files.
-struct TemporaryFile {
-    std::string name;
-    int descriptor;  ///< -1: errno says why there is none
-};
-
-TemporaryFile make_temporary(const std::filesystem::path& folder) {
-    static std::atomic<unsigned> made{0};
-    for (;;) {
-        const std::string number = std::to_string(::getpid()) + '-' + std::to_string(made++);
-        TemporaryFile file{(folder / (".mobbscope-" + number)).string(), -1};
-        file.descriptor = ::open(file.name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        // A file of that name was left by a process that was killed.
-        if (file.descriptor >= 0 || errno != EEXIST) return file;
-    }
-}
-
 }  // namespace
 
 void check_file_name(const std::filesystem::path& file) {
@@ -150,8 +121,9 @@ std::string read_file(const std::filesystem::path& file) {
     if (status.type() != std::filesystem::file_type::regular) {
         throw InputError(name, "", "is no regular file; save the data to a file first");
     }
-    const OpenFile in(std::fopen(file.c_str(), "rb"));
+    const OpenFile in(std::fopen(file.c_str(), "rbe"));
     if (!in) throw InputError(name, "", "cannot be read: " + system_message(errno));
+    note_read(file);
 
     std::string bytes;
     const std::uintmax_t size = std::filesystem::file_size(file, error);
@@ -179,7 +151,7 @@ std::string read_beginning(const std::filesystem::path& file, std::size_t most) 
     } else {
         std::error_code ignored;
         if (!std::filesystem::is_regular_file(file, ignored)) return "";
-        const OpenFile in(std::fopen(file.c_str(), "rb"));
+        const OpenFile in(std::fopen(file.c_str(), "rbe"));
         if (!in) return "";
         bytes.resize(most);
         bytes.resize(std::fread(bytes.data(), 1, most, in.get()));
@@ -192,47 +164,11 @@ std::string read_beginning(const std::filesystem::path& file, std::size_t most) 
     }
 }
 
-void write_file(const std::filesystem::path& file, std::string_view bytes) {
-    check_file_name(file);
-    const auto failure = [&](int error) {
-        return MachineError(file.string() + ": cannot be written: " + system_message(error));
-    };
-    const std::filesystem::path target = resolved(file);
-    // Renaming over a device or a pipe would replace it.
-    std::error_code ignored;
-    const std::filesystem::file_status status = std::filesystem::status(target, ignored);
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-        throw MachineError(file.string() + ": cannot be written: is no regular file");
-    }
-    struct stat replaced {};
-    const bool replaces = ::stat(target.c_str(), &replaced) == 0;
-    // Renaming asks for rights over the folder alone, so a protected file would be replaced too.
-    if (replaces && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) throw failure(errno);
-
-    const auto [temporary, descriptor] = make_temporary(target.parent_path());
-    if (descriptor < 0) throw failure(errno);
-    int error = 0;
-    for (std::size_t done = 0; done < bytes.size() && error == 0;) {
-        const ssize_t count = ::write(descriptor, bytes.data() + done, bytes.size() - done);
-        if (count >= 0) {
-            done += static_cast<std::size_t>(count);
-        } else if (errno != EINTR) {
-            error = errno;
-        }
-    }
-    if (error == 0 && replaces && ::fchmod(descriptor, replaced.st_mode & 07777) != 0) error = errno;
-    if (::close(descriptor) != 0 && error == 0) error = errno;
-    if (error == 0 && std::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
-    if (error != 0) {
-        ::unlink(temporary.c_str());
-        throw failure(error);
-    }
-}
-
 std::filesystem::path whole_path(const std::filesystem::path& path) {
-    std::error_code ignored;
-    const std::filesystem::path whole =
-        std::filesystem::absolute(path.empty() ? "." : path, ignored).lexically_normal();
+    std::error_code gone;
+    const std::filesystem::path given = path.empty() ? "." : path;
+    const std::filesystem::path absolute = std::filesystem::absolute(given, gone);
+    const std::filesystem::path whole = (gone ? given : absolute).lexically_normal();
     return whole.has_filename() || !whole.has_relative_path() ? whole : whole.parent_path();
 }
 

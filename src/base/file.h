@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mobbscope {
 
@@ -26,12 +28,41 @@ std::string read_input(const std::filesystem::path& file);
 /// At most the first `most` bytes of that; "" if there is no such file, or none that can be read.
 std::string read_beginning(const std::filesystem::path& file, std::size_t most);
 
-/// Writes a file whole or not at all: into a temporary file beside it, which then takes its name. What was there stays
-/// until then, so reading from and writing to one name is safe; a file that is write-protected stays. Throws
-/// MachineError; InputError for what check_file_name refuses.
+/// Remembers that a file is read. read_file does by itself; this is for one that will be.
+void note_read(const std::filesystem::path& file);
+
+/// All that were read, from the root, in any order.
+std::vector<std::filesystem::path> files_read();
+
+/// Throws InputError if a file is one that was read, by whatever name or link: it must not be replaced by what is made
+/// from it.
+void check_not_read(const std::filesystem::path& file);
+
+/// The file that a name means, through links; where the last one leads to nothing, the file that it would be.
+std::filesystem::path meant(const std::filesystem::path& file);
+
+/// Throws InputError if a name means a file of another folder, through links: for names that the user does not choose.
+void check_stays_in_folder(const std::filesystem::path& file);
+
+/// A file, and what is to be in it. The bytes must live until they are written.
+struct FileBytes {
+    std::filesystem::path file;
+    std::string_view bytes;
+};
+
+/// Writes files, each whole, and all of them or none. What was there stays until all is on the disk, so reading from
+/// and writing to one name is safe; owner and rights stay too, but for those to run as the owner. A file that is
+/// write-protected stays. A pipe or a device gets the bytes. Throws MachineError; InputError for what check_file_name
+/// refuses. Unfinished files have no names where the file system can do that; else they are called .mobbscope-PID-N,
+/// and those that a killed process left in the folder are removed.
+void write_files(std::span<const FileBytes> files);
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 
-/// The path from the root, without a slash at its end, "." and ".."; "" is the present folder.
+/// Removes the unfinished files of this process: for the handler of a signal that ends it.
+void remove_unfinished_files() noexcept;
+
+/// The path from the root, without a slash at its end, "." and ".."; "" is the present folder. The path as it is given,
+/// made normal, where the present folder is gone.
 std::filesystem::path whole_path(const std::filesystem::path& path);
 
 /// What a file or folder is called in its folder, also one that is written "." or with a slash at its end.

@@ -87,7 +87,7 @@ void JsonWriter::string(std::string_view text) {
     if (std::all_of(text.begin(), text.end(), is_plain)) {
         out_ << '"' << text << '"';
     } else {
-        out_ << nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+        out_ << with_escapes(nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     }
 }
 

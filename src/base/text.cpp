@@ -60,6 +60,24 @@ constexpr std::ptrdiff_t kMostDigits = 19;  // fit 64 bits
 constexpr std::array<double, kMostDigits> kPowersOfTen{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8, 1e9,
                                                        1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18};
 
+/// Whether a character steers a terminal, or is not seen and changes how others look.
+bool is_misleading(char32_t code) {
+    // Controls, and what Unicode calls format characters.
+    constexpr std::array<std::pair<char32_t, char32_t>, 11> kRanges{{{0, 0x1f},
+                                                                     {0x7f, 0x9f},
+                                                                     {0xad, 0xad},
+                                                                     {0x61c, 0x61c},
+                                                                     {0x180e, 0x180e},
+                                                                     {0x200b, 0x200f},
+                                                                     {0x2028, 0x202e},
+                                                                     {0x2060, 0x206f},
+                                                                     {0xfeff, 0xfeff},
+                                                                     {0xfff9, 0xfffb},
+                                                                     {0xe0000, 0xe007f}}};
+    return std::ranges::any_of(kRanges,
+                               [code](const auto& range) { return code >= range.first && code <= range.second; });
+}
+
 /// Where each character begins, and the text's end.
 std::vector<std::size_t> beginnings(std::string_view text) {
     const bool utf8 = is_utf8(text);
@@ -221,19 +239,31 @@ bool is_utf8(std::string_view text) {
     return true;
 }
 
-std::string cleaned(std::string_view text) {
-    const bool utf8 = is_utf8(text);
+std::string with_escapes(std::string_view text) {
     std::string out;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const auto byte = static_cast<unsigned char>(text[i]);
-        const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
-        // U+0080 to U+009F steer terminals as the characters below a blank do.
-        const bool upper_control = utf8 && byte == 0xc2 && next < 0xa0;
-        const bool plain = byte >= 0x20 && byte != 0x7f && !upper_control && (utf8 || byte < 0x80);
-        out += plain ? text[i] : '?';
-        if (upper_control) ++i;
+    for (std::size_t i = 0; i < text.size();) {
+        const auto lead = static_cast<unsigned char>(text[i]);
+        const std::size_t length = lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+        char32_t code = length == 1 ? lead : lead & (0x7fu >> length);
+        for (std::size_t k = 1; k < length; ++k) code = code << 6 | (static_cast<unsigned char>(text[i + k]) & 0x3f);
+        if (!is_misleading(code)) {
+            out += text.substr(i, length);
+        } else if (code < 0x10000) {
+            out += formatted("\\u%04x", static_cast<unsigned>(code));
+        } else {
+            const auto above = static_cast<unsigned>(code - 0x10000);
+            out += formatted("\\u%04x\\u%04x", 0xd800 + (above >> 10), 0xdc00 + (above & 0x3ff));
+        }
+        i += length;
     }
     return out;
+}
+
+std::string cleaned(std::string_view text) {
+    if (is_utf8(text)) return with_escapes(text);
+    std::string ascii(text);
+    for (char& c : ascii) c = static_cast<unsigned char>(c) < 0x80 ? c : '?';
+    return with_escapes(ascii);
 }
 
 std::string shortened(std::string_view text, std::size_t most) {

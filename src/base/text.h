@@ -72,8 +72,11 @@ std::string_view trimmed(std::string_view text);
 /// Whether the bytes are well-formed UTF-8 (RFC 3629).
 bool is_utf8(std::string_view text);
 
-/// Text from a file or a name, fit for a line on a terminal: control characters, and bytes that are not UTF-8, become
-/// '?'.
+/// UTF-8 text in which characters that steer a terminal, and those that nobody sees but that change how others look
+/// (directions of writing, joiners, separators), stand as JSON writes them: "\u001b", "\u202e".
+std::string with_escapes(std::string_view text);
+
+/// Text from a file or a name, fit for a line on a terminal: with_escapes, and '?' for bytes that are not UTF-8.
 std::string cleaned(std::string_view text);
 
 /// At most `most` (>= 5) characters: where there are more, the beginning, an ellipsis and the end. Text that is not

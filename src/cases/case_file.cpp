@@ -16,6 +16,8 @@ namespace mobbscope::picture_tests {
 namespace {
 
 constexpr int kVersion = 1;
+constexpr double kLeastTimeLimit = 0.1;  // seconds
+constexpr double kMostTimeLimit = 86400;
 constexpr std::string_view kExtension = ".case.json";
 
 std::string stem_of(const CaseFile& file) {
@@ -59,6 +61,10 @@ std::filesystem::path CaseFile::beside(std::string_view ending) const {
 
 std::string CaseFile::ending_of(const std::filesystem::path& other) const {
     return other.filename().string().substr(stem_of(*this).size());
+}
+
+CaseFile case_named(const std::filesystem::path& folder, const std::string& name) {
+    return {name, folder / (name + std::string(kExtension))};
 }
 
 bool is_golden_ending(std::string_view ending) {
@@ -129,6 +135,7 @@ CaseTerms read_terms(const JsonPlace& root, const std::filesystem::path& folder)
     }
     if (const auto mask = root.find("mask")) out.mask = read_path(*mask, folder);
     if (const auto draw_list = root.find("draw_list")) out.draw_list = draw_list->boolean();
+    if (const auto limit = root.find("time_limit")) out.time_limit = limit->number(kLeastTimeLimit, kMostTimeLimit);
     if (const auto skip = root.find("skip")) {
         if (skip->string().empty()) skip->fail("say why the case is skipped");
         out.skip = skip->string();

@@ -6,6 +6,7 @@
 ///      "allowed": "12px",             over the tolerance's, as `mobbscope diff --allowed`
 ///      "mask": "NAME.mask.png",       only what is neither black nor transparent in it is compared
 ///      "draw_list": false,            pixels alone are held
+///      "time_limit": 300,             seconds that it may take, 0.1..86400, instead of 60
 ///      "skip": "why"                  the case is reported as skipped
 ///
 /// Beside it stand its goldens: `NAME.png` and, of what is no window, the numbers of all that is drawn,
@@ -50,6 +51,9 @@ struct CaseFile {
     std::string ending_of(const std::filesystem::path& other) const;
 };
 
+/// The case of a name in a folder, whether it is there or not.
+CaseFile case_named(const std::filesystem::path& folder, const std::string& name);
+
 /// Whether NAME and this ending is a golden of the case NAME.
 bool is_golden_ending(std::string_view ending);
 
@@ -71,6 +75,7 @@ struct CaseTerms {
     DiffOptions diff;                           ///< the tolerance's, and what the case says over them
     std::optional<std::filesystem::path> mask;  ///< of the golden's size
     bool draw_list = true;                      ///< whether there is to be one
+    double time_limit = 60;                     ///< seconds that drawing and comparing may take
     std::optional<std::string> skip;            ///< why
 };
 

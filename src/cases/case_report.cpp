@@ -40,7 +40,7 @@ std::string report_in(std::string text, const std::string& name) {
 
 }  // namespace
 
-void write_case_report(std::ostream& out, std::span<const CaseResult> results, const DrawnBy& drawn_by) {
+void write_case_report(std::ostream& out, std::span<const CaseResult> results) {
     std::ostringstream text;
     JsonWriter json(text);
     json.begin_object();
@@ -48,7 +48,7 @@ void write_case_report(std::ostream& out, std::span<const CaseResult> results, c
     json.begin_array("cases");
     for (const CaseResult& result : results) {
         if (result.outcome == CaseOutcome::passed || result.outcome == CaseOutcome::skipped) continue;
-        write_result(json, result, drawn_by, Pictures::not_in_fresh);
+        write_result(json, result, Pictures::not_in_fresh);
     }
     json.end_array();
     json.end_object();

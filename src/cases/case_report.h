@@ -25,11 +25,11 @@ inline constexpr std::string_view kReportBegins = "<script type=\"application/js
 inline constexpr std::string_view kReportEnds = "</script>";
 
 /// Without those that passed or were skipped. No '<' is in it, so that a page can hold it.
-void write_case_report(std::ostream& out, std::span<const CaseResult> results, const DrawnBy& drawn_by);
+void write_case_report(std::ostream& out, std::span<const CaseResult> results);
 
 struct CaseReport {
     std::filesystem::path file;  ///< that was read
-    std::vector<NamedResult> results;
+    std::vector<CaseResult> results;
     std::vector<std::string> unknown;  ///< cases that are none of those given
 };
 

@@ -64,6 +64,14 @@ inline constexpr std::array<std::string_view, 4> kDecidedBy{"pixels", "draw list
 inline std::string_view name(DecidedBy by) { return kDecidedBy[static_cast<std::size_t>(by)]; }
 std::optional<DecidedBy> decided_by_from_name(std::string_view name);
 
+/// What drew the pictures.
+struct DrawnBy {
+    std::string backend;   ///< "osmesa", "egl"; empty without OpenGL
+    std::string renderer;  ///< what OpenGL calls itself
+    std::string opengl{};  ///< what a reference says of it (picture_tests/reference.h)
+};
+
+/// Pictures are packed, as the bytes of PNG files: a run may have hundreds.
 struct CaseResult {
     CaseFile file;
     CaseOutcome outcome = CaseOutcome::passed;
@@ -75,19 +83,48 @@ struct CaseResult {
     DecidedBy decided_by = DecidedBy::pixels;
     std::filesystem::path shown;  ///< the golden that `actual` is held against: the case's, or the one without text
     std::optional<std::filesystem::path> mask;  ///< of that comparison
-    Image actual;                    ///< empty where there is none; without text if only that picture is different
-    Image golden;                    ///< likewise, and of a case that passed
-    std::optional<ImageDiff> image;  ///< where both exist; of a case that passed without its heat map
+    std::string actual;              ///< empty where there is none; without text if only that picture is different
+    std::string golden;              ///< likewise, and of a case that passed
+    std::optional<ImageDiff> image;  ///< where both exist, without its heat map
     /// All goldens of the case as they would be now: of one that is different or lacks a golden; of others if that was
     /// asked for.
     std::vector<GoldenChange> fresh;
     /// What is other here than where the goldens are from (picture_tests/reference.h); empty if nothing is.
     std::string other_here;
+    DrawnBy drawn_by;
+    std::vector<std::filesystem::path> read;  ///< by the process that drew it and not told before; from the root
 };
+
+/// Whether it was skipped as there is no OpenGL; why is its message.
+bool lacks_opengl(const CaseResult& result);
+
+/// The pictures of a result, compared anew with its mask, for the heat map. Throws InputError if the mask cannot be
+/// read.
+ImageDiff compared_again(const CaseResult& result, const Image& actual, const Image& golden);
 
 /// Whether there is a picture that is not the golden's, and goldens are taken here.
 bool can_be_taken(const CaseResult& result);
 bool can_be_taken(CaseOutcome outcome, std::string_view other_here);
+
+/// What the goldens of a run are held to be from.
+enum class GoldenSource {
+    reference,  ///< what the reference.json of their folder says, or here if there is none
+    here,       ///< here, whatever it says: this becomes the reference
+};
+inline constexpr std::array<std::string_view, 2> kGoldenSources{"reference", "here"};
+
+/// Of which cases all goldens are made as they would be now (CaseResult::fresh), besides those that did not pass.
+enum class FreshGoldens {
+    of_failed,  ///< of no others
+    missing,    ///< of those that passed the goldens that are not there yet
+    of_all,
+};
+inline constexpr std::array<std::string_view, 3> kFreshGoldens{"of failed", "missing", "of all"};
+
+struct RunOptions {
+    GoldenSource source = GoldenSource::reference;
+    FreshGoldens fresh = FreshGoldens::of_failed;
+};
 
 /// How many cases had each outcome.
 struct Summary {

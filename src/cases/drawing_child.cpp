@@ -1,193 +1,312 @@
 #include <base/error.h>
+#include <base/process.h>
 #include <base/text.h>
 #include <cases/drawing_child.h>
+#include <cases/result_line.h>
 
-#include <fcntl.h>
 #include <poll.h>
-#include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstring>
+#include <chrono>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 namespace mobbscope::picture_tests {
 
 namespace {
 
-constexpr int kAskEvery = 50;                  // milliseconds
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kAskEvery(50);
 constexpr std::size_t kMostComplaint = 4096;   // bytes that are kept of standard error
 constexpr std::size_t kMostLine = 1ull << 30;  // bytes of a result
+constexpr double kPatienceWithItsEnd = 5;      // seconds, of a process that has nothing left to do
+constexpr double kPatienceWithItsStart = 60;   // seconds, until it has opened OpenGL
 
-class PipeEnd {
+/// Of a case that cannot be read the default: what is wrong is told where it is drawn.
+double time_limit_of(const CaseFile& file) {
+    try {
+        return read_terms(file).time_limit;
+    } catch (const InputError&) {
+        return CaseTerms{}.time_limit;
+    }
+}
+
+CaseResult without_picture(const CaseFile& file, CaseOutcome outcome, std::string why) {
+    CaseResult out;
+    out.file = file;
+    out.outcome = outcome;
+    out.message = std::move(why);
+    return out;
+}
+
+CaseResult failed(const CaseFile& file, std::string why) {
+    return without_picture(file, CaseOutcome::failed, std::move(why));
+}
+
+/// A process that draws one case after the other.
+class CaseProcess {
   public:
-    explicit PipeEnd(int descriptor) : descriptor_(descriptor) {}
-    ~PipeEnd() { close(); }
-    PipeEnd(const PipeEnd&) = delete;
-    PipeEnd& operator=(const PipeEnd&) = delete;
-    int get() const { return descriptor_; }
-    bool is_open() const { return descriptor_ >= 0; }
-    void close() {
-        if (descriptor_ >= 0) ::close(descriptor_);
-        descriptor_ = -1;
-    }
-    /// False at the end of what comes.
-    bool read_to(std::string& bytes) {
-        std::array<char, 65536> buffer{};
-        const ssize_t size = ::read(descriptor_, buffer.data(), buffer.size());
-        if (size < 0 && errno == EINTR) return true;
-        if (size <= 0) return false;
-        bytes.append(buffer.data(), static_cast<std::size_t>(size));
-        return true;
+    CaseProcess(const CaseDrawer& drawer, const std::filesystem::path& folder)
+        // Names of folders may begin as options do.
+        : process_(drawer.program, {"test", "--backend", drawer.backend, "--requests", "--", folder.string()},
+                   {talk_.there.get(), talk_.there.get(), complaints_.there.get()}) {
+        talk_.there.close();
+        complaints_.there.close();
     }
 
-  private:
-    int descriptor_;
-};
-
-struct Pipe {
-    PipeEnd from, to;
-    static Pipe make() {
-        std::array<int, 2> ends{};
-        if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
-            throw MachineError(std::string("cases cannot be drawn: no pipe: ") + std::strerror(errno));
-        }
-        return {PipeEnd(ends[0]), PipeEnd(ends[1])};
-    }
-};
-
-/// A process that ends with this at the latest.
-class TestProcess {
-  public:
-    TestProcess(const std::filesystem::path& program, std::vector<std::string> arguments)
-        : out_(Pipe::make()), complaints_(Pipe::make()) {
-        posix_spawn_file_actions_t actions;
-        ::posix_spawn_file_actions_init(&actions);
-        ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-        ::posix_spawn_file_actions_adddup2(&actions, out_.to.get(), STDOUT_FILENO);
-        ::posix_spawn_file_actions_adddup2(&actions, complaints_.to.get(), STDERR_FILENO);
-        std::string name = program.string();
-        std::vector<char*> argv{name.data()};
-        for (std::string& argument : arguments) argv.push_back(argument.data());
-        argv.push_back(nullptr);
-        const int error = ::posix_spawn(&child_, name.c_str(), &actions, nullptr, argv.data(), environ);
-        ::posix_spawn_file_actions_destroy(&actions);
-        if (error != 0) {
-            throw MachineError(name + ": cases cannot be drawn: " + std::strerror(error));
-        }
-        out_.to.close();
-        complaints_.to.close();
-    }
-    ~TestProcess() {
-        if (child_ == 0) return;
-        ::kill(child_, SIGKILL);
-        wait();
-    }
-    TestProcess(const TestProcess&) = delete;
-    TestProcess& operator=(const TestProcess&) = delete;
-
-    /// The next line that it says; nothing at its end. `go_on`: see draw_cases.
-    std::optional<std::string> next_line(const std::function<void()>& go_on) {
-        for (;;) {
-            go_on();
-            if (const std::size_t end = said_.find('\n', looked_at_); end != std::string::npos) {
-                std::string line = said_.substr(0, end);
-                said_.erase(0, end + 1);
-                looked_at_ = 0;
-                return line;
-            }
-            looked_at_ = said_.size();
-            if (!out_.from.is_open() || said_.size() > kMostLine) return std::nullopt;
-            std::array<pollfd, 2> wanted{{{out_.from.get(), POLLIN, 0}, {complaints_.from.get(), POLLIN, 0}}};
-            if (::poll(wanted.data(), wanted.size(), kAskEvery) <= 0) continue;
-            if (wanted[1].revents != 0 && !complaints_.from.read_to(complaint_)) complaints_.from.close();
-            if (wanted[0].revents != 0 && !out_.from.read_to(said_)) out_.from.close();
-            if (complaint_.size() > kMostComplaint) complaint_.resize(kMostComplaint);
-        }
+    bool is_idle() const { return order_ == nullptr; }
+    void ask(const CaseOrder& order) {
+        order_ = &order;
+        begun_ = Clock::now();
+        complaint_.clear();
+        limit_ = time_limit_of(order.file);
+        // One that cannot hear it any more has ended, which is seen in time.
+        send_all(talk_.here, request_line({order.file.name, order.options}));
     }
 
-    /// How it ended: "crashed: ...", "ended with status 2 (...)". One that still talks is stopped.
+    void add_to(std::vector<pollfd>& wanted) const {
+        for (const Connection* from : {&talk_, &complaints_}) wanted.push_back({from->here.get(), POLLIN, 0});
+    }
+
+    /// What came of the case that was asked for, once that is known; never waits.
+    std::optional<CaseResult> answer() {
+        const bool has_ended = process_.ended().has_value();
+        read(has_ended);
+        if (std::optional<CaseResult> result = answer_in_line()) return result;
+        if (is_idle() || is_over_) return std::nullopt;
+        const CaseFile& file = order_->file;
+        if (has_ended) return over(failed(file, how_it_ended_here()));
+        if (said_.size() > kMostLine) return over(failed(file, "the process that draws said what is no result"));
+        if (seconds() <= (is_ready_ ? limit_ : kPatienceWithItsStart)) return std::nullopt;
+        return over(failed(file, is_ready_ ? "took longer than " + brief(limit_) + " s (time_limit)"
+                                           : "OpenGL did not start within " + brief(kPatienceWithItsStart) + " s"));
+    }
+
+    /// Whether it draws no more.
+    bool is_over() { return is_over_ || (is_idle() && process_.ended()); }
+
+    /// There will be no more cases.
+    void let_end() const {
+        if (talk_.here.is_open()) send_end(talk_.here);
+    }
+    /// What went wrong after its last case; empty if nothing did. Waits until it has ended, but not long.
     std::string end() {
-        const bool talks = out_.from.is_open();
-        if (talks) ::kill(child_, SIGKILL);
-        while (complaints_.from.is_open() && complaints_.from.read_to(complaint_)) continue;
-        const int status = wait();
-        if (talks) return "said what is no result";
-        std::string how = WIFSIGNALED(status) ? std::string("crashed: ") + ::strsignal(WTERMSIG(status))
-                                              : "ended with status " + std::to_string(WEXITSTATUS(status));
-        const std::string_view first = trimmed(std::string_view(complaint_).substr(0, complaint_.find('\n')));
-        if (!first.empty()) how += " (" + cleaned(first) + ")";
-        return how;
+        if (is_over_) return "";
+        let_end();
+        const std::optional<int> status = process_.wait(kPatienceWithItsEnd);
+        read(true);
+        if (status == 0) return "";
+        return "after its last case: " + (status ? how_it_ended_here() : "the process that draws did not end");
     }
 
   private:
-    int wait() {
-        int status = 0;
-        while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) continue;
-        child_ = 0;
-        return status;
+    /// Some of what has come, or all.
+    void read(bool all) {
+        std::size_t before = 0;
+        do {
+            before = said_.size();
+            if (talk_.here.is_open() && !read_some(talk_.here, said_)) talk_.here.close();
+            if (complaints_.here.is_open() && !read_some(complaints_.here, complaint_)) complaints_.here.close();
+            if (complaint_.size() > kMostComplaint) complaint_.resize(kMostComplaint);
+        } while (all && said_.size() > before && said_.size() <= kMostLine);
     }
 
-    Pipe out_, complaints_;
-    pid_t child_ = 0;
+    std::optional<CaseResult> answer_in_line() {
+        if (is_idle() || is_over_) return std::nullopt;
+        if (!is_ready_ && !said_.empty()) {
+            // An empty line says that it can draw; from then on the case takes its time.
+            is_ready_ = true;
+            begun_ = Clock::now();
+            if (said_.front() == '\n') said_.erase(0, 1);
+        }
+        const std::size_t end = said_.find('\n', looked_at_);
+        looked_at_ = said_.size();
+        if (end == std::string::npos) return std::nullopt;
+        const CaseFile& file = order_->file;
+        try {
+            CaseResult result = read_result_line(std::string_view(said_).substr(0, end), {file});
+            said_.erase(0, end + 1);
+            looked_at_ = 0;
+            order_ = nullptr;
+            return result;
+        } catch (const InputError&) {
+            return over(failed(file, "the process that draws said what is no result"));
+        }
+    }
+
+    double seconds() const { return std::chrono::duration<double>(Clock::now() - begun_).count(); }
+
+    CaseResult over(CaseResult result) {
+        process_.kill();
+        is_over_ = true;
+        result.seconds = seconds();
+        return result;
+    }
+
+    /// Its own first line that is no warning; else the first, which a library said.
+    std::string_view first_complaint() const {
+        std::string_view first;
+        for (std::string_view rest = complaint_; !rest.empty();) {
+            const std::size_t end = std::min(rest.find('\n'), rest.size());
+            const std::string_view line = trimmed(rest.substr(0, end));
+            rest.remove_prefix(std::min(end + 1, rest.size()));
+            if (first.empty()) first = line;
+            if (line.starts_with("mobbscope: ") && !line.starts_with("mobbscope: warning: ")) return line;
+        }
+        return first;
+    }
+    std::string how_it_ended_here() {
+        const int status = process_.ended().value_or(0);
+        std::string out = WIFSIGNALED(status) ? "" : "the process that draws ";
+        out += how_it_ended(status);
+        if (const std::string_view first = first_complaint(); !first.empty()) out += " (" + cleaned(first) + ")";
+        return out;
+    }
+
+    Connection talk_ = Connection::make();
+    Connection complaints_ = Connection::make();
+    Process process_;
+    const CaseOrder* order_ = nullptr;  ///< that is being drawn
+    Clock::time_point begun_;
+    double limit_ = 0;  ///< seconds
     std::string said_, complaint_;
     std::size_t looked_at_ = 0;  ///< of what it said, to here there is no end of a line
+    bool is_ready_ = false;      ///< it has opened OpenGL
+    bool is_over_ = false;
 };
 
-/// Names of files may begin as options do.
-std::vector<std::string> arguments_of(const CaseDrawer& drawer, const std::filesystem::path& folder) {
-    return {"test", "--backend", drawer.backend, "--json-lines", "--", folder.string()};
-}
+/// The orders in turn, but for those that cannot be drawn, of which it tells at once.
+class OrderQueue {
+  public:
+    OrderQueue(std::span<const CaseOrder> orders, const std::function<void(const CaseResult&)>& tell)
+        : left_(orders), tell_(tell) {}
+
+    /// Null: there are no more.
+    const CaseOrder* next() {
+        while (!left_.empty()) {
+            const CaseOrder& order = left_.front();
+            left_ = left_.subspan(1);
+            const CaseFile& file = order.file;
+            std::error_code ignored;
+            if (!std::filesystem::exists(file.file, ignored)) {
+                tell_(failed(file, file.file.string() + " is gone; draw all again"));
+            } else if (!is_utf8(file.name)) {
+                // Of one whose name is no text no line could tell.
+                tell_(failed(file, file.file.string() + ": the name is not UTF-8; rename the file"));
+            } else {
+                return &order;
+            }
+        }
+        return nullptr;
+    }
+    bool is_empty() const { return left_.empty(); }
+
+  private:
+    std::span<const CaseOrder> left_;
+    const std::function<void(const CaseResult&)>& tell_;
+};
+
+class CaseProcesses {
+  public:
+    CaseProcesses(const CaseDrawer& drawer, const std::filesystem::path& folder, std::span<const CaseOrder> orders,
+                  const std::function<void(const CaseResult&)>& tell)
+        : drawer_(drawer),
+          folder_(folder),
+          most_(static_cast<std::size_t>(drawer.jobs > 0 ? drawer.jobs : default_jobs())),
+          queue_(orders, tell),
+          tell_(tell) {}
+
+    /// Whether there is still something to be drawn.
+    bool work() {
+        for (const auto& process : at_work_) {
+            if (const std::optional<CaseResult> result = process->answer()) told(*result);
+        }
+        std::erase_if(at_work_, [&](const auto& process) {
+            if (!process->is_over()) return false;
+            complain(process->end());
+            return true;
+        });
+        for (const auto& process : at_work_) {
+            if (!process->is_idle()) continue;
+            if (const CaseOrder* order = queue_.next()) process->ask(*order);
+        }
+        while (at_work_.size() < most_ && !queue_.is_empty() && start()) {
+            if (const CaseOrder* order = queue_.next()) at_work_.back()->ask(*order);
+        }
+        return !queue_.is_empty() || std::ranges::any_of(at_work_, [](const auto& one) { return !one->is_idle(); });
+    }
+
+    /// Until one says something, or a while.
+    void wait() const {
+        std::vector<pollfd> wanted;
+        for (const auto& process : at_work_) process->add_to(wanted);
+        ::poll(wanted.data(), wanted.size(), static_cast<int>(kAskEvery.count()));
+    }
+
+    std::vector<std::string> end() {
+        for (const auto& process : at_work_) process->let_end();
+        for (const auto& process : at_work_) complain(process->end());
+        return std::move(complaints_);
+    }
+
+  private:
+    /// False: no more than there are.
+    bool start() {
+        try {
+            at_work_.push_back(std::make_unique<CaseProcess>(drawer_, folder_));
+            return true;
+        } catch (const MachineError& error) {
+            const std::string why = std::string("no process that draws can be started: ") + error.what();
+            if (at_work_.empty() && !has_told_) throw MachineError(why);
+            // Fewer do; without any, each case tries anew.
+            most_ = std::max<std::size_t>(at_work_.size(), 1);
+            const CaseOrder* order = at_work_.empty() ? queue_.next() : nullptr;
+            if (order) told(failed(order->file, why));
+            return false;
+        }
+    }
+    void told(const CaseResult& result) {
+        has_told_ = true;
+        tell_(result);
+    }
+    void complain(std::string complaint) {
+        if (!complaint.empty()) complaints_.push_back(std::move(complaint));
+    }
+
+    const CaseDrawer& drawer_;
+    const std::filesystem::path& folder_;
+    std::size_t most_;  ///< at a time
+    OrderQueue queue_;
+    const std::function<void(const CaseResult&)>& tell_;
+    std::vector<std::unique_ptr<CaseProcess>> at_work_;
+    std::vector<std::string> complaints_;
+    bool has_told_ = false;
+};
 
 }  // namespace
 
-void draw_cases(const CaseDrawer& drawer, const std::filesystem::path& folder, const std::vector<CaseFile>& cases,
-                const std::function<void(const NamedResult&)>& tell, const std::function<void()>& go_on) {
-    std::vector<CaseFile> left = cases;
-    const auto fail = [&](const CaseFile& file, std::string why) {
-        NamedResult failed{file.name, {}};
-        failed.result.outcome = CaseOutcome::failed;
-        failed.result.message = std::move(why);
-        tell(failed);
-    };
-    while (!left.empty()) {
-        // One that is gone would be refused, and all others with it; of one whose name is no text no line could tell.
-        std::erase_if(left, [&](const CaseFile& file) {
-            std::error_code ignored;
-            const bool is_there = std::filesystem::exists(file.file, ignored);
-            if (!is_there) fail(file, file.file.string() + " is gone; draw all again");
-            const bool is_text = is_utf8(file.name);
-            if (is_there && !is_text) fail(file, file.file.string() + ": the name is not UTF-8; rename the file");
-            return !is_there || !is_text;
-        });
-        if (left.empty()) return;
-        std::vector<std::string> arguments = arguments_of(drawer, folder);
-        for (const CaseFile& file : left) arguments.push_back(file.name);
-        TestProcess process(drawer.program, std::move(arguments));
-        while (!left.empty()) {
-            const std::optional<std::string> line = process.next_line(go_on);
-            if (!line) break;
-            NamedResult result;
-            try {
-                result = read_result_line(*line, cases);
-            } catch (const InputError&) {
-                break;  // what it says is cut off
-            }
-            // A pattern in the name of one case may mean others too.
-            if (std::erase_if(left, [&](const CaseFile& file) { return file.name == result.name; }) > 0) tell(result);
-        }
-        if (left.empty()) return;
-        const CaseFile blamed = left.front();
-        left.erase(left.begin());
-        fail(blamed, "mobbscope test " + process.end());
+int default_jobs() {
+    constexpr int kMost = 8;  // each takes some 250 MB, and Mesa draws with threads of its own
+    return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMost);
+}
+
+std::vector<std::string> draw_cases(const CaseDrawer& drawer, const std::filesystem::path& folder,
+                                    std::span<const CaseOrder> orders,
+                                    const std::function<void(const CaseResult&)>& tell,
+                                    const std::function<void()>& go_on) {
+    CaseProcesses processes(drawer, folder, orders, tell);
+    while (processes.work()) {
+        go_on();
+        processes.wait();
     }
+    return processes.end();
 }
 
 std::string test_command_line(const CaseDrawer& drawer, const std::filesystem::path& folder, const std::string& name) {

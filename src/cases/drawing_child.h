@@ -1,12 +1,13 @@
-/// Cases drawn by `mobbscope test` in a process of its own: its pictures are those of the command line, and a case that
-/// crashes takes nothing with it.
+/// Cases drawn by processes of `mobbscope test`: a case that crashes or does not end takes nothing with it. The command
+/// and the window's review draw in this way alone, so that their pictures are the same.
 #pragma once
 
 #include <cases/case_file.h>
-#include <cases/result_line.h>
+#include <cases/case_result.h>
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,13 +17,25 @@ namespace mobbscope::picture_tests {
 struct CaseDrawer {
     std::filesystem::path program = "/proc/self/exe";
     std::string backend = "auto";  ///< as `mobbscope test --backend` takes it
+    int jobs = 0;                  ///< processes at a time; 0: default_jobs()
 };
 
-/// Draws the cases, in this order, and tells of each as it is there; of one that ends the process that it failed.
-/// `go_on` is asked several times a second; when it throws, the process is ended and the exception goes on. Throws
-/// MachineError if no process can be started.
-void draw_cases(const CaseDrawer& drawer, const std::filesystem::path& folder, const std::vector<CaseFile>& cases,
-                const std::function<void(const NamedResult&)>& tell, const std::function<void()>& go_on);
+/// As many as there are processors for this program, at most 8.
+int default_jobs();
+
+struct CaseOrder {
+    CaseFile file;
+    RunOptions options{};
+};
+
+/// Draws the cases and tells of each as it is there, in any order; of one that ends its process or takes longer than
+/// it may (CaseTerms::time_limit) that it failed, and the others go on in a new process. `go_on` is asked several times
+/// a second; when it or `tell` throws, the processes are ended and the exception goes on. Returns what went wrong
+/// outside of cases, one line each. Throws MachineError if no process can be started.
+std::vector<std::string> draw_cases(const CaseDrawer& drawer, const std::filesystem::path& folder,
+                                    std::span<const CaseOrder> orders,
+                                    const std::function<void(const CaseResult&)>& tell,
+                                    const std::function<void()>& go_on);
 
 /// The command line that draws a case as draw_cases does, ready for a shell.
 std::string test_command_line(const CaseDrawer& drawer, const std::filesystem::path& folder, const std::string& name);

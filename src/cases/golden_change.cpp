@@ -48,6 +48,7 @@ std::vector<GoldenChange> taken_back(std::span<const GoldenChange> changes) {
 
 void write_goldens(std::span<const GoldenChange> changes) {
     for (const GoldenChange& change : changes) {
+        check_stays_in_folder(change.file);
         if (golden_bytes(change.file) == change.replaces) continue;
         throw InputError(change.file.string(), "",
                          "has changed on the disk since the case was drawn; run the case again and look at it");

@@ -23,7 +23,8 @@ std::optional<std::string> golden_bytes(const std::filesystem::path& file);
 std::vector<GoldenChange> taken_back(std::span<const GoldenChange> changes);
 
 /// Makes all these changes or none of them, each file whole. Throws InputError if a file is no longer what its change
-/// takes the place of, MachineError if one cannot be written; it names those that could not be put back then.
+/// takes the place of, or is a link that leads out of its folder, MachineError if one cannot be written; it names those
+/// that could not be put back then.
 void write_goldens(std::span<const GoldenChange> changes);
 
 }  // namespace mobbscope::picture_tests

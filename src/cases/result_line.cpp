@@ -8,9 +8,11 @@
 #include <render/image/png.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace mobbscope::picture_tests {
 
@@ -23,9 +25,9 @@ std::optional<std::string> packed(const std::optional<std::string>& bytes) {
     return base64(*bytes);
 }
 
-std::optional<std::string> packed(const Image& image) {
-    if (image.rgba.empty()) return std::nullopt;
-    return base64(png_bytes(image));
+std::optional<std::string> packed_picture(const std::string& png) {
+    if (png.empty()) return std::nullopt;
+    return base64(png);
 }
 
 std::optional<std::string> unpacked(const JsonPlace& place) {
@@ -62,37 +64,70 @@ Value named(const JsonPlace& place, const FromName& from_name) {
     return *value;
 }
 
-DiffFigures read_figures(const JsonPlace& place) {
-    DiffFigures out;
+std::int64_t read_count(const JsonPlace& place) { return static_cast<std::int64_t>(place.number(0, kMostPixels)); }
+
+PictureSize read_picture_size(const JsonPlace& place) {
+    place.require_size(2, "the width and the height");
+    return {place[0].integer(0, kMaxInt), place[1].integer(0, kMaxInt)};
+}
+
+std::optional<PixelRect> read_bounds(const JsonPlace& place) {
+    if (place.is_null()) return std::nullopt;
+    return PixelRect{place.require("x").integer(0, kMaxInt), place.require("y").integer(0, kMaxInt),
+                     place.require("width").integer(0, kMaxInt), place.require("height").integer(0, kMaxInt)};
+}
+
+/// As write_diff writes it.
+ImageDiff read_diff(const JsonPlace& place) {
+    ImageDiff out;
+    out.same = place.require("same").boolean();
+    out.passes = place.require("passes").boolean();
     out.same_size = place.require("same_size").boolean();
-    out.pixels = static_cast<std::int64_t>(place.require("pixels").number(0, kMostPixels));
-    out.differing = static_cast<std::int64_t>(place.require("failing").number(0, kMostPixels));
+    const JsonPlace actual = place.require("size_a"), reference = place.require("size_b");
+    out.actual_size = read_picture_size(actual);
+    out.reference_size = read_picture_size(reference);
+    out.pixels = read_count(place.require("pixels"));
+    out.unequal = read_count(place.require("unequal"));
+    out.differing = read_count(place.require("failing"));
     out.largest = place.require("maximum").integer(0, 255);
     out.mean = place.require("mean").number(0, 255);
+    const JsonPlace unequal_bounds = place.require("unequal_bounds"), bounds = place.require("bounds");
+    out.unequal_bounds = read_bounds(unequal_bounds);
+    out.bounds = read_bounds(bounds);
+    const JsonPlace histogram = place.require("histogram");
+    histogram.require_size(static_cast<int>(out.histogram.size()), "the pixels of each difference");
+    for (std::size_t i = 0; i < out.histogram.size(); ++i) {
+        out.histogram[i] = read_count(histogram[static_cast<int>(i)]);
+    }
     out.options.channel_tolerance = place.require("threshold").number(0, 255);
     out.options.pixel_fraction = place.require("allowed").number(0, 1);
-    out.options.least_pixels = static_cast<std::int64_t>(place.require("least_pixels").number(0, kMostPixels));
+    out.options.least_pixels = read_count(place.require("least_pixels"));
     out.options.shift = place.require("shift").integer(0, 1);
     return out;
 }
 
 }  // namespace
 
-DiffFigures figures_of(const ImageDiff& diff) {
-    return {diff.same_size, diff.pixels, diff.differing, diff.largest, diff.mean, diff.options};
-}
-
-void write_result(JsonWriter& json, const CaseResult& result, const DrawnBy& drawn_by, Pictures pictures) {
+void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures) {
     json.begin_object(JsonWriter::Layout::row);
     json.member("name", result.file.name);
     json.member("outcome", name(result.outcome));
     json.member("message", result.message);
     json.values("remarks", result.remarks);
+    if (pictures == Pictures::all) {
+        json.member("seconds", result.seconds);
+        std::vector<std::string> read;
+        for (const std::filesystem::path& file : result.read) {
+            if (is_utf8(file.string())) read.push_back(file.string());
+        }
+        if (!read.empty()) json.values("read", read);
+    }
     json.member("tolerance", name(result.tolerance));
     json.member("decided_by", name(result.decided_by));
     json.member("other_here", result.other_here);
-    json.member("backend", drawn_by.backend);
-    json.member("renderer", drawn_by.renderer);
+    json.member("backend", result.drawn_by.backend);
+    json.member("renderer", result.drawn_by.renderer);
+    json.member("opengl", result.drawn_by.opengl);
     json.key("diff");
     if (result.image) {
         write_diff(json, *result.image);
@@ -109,8 +144,8 @@ void write_result(JsonWriter& json, const CaseResult& result, const DrawnBy& dra
     json.member("shown", result.shown.empty() ? "" : result.file.ending_of(result.shown));
     json.member("mask", result.mask ? std::optional(mask_name(result)) : std::nullopt);
     const bool there_already = pictures == Pictures::not_in_fresh && shown_change(result.fresh, result.shown);
-    json.member("actual", there_already ? std::nullopt : packed(result.actual));
-    json.member("golden", there_already ? std::nullopt : packed(result.golden));
+    json.member("actual", there_already ? std::nullopt : packed_picture(result.actual));
+    json.member("golden", there_already ? std::nullopt : packed_picture(result.golden));
     json.list("fresh", result.fresh, [&](const GoldenChange& fresh) {
         json.begin_object();
         json.member("golden", result.file.ending_of(fresh.file));
@@ -121,22 +156,28 @@ void write_result(JsonWriter& json, const CaseResult& result, const DrawnBy& dra
     json.end_object();
 }
 
-NamedResult read_result(const JsonPlace& root, const std::vector<CaseFile>& cases) {
-    NamedResult out;
-    out.name = root.require("name").string();
-    const auto file = std::ranges::find(cases, out.name, &CaseFile::name);
-    if (file == cases.end()) root.require("name").fail(in_quotes(out.name) + " is none of the cases");
-    PackedResult& result = out.result;
+CaseResult read_result(const JsonPlace& root, const std::vector<CaseFile>& cases) {
+    const JsonPlace named_case = root.require("name");
+    const std::string& of = named_case.string();
+    const auto file = std::ranges::find(cases, of, &CaseFile::name);
+    if (file == cases.end()) named_case.fail(in_quotes(of) + " is none of the cases");
+    CaseResult result;
+    result.file = *file;
     result.outcome = named<CaseOutcome>(root.require("outcome"), outcome_from_name);
     result.message = root.require("message").string();
     const JsonPlace remarks = root.require("remarks");
     for (int i = 0; i < remarks.size(); ++i) result.remarks.push_back(remarks[i].string());
+    if (const auto seconds = root.find("seconds")) result.seconds = seconds->number();
+    if (const auto read = root.find("read")) {
+        for (int i = 0; i < read->size(); ++i) result.read.emplace_back((*read)[i].string());
+    }
     result.tolerance = named<Tolerance>(root.require("tolerance"), tolerance_from_name);
     result.decided_by = named<DecidedBy>(root.require("decided_by"), decided_by_from_name);
     result.other_here = root.require("other_here").string();
     result.drawn_by = {root.require("backend").string(), root.require("renderer").string()};
+    if (const auto opengl = root.find("opengl")) result.drawn_by.opengl = opengl->string();
     const JsonPlace diff = root.require("diff");
-    if (!diff.is_null()) result.figures = read_figures(diff);
+    if (!diff.is_null()) result.image = read_diff(diff);
     const JsonPlace findings = root.require("findings");
     for (int i = 0; i < findings.size(); ++i) {
         const JsonPlace finding = findings[i];
@@ -163,18 +204,42 @@ NamedResult read_result(const JsonPlace& root, const std::vector<CaseFile>& case
     result.actual = unpacked(actual).value_or(there_already ? there_already->bytes.value_or("") : "");
     result.golden =
         unpacked(golden).value_or(there_already && actual.is_null() ? there_already->replaces.value_or("") : "");
-    return out;
+    return result;
 }
 
-void write_result_line(std::ostream& out, const CaseResult& result, const DrawnBy& drawn_by) {
+void write_result_line(std::ostream& out, const CaseResult& result) {
     JsonWriter json(out);
-    write_result(json, result, drawn_by, Pictures::all);
+    write_result(json, result, Pictures::all);
 }
 
-NamedResult read_result_line(std::string_view line, const std::vector<CaseFile>& cases) {
+CaseResult read_result_line(std::string_view line, const std::vector<CaseFile>& cases) {
     const std::string name = "a result";
     const JsonValue value = parse_json(line, name);
     return read_result(JsonPlace(value, name), cases);
+}
+
+std::string request_line(const CaseRequest& request) {
+    std::ostringstream out;
+    JsonWriter json(out);
+    json.begin_object(JsonWriter::Layout::row);
+    json.member("name", request.name);
+    json.member("source", kGoldenSources[static_cast<std::size_t>(request.options.source)]);
+    json.member("fresh", kFreshGoldens[static_cast<std::size_t>(request.options.fresh)]);
+    json.end_object();
+    return out.str();
+}
+
+CaseRequest read_request_line(std::string_view line) {
+    const std::string name = "a request";
+    const JsonValue value = parse_json(line, name);
+    const JsonPlace root(value, name);
+    CaseRequest out{root.require("name").string()};
+    const JsonPlace source = root.require("source"), fresh = root.require("fresh");
+    out.options.source = named<GoldenSource>(
+        source, [](std::string_view text) { return enumerator_named<GoldenSource>(kGoldenSources, text); });
+    out.options.fresh = named<FreshGoldens>(
+        fresh, [](std::string_view text) { return enumerator_named<FreshGoldens>(kFreshGoldens, text); });
+    return out;
 }
 
 }  // namespace mobbscope::picture_tests

@@ -119,12 +119,6 @@ struct Findings {
         };
         return plan_conflicts(placed(conflict.a), placed(conflict.b));
     }
-
-    double seconds() const {
-        double sum = 0;
-        for (const PeopleConflict& conflict : conflicts.found) sum += conflict.seconds();
-        return sum;
-    }
 };
 
 void write_plan_conflicts(JsonWriter& out, const std::vector<PlanConflict>& found) {
@@ -146,10 +140,12 @@ void write_json(const Findings& findings) {
     out.member("t0", findings.t0());
     out.member("agents", findings.people.count());
     out.member("radius", common_radius(findings.scene));
-    out.member("pairs", findings.conflicts.pairs);
-    out.member("pairs_tested", findings.conflicts.pairs_tested);
-    out.member("seconds", findings.seconds());
-    out.list("conflicts", findings.conflicts.found, [&](const PeopleConflict& conflict) {
+    out.member("pairs", findings.conflicts.pairs());
+    out.member("pairs_tested", findings.conflicts.pairs_tested());
+    out.member("seconds", findings.conflicts.seconds());
+    out.begin_array("conflicts");
+    for (std::size_t i = 0; i < findings.conflicts.size(); ++i) {
+        const PeopleConflict conflict = findings.conflicts[i];
         const Conflict& deepest = conflict.deepest;
         const glm::dvec2 position = findings.position(deepest);
         out.begin_object(Layout::row);
@@ -165,7 +161,8 @@ void write_json(const Findings& findings) {
         out.member("position", {position.x, position.y});
         if (findings.of_plan(deepest)) write_plan_conflicts(out, findings.in_plan(deepest));
         out.end_object();
-    });
+    }
+    out.end_array();
     out.end_object();
 }
 
@@ -190,7 +187,9 @@ std::string plan_conflicts_in_words(const std::vector<PlanConflict>& found) {
 }
 
 void print_text(const Findings& findings) {
-    for (const PeopleConflict& conflict : findings.conflicts.found) {
+    const PeopleConflicts& conflicts = findings.conflicts;
+    for (std::size_t i = 0; i < conflicts.size(); ++i) {
+        const PeopleConflict conflict = conflicts[i];
         const Conflict& deepest = conflict.deepest;
         const glm::dvec2 position = findings.position(deepest);
         std::cout << cleaned(findings.people.name(conflict.a)) << " and " << cleaned(findings.people.name(conflict.b))
@@ -205,9 +204,8 @@ void print_text(const Findings& findings) {
                   << findings.b_sample(deepest)
                   << (findings.of_plan(deepest) ? plan_conflicts_in_words(findings.in_plan(deepest)) : "") << '\n';
     }
-    const PeopleConflicts& conflicts = findings.conflicts;
-    std::cout << conflict_count(conflicts.found.size(), findings.people.count(), findings.seconds()) << "; "
-              << conflicts.pairs_tested << " of " << counted(conflicts.pairs, "pair", "pairs") << " tested\n";
+    std::cout << conflict_count(conflicts.size(), findings.people.count(), conflicts.seconds()) << "; "
+              << conflicts.pairs_tested() << " of " << counted(conflicts.pairs(), "pair", "pairs") << " tested\n";
 }
 
 void run_conflicts(const ConflictsCommandArguments& arguments, int& status) {
@@ -217,12 +215,12 @@ void run_conflicts(const ConflictsCommandArguments& arguments, int& status) {
     std::vector<mobb::PlacedTree> crowd;
     for (const PlacedAgent& who : scene.placed_agents()) crowd.push_back(scene.placed(who));
     const People people(scene.scene());
-    const PeopleConflicts conflicts =
-        find_people_conflicts(crowd, people.of_agents(), arguments.fit.brute ? Search::direct : Search::trees);
+    const PeopleConflicts conflicts = find_people_conflicts(
+        crowd, people.of_agents(), arguments.fit.brute ? Search::direct : Search::trees, tell("tested", "pairs"));
     const Findings findings{scene.scene(), people, crowd, conflicts};
     arguments.json ? write_json(findings) : print_text(findings);
     flush_results();
-    if (arguments.check && !conflicts.found.empty()) status = kFailed;
+    if (arguments.check && !conflicts.empty()) status = kFailed;
 }
 
 }  // namespace

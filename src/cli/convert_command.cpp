@@ -180,6 +180,7 @@ void run_convert(const ConvertCommandArguments& arguments) {
                          "--agent writes what one agent plays, as .bvh or .glb; rename the output");
     }
     const Scene scene = load(arguments.file, arguments.import_options);
+    check_output(arguments.out);
     if (motion) {
         write_motion(scene, *motion, arguments);
         return;

@@ -47,9 +47,6 @@ void check_picture_name(const std::optional<std::filesystem::path>& output) {
 
 void check_outputs(const DiffCommandArguments& arguments) {
     OutputCheck files;
-    files.reads(arguments.a);
-    files.reads(arguments.b);
-    if (arguments.mask) files.reads(*arguments.mask);
     if (arguments.heat) files.writes({*arguments.heat, {}, {}});
     if (arguments.strip) files.writes({*arguments.strip, {}, {}});
 }
@@ -61,11 +58,21 @@ Image strip_of(const DiffCommandArguments& arguments, const Image& a, const Imag
     return at_place(arguments.strip->string(), "", [&] { return make_strip(pictures); });
 }
 
+/// Both or none.
 void write_pictures(const DiffCommandArguments& arguments, const Image& a, const Image& b, const ImageDiff& found) {
-    if (arguments.strip) write_png(*arguments.strip, strip_of(arguments, a, b, found));
-    if (!arguments.heat) return;
-    if (found.same_size) return write_png(*arguments.heat, found.heat);
-    warn(arguments.heat->string() + ": not written, as pictures of two sizes have no heat map");
+    std::string strip, heat;
+    std::vector<FileBytes> files;
+    if (arguments.heat && found.same_size) {
+        heat = png_bytes(found.heat);
+        files.push_back({*arguments.heat, heat});
+    }
+    if (arguments.strip) {
+        strip = png_bytes(strip_of(arguments, a, b, found));
+        files.push_back({*arguments.strip, strip});
+    }
+    write_files(files);
+    if (arguments.heat && !found.same_size)
+        warn(arguments.heat->string() + ": not written, as pictures of two sizes have no heat map");
 }
 
 int run_diff(const DiffCommandArguments& arguments) {

@@ -53,7 +53,7 @@ void check_patterns(const picture_tests::CaseReport& read, const std::vector<std
     for (const std::string& pattern : patterns) {
         const auto is_named = [&](const std::string& name) { return matches_any({pattern}, name); };
         if (std::ranges::any_of(read.unknown, is_named) ||
-            std::ranges::any_of(read.results, is_named, &picture_tests::NamedResult::name))
+            std::ranges::any_of(read.results, is_named, [](const CaseResult& one) { return one.file.name; }))
             continue;
         throw InputError(read.file.string(), "",
                          in_quotes(pattern) + " passed there, or was not drawn; leave it out, or name another");
@@ -86,18 +86,12 @@ void take_asked(std::span<CaseResult> results, const std::filesystem::path& fold
     }
 }
 
-void check_references(const std::filesystem::path& folder, const std::vector<CaseFile>& cases,
-                      const picture_tests::Reference& here) {
-    for (const std::filesystem::path& of_cases : folders_of(cases)) {
-        const std::optional<picture_tests::Reference> reference = picture_tests::read_reference(of_cases);
-        const std::string other = reference ? picture_tests::what_is_other(here, *reference) : "";
-        if (other.empty()) continue;
-        throw InputError("--update: " + picture_tests::reference_file(of_cases).string() +
-                         " says where the goldens are from, and here are " + other +
-                         "; take them there, or from the report of a job there with mobbscope test " +
-                         shell_word(folder.string()) +
-                         " --accept REPORT, or all anew with --update all --new-reference");
-    }
+void check_is_from_here(const std::filesystem::path& folder, const CaseResult& result) {
+    if (result.other_here.empty()) return;
+    throw InputError("--update: " + picture_tests::reference_file(result.file.file.parent_path()).string() +
+                     " says where the goldens are from, and here are " + result.other_here +
+                     "; take them there, or from the report of a job there with mobbscope test " +
+                     shell_word(folder.string()) + " --accept REPORT, or all anew with --update all --new-reference");
 }
 
 void take_as_reference(std::vector<CaseResult>& results, const std::vector<CaseFile>& cases,
@@ -132,18 +126,17 @@ bool take_report(const std::filesystem::path& report, const std::vector<CaseFile
         if (!is_meant(name)) continue;
         leave_out(name, "there is no such case");
     }
-    for (const picture_tests::NamedResult& one : read.results) {
-        if (!is_meant(one.name)) continue;
-        if (one.result.fresh.empty()) {
-            leave_out(one.name, "there is no picture of it: " + one.result.message);
+    for (const CaseResult& one : read.results) {
+        if (!is_meant(one.file.name)) continue;
+        if (one.fresh.empty()) {
+            leave_out(one.file.name, "there is no picture of it: " + one.message);
             continue;
         }
-        if (!one.result.other_here.empty()) {
-            warn(one.name + ": the report is not from where its goldens are: it was drawn with " +
-                 one.result.other_here);
+        if (!one.other_here.empty()) {
+            warn(one.file.name + ": the report is not from where its goldens are: it was drawn with " + one.other_here);
         }
         ++taken;
-        for (const GoldenChange& change : one.result.fresh) {
+        for (const GoldenChange& change : one.fresh) {
             // Whoever accepts twice has it already.
             if (picture_tests::golden_bytes(change.file) != change.bytes) changes.push_back(change);
         }

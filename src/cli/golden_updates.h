@@ -25,9 +25,8 @@ void take_named(std::span<picture_tests::CaseResult> results, const std::vector<
 /// MachineError.
 void take_asked(std::span<picture_tests::CaseResult> results, const std::filesystem::path& folder, std::ostream& say);
 
-/// Throws InputError if the goldens of a case are from elsewhere: one taken here would be the odd one.
-void check_references(const std::filesystem::path& folder, const std::vector<picture_tests::CaseFile>& cases,
-                      const picture_tests::Reference& here);
+/// Throws InputError if the goldens of a case of the folder are from elsewhere: one taken here would be the odd one.
+void check_is_from_here(const std::filesystem::path& folder, const picture_tests::CaseResult& result);
 
 /// All goldens become what is drawn here, and their folders say so; nothing is taken if a case cannot be drawn.
 void take_as_reference(std::vector<picture_tests::CaseResult>& results,

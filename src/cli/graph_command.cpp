@@ -11,8 +11,6 @@
 #include <render/pictures/graph_picture.h>
 #include <scene/motion_graph.h>
 
-#include <unistd.h>
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -53,19 +51,6 @@ struct DrawArguments {
     Backend backend = Backend::automatic;
 };
 
-/// Tells a person who waits how far the work is; a script's log stays empty.
-Progress tell(const std::string& doing, const std::string& things) {
-    using Clock = std::chrono::steady_clock;
-    const auto said = std::make_shared<Clock::time_point>(Clock::now());
-    const bool watched = ::isatty(STDERR_FILENO) == 1;
-    return [=](std::size_t done, std::size_t all) {
-        constexpr std::chrono::seconds kPause{2};
-        if (!watched || Clock::now() - *said < kPause) return;
-        *said = Clock::now();
-        complain(doing + ' ' + std::to_string(done) + " of " + std::to_string(all) + ' ' + things);
-    };
-}
-
 std::string moves_text(std::size_t count) { return counted(count, "move", "moves"); }
 
 std::string hubs_text(std::size_t count) { return counted(count, "hub", "hubs"); }
@@ -85,6 +70,10 @@ void print_report(const BuildReport& report) {
     }
     if (report.without_joints > 0) {
         warn(counted(report.without_joints, "clip has", "clips have") + " no joints, and no part in the graph");
+    }
+    if (report.too_long > 0) {
+        warn(counted(report.too_long, "clip has", "clips have") +
+             " too many samples to keep the joints of each, and no part in the graph; lower --fps");
     }
 }
 
@@ -108,11 +97,12 @@ void warn_of_left_out(const std::vector<std::string>& left_out, std::size_t file
 int build(const BuildArguments& arguments) {
     check_file_name(arguments.out);
     check_extension(arguments.out, ".json", "a graph is written as .json; rename the output");
-    check_writable(arguments.out);
+    check_output(arguments.out);
     const auto files = clip_files(arguments.places);
     Recordings recordings =
         load_recordings(files, arguments.out, arguments.import_options, arguments.strict, tell("read", "files"));
     warn_of_left_out(recordings.left_out, files.size());
+    check_output(arguments.out);  // again: now the files are known
     const std::string place = place_of(arguments.places);
     BuiltGraph built = arguments.whole
                            ? whole_graph(std::move(recordings.scene))
@@ -156,11 +146,17 @@ int info(const InfoArguments& arguments) {
 void draw(const DrawArguments& arguments) {
     check_file_name(arguments.out);
     check_extension(arguments.out, ".png", "a picture is written as .png; rename the output");
-    check_writable(arguments.out);
     const Scene scene = load_graph(arguments.file);
+    check_output(arguments.out);
     const DrawList list = graph_picture(scene, arguments.size, arguments.theme, arguments.scale);
     Renderer renderer(arguments.backend);
     write_png(arguments.out, renderer.draw(list));
+}
+
+PictureSize parse_drawn_size(const std::string& text) {
+    const PictureSize size = parse_size(text);
+    check(PictureOptions{.size = size});
+    return size;
 }
 
 /// "1:4" in seconds.
@@ -234,7 +230,7 @@ void add_draw(Command& graph) {
         const auto arguments = std::make_shared<DrawArguments>();
         add_parsed(command, "GRAPH", arguments->file, parse_file_name, "A scene with a motion graph", "").required();
         command.add_option("-o,--output", arguments->out, "The picture", "OUT.png").required();
-        add_parsed(command, "--size", arguments->size, parse_size, "In pixels (1280x720)", "WxH");
+        add_parsed(command, "--size", arguments->size, parse_drawn_size, "In pixels (1280x720)", "WxH");
         add_parsed(command, "--scale", arguments->scale, number_within(kLeastScale, kMostScale),
                    "Of text and lines; by itself it suits the size", "X");
         add_parsed(command, "--theme", arguments->theme, one_of(theme_from_name, "dark, light"), "dark or light",

@@ -157,7 +157,7 @@ void print_clips(const Scene& scene) {
 void run_info(const InfoCommandArguments& arguments) {
     std::vector<Scene> scenes;
     for (const std::filesystem::path& file : arguments.files)
-        scenes.push_back(load_scene(file, arguments.import_options));
+        scenes.push_back(load_scene(file, arguments.import_options, tell("read", "clips")));
     JsonWriter json(std::cout);
     if (arguments.json) {
         json.begin_object();

@@ -1,8 +1,11 @@
 // mobbscope: see and debug bounding-volume trees in space-time.
 #include <base/error.h>
+#include <base/file.h>
+#include <base/threads.h>
 #include <cli/command_line.h>
 #include <cli/program.h>
 #include <cli/window_command.h>
+#include <render/gl/driver_watch.h>
 
 #include <malloc.h>
 
@@ -12,6 +15,7 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <system_error>
 
 namespace mobbscope::cli {
 
@@ -26,6 +30,25 @@ void keep_freed_memory() {
     mallopt(M_TRIM_THRESHOLD, 2 * kLargestKept);
     mallopt(M_TOP_PAD, 1 << 20);
 #endif
+}
+
+bool is_lack_of_threads(const std::exception& error) {
+    const auto* system = dynamic_cast<const std::system_error*>(&error);
+    return system && system->code() == std::errc::resource_unavailable_try_again;
+}
+
+/// Ends by the signal, without the files that are being written.
+void end_by_signal(int signal) {
+    remove_unfinished_files();
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+}
+
+void leave_no_unfinished_files() {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        // Whoever ignores one, as nohup does, goes on.
+        if (std::signal(signal, end_by_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
+    }
 }
 
 int run(int argc, char** argv) {
@@ -72,6 +95,10 @@ int main(int argc, char** argv) {
     // A reader that goes away and a file that may not grow are errors to report, not signals to die of.
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
+    // Who is started with it ignored would never hear how a child ended.
+    std::signal(SIGCHLD, SIG_DFL);
+    watch_drivers({cli::complain, end_worker_threads, cli::kNoMachine});
+    cli::leave_no_unfinished_files();
     try {
         return cli::run(argc, argv);
     } catch (const InputError& error) {
@@ -84,7 +111,9 @@ int main(int argc, char** argv) {
         cli::complain("there is not enough memory for this");
         return cli::kNoMachine;
     } catch (const std::exception& error) {
-        cli::complain(std::string("this should not happen, please report it: ") + error.what());
+        cli::complain(cli::is_lack_of_threads(error)
+                          ? "the system starts no more threads or processes; end some, or raise the limit (ulimit -u)"
+                          : std::string("this should not happen, please report it: ") + error.what());
         return cli::kNoMachine;
     }
 }

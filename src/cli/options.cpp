@@ -7,8 +7,11 @@
 #include <scene/crowd_run.h>
 #include <scene/load_files.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <limits>
 #include <memory>
 #include <system_error>
@@ -183,7 +186,7 @@ void add_fitted_options(Command& command, FittedArguments& arguments, const std:
 
 FittedScene fitted(Scene scene, const FitArguments& arguments) {
     const mobb::FitOptions options = arguments.over(scene.fit);
-    return {std::move(scene), options};
+    return {std::move(scene), options, nullptr, tell("fitted", "clips")};
 }
 
 std::filesystem::path parse_file_name(const std::string& text) {
@@ -218,8 +221,20 @@ std::uint64_t parse_seed(const std::string& text) {
     return seed;
 }
 
+Progress tell(const std::string& doing, const std::string& things) {
+    using Clock = std::chrono::steady_clock;
+    const auto said = std::make_shared<Clock::time_point>(Clock::now());
+    // A script's log stays short, and yet shows that something is done.
+    const std::chrono::seconds pause(::isatty(STDERR_FILENO) == 1 ? 2 : 8);
+    return [=](std::size_t done, std::size_t all) {
+        if (Clock::now() - *said < pause) return;
+        *said = Clock::now();
+        say(doing + ' ' + std::to_string(done) + " of " + std::to_string(all) + ' ' + things);
+    };
+}
+
 Scene load(const std::filesystem::path& file, const ImportOptions& options, RadiusOf radius) {
-    Scene scene = load_scene(file, options);
+    Scene scene = load_scene(file, options, tell("read", "clips"));
     const auto has_source = [](const SceneClip& clip) { return clip.source.has_value(); };
     ImportOptions for_sources = options;
     if (radius == RadiusOf::every_clip && options.radius) {

@@ -81,6 +81,9 @@ auto one_of(Find find, const char* allowed) {
 /// Which clips the radius of the import options is for.
 enum class RadiusOf { imported_clips, every_clip };
 
+/// Tells how far the work is: a person every 2 s, a script every 8 s.
+Progress tell(const std::string& doing, const std::string& things);
+
 /// load_scene, with its warnings on standard error. Throws InputError.
 Scene load(const std::filesystem::path& file, const ImportOptions& options, RadiusOf radius = RadiusOf::imported_clips);
 

@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <iostream>
 #include <system_error>
 
@@ -32,25 +33,19 @@ void flush_results() {
 
 namespace fs = std::filesystem;
 
-fs::path meant(const fs::path& file) {
-    // A bare name has no folder of its own until it is made absolute.
-    const fs::path absolute = fs::absolute(file);
-    std::error_code error;
-    const fs::path target = fs::weakly_canonical(absolute, error);
-    return error ? absolute : target;
-}
-
 void check_extension(const fs::path& file, std::string_view extension, const std::string& message) {
     if (!file.empty() && lower_extension(file) != extension) throw InputError(file.string(), "", message);
 }
 
-void check_writable(const fs::path& output) {
+void check_output(const fs::path& output) {
+    check_not_read(output);
     const auto refuse = [&](const std::string& why) {
         throw MachineError(output.string() + ": cannot be written: " + why);
     };
     std::error_code error;
     if (fs::is_directory(output, error)) refuse("is a folder");
     const fs::path target = meant(output);
+    if (target.is_relative()) refuse("the present folder is gone; change to another, or give the whole name");
     const fs::path folder = target.parent_path();
     if (!fs::is_directory(folder, error)) refuse("there is no folder " + in_quotes(folder.string()));
     const bool there = fs::exists(target, error);

@@ -32,15 +32,12 @@ class UsageError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The file that a name means, through links; the name itself where that cannot be told.
-std::filesystem::path meant(const std::filesystem::path& file);
-
 /// Throws InputError with this message unless the file has the extension; one that is not named passes.
 void check_extension(const std::filesystem::path& file, std::string_view extension, const std::string& message);
 
-/// Throws MachineError, saying why, if a file cannot be written there; a pipe or a device may be. Writes
-/// nothing.
-void check_writable(const std::filesystem::path& output);
+/// Throws InputError if a file is one that was read, and MachineError, saying why, if it cannot be written there; a
+/// pipe or a device may be. Writes nothing. What writes a file asks this when all is read.
+void check_output(const std::filesystem::path& output);
 
 class Command;
 

@@ -47,31 +47,15 @@ RenderOutputs numbered(const RenderOutputs& outputs, int number, int digits) {
             numbered(outputs.draw_list, number, digits)};
 }
 
-void OutputCheck::reads(const fs::path& file) { sources_.push_back(file); }
-
-void OutputCheck::reads(const Scene& scene) {
-    reads(scene.file);
-    for (const SceneClip& clip : scene.clips) {
-        if (clip.source) reads(scene.file.parent_path() / *clip.source);
-    }
-}
-
 void OutputCheck::writes(const RenderOutputs& outputs) {
     for (const fs::path& output : outputs.all()) {
+        check_output(output);
         std::error_code ignored;
-        // Most outputs are new: those replace nothing.
-        const bool there = fs::exists(output, ignored);
-        for (const fs::path& source : sources_) {
-            if (!there || !fs::equivalent(output, source, ignored)) continue;
-            throw InputError(output.string(), "",
-                             "the picture would replace " + in_quotes(source.string()) +
-                                 ", which it is made from; give another output");
-        }
-        const bool stream = there && !fs::is_regular_file(output, ignored) && !fs::is_directory(output, ignored);
+        const fs::file_status status = fs::status(output, ignored);
+        const bool stream = fs::exists(status) && !fs::is_regular_file(status);
         if (!stream && !written_.insert(meant(output).string()).second) {
             throw InputError(output.string(), "", "would be written twice; give each output a name of its own");
         }
-        check_writable(output);
     }
 }
 

@@ -1,8 +1,6 @@
 /// The files that `render` writes, and that it writes nothing else.
 #pragma once
 
-#include <scene/scene.h>
-
 #include <filesystem>
 #include <string>
 #include <unordered_set>
@@ -27,20 +25,14 @@ void check_names(const RenderOutputs& outputs);
 /// "walk.png" as "walk_0012.png".
 RenderOutputs numbered(const RenderOutputs& outputs, int number, int digits);
 
-/// Watches over all files of a run, before the first is written.
+/// Watches over all outputs of a run, when all is read and before the first is written.
 class OutputCheck {
   public:
-    /// A file that is read, and must not be replaced.
-    void reads(const std::filesystem::path& file);
-    /// A scene's file, and those that its clips come from.
-    void reads(const Scene& scene);
-
-    /// Throws InputError if a file is one that is read, or would be written twice; MachineError if it has nowhere to
-    /// go: better said before anything is drawn.
+    /// Throws as check_output does, and InputError if a file would be written twice: better said before anything is
+    /// drawn.
     void writes(const RenderOutputs& outputs);
 
   private:
-    std::vector<std::filesystem::path> sources_;
     std::unordered_set<std::string> written_;
 };
 

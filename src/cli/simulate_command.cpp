@@ -31,7 +31,7 @@ namespace mobbscope::cli {
 
 namespace {
 
-constexpr int kMostRecorded = 10'000'000;
+constexpr int kMostRecorded = 500'000;  // some 2 KB each, with what is written
 
 struct SimulateCommandArguments {
     std::filesystem::path graph;
@@ -73,6 +73,8 @@ Scene load_moves(const SimulateCommandArguments& arguments, Importer& importer) 
                          "there is no motion graph; make one with graph build, or give --whole, and every clip may "
                          "follow every other");
     }
+    const std::string why_too_long = why_moves_are_too_long(scene, *scene.graph);
+    if (!why_too_long.empty()) throw InputError(arguments.graph.string(), "", why_too_long);
     scene.view = {};
     scene.fit = arguments.fit.over(scene.fit);
     return scene;
@@ -86,27 +88,26 @@ void check_run_outputs(const SimulateCommandArguments& arguments) {
         throw InputError(arguments.record.string(), "", "-o and --record name the same file; rename one");
     }
     for (const std::filesystem::path& out : {arguments.out, arguments.record}) {
-        if (out.empty()) continue;
-        if (meant(out) == meant(arguments.graph)) {
-            throw InputError(out.string(), "", "it would replace the graph; rename it");
-        }
-        check_writable(out);
+        if (!out.empty()) check_output(out);
     }
 }
 
-/// Writes a scene; its relative sources lead where they led.
-void write_scene(Scene scene, const std::filesystem::path& file, bool inline_samples) {
+/// What a scene's file holds; its relative sources lead where they led.
+std::string text_for(Scene scene, const std::filesystem::path& file, bool inline_samples) {
     move_to_file(scene, file);
-    write_file(file, to_json(scene, inline_samples));
+    return to_json(scene, inline_samples);
 }
 
-/// A line on standard error for every tenth of a run.
+/// A line on standard error for every tenth of a run, and every few seconds of a slow one.
 class Report {
   public:
     explicit Report(double seconds) : seconds_(seconds) {}
 
     void operator()(const SimulationCounts& counts) {
-        if (counts.simulated < next_ * seconds_ / 10) return;
+        const bool is_slow = std::chrono::steady_clock::now() - said_ > std::chrono::seconds(5);
+        if (counts.simulated < next_ * seconds_ / 10 && !is_slow) return;
+        said_ = std::chrono::steady_clock::now();
+        if (counts.choices == 0) return say("placed " + counted(counts.agents, "agent", "agents"));
         next_ = std::floor(counts.simulated * 10 / seconds_) + 1;
         say("simulated " + brief(std::round(counts.simulated * 10) / 10) + " of " + brief(seconds_) +
             " s: " + std::to_string(counts.agents) + " agents, " + std::to_string(counts.choices) + " choices, " +
@@ -117,6 +118,7 @@ class Report {
   private:
     double seconds_;
     double next_ = 1;  ///< tenth
+    std::chrono::steady_clock::time_point said_ = std::chrono::steady_clock::now();
 };
 
 struct Summary {
@@ -188,14 +190,15 @@ void run_simulate(const SimulateCommandArguments& arguments) {
     check_run_outputs(arguments);
     Importer importer;
     Scene scene = load_moves(arguments, importer);
+    check_run_outputs(arguments);  // again: now all that is read is known
     const mobb::FitOptions fit = scene.fit;
     const FittedScene fitted(std::move(scene), fit);
     const MoveSet moves(fitted, arguments.turn_rate, queried_by(arguments.fit));
     std::optional<QuerySample> sample;
     if (!arguments.record.empty()) {
         const bool all = arguments.record_all_pairs || arguments.record_within;
-        sample.emplace(all ? Recorded::all : Recorded::asked, static_cast<std::size_t>(arguments.record_queries),
-                       arguments.options.seed,
+        const int most = arguments.record_queries > 0 ? arguments.record_queries : kMostRecorded;
+        sample.emplace(all ? Recorded::all : Recorded::asked, static_cast<std::size_t>(most), arguments.options.seed,
                        arguments.record_within.value_or(std::numeric_limits<double>::infinity()));
     }
     Summary summary;
@@ -205,13 +208,17 @@ void run_simulate(const SimulateCommandArguments& arguments) {
     summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     summary.counts = simulation.counts;
     summary.turn_rate = arguments.turn_rate;
+    std::string record;
     if (sample) {
         summary.recorded.emplace(sample->size(), sample->offered());
-        write_scene(sample->workload(moves), arguments.record, arguments.inline_samples);
+        record = text_for(sample->workload(moves), arguments.record, arguments.inline_samples);
     }
     const Scene played = scene_of_run(moves, std::move(simulation.run), TurnedSkeletons::left_out);
     summary.continuity = run_continuity(played, importer);
-    write_scene(played, arguments.out, arguments.inline_samples);
+    const std::string run = text_for(played, arguments.out, arguments.inline_samples);
+    std::vector<FileBytes> files{{arguments.out, run}};
+    if (sample) files.push_back({arguments.record, record});
+    write_files(files);
     arguments.json ? print_run_json(played, summary) : print_run_text(summary);
     flush_results();
 }
@@ -248,7 +255,7 @@ void add_simulate_command(Command& program) {
             const Option record = add_parsed(command, "--record", arguments->record, parse_file_name,
                                              "Queries that were asked, as a scene", "FILE.json");
             add_parsed(command, "--record-queries", arguments->record_queries, whole_number_within(0, kMostRecorded),
-                       "How many, drawn at random; 0 is all (20000)", "N")
+                       "How many, drawn at random; 0 is all, up to half a million (20000)", "N")
                 .needs(record);
             const Option all = command
                                    .add_flag("--record-all-pairs", arguments->record_all_pairs,

@@ -4,30 +4,37 @@
 #include <cases/case_file.h>
 #include <cases/case_report.h>
 #include <cases/case_result.h>
+#include <cases/drawing_child.h>
 #include <cases/result_line.h>
 #include <cli/command_line.h>
 #include <cli/golden_updates.h>
 #include <cli/options.h>
 #include <cli/program.h>
+#include <picture_tests/contact_sheet.h>
+#include <picture_tests/picture_maker.h>
 #include <picture_tests/reference.h>
 #include <picture_tests/reports.h>
 #include <picture_tests/run_cases.h>
 #include <render/image/image_diff.h>
 #include <render/image/png.h>
-#include <render/pictures/sheet.h>
+#include <render/pictures/draw_a_little.h>
 
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
+#include <span>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::cli {
@@ -38,11 +45,17 @@ using picture_tests::CaseFile;
 using picture_tests::CaseResult;
 using picture_tests::RunFacts;
 
+/// Every `count`-th case, from this one, from 1.
+struct Shard {
+    int index = 1, count = 1;
+    bool is_all() const { return count == 1; }
+};
+
 struct TestCommandArguments {
     std::filesystem::path folder;
     std::vector<std::string> names;  ///< exact or with wildcards; none: all
     bool list = false;
-    Backend backend = Backend::automatic;
+    std::string backend = "auto";
     bool update = false;
     bool update_all = false;                ///< of those that are run
     std::vector<std::string> update_names;  ///< neither: ask
@@ -52,6 +65,9 @@ struct TestCommandArguments {
     std::filesystem::path output = "mobbscope-test";
     bool json = false;
     bool json_lines = false;
+    bool requests = false;  ///< draw what standard input asks for
+    int jobs = 0;           ///< 0: as many as there are processors
+    Shard shard;
     std::filesystem::path junit, html, contact_sheet;  ///< empty: none
     std::optional<int> columns;                        ///< of the contact sheet
 };
@@ -79,7 +95,43 @@ std::vector<CaseFile> chosen(const std::vector<CaseFile>& cases, const std::vect
 std::vector<CaseFile> cases_of(const TestCommandArguments& arguments, const std::vector<CaseFile>& all) {
     std::vector<std::string> patterns = arguments.names;
     patterns.insert(patterns.end(), arguments.update_names.begin(), arguments.update_names.end());
-    return chosen(all, patterns);
+    const std::vector<CaseFile> named = chosen(all, patterns);
+    std::vector<CaseFile> out;
+    const Shard& shard = arguments.shard;
+    for (std::size_t i = static_cast<std::size_t>(shard.index - 1); i < named.size();
+         i += static_cast<std::size_t>(shard.count)) {
+        out.push_back(named[i]);
+    }
+    return out;
+}
+
+/// Whether nothing is said of other cases than those that are run.
+bool is_part(const TestCommandArguments& arguments) {
+    return !arguments.names.empty() || !arguments.update_names.empty() || !arguments.shard.is_all();
+}
+
+/// "2/3".
+Shard parse_shard(const std::string& text) {
+    constexpr int kMostShards = 10'000;
+    const std::size_t slash = text.find('/');
+    const std::optional<int> index = parse_int(text.substr(0, slash));
+    const std::optional<int> count = slash == text.npos ? std::nullopt : parse_int(text.substr(slash + 1));
+    if (!index || !count || *index < 1 || *index > *count || *count > kMostShards) {
+        throw std::invalid_argument(in_quotes(text) + " is no shard; give K/N, such as 2/3");
+    }
+    return {*index, *count};
+}
+
+std::string text_of(const Shard& shard) { return std::to_string(shard.index) + '/' + std::to_string(shard.count); }
+
+int parse_jobs(const std::string& text) {
+    constexpr int kMostJobs = 256;
+    const std::optional<int> jobs = parse_int(text);
+    if (!jobs || *jobs < 1 || *jobs > kMostJobs) {
+        throw std::invalid_argument(in_quotes(text) + " is no number of processes from 1 to " +
+                                    std::to_string(kMostJobs));
+    }
+    return *jobs;
 }
 
 // --- what is written
@@ -91,6 +143,9 @@ void check_reports(const TestCommandArguments& arguments, const std::vector<Case
     if (arguments.json_lines && (arguments.update || arguments.strict || !arguments.accept.empty() || reports)) {
         throw InputError("--json-lines: nothing else is written then; leave out --update, --strict and the reports");
     }
+    if (!arguments.accept.empty() && !arguments.shard.is_all()) {
+        throw InputError("--accept: it takes all, or those of the names; leave out --shard");
+    }
     if (!arguments.accept.empty() && (arguments.update || arguments.strict || arguments.json || reports)) {
         throw InputError(
             "--accept: nothing is drawn and nothing else written then; leave out --update and the reports");
@@ -101,14 +156,14 @@ void check_reports(const TestCommandArguments& arguments, const std::vector<Case
     check_extension(arguments.junit, ".xml", "the report for CI servers is written as .xml; rename it");
     check_extension(arguments.html, ".html", "the report as a page is written as .html; rename it");
     check_extension(arguments.contact_sheet, ".png", "the contact sheet is written as .png; rename it");
-    std::error_code ignored;
     for (const CaseFile& file : all) {
-        for (const std::filesystem::path& golden : {file.golden(), file.plain()}) {
-            if (!std::filesystem::equivalent(arguments.contact_sheet, golden, ignored)) continue;
-            throw InputError(arguments.contact_sheet.string(), "",
-                             "the contact sheet would replace the golden of " + in_quotes(file.name) + "; rename it");
-        }
+        for (const auto& read :
+             {file.file, file.golden(), file.plain(), file.draw(), file.plain_draw(), file.plain_state()})
+            note_read(read);
     }
+    for (const std::filesystem::path& report : {arguments.junit, arguments.html, arguments.contact_sheet})
+        check_not_read(report);
+    std::error_code ignored;
     if (std::filesystem::equivalent(arguments.output, arguments.folder, ignored)) {
         throw InputError("--output: " + in_quotes(arguments.output.string()) +
                          " is where the goldens are; give another folder");
@@ -124,85 +179,88 @@ using WriteReport = void (*)(std::ostream& out, const RunFacts& facts, std::span
 void write_report(const std::filesystem::path& file, WriteReport write, const RunFacts& facts,
                   std::span<const CaseResult> results) {
     if (file.empty()) return;
+    check_not_read(file);  // again: scenes and masks are known now
     std::ostringstream text;
     write(text, facts, results);
     picture_tests::make_folder_of(file);
-    write_file(file, text.str());
+    write_file(file, std::move(text).str());
 }
 
-/// The theme of a sheet that suits a picture: by its corner, where seldom anything is drawn.
-Theme theme_around(const Image& picture) {
-    const std::uint8_t* corner = picture.at(0, 0);
-    return corner[0] + corner[1] + corner[2] > 3 * 127 ? Theme::light : Theme::dark;
-}
-
-/// All pictures of the run with their names.
-void write_contact_sheet(const TestCommandArguments& arguments, std::span<const CaseResult> results,
-                         Renderer& renderer) {
-    std::vector<SheetCell> cells;
-    PictureSize all{1, 0};
-    for (const CaseResult& result : results) {
-        if (result.actual.rgba.empty()) continue;
-        cells.push_back({result.file.name, result.actual});
-        all.width = std::max(all.width, result.actual.width);
-        all.height = std::max(all.height, result.actual.height);
-    }
-    if (cells.empty()) {
-        warn("there is no picture for a contact sheet");
-        return;
-    }
-    const int count = static_cast<int>(cells.size());
-    const int square = static_cast<int>(std::lround(std::sqrt(count)));
-    const int columns = std::min(count, arguments.columns.value_or(square));
-    // Letters grow with the whole, which is looked at smaller than its pictures are.
-    all = {all.width * columns, all.height * ((count + columns - 1) / columns)};
-    const Palette& colors = palette(theme_around(cells.front().image));
-    const Image sheet = at_place(arguments.contact_sheet.string(), "", [&] {
-        return make_sheet(cells, columns, colors, colors.background, metrics_of(all), renderer);
-    });
+void write_contact_sheet(const TestCommandArguments& arguments, const picture_tests::ContactSheet& sheet,
+                         std::span<const CaseResult> results) {
+    if (arguments.contact_sheet.empty()) return;
+    // Its words are drawn with OpenGL, which this process does without else.
+    Renderer renderer(*backend_from_name(arguments.backend));
+    const std::optional<Image> drawn = at_place(arguments.contact_sheet.string(), "",
+                                                [&] { return sheet.draw(results, arguments.columns, renderer); });
+    if (!drawn) return warn("there is no case for a contact sheet");
+    check_not_read(arguments.contact_sheet);
     picture_tests::make_folder_of(arguments.contact_sheet);
-    write_png(arguments.contact_sheet, sheet);
+    write_png(arguments.contact_sheet, *drawn);
 }
 
 // --- the run
 
-/// The context, or why there is none.
-struct Drawer {
-    std::unique_ptr<picture_tests::PictureMaker> maker;
-    std::string no_opengl;
-    RunFacts facts;
+/// The results in the order of the cases, whatever the order in which they come.
+class OrderedResults {
+  public:
+    explicit OrderedResults(const std::vector<CaseFile>& cases) : results_(cases.size()), is_there_(cases.size()) {
+        for (std::size_t i = 0; i < cases.size(); ++i) places_.emplace(cases[i].name, i);
+    }
+    void add(CaseResult result) {
+        const std::size_t place = places_.at(result.file.name);
+        results_[place] = std::move(result);
+        is_there_[place] = true;
+    }
+    /// The next in order, if it is there; once.
+    CaseResult* next() {
+        if (next_ == results_.size() || !is_there_[next_]) return nullptr;
+        return &results_[next_++];
+    }
+    std::vector<CaseResult>& all() { return results_; }
+
+  private:
+    std::map<std::string, std::size_t> places_;
+    std::vector<CaseResult> results_;
+    std::vector<bool> is_there_;
+    std::size_t next_ = 0;
 };
 
-Drawer open(const TestCommandArguments& arguments) {
-    Drawer out;
-    out.facts.folder = arguments.folder.string();
-    out.facts.page = arguments.html.string();
-    out.facts.strict = arguments.strict;
-    try {
-        out.maker = std::make_unique<picture_tests::PictureMaker>(arguments.backend);
-        out.facts.backend = out.maker->backend();
-        out.facts.renderer = out.maker->renderer().device();
-    } catch (const MachineError& error) {
-        out.no_opengl = error.what();
+void drop_pictures(CaseResult& result) {
+    result.actual.clear();
+    result.golden.clear();
+    result.fresh.clear();
+}
+
+/// What is to be said of all results; why nothing could be drawn, or empty.
+std::string add_facts(RunFacts& facts, std::span<const CaseResult> results) {
+    std::string no_opengl;
+    for (const CaseResult& result : results) {
+        if (facts.backend.empty()) {
+            facts.backend = result.drawn_by.backend;
+            facts.renderer = result.drawn_by.renderer;
+        }
+        if (no_opengl.empty() && lacks_opengl(result)) no_opengl = result.message;
     }
-    return out;
+    return no_opengl;
 }
 
 /// The pictures of what did not pass, and all of it as a report; whether there are any.
-bool keep_all(const TestCommandArguments& arguments, const RunFacts& facts, std::span<const CaseResult> results) {
+bool keep_all(const TestCommandArguments& arguments, std::span<const CaseResult> results) {
     bool kept = false;
     for (const CaseResult& result : results) kept = !keep_pictures(result, arguments.output).empty() || kept;
     const std::filesystem::path file = arguments.output / picture_tests::kReportFile;
     if (picture_tests::summary(results).ok()) {
         // Where only some are run, it may still tell of the others.
         std::error_code ignored;
-        if (arguments.names.empty() && arguments.update_names.empty()) std::filesystem::remove(file, ignored);
+        if (!is_part(arguments)) std::filesystem::remove(file, ignored);
         return kept;
     }
     std::ostringstream report;
-    write_case_report(report, results, {facts.backend, facts.renderer});
+    write_case_report(report, results);
     picture_tests::make_folder_of(file);
-    write_file(file, report.str());
+    check_stays_in_folder(file);
+    write_file(file, std::move(report).str());
     return kept;
 }
 
@@ -218,17 +276,29 @@ void print_results(const TestCommandArguments& arguments, const RunFacts& facts,
     flush_results();
 }
 
-/// Each result goes as soon as it is told; the exit status.
-int tell_lines(const std::vector<CaseFile>& cases, const Drawer& drawer) {
-    picture_tests::Summary sum;
-    for (const CaseFile& file : cases) {
-        const CaseResult result = run_case(file, drawer.maker.get(), drawer.no_opengl);
-        ++sum[result.outcome];
-        write_result_line(std::cout, result, {drawer.facts.backend, drawer.facts.renderer});
+/// Draws what standard input asks for, a case a line, and answers each.
+int answer_requests(const TestCommandArguments& arguments) {
+    std::unique_ptr<picture_tests::PictureMaker> maker;
+    std::string no_opengl;
+    try {
+        maker = std::make_unique<picture_tests::PictureMaker>(*backend_from_name(arguments.backend));
+        // A driver that crashes over its first shaders must do so before a case is asked for, which would be blamed.
+        draw_a_little(maker->renderer());
+    } catch (const MachineError& error) {
+        no_opengl = error.what();
+    }
+    std::cout << '\n';  // it can draw
+    flush_results();
+    std::set<std::filesystem::path> told;
+    for (std::string line; std::getline(std::cin, line);) {
+        const picture_tests::CaseRequest request = picture_tests::read_request_line(line);
+        const CaseFile file = picture_tests::case_named(arguments.folder, request.name);
+        CaseResult result = run_case(file, maker.get(), no_opengl, request.options);
+        std::erase_if(result.read, [&](const std::filesystem::path& read) { return !told.insert(read).second; });
+        write_result_line(std::cout, result);
         flush_results();
     }
-    if (!drawer.maker) throw MachineError(drawer.no_opengl);
-    return sum.ok() ? kDone : kFailed;
+    return kDone;
 }
 
 /// Throws InputError if the mask of a case does not fit its golden.
@@ -257,7 +327,9 @@ picture_tests::RunOptions run_options(const TestCommandArguments& arguments, con
 
 std::vector<std::string> orphans_of(const TestCommandArguments& arguments, const std::vector<CaseFile>& all) {
     const auto whole = [](const std::filesystem::path& file) {
-        return std::filesystem::absolute(file).lexically_normal();
+        std::error_code gone;
+        const std::filesystem::path absolute = std::filesystem::absolute(file, gone);
+        return (gone ? file : absolute).lexically_normal();
     };
     const std::filesystem::path output = whole(arguments.output / "");
     std::vector<std::string> out;
@@ -269,7 +341,51 @@ std::vector<std::string> orphans_of(const TestCommandArguments& arguments, const
     return out;
 }
 
+/// Whether a person is asked which pictures to take.
+bool asks(const TestCommandArguments& arguments) {
+    return arguments.update && !arguments.update_all && arguments.update_names.empty();
+}
+
+void take(const TestCommandArguments& arguments, const std::vector<CaseFile>& cases, std::vector<CaseResult>& results) {
+    if (!arguments.update) return;
+    // Where standard output is a report, the rest goes beside it.
+    std::ostream& say = arguments.json ? std::cerr : std::cout;
+    const auto drawn =
+        std::ranges::find_if(results, [](const CaseResult& one) { return !one.drawn_by.opengl.empty(); });
+    if (arguments.new_reference && drawn != results.end()) {
+        take_as_reference(results, cases, picture_tests::reference_with(drawn->drawn_by.opengl), say);
+    } else if (asks(arguments)) {
+        take_asked(results, arguments.output, say);
+    } else if (!arguments.new_reference) {
+        take_named(results, arguments.update_names, say);
+    }
+}
+
+/// Draws the cases; of each the result goes where it is wanted as soon as it is there. Returns what else went wrong.
+std::vector<std::string> draw_all(const TestCommandArguments& arguments, const std::vector<CaseFile>& cases,
+                                  OrderedResults& results, picture_tests::ContactSheet& sheet) {
+    std::vector<picture_tests::CaseOrder> orders;
+    for (const CaseFile& file : cases) orders.push_back({file, run_options(arguments, file)});
+    const auto take_in = [&](CaseResult result) {
+        if (arguments.update && !arguments.new_reference) check_is_from_here(arguments.folder, result);
+        if (!arguments.contact_sheet.empty()) sheet.add(result);
+        for (const std::filesystem::path& file : std::exchange(result.read, {})) note_read(file);
+        // A run may have thousands, and of those that passed only a page shows pictures, or goldens are taken.
+        const bool passed = result.outcome == picture_tests::CaseOutcome::passed;
+        if (passed && arguments.html.empty() && !arguments.json_lines && !arguments.update) result.actual.clear();
+        results.add(std::move(result));
+        while (CaseResult* next = arguments.json_lines ? results.next() : nullptr) {
+            write_result_line(std::cout, *next);
+            flush_results();
+            drop_pictures(*next);
+        }
+    };
+    const picture_tests::CaseDrawer drawer{.backend = arguments.backend, .jobs = arguments.jobs};
+    return draw_cases(drawer, arguments.folder, orders, take_in, [] {});
+}
+
 int run_test(const TestCommandArguments& arguments) {
+    if (arguments.requests) return answer_requests(arguments);
     const std::vector<CaseFile> all = picture_tests::find_cases(arguments.folder);
     const std::vector<CaseFile> cases = cases_of(arguments, all);
     if (arguments.list) {
@@ -285,44 +401,46 @@ int run_test(const TestCommandArguments& arguments) {
     }
     // A mask that fits what is drawn now may wait for a golden of that size.
     if (!arguments.json_lines && !arguments.update) check_masks(cases);
-    const bool asks = arguments.update && !arguments.update_all && arguments.update_names.empty();
-    if (asks && ::isatty(STDIN_FILENO) == 0) {
+    if (asks(arguments) && ::isatty(STDIN_FILENO) == 0) {
         throw InputError("--update: there is no terminal to ask at; name the cases whose pictures to take, or all");
     }
+    RunFacts facts{.folder = arguments.folder.string(), .backend = {}, .renderer = {}, .page = arguments.html.string()};
+    facts.strict = arguments.strict;
+    if (!arguments.shard.is_all()) facts.shard = text_of(arguments.shard);
+    if (!arguments.json_lines && arguments.names.empty()) facts.orphans = orphans_of(arguments, all);
 
-    Drawer drawer = open(arguments);
-    const bool renews = arguments.new_reference && drawer.maker;
-    if (arguments.update && drawer.maker && !renews) {
-        check_references(arguments.folder, cases, picture_tests::reference_of(drawer.maker->renderer()));
+    OrderedResults ordered(cases);
+    picture_tests::ContactSheet sheet(cases.size());
+    const std::vector<std::string> complaints = draw_all(arguments, cases, ordered, sheet);
+    for (const std::string& complaint : complaints) warn(complaint);
+    std::vector<CaseResult>& results = ordered.all();
+    const std::string no_opengl = add_facts(facts, results);
+    if (!arguments.json_lines) {
+        take(arguments, cases, results);
+        const bool kept = keep_all(arguments, results);
+        write_report(arguments.junit, picture_tests::write_junit, facts, results);
+        write_report(arguments.html, picture_tests::write_html, facts, results);
+        print_results(arguments, facts, results, kept);
     }
-    if (arguments.json_lines) return tell_lines(cases, drawer);
-    if (arguments.names.empty()) drawer.facts.orphans = orphans_of(arguments, all);
-    std::vector<CaseResult> results;
-    for (const CaseFile& file : cases) {
-        results.push_back(run_case(file, drawer.maker.get(), drawer.no_opengl, run_options(arguments, file)));
-    }
-    // Where standard output is a report, the rest goes beside it.
-    std::ostream& say = arguments.json ? std::cerr : std::cout;
-    if (renews) {
-        take_as_reference(results, cases, picture_tests::reference_of(drawer.maker->renderer()), say);
-    } else if (asks) {
-        take_asked(results, arguments.output, say);
-    } else if (arguments.update) {
-        take_named(results, arguments.update_names, say);
-    }
-    const bool kept = keep_all(arguments, drawer.facts, results);
-    write_report(arguments.junit, picture_tests::write_junit, drawer.facts, results);
-    write_report(arguments.html, picture_tests::write_html, drawer.facts, results);
-    print_results(arguments, drawer.facts, results, kept);
-    if (!drawer.maker) throw MachineError(drawer.no_opengl);
-    if (!arguments.contact_sheet.empty()) write_contact_sheet(arguments, results, drawer.maker->renderer());
-    return is_ok(drawer.facts, results) ? kDone : kFailed;
+    if (!no_opengl.empty()) throw MachineError(no_opengl);
+    write_contact_sheet(arguments, sheet, results);
+    return is_ok(facts, results) && complaints.empty() ? kDone : kFailed;
 }
 
 /// A reference is that of all goldens of a folder.
 void check_new_reference(const TestCommandArguments& arguments) {
-    if (!arguments.new_reference || (arguments.update_all && arguments.names.empty())) return;
+    const bool takes_all = arguments.update_all && arguments.names.empty() && arguments.shard.is_all();
+    if (!arguments.new_reference || takes_all) return;
     throw InputError("--new-reference: goldens are from one place; take all of them, with --update all and no NAME");
+}
+
+/// Throws InputError for an option that says nothing where standard input says which cases are drawn.
+void check_requests(const Command& command) {
+    for (const GivenOption& option : command.given()) {
+        if (option.name == "DIR" || option.name == "--backend" || option.name == "--requests") continue;
+        throw InputError("--requests: standard input says what is drawn, and nothing else is done; leave out " +
+                         option.name);
+    }
 }
 
 /// "all" alone stands for all cases that are run.
@@ -345,8 +463,17 @@ void add_test_command(Command& program, int& status) {
             command.add_option("DIR", arguments->folder, "The folder of the cases, NAME.case.json").required();
             command.add_option("NAME", arguments->names, "Only these cases; * and ? stand for anything");
             command.add_flag("--list", arguments->list, "Only print the names of the cases");
-            add_parsed(command, "--backend", arguments->backend, one_of(backend_from_name, "auto, osmesa, egl"),
-                       "OpenGL without a display: auto, osmesa or egl", "NAME");
+            add_parsed(
+                command, "--backend", arguments->backend,
+                [](const std::string& text) {
+                    static_cast<void>(one_of(backend_from_name, "auto, osmesa, egl")(text));
+                    return text;
+                },
+                "OpenGL without a display: auto, osmesa or egl", "NAME");
+            add_parsed(command, "--jobs", arguments->jobs, parse_jobs,
+                       "Processes that draw at a time; default: as many as there are processors, at most 8", "N");
+            add_parsed(command, "--shard", arguments->shard, parse_shard,
+                       "Only every N-th case, from the K-th: all shards together are all cases", "K/N");
             command
                 .add_option(
                     "--update", arguments->update_names,
@@ -370,6 +497,9 @@ void add_test_command(Command& program, int& status) {
                                  "Each result as a line of JSON as soon as it is there, with its pictures, for "
                                  "other programs; nothing else is written");
             json_lines.excludes(json);
+            command.add_flag("--requests", arguments->requests,
+                             "Draw the cases that standard input asks for, a line of JSON each, and answer with lines "
+                             "of JSON: so does each of the processes that draw");
             add_parsed(command, "--junit", arguments->junit, parse_file_name, "The report for CI servers", "OUT.xml");
             add_parsed(command, "--html", arguments->html, parse_file_name, "The report as one page, with all pictures",
                        "OUT.html");
@@ -385,6 +515,7 @@ void add_test_command(Command& program, int& status) {
                 },
                 "Of the contact sheet", "N");
             command.callback([&command, arguments, &status] {
+                if (arguments->requests) check_requests(command);
                 if (command.is_given("--update")) read_update(*arguments);
                 check_new_reference(*arguments);
                 status = run_test(*arguments);

@@ -66,6 +66,7 @@ int run_script(const Named& named, const WindowArguments& arguments) {
         if (!arguments.headless && app::has_display()) {
             return std::make_unique<app::GlfwWindow>(session, arguments.size);
         }
+        if (arguments.size) at_place("--size", "", [&] { check(PictureOptions{.size = *arguments.size}); });
         return std::make_unique<app::HeadlessWindow>(GlContext::open(Backend::automatic), session,
                                                      arguments.size.value_or(app::kDefaultSize), 1);
     }();

@@ -1,3 +1,5 @@
+#include <base/error.h>
+#include <base/file.h>
 #include <base/text.h>
 #include <conflicts/conflicts.h>
 #include <mobb/predicate.h>
@@ -62,6 +64,7 @@ Conflict conflict_of(const mobb::PlacedTree& a, const mobb::PlacedTree& b, Searc
 
 constexpr int kPieceSamples = 16;  // few enough that a piece is small on the floor, enough that pieces are few
 constexpr double kMostCellsPerPiece = 8;
+constexpr std::size_t kPairsAtFirst = 1'000'000;
 // Widen the pieces by more than any rounding of the predicate, of held and of linear clips (see mobb/separation.cpp):
 // it must not hit where they are apart.
 constexpr double kWidening = 1e-14;
@@ -151,34 +154,6 @@ class Grid {
     double size_ = 1;
 };
 
-/// Calls test(a, b), a < b, for every pair of the crowd, or for a search through trees for those near each other.
-template <class Test>
-void for_each_pair(std::span<const mobb::PlacedTree> crowd, Search search, const Progress& progress, const Test& test) {
-    std::size_t done = 0;
-    const auto visit = [&](int a, int b, std::size_t pairs) {
-        if (progress) progress(done, pairs);
-        ++done;
-        test(a, b);
-    };
-    if (search == Search::trees) {
-        const std::vector<std::pair<int, int>> pairs = near_pairs(crowd);
-        for (const auto& [a, b] : pairs) visit(a, b, pairs.size());
-        return;
-    }
-    const auto count = static_cast<int>(crowd.size());
-    for (int a = 0; a < count; ++a) {
-        for (int b = a + 1; b < count; ++b) visit(a, b, crowd.size() * (crowd.size() - 1) / 2);
-    }
-}
-
-std::optional<Conflict> conflict_between(std::span<const mobb::PlacedTree> crowd, int a, int b, Search search) {
-    Conflict conflict = conflict_of(crowd[static_cast<std::size_t>(a)], crowd[static_cast<std::size_t>(b)], search);
-    if (conflict.intervals.empty()) return std::nullopt;
-    conflict.a = a;
-    conflict.b = b;
-    return conflict;
-}
-
 /// Something that is walked, and by whom.
 struct Walked {
     PlacedAgent path;
@@ -249,11 +224,9 @@ PeopleConflict put_together(int a, int b, std::span<const Conflict> of_paths) {
     return out;
 }
 
-bool is_worse(const PeopleConflict& x, const PeopleConflict& y) {
-    const auto rank = [](const PeopleConflict& c) {
-        return std::tuple(c.deepest.least_clearance, -c.seconds(), c.worst().t0, c.a, c.b);
-    };
-    return rank(x) < rank(y);
+void keep_each_once(std::vector<std::pair<int, int>>& pairs) {
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
 }  // namespace
@@ -267,7 +240,13 @@ std::vector<std::pair<int, int>> near_pairs(std::span<const mobb::PlacedTree> cr
     // Pieces that may not have ended, by cell. Cells that share a place cost time alone.
     std::vector<std::vector<const PathPiece*>> present(std::bit_ceil(pieces.size()));
     std::vector<const PathPiece*> met_by(crowd.size());  // by member: the last piece that was near a piece of it
+    std::size_t room = kPairsAtFirst;
     for (const PathPiece& piece : pieces) {
+        // Those who walk together are found again with each of their pieces.
+        if (pairs.size() > room) {
+            keep_each_once(pairs);
+            room = std::max(kPairsAtFirst, 2 * pairs.size());
+        }
         grid.for_each_cell(piece, [&](std::size_t cell) {
             std::vector<const PathPiece*>& others = present[cell & (present.size() - 1)];
             std::erase_if(others, [&](const PathPiece* other) { return other->t1 <= piece.t0; });
@@ -280,8 +259,7 @@ std::vector<std::pair<int, int>> near_pairs(std::span<const mobb::PlacedTree> cr
             others.push_back(&piece);
         });
     }
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    keep_each_once(pairs);
     return pairs;
 }
 
@@ -298,26 +276,93 @@ double PeopleConflict::seconds() const {
     return sum;
 }
 
+template <class Test>
+void PeopleConflicts::for_each_pair(int person, std::optional<int> with, const Test& test) const {
+    const auto path = [this](int of) { return first_path_[static_cast<std::size_t>(of)]; };
+    const int first = with ? path(*with) : path(person + 1);
+    const int end = with ? path(*with + 1) : path(people());
+    for (int a = path(person); a < path(person + 1); ++a) {
+        if (search_ == Search::direct) {
+            for (int b = first; b < end; ++b) test(a, b);
+            continue;
+        }
+        for (auto at = std::lower_bound(near_.begin(), near_.end(), std::pair(a, first));
+             at != near_.end() && *at < std::pair(a, end); ++at)
+            test(a, at->second);
+    }
+}
+
+std::optional<Conflict> PeopleConflicts::conflict_between(int a, int b) const {
+    Conflict conflict = conflict_of(crowd_[static_cast<std::size_t>(a)], crowd_[static_cast<std::size_t>(b)], search_);
+    if (conflict.intervals.empty()) return std::nullopt;
+    conflict.a = a;
+    conflict.b = b;
+    return conflict;
+}
+
+PeopleConflicts::PeopleConflicts(std::span<const mobb::PlacedTree> crowd, std::span<const int> person_of, Search search,
+                                 const Progress& progress)
+    : crowd_(crowd.begin(), crowd.end()), person_of_(person_of.begin(), person_of.end()), search_(search) {
+    const int paths = static_cast<int>(crowd_.size());
+    for (int path = 0; path < paths; ++path) {
+        const auto person = static_cast<std::size_t>(person_of_[static_cast<std::size_t>(path)]);
+        while (first_path_.size() <= person) first_path_.push_back(path);
+    }
+    first_path_.push_back(paths);
+    if (search == Search::trees) near_ = near_pairs(crowd_);
+    const std::size_t all =
+        search == Search::trees ? near_.size() : crowd_.size() * (std::max<std::size_t>(crowd_.size(), 1) - 1) / 2;
+    std::size_t done = 0;
+    std::vector<int> asked(static_cast<std::size_t>(people()), -1);  // by person: the last whose paths were asked
+    for (int person = 0; person < people(); ++person) {
+        std::map<int, std::vector<Conflict>> met;  // by the other
+        for_each_pair(person, std::nullopt, [&](int a, int b) {
+            if (progress) progress(done, all);
+            ++done;
+            const int other = person_of_[static_cast<std::size_t>(b)];
+            if (std::exchange(asked[static_cast<std::size_t>(other)], person) != person) ++tested_;
+            if (auto conflict = conflict_between(a, b)) met[other].push_back(std::move(*conflict));
+        });
+        for (const auto& [other, conflicts] : met) {
+            const PeopleConflict found = put_together(person, other, conflicts);
+            ranked_.push_back({found.deepest.least_clearance, found.seconds(), found.worst().t0, found.a, found.b});
+        }
+    }
+    std::sort(ranked_.begin(), ranked_.end(), [](const Ranked& x, const Ranked& y) {
+        const auto rank = [](const Ranked& c) { return std::tuple(c.least_clearance, -c.seconds, c.begin, c.a, c.b); };
+        return rank(x) < rank(y);
+    });
+}
+
+PeopleConflict PeopleConflicts::operator[](std::size_t index) const {
+    const Ranked& ranked = ranked_[index];
+    std::vector<Conflict> of_paths;
+    for_each_pair(ranked.a, ranked.b, [&](int a, int b) {
+        if (auto conflict = conflict_between(a, b)) of_paths.push_back(std::move(*conflict));
+    });
+    return put_together(ranked.a, ranked.b, of_paths);
+}
+
+std::vector<PeopleConflict> PeopleConflicts::all() const {
+    std::vector<PeopleConflict> out;
+    for (std::size_t i = 0; i < size(); ++i) out.push_back((*this)[i]);
+    return out;
+}
+
+std::size_t PeopleConflicts::pairs() const {
+    const auto count = static_cast<std::size_t>(people());
+    return count < 2 ? 0 : count * (count - 1) / 2;
+}
+
+double PeopleConflicts::seconds() const {
+    double sum = 0;
+    for (const Ranked& conflict : ranked_) sum += conflict.seconds;
+    return sum;
+}
+
 PeopleConflicts find_people_conflicts(std::span<const mobb::PlacedTree> crowd, std::span<const int> person_of,
                                       Search search, const Progress& progress) {
-    std::map<std::pair<int, int>, std::vector<Conflict>> met;  // by people: the conflicts of their paths
-    std::vector<std::pair<int, int>> asked;                    // of a search through trees; a direct one asks all
-    for_each_pair(crowd, search, progress, [&](int a, int b) {
-        const std::pair who{person_of[static_cast<std::size_t>(a)], person_of[static_cast<std::size_t>(b)]};
-        // A person's plays join; a hair of overlap in time is no meeting.
-        if (who.first == who.second) return;
-        if (search == Search::trees) asked.push_back(who);
-        if (auto conflict = conflict_between(crowd, a, b, search)) met[who].push_back(std::move(*conflict));
-    });
-    PeopleConflicts out;
-    const std::size_t people = person_of.empty() ? 0 : static_cast<std::size_t>(person_of.back()) + 1;
-    out.pairs = people < 2 ? 0 : people * (people - 1) / 2;
-    std::sort(asked.begin(), asked.end());
-    const auto distinct = std::unique(asked.begin(), asked.end()) - asked.begin();
-    out.pairs_tested = search == Search::trees ? static_cast<std::size_t>(distinct) : out.pairs;
-    for (const auto& [who, conflicts] : met) out.found.push_back(put_together(who.first, who.second, conflicts));
-    std::sort(out.found.begin(), out.found.end(), is_worse);
-    return out;
+    return {crowd, person_of, search, progress};
 }
 
 std::string conflict_count(std::size_t conflicts, std::size_t people, double seconds) {
@@ -333,8 +378,18 @@ std::vector<SceneConflict> conflicts_in(const FittedScene& fitted, const Progres
         trees.push_back(one.joint ? mobb::PlacedTree(*one.joint, one.path.placement) : fitted.placed(one.path));
         person_of.push_back(one.person);
     }
+    const PeopleConflicts conflicts = find_people_conflicts(trees, person_of, Search::trees, progress);
+    if (conflicts.size() > kMostSceneConflicts) {
+        throw InputError(shown_name(fitted.scene().file), "",
+                         "it has " + std::to_string(conflicts.size()) + " conflicts, more than the " +
+                             std::to_string(kMostSceneConflicts) +
+                             " that a list holds; mobbscope conflicts writes them all");
+    }
     std::vector<SceneConflict> out;
-    for (PeopleConflict& found : find_people_conflicts(trees, person_of, Search::trees, progress).found) {
+    out.reserve(conflicts.size());
+    for (std::size_t i = 0; i < conflicts.size(); ++i) {
+        if (progress) progress(i, conflicts.size());
+        PeopleConflict found = conflicts[i];
         const Walked& a = walked[static_cast<std::size_t>(found.begins.a)];
         const Walked& b = walked[static_cast<std::size_t>(found.begins.b)];
         const auto joint_of = [](const Walked& one) { return one.joint ? one.joint->shared_clip() : nullptr; };

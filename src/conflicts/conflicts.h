@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -45,17 +46,51 @@ struct PeopleConflict {
     double seconds() const;  ///< of all intervals
 };
 
-struct PeopleConflicts {
-    std::vector<PeopleConflict> found;  ///< worst first: the deepest overlap, of equals the longest, then the earliest
-    std::size_t pairs = 0;              ///< of people
-    std::size_t pairs_tested = 0;       ///< of people: whose paths were asked of the trees, or searched directly
+/// Every pair of people who collide, each once however often they meet, worst first: the deepest overlap, of equals the
+/// longest, then the earliest. What a conflict is in full is searched again when it is asked for: of a crowd in one
+/// place there are millions.
+class PeopleConflicts {
+  public:
+    /// Finds them; see find_people_conflicts.
+    PeopleConflicts(std::span<const mobb::PlacedTree> crowd, std::span<const int> person_of, Search search,
+                    const Progress& progress);
+
+    std::size_t size() const { return ranked_.size(); }
+    bool empty() const { return ranked_.empty(); }
+    /// 0 <= index < size().
+    PeopleConflict operator[](std::size_t index) const;
+    std::vector<PeopleConflict> all() const;
+
+    std::size_t pairs() const;                            ///< of people
+    std::size_t pairs_tested() const { return tested_; }  ///< of people: of whose paths any two were searched
+    double seconds() const;                               ///< of all conflicts
+
+  private:
+    struct Ranked {
+        double least_clearance, seconds, begin;
+        int a, b;
+    };
+
+    /// Calls test(a, b) for the paths of a person and of later ones that may collide, a by a; `with`: of that one
+    /// alone.
+    template <class Test>
+    void for_each_pair(int person, std::optional<int> with, const Test& test) const;
+    std::optional<Conflict> conflict_between(int a, int b) const;
+    int people() const { return static_cast<int>(first_path_.size()) - 1; }
+
+    std::vector<mobb::PlacedTree> crowd_;
+    std::vector<int> person_of_;
+    std::vector<int> first_path_;  ///< by person; then the number of paths
+    Search search_;
+    std::vector<std::pair<int, int>> near_;  ///< of a search through trees
+    std::size_t tested_ = 0;
+    std::vector<Ranked> ranked_;
 };
 
-/// Every pair of people who collide, each once however often they meet. `person_of` says, for each path of the crowd,
-/// whose it is: a person's paths stand together, and people count from 0 in their order. A person's own paths, which
-/// join, are no conflict. Search::trees asks the trees of those paths that come near each other (near_pairs).
-/// Search::direct measures every pair of samples of every pair of paths. Both find the same. `progress` is told of
-/// pairs of paths. The trees may be of any kind.
+/// `person_of` says, for each path of the crowd, whose it is: a person's paths stand together, and people count from 0
+/// in their order. A person's own paths, which join, are no conflict. Search::trees asks the trees of those paths that
+/// come near each other (near_pairs). Search::direct measures every pair of samples of every pair of paths. Both find
+/// the same. `progress` is told of pairs of paths. The trees may be of any kind, and must outlive what is found.
 PeopleConflicts find_people_conflicts(std::span<const mobb::PlacedTree> crowd, std::span<const int> person_of,
                                       Search search, const Progress& progress = {});
 
@@ -73,8 +108,11 @@ struct SceneConflict {
     double begin() const { return facts.worst().t0; }  ///< of that contact, global seconds
 };
 
+/// The most that are kept at once, some 600 bytes each.
+inline constexpr std::size_t kMostSceneConflicts = 1'000'000;
+
 /// All of them, worst first: of a scene between its agents, of a run between its people, over all that they play.
-/// `progress` is told of pairs of paths.
+/// `progress` is told of pairs of paths. Throws InputError if there are more than kMostSceneConflicts.
 std::vector<SceneConflict> conflicts_in(const FittedScene& fitted, const Progress& progress = {});
 
 /// Whether `a` made the conflict of a run, or else `b`: whose play was forced, of two such plays the one that was

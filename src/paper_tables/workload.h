@@ -44,7 +44,7 @@ PlacedPair<mobb::PlacedBlocks> placed(const BlocksOf& of, const WorkloadQuery& q
 Workload workload_of_scene(const Scene& scene);
 
 /// More queries than this would measure nothing new, and fill the memory.
-inline constexpr int kMaxQueries = 10'000'000;
+inline constexpr int kMaxQueries = 1'000'000;
 
 /// Seconds; 0 without clips.
 double mean_duration(const Workload& workload);

@@ -13,6 +13,7 @@
 #include <sstream>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace mobbscope::picture_tests {
 
@@ -37,16 +38,20 @@ std::string hash_in(const Reference& reference, const std::string& font) {
 
 }  // namespace
 
-Reference reference_of(const Renderer& renderer) {
+Reference reference_with(std::string opengl) {
     Reference out;
     for (const FontFace face : {FontFace::text, FontFace::mono}) {
         out.fonts.emplace(Font::file_name(face), Font::file_sha256(face));
     }
     out.imgui = IMGUI_VERSION;
+    out.opengl = std::move(opengl);
+    return out;
+}
+
+Reference reference_of(const Renderer& renderer) {
     // "llvmpipe (LLVM 15.0.6, 256 bits)": the pictures are the same whatever the processor.
     const std::string& device = renderer.device();
-    out.opengl = driver_of(renderer.version()) + ", " + device.substr(0, device.find(" ("));
-    return out;
+    return reference_with(driver_of(renderer.version()) + ", " + device.substr(0, device.find(" (")));
 }
 
 std::filesystem::path reference_file(const std::filesystem::path& folder) { return folder / "reference.json"; }
@@ -86,6 +91,7 @@ void write_reference(const std::filesystem::path& folder, const Reference& refer
     json.member("imgui", reference.imgui);
     json.member("opengl", reference.opengl);
     json.end_object();
+    check_stays_in_folder(reference_file(folder));
     write_file(reference_file(folder), text.str());
 }
 

@@ -31,6 +31,8 @@ struct Reference {
 
 /// What this program draws with here.
 Reference reference_of(const Renderer& renderer);
+/// The same where something else draws; `opengl`: as in a reference.
+Reference reference_with(std::string opengl);
 
 /// The file in a folder of cases.
 std::filesystem::path reference_file(const std::filesystem::path& folder);

@@ -1,4 +1,5 @@
 #include <base/base64.h>
+#include <base/error.h>
 #include <base/text.h>
 #include <cases/case_report.h>
 #include <picture_tests/reports.h>
@@ -53,22 +54,26 @@ void write_command(std::ostream& out, const char* purpose, const std::string& co
         << "</code> <button type=\"button\" class=\"copy\" hidden>Copy</button></p>\n";
 }
 
-void write_image(std::ostream& out, const Image& image, const std::string& what) {
-    out << "<img width=\"" << image.width << "\" height=\"" << image.height << "\" alt=\"" << escaped(what)
-        << "\" src=\"data:image/png;base64," << base64(png_bytes(image)) << "\">";
+/// The bytes of a PNG file, and how large its picture is.
+struct PagePicture {
+    std::string_view png;
+    PictureSize size;
+};
+
+void write_image(std::ostream& out, const PagePicture& picture, const std::string& what) {
+    out << "<img width=\"" << picture.size.width << "\" height=\"" << picture.size.height << "\" alt=\""
+        << escaped(what) << "\" src=\"data:image/png;base64," << base64(picture.png) << "\">";
 }
 
-std::string size_of(const Image& image) { return std::to_string(image.width) + " x " + std::to_string(image.height); }
-
-void write_figure(std::ostream& out, const char* kind, const char* title, const Image& image, const std::string& name,
-                  const std::optional<PixelRect>& bounds = {}) {
-    out << "<figure class=\"" << kind << "\"><figcaption>" << title << " <small>" << size_of(image)
+void write_figure(std::ostream& out, const char* kind, const char* title, const PagePicture& picture,
+                  const std::string& name, const std::optional<PixelRect>& bounds = {}) {
+    out << "<figure class=\"" << kind << "\"><figcaption>" << title << " <small>" << size_text(picture.size)
         << "</small></figcaption><div class=\"paper\">";
-    write_image(out, image, std::string(title) + ": " + name);
+    write_image(out, picture, std::string(title) + ": " + name);
     if (bounds) {
-        out << "<svg viewBox=\"0 0 " << image.width << ' ' << image.height << "\" aria-hidden=\"true\"><rect x=\""
-            << bounds->x << "\" y=\"" << bounds->y << "\" width=\"" << bounds->width << "\" height=\"" << bounds->height
-            << "\"/></svg>";
+        out << "<svg viewBox=\"0 0 " << picture.size.width << ' ' << picture.size.height
+            << "\" aria-hidden=\"true\"><rect x=\"" << bounds->x << "\" y=\"" << bounds->y << "\" width=\""
+            << bounds->width << "\" height=\"" << bounds->height << "\"/></svg>";
     }
     out << "</div></figure>\n";
 }
@@ -120,20 +125,31 @@ void write_numbers(std::ostream& out, const CaseResult& result) {
     out << "</div>\n";
 }
 
+/// The pictures of one case are unpacked at a time.
 void write_pictures(std::ostream& out, const CaseResult& result) {
-    const bool actual = !result.actual.rgba.empty();
-    const bool golden = !result.golden.rgba.empty();
-    if (!actual && !golden) return;
+    const bool has_actual = !result.actual.empty();
+    const bool has_golden = !result.golden.empty();
+    if (!has_actual && !has_golden) return;
     const std::string& name = result.file.name;
-    if (actual && golden) write_modes(out);
+    if (has_actual && has_golden) write_modes(out);
     out << "<div class=\"pictures\" data-mode=\"side\">\n";
-    if (golden) write_figure(out, "golden", "Golden", result.golden, name);
-    if (actual) write_figure(out, "actual", "Actual", result.actual, name);
-    if (result.image && result.image->same_size) {
-        write_figure(out, "difference", "Difference", result.image->heat, name, result.image->bounds);
+    std::optional<Image> actual, golden;
+    if (has_golden) golden = read_png_bytes(result.golden);
+    if (has_actual) actual = read_png_bytes(result.actual);
+    if (golden) write_figure(out, "golden", "Golden", {result.golden, {golden->width, golden->height}}, name);
+    if (actual) write_figure(out, "actual", "Actual", {result.actual, {actual->width, actual->height}}, name);
+    const bool compared = result.image && result.image->same_size;
+    if (compared && actual && golden) {
+        try {
+            const Image heat = compared_again(result, *actual, *golden).heat;
+            const std::string png = png_bytes(heat);
+            write_figure(out, "difference", "Difference", {png, {heat.width, heat.height}}, name, result.image->bounds);
+        } catch (const InputError&) {
+            // Its mask is gone meanwhile; the numbers are there.
+        }
     }
     out << "</div>\n";
-    if (result.image && result.image->same_size) write_numbers(out, result);
+    if (compared) write_numbers(out, result);
 }
 
 void write_lines(std::ostream& out, const std::vector<std::string>& lines) {
@@ -201,7 +217,9 @@ void write_header(std::ostream& out, const RunFacts& facts, std::span<const Case
     const Summary sum = summary(results);
     out << "<header>\n<h1>" << headline(facts, sum, results.size())
         << "</h1>\n<dl class=\"facts\">\n<dt>Result</dt><dd>" << sum_of(sum) << "</dd>\n<dt>Folder</dt><dd>"
-        << escaped(facts.folder) << "</dd>\n<dt>Drawn by</dt><dd>" << escaped(drawn_by(facts)) << "</dd>\n";
+        << escaped(facts.folder) << "</dd>\n";
+    if (!facts.shard.empty()) out << "<dt>Shard</dt><dd>" << escaped(facts.shard) << "</dd>\n";
+    out << "<dt>Drawn by</dt><dd>" << escaped(drawn_by(facts, results)) << "</dd>\n";
     for (const std::string& sentence : other_systems(results)) {
         out << "<dt>Other system</dt><dd>" << escaped(sentence) << "</dd>\n";
     }
@@ -237,7 +255,8 @@ void write_passed(std::ostream& out, const Results& passed) {
     for (const CaseResult* result : passed) {
         out << "<figure" << sort_keys(*result)
             << "><button type=\"button\" class=\"thumbnail\" aria-pressed=\"false\">";
-        write_image(out, result->actual, result->file.name);
+        write_image(out, {result->actual, result->image ? result->image->actual_size : PictureSize{}},
+                    result->file.name);
         out << "</button><figcaption>" << escaped(result->file.name) << "<small>" << how_much(*result) << "</small>";
         for (const std::string& remark : result->remarks) out << "<small>" << escaped(remark) << "</small>";
         out << "</figcaption></figure>\n";
@@ -277,7 +296,7 @@ void write_html(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
     write_skipped(out, of(results, CaseOutcome::skipped));
     write_passed(out, of(results, CaseOutcome::passed));
     out << "</main>\n" << kReportBegins;
-    write_case_report(out, results, {facts.backend, facts.renderer});
+    write_case_report(out, results);
     out << kReportEnds << "\n<script>\n" << report_assets::embedded("report.js") << "</script>\n</body>\n</html>\n";
 }
 

@@ -61,8 +61,10 @@ void write_orphans(std::ostream& out, const RunFacts& facts) {
 
 }  // namespace
 
-std::string drawn_by(const RunFacts& facts) {
-    if (facts.backend.empty()) return "nothing: there is no OpenGL";
+std::string drawn_by(const RunFacts& facts, std::span<const CaseResult> results) {
+    if (facts.backend.empty()) {
+        return std::ranges::any_of(results, lacks_opengl) ? "nothing: there is no OpenGL" : "nothing";
+    }
     return facts.renderer.empty() ? facts.backend : facts.backend + ", " + facts.renderer;
 }
 
@@ -135,8 +137,8 @@ void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
         out << '\n';
     }
     for (const std::string& orphan : facts.orphans) out << kOrphan << ": " << cleaned(orphan) << kOrphanAdvice << '\n';
-    out << cleaned(facts.folder) << ": " << sum_of(summary(results)) << "; drawn by " << cleaned(drawn_by(facts))
-        << '\n';
+    out << cleaned(facts.folder) << (facts.shard.empty() ? "" : ", shard " + facts.shard) << ": "
+        << sum_of(summary(results)) << "; drawn by " << cleaned(drawn_by(facts, results)) << '\n';
     for (const std::string& sentence : other_systems(results)) out << cleaned(sentence) << '\n';
     if (const std::string differing = differing_passes(results); !differing.empty()) out << differing << '\n';
     if (!updatable.empty()) {
@@ -151,6 +153,7 @@ void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
     json.member("folder", facts.folder);
     json.member("backend", facts.backend);
     json.member("renderer", facts.renderer);
+    if (!facts.shard.empty()) json.member("shard", facts.shard);
     const Summary sum = summary(results);
     json.begin_object("summary", JsonWriter::Layout::row);
     for (std::size_t i = 0; i < sum.counts.size(); ++i) json.member(kOutcomeWords[i].key, sum.counts[i]);
@@ -191,6 +194,7 @@ void write_junit(std::ostream& out, const RunFacts& facts, std::span<const CaseR
     out << "<testsuites" << sum << ">\n  <testsuite" << attribute("name", facts.folder) << sum << ">\n";
     out << "    <properties>\n      <property name=\"backend\"" << attribute("value", facts.backend)
         << "/>\n      <property name=\"renderer\"" << attribute("value", facts.renderer) << "/>\n";
+    if (!facts.shard.empty()) out << "      <property name=\"shard\"" << attribute("value", facts.shard) << "/>\n";
     for (const std::string& sentence : other_systems(results)) {
         out << "      <property name=\"other system\"" << attribute("value", sentence) << "/>\n";
     }

@@ -19,13 +19,15 @@ struct RunFacts {
     std::string page{};                  ///< the page of the run, whose goldens can be taken; empty: there is none
     std::vector<std::string> orphans{};  ///< goldens that no case has
     bool strict = false;                 ///< whether they make the run fail
+    std::string shard{};  ///< "2/3": only every third case, from the second; empty: all that were asked for
 };
 
 /// A line for each case that did not pass and for each that did although something differs, what is to be known of the
 /// run, and the sum.
 void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
-/// {"folder", "backend", "renderer", "summary": {...}, "orphans": [...], "cases": [{"name", "outcome", "message",
-/// "remarks": [...], "seconds", "tolerance", "decided_by", "diff": {...} or null}]}; `diff` as in `mobbscope diff
+/// {"folder", "backend", "renderer", "shard": "2/3" of a shard, "summary": {...}, "orphans": [...], "cases": [{"name",
+/// "outcome", "message", "remarks": [...], "seconds", "tolerance", "decided_by", "diff": {...} or null}]}; `diff` as in
+/// `mobbscope diff
 /// --json`. Where goldens are from elsewhere (reference.h), "other_system": how was decided, a sentence for each
 /// folder.
 void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
@@ -36,7 +38,7 @@ void write_junit(std::ostream& out, const RunFacts& facts, std::span<const CaseR
 void write_html(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
 
 /// "osmesa (llvmpipe)", or that nothing was drawn.
-std::string drawn_by(const RunFacts& facts);
+std::string drawn_by(const RunFacts& facts, std::span<const CaseResult> results);
 
 /// For each folder whose goldens are from elsewhere (reference.h) a sentence: what is other here, and by what its cases
 /// were decided.

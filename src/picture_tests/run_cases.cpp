@@ -100,23 +100,37 @@ Held hold(const Image& actual, const std::filesystem::path& file, const DiffOpti
     Held out;
     if (!is_there(file)) return out;
     try {
-        out.golden = read_png(file);
+        const std::string bytes = read_file(file);
+        const PictureSize size = png_size(bytes, file.string());
+        // Of two sizes nothing is compared: what a header says may be very large.
+        if (size != PictureSize{actual.width, actual.height}) {
+            out.diff = diff_of_sizes({actual.width, actual.height}, size, options);
+            return out;
+        }
+        out.golden = read_png_bytes(bytes, file.string());
     } catch (const InputError& error) {
         out.unreadable = error.what();
         return out;
     }
     const bool fits = mask && mask->width == actual.width && mask->height == actual.height;
-    // Of two sizes nothing is compared, with no mask either.
     out.diff = diff(actual, out.golden, options, fits ? mask : nullptr);
     return out;
 }
 
+/// What a result shows, until it is packed.
+struct ShownPictures {
+    const Image* actual = nullptr;  ///< of the drawn case
+    Image golden;
+};
+
 /// The result shows this picture.
-void show(CaseResult& result, const Image& actual, Held held, const std::filesystem::path& file) {
+void show(CaseResult& result, ShownPictures& shown, const Image& actual, Held held, const std::filesystem::path& file) {
     result.shown = file;
-    result.actual = actual;
-    result.golden = std::move(held.golden);
+    shown.actual = &actual;
+    shown.golden = std::move(held.golden);
     result.image = std::move(held.diff);
+    // Who looks at it makes it anew (compared_again).
+    if (result.image) result.image->heat = {};
 }
 
 /// The verdict on a picture by its pixels. `which` stands before what differs.
@@ -164,7 +178,8 @@ void compare_state(CaseResult& result, DrawnCase& drawn) {
 }
 
 /// Holds the picture without text, and of a window its state.
-void compare_without_text(CaseResult& result, const Case& tested, DrawnCase& drawn, const Image* mask) {
+void compare_without_text(CaseResult& result, ShownPictures& shown, const Case& tested, DrawnCase& drawn,
+                          const Image* mask) {
     const std::filesystem::path file = result.file.plain();
     const PictureSize size{drawn.plain().width, drawn.plain().height};
     std::optional<Image> small_mask;
@@ -174,7 +189,7 @@ void compare_without_text(CaseResult& result, const Case& tested, DrawnCase& dra
     // The case's own picture is shown if that is why it does not pass.
     const bool shows_another = result.decided_by == DecidedBy::pixels && !(result.image && result.image->passes);
     if (!held.passes() && !shows_another) {
-        show(result, drawn.plain(), std::move(held), file);
+        show(result, shown, drawn.plain(), std::move(held), file);
         result.mask.reset();
         result.tolerance = Tolerance::loose;
     }
@@ -185,19 +200,19 @@ void compare_without_text(CaseResult& result, const Case& tested, DrawnCase& dra
 bool has_draw_list(const CaseFile& file, const Case& tested) { return tested.terms.draw_list && is_there(file.draw()); }
 
 /// Where the goldens are from.
-void compare_on_reference(CaseResult& result, const Case& tested, DrawnCase& drawn, bool has_reference,
-                          const Image* mask) {
+void compare_on_reference(CaseResult& result, ShownPictures& shown, const Case& tested, DrawnCase& drawn,
+                          bool has_reference, const Image* mask) {
     const std::filesystem::path golden = result.file.golden();
     Held held = hold(drawn.picture(), golden, tested.terms.diff, mask);
     judge_pixels(result, held, golden, "");
     const bool same_size = !held.diff || held.diff->same_size;
-    show(result, drawn.picture(), std::move(held), golden);
+    show(result, shown, drawn.picture(), std::move(held), golden);
     // In a picture of another size everything is elsewhere.
     if (!same_size) return;
     if (has_draw_list(result.file, tested)) {
         compare_numbers(result, drawn.draw_list(), "the draw list", result.file.draw(), false);
     } else if (has_reference && (tested.shot.window || is_there(result.file.plain()))) {
-        compare_without_text(result, tested, drawn, mask);
+        compare_without_text(result, shown, tested, drawn, mask);
     } else if (has_reference) {
         // Else nothing would hold the case elsewhere.
         add_missing(result, tested.terms.draw_list ? result.file.draw() : result.file.plain());
@@ -205,8 +220,8 @@ void compare_on_reference(CaseResult& result, const Case& tested, DrawnCase& dra
 }
 
 /// By structural similarity.
-void judge_similarity(CaseResult& result, const Image* mask, double most) {
-    const double loss = similarity_loss(result.actual, result.golden, mask);
+void judge_similarity(CaseResult& result, const ShownPictures& shown, const Image* mask, double most) {
+    const double loss = similarity_loss(*shown.actual, shown.golden, mask);
     const std::string said = "the largest loss of structural similarity is " + brief(loss);
     if (loss > most) {
         add_finding(result, CaseOutcome::different, {result.shown, said + ", allowed: " + brief(most), {}});
@@ -216,7 +231,8 @@ void judge_similarity(CaseResult& result, const Image* mask, double most) {
 }
 
 /// Where something is other than where the goldens are from.
-void compare_elsewhere(CaseResult& result, const Case& tested, DrawnCase& drawn, bool same_words, const Image* mask) {
+void compare_elsewhere(CaseResult& result, ShownPictures& shown, const Case& tested, DrawnCase& drawn, bool same_words,
+                       const Image* mask) {
     const std::filesystem::path golden = result.file.golden();
     Held held = hold(drawn.picture(), golden, tested.terms.diff, mask);
     const bool passes = held.passes();
@@ -226,23 +242,23 @@ void compare_elsewhere(CaseResult& result, const Case& tested, DrawnCase& drawn,
     } else {
         result.remarks.push_back(what_differs(*held.diff));
     }
-    show(result, drawn.picture(), std::move(held), golden);
+    show(result, shown, drawn.picture(), std::move(held), golden);
     if (!comparable) return;
     if (has_draw_list(result.file, tested)) {
         // With other fonts words lie elsewhere; pixels that agree say more then.
         if (passes && !same_words) return;
         compare_numbers(result, drawn.draw_list(), "the draw list", result.file.draw(), !same_words);
         if (!passes || result.outcome != CaseOutcome::passed) result.decided_by = DecidedBy::draw_list;
-        if (!passes && same_words) judge_similarity(result, mask, kMostLossWithDrawList);
+        if (!passes && same_words) judge_similarity(result, shown, mask, kMostLossWithDrawList);
     } else if (passes) {
         return;
     } else if (same_words) {
         result.decided_by = DecidedBy::ssim;
-        judge_similarity(result, mask, kMostLoss);
+        judge_similarity(result, shown, mask, kMostLoss);
         if (tested.shot.window) compare_state(result, drawn);
     } else {
         result.decided_by = DecidedBy::without_text;
-        compare_without_text(result, tested, drawn, mask);
+        compare_without_text(result, shown, tested, drawn, mask);
     }
 }
 
@@ -290,16 +306,17 @@ void run(CaseResult& result, PictureMaker& maker, const RunOptions& options) {
     if (reference) result.other_here = what_is_other(here, *reference);
 
     DrawnCase drawn(tested, maker);
+    ShownPictures shown;
     std::optional<Image> mask;
     if (tested.terms.mask) {
         mask = read_mask(*tested.terms.mask, {drawn.picture().width, drawn.picture().height}, result.file.file);
         result.mask = tested.terms.mask;
     }
     if (result.other_here.empty()) {
-        compare_on_reference(result, tested, drawn, reference.has_value(), mask ? &*mask : nullptr);
+        compare_on_reference(result, shown, tested, drawn, reference.has_value(), mask ? &*mask : nullptr);
     } else {
         const bool same_words = same_text(here, *reference, tested.shot.window.has_value());
-        compare_elsewhere(result, tested, drawn, same_words, mask ? &*mask : nullptr);
+        compare_elsewhere(result, shown, tested, drawn, same_words, mask ? &*mask : nullptr);
     }
     const bool passed = result.outcome == CaseOutcome::passed;
     if (!passed || options.fresh != FreshGoldens::of_failed) {
@@ -309,10 +326,19 @@ void run(CaseResult& result, PictureMaker& maker, const RunOptions& options) {
             std::erase_if(result.fresh, [&](const GoldenChange& one) { return !lacks || (one.bytes && one.replaces); });
         }
     }
-    if (!passed) return;
-    // A run may have hundreds of cases: of those that passed one picture is enough.
-    result.golden = {};
-    result.image->heat = {};
+    result.actual = png_bytes(*shown.actual);
+    // Of a case that passed one picture is enough.
+    if (!passed && !shown.golden.rgba.empty()) result.golden = png_bytes(shown.golden);
+}
+
+/// The heat map of a result that has one.
+std::optional<std::string> heat_png(const CaseResult& result) {
+    if (!result.image || !result.image->same_size || result.golden.empty()) return std::nullopt;
+    try {
+        return png_bytes(compared_again(result, read_png_bytes(result.actual), read_png_bytes(result.golden)).heat);
+    } catch (const InputError&) {
+        return std::nullopt;  // its mask is gone meanwhile
+    }
 }
 
 }  // namespace
@@ -338,19 +364,22 @@ CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view 
         return result;
     }
     const auto begin = std::chrono::steady_clock::now();
+    const Renderer& renderer = maker->renderer();
+    result.drawn_by = {std::string(maker->backend()), renderer.device(), reference_of(renderer).opengl};
     try {
         run(result, *maker, options);
     } catch (const std::exception& error) {
         result.outcome = CaseOutcome::failed;
         result.message = error.what();
-        result.actual = {};
-        result.golden = {};
+        result.actual.clear();
+        result.golden.clear();
         result.image.reset();
         result.remarks.clear();
         result.findings.clear();
         result.fresh.clear();
     }
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.read = files_read();
     return result;
 }
 
@@ -364,7 +393,7 @@ void make_folder_of(const std::filesystem::path& file) {
 
 std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const std::filesystem::path& folder) {
     const std::filesystem::path stem = folder / result.file.name;
-    const bool keeps = result.outcome != CaseOutcome::passed && !result.actual.rgba.empty();
+    const bool keeps = result.outcome != CaseOutcome::passed && !result.actual.empty();
     if (keeps) make_folder_of(stem);
     std::vector<std::filesystem::path> written;
     const auto keep = [&](const std::string& what, const std::optional<std::string>& bytes) {
@@ -374,21 +403,20 @@ std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const
             std::filesystem::remove(file, ignored);
             return;
         }
+        check_stays_in_folder(file);
         write_file(file, *bytes);
         written.push_back(file);
     };
-    const auto png = [](const Image* image) {
-        return image && !image->rgba.empty() ? std::optional(png_bytes(*image)) : std::nullopt;
-    };
+    const auto png = [](const std::string& bytes) { return bytes.empty() ? std::nullopt : std::optional(bytes); };
     for (const CaseFile::Golden golden : {&CaseFile::golden, &CaseFile::plain}) {
         const std::filesystem::path file = (result.file.*golden)();
         const std::string ending = result.file.ending_of(file);
         const bool shown = file == result.shown;
         // What accepting writes, to the byte.
         const std::optional<std::string> fresh = fresh_bytes(result, file);
-        keep("actual" + ending, shown && !fresh ? png(&result.actual) : fresh);
-        keep("golden" + ending, shown ? png(&result.golden) : std::nullopt);
-        keep("heat" + ending, shown && result.image ? png(&result.image->heat) : std::nullopt);
+        keep("actual" + ending, shown && !fresh ? png(result.actual) : fresh);
+        keep("golden" + ending, shown ? png(result.golden) : std::nullopt);
+        keep("heat" + ending, shown && keeps ? heat_png(result) : std::nullopt);
     }
     for (const CaseFile::Golden golden : {&CaseFile::draw, &CaseFile::plain_state}) {
         const std::filesystem::path file = (result.file.*golden)();

@@ -11,24 +11,6 @@
 
 namespace mobbscope::picture_tests {
 
-/// What the goldens of a run are held to be from.
-enum class GoldenSource {
-    reference,  ///< what the reference.json of their folder says, or here if there is none
-    here,       ///< here, whatever it says: this becomes the reference
-};
-
-/// Of which cases all goldens are made as they would be now (CaseResult::fresh), besides those that did not pass.
-enum class FreshGoldens {
-    of_failed,  ///< of no others
-    missing,    ///< of those that passed the goldens that are not there yet
-    of_all,
-};
-
-struct RunOptions {
-    GoldenSource source = GoldenSource::reference;
-    FreshGoldens fresh = FreshGoldens::of_failed;
-};
-
 /// Runs one case. `maker` null: there is no OpenGL, for the reason given; the case is skipped without being read. Never
 /// throws for what is wrong with a case.
 CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl,

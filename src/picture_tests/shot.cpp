@@ -89,6 +89,7 @@ void refuse_with_window(const JsonPlace& place) {
 Shot read_shot(const JsonPlace& place, const std::filesystem::path& folder) {
     Shot shot;
     shot.picture = read_picture_options(place);
+    read_at(place, [&] { check(shot.picture); });
     if (const auto select = place.find("select")) {
         shot.select = read_at(*select, [&] { return parse_named_part(select->string()); });
     }

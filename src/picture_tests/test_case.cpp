@@ -9,9 +9,9 @@ Case read_case(const std::filesystem::path& file) {
     const std::string name = file.string();
     const JsonValue value = parse_json(read_file(file), name);
     const JsonPlace root(value, name);
-    root.allow_only({"$schema", "mobbscope_case", "tolerance", "threshold", "allowed", "mask", "draw_list", "skip",
-                     "scene", "fit", "view", "panels", "columns", "select", "size", "scale", "samples", "background",
-                     "window"});
+    root.allow_only({"$schema",    "mobbscope_case", "tolerance", "threshold", "allowed",    "mask",   "draw_list",
+                     "time_limit", "skip",           "scene",     "fit",       "view",       "panels", "columns",
+                     "select",     "size",           "scale",     "samples",   "background", "window"});
     if (const auto schema = root.find("$schema")) schema->string();
     Case out;
     out.terms = read_terms(root, file.parent_path());

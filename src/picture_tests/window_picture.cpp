@@ -21,7 +21,9 @@ namespace {
 /// While it lives, relative names of files are relative to a folder.
 class WorkingFolder {
   public:
-    explicit WorkingFolder(const std::filesystem::path& folder) : before_(std::filesystem::current_path()) {
+    explicit WorkingFolder(const std::filesystem::path& folder) {
+        std::error_code gone;
+        before_ = std::filesystem::current_path(gone);
         std::filesystem::current_path(folder);
     }
     ~WorkingFolder() {
@@ -42,13 +44,14 @@ class WorkedWindow {
                  PictureSize size, double scale, const app::Script* script)
         // Dialogs show the names of folders: the window must not see from where the program runs.
         : folder_(file.parent_path().empty() ? "." : file.parent_path()), session_(false) {
+        // First, as the session starts threads (driver_watch.h).
+        std::unique_ptr<GlContext> context = GlContext::open(backend);
         Scene scene = fitted.scene();
         scene.file = "." / file.filename();
         scene.fit = fitted.options();
         scene.view = view;
         session_.may_write = false;
         session_.open_scene(scene, {scene.file});
-        std::unique_ptr<GlContext> context = GlContext::open(backend);
         const GlContext& drawn_in = *context;
         window_.emplace(std::move(context), session_, size, scale);
         if (script) {

@@ -13,30 +13,38 @@ namespace mobbscope {
 
 namespace {
 
-template <class Iterator>
-std::vector<std::filesystem::path> clips_by(const std::filesystem::path& folder) {
-    std::vector<std::filesystem::path> out;
+/// Adds the clips in a folder; with `unreadable` those below it too.
+void add_clips(const std::filesystem::path& folder, std::vector<std::filesystem::path>& clips,
+               std::vector<UnreadableFolder>* unreadable) {
     std::error_code error;
     // Stepped by hand: the loop's own ++ would throw.
-    for (Iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    for (std::filesystem::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
         std::error_code ignored;
         const std::optional<Contents> contents = contents_by_name(at->path());
-        if (contents && contents != Contents::trajectories && at->is_regular_file(ignored)) out.push_back(at->path());
+        if (contents && contents != Contents::trajectories && at->is_regular_file(ignored)) clips.push_back(at->path());
+        // A link could lead to a folder above.
+        if (unreadable && at->is_directory(ignored) && !at->is_symlink(ignored))
+            add_clips(at->path(), clips, unreadable);
     }
-    if (error) throw InputError(folder.string(), "", "the folder cannot be read: " + error.message());
+    if (!error) return;
+    const InputError why(folder.string(), "", "the folder cannot be read: " + error.message());
+    if (!unreadable) throw why;
+    unreadable->push_back({folder, why.what()});
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> clips_in(const std::filesystem::path& folder,
+                                            std::vector<UnreadableFolder>* unreadable) {
+    std::vector<std::filesystem::path> out;
+    add_clips(folder, out, unreadable);
+    if (out.empty() && unreadable && !unreadable->empty()) throw InputError(unreadable->front().why);
     if (out.empty()) {
         throw InputError(folder.string(), "",
                          "there are no clips in this folder (" + listed_clip_extensions(", ") + ")");
     }
     std::sort(out.begin(), out.end());
     return out;
-}
-
-}  // namespace
-
-std::vector<std::filesystem::path> clips_in(const std::filesystem::path& folder, bool below) {
-    return below ? clips_by<std::filesystem::recursive_directory_iterator>(folder)
-                 : clips_by<std::filesystem::directory_iterator>(folder);
 }
 
 std::span<const std::string_view> openable_extensions() {

@@ -19,9 +19,16 @@ std::span<const std::string_view> openable_extensions();
 std::string openable_files();
 std::string openable_files_in_short();
 
-/// The clip files in a folder, by name; with `below` in the folders in it too. Scenes and crowds in it are other
-/// documents, and not every text is a crowd. Throws InputError if it cannot be read or holds none.
-std::vector<std::filesystem::path> clips_in(const std::filesystem::path& folder, bool below = false);
+struct UnreadableFolder {
+    std::filesystem::path folder;
+    std::string why;  ///< in one line, with its name
+};
+
+/// The clip files in a folder, by name; with `unreadable` in the folders in it too, but for those that it then names.
+/// Scenes and crowds in it are other documents, and not every text is a crowd. Throws InputError if it cannot be read
+/// or holds none.
+std::vector<std::filesystem::path> clips_in(const std::filesystem::path& folder,
+                                            std::vector<UnreadableFolder>* unreadable = nullptr);
 
 /// Scenes and clips merged into one scene; a folder stands for the clips in it, by name. `overrides` go
 /// over the import keys of every clip with a source. `progress` is told before each file, or of one scene before each

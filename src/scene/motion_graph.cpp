@@ -1,5 +1,6 @@
 #include <base/text.h>
 #include <scene/motion_graph.h>
+#include <scene/scene.h>
 
 #include <algorithm>
 #include <cmath>
@@ -261,6 +262,19 @@ void write_graph(JsonWriter& out, const MotionGraph& graph, const std::function<
         out.end_object();
     });
     out.end_object();
+}
+
+std::string why_moves_are_too_long(const Scene& scene, const MotionGraph& graph) {
+    std::size_t moves = 0, samples = 0;
+    for (const GraphMove& move : graph.moves) {
+        if (move.turned) continue;
+        ++moves;
+        samples += static_cast<std::size_t>(scene.clips[static_cast<std::size_t>(move.clip)].clip->count());
+    }
+    if (samples <= kMostMoveSamples + kSamplesOfMove * moves) return "";
+    return "of " + counted(moves, "move", "moves") + " there are " + std::to_string(samples) + " samples, more than " +
+           std::to_string(kMostMoveSamples) + " and " + std::to_string(kSamplesOfMove) +
+           " for each; take shorter moves, or lower fps";
 }
 
 }  // namespace mobbscope

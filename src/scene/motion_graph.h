@@ -9,6 +9,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -16,6 +17,8 @@
 #include <vector>
 
 namespace mobbscope {
+
+struct Scene;  // scene/scene.h
 
 /// Where a body stands on the floor of its clip, and which way it faces.
 struct Stance {
@@ -126,5 +129,13 @@ void write_bounds(JsonWriter& out, const GraphBounds& bounds);
 
 /// `clip_name` gives the name of the clip with an index.
 void write_graph(JsonWriter& out, const MotionGraph& graph, const std::function<std::string(int)>& clip_name);
+
+/// The most samples that the moves of a graph have together, and more for each: a crowd has every move turned some
+/// forty ways.
+inline constexpr std::size_t kMostMoveSamples = 500'000;
+inline constexpr std::size_t kSamplesOfMove = 1'000;
+
+/// Why a crowd cannot play the scene's graph, if its moves are too long; else empty.
+std::string why_moves_are_too_long(const Scene& scene, const MotionGraph& graph);
 
 }  // namespace mobbscope

@@ -3,7 +3,9 @@
 #include <scene/scene_edits.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace mobbscope {
@@ -60,7 +62,8 @@ class PairInView {
 std::filesystem::path relative_source(const std::filesystem::path& source, const std::filesystem::path& from,
                                       const std::filesystem::path& to) {
     if (source.is_absolute()) return source;
-    const std::filesystem::path here = std::filesystem::current_path();
+    std::error_code gone;  // absolute names need no present folder
+    const std::filesystem::path here = std::filesystem::current_path(gone);
     const std::filesystem::path led = (here / from / source).lexically_normal();
     const std::filesystem::path leads = led.lexically_proximate((here / to).lexically_normal());
     return leads.empty() ? led : leads;

@@ -3,6 +3,7 @@
 #include <base/json.h>
 #include <base/text.h>
 #include <import/clip/held_steps.h>
+#include <import/clip/sampling.h>
 #include <import/import.h>
 #include <scene/arrangement.h>
 #include <scene/clip_import.h>
@@ -12,8 +13,10 @@
 #include <scene/scene_json.h>
 #include <scene/view_options.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
+#include <set>
 #include <stdexcept>
 #include <unordered_map>
 #include <utility>
@@ -349,7 +352,18 @@ class SceneReader {
         } catch (const std::invalid_argument& error) {
             place.require("warp").fail(error.what());
         }
+        count_samples(source, clip);
         if (const auto turn = place.find("turn")) read_turn(*turn, clip);
+    }
+
+    /// One source may be named any number of times.
+    void count_samples(const JsonPlace& source, const SceneClip& clip) {
+        const std::size_t joints =
+            clip.skeleton ? clip.skeleton->joints.size() : static_cast<std::size_t>(clip.facts.joints);
+        if (sources_.insert({*clip.source, clip.facts.animation, clip.options.id.value_or("")}).second)
+            made_.add_stored(static_cast<std::size_t>(clip.facts.frames), joints);
+        if (made_.add(static_cast<std::size_t>(clip.clip->count()), joints)) return;
+        source.fail("with this one the scene's clips " + MadeSamples::too_many() + ", or take clips out");
     }
 
     WarpEnd read_warp_end(const JsonPlace& place) const {
@@ -465,6 +479,8 @@ class SceneReader {
     std::vector<std::shared_ptr<const MovingPose>> poses_;  ///< by their place among the names
     NameTable clip_names_;
     NameTable agent_names_;
+    std::set<std::array<std::string, 3>> sources_;  ///< file, animation and id
+    MadeSamples made_;                              ///< of clips with a source
     Scene scene_;
 };
 

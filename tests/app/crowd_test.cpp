@@ -229,19 +229,19 @@ TEST_F(CrowdTest, ConflictsAreCountedAsTheCommandCountsThem) {
         crowd.push_back(people.placed(who));
         person_of.push_back(people.scene().agents[static_cast<std::size_t>(who.agent)].run_agent);
     }
-    const PeopleConflicts other = find_people_conflicts(crowd, person_of, Search::direct);
-    ASSERT_EQ(session.conflicts()->size(), other.found.size());
+    const std::vector<PeopleConflict> other = find_people_conflicts(crowd, person_of, Search::direct).all();
+    ASSERT_EQ(session.conflicts()->size(), other.size());
     std::set<std::pair<int, int>> pairs;
-    for (std::size_t i = 0; i < other.found.size(); ++i) {
+    for (std::size_t i = 0; i < other.size(); ++i) {
         const PeopleConflict& here = (*session.conflicts())[i].facts;
-        EXPECT_EQ(std::pair(here.a, here.b), std::pair(other.found[i].a, other.found[i].b));
-        EXPECT_NEAR(here.deepest.least_clearance, other.found[i].deepest.least_clearance, 1e-9);
-        EXPECT_NEAR(here.seconds(), other.found[i].seconds(), 1e-6);
+        EXPECT_EQ(std::pair(here.a, here.b), std::pair(other[i].a, other[i].b));
+        EXPECT_NEAR(here.deepest.least_clearance, other[i].deepest.least_clearance, 1e-9);
+        EXPECT_NEAR(here.seconds(), other[i].seconds(), 1e-6);
         EXPECT_TRUE(pairs.emplace(here.a, here.b).second) << "each pair once";
     }
     double seconds = 0;
-    for (const PeopleConflict& conflict : other.found) seconds += conflict.seconds();
-    EXPECT_EQ(conflict_summary(session), conflict_count(other.found.size(), session.crowd()->agents.size(), seconds));
+    for (const PeopleConflict& conflict : other) seconds += conflict.seconds();
+    EXPECT_EQ(conflict_summary(session), conflict_count(other.size(), session.crowd()->agents.size(), seconds));
 }
 
 /// One walks 4 m in steps of 1 m and 0.5 s, twice; another stands for 0.3 s where the first runs on from 3 m to 4 m.

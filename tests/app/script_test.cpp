@@ -37,7 +37,7 @@ TEST(Script, WhatIsNoStatementNamesFileAndLine) {
              {"until 1 a b", "'a' is no JSON pointer"},
              {"drop", "needs files or folders"},
              {"marks a.json", "must end in .txt"},
-             {std::string("run view.top\nmo\0ve 1 2", 22), "line 2: 'mo?ve' is no statement"},
+             {std::string("run view.top\nmo\0ve 1 2", 22), "line 2: 'mo\\u0000ve' is no statement"},
              {"move \"a", "a quote is not closed"},
              {"type", "needs a text"}}) {
         try {

@@ -394,6 +394,14 @@ TEST(Saving, ElsewhereKeepsTheSourcesAndReadsBackEqual) {
     EXPECT_EQ(e.session.scene().clips[0].source, "walk.csv");
 }
 
+TEST(Saving, TheSourceOfAClipIsNotReplaced) {
+    Edited e;
+    std::filesystem::create_hard_link(e.folder.file("walk.csv"), e.folder.file("same.json"));
+    const std::string why = refusal(e.session, "file.save_as", e.folder.file("same.json").string());
+    EXPECT_NE(why.find("comes from this file"), std::string::npos) << why;
+    EXPECT_TRUE(e.session.modified());
+}
+
 TEST(Saving, WhatCannotBeWrittenStaysUnsaved) {
     Edited e;
     EXPECT_NE(refusal(e.session, "file.save_as", (e.folder.file("none/x.json")).string()), "");

@@ -77,13 +77,6 @@ TEST(Convert, ToJsonKeepsTheSceneAndNeedsNoOtherFile) {
     EXPECT_EQ(read.view.theme, Theme::light);
 }
 
-TEST(Convert, TheOutputMayBeTheInput) {
-    const TempFolder folder;
-    const std::string file = folder.write("walk.csv", slurp(kConvertScenes + "walk.csv"));
-    ASSERT_EQ(run_program({"convert", file, "-o", file, "--trim", "0:1"}).status, 0);
-    EXPECT_EQ(load_scene(file).clips[0].clip->count(), 31);
-}
-
 TEST(Convert, ARefusalLeavesWhatWasThere) {
     const TempFolder folder;
     const std::string bad = folder.write("bad.csv", "t,x,y,r\n0,0,0,0\n1,x,0,0\n");

@@ -168,7 +168,7 @@ TEST_F(GraphTest, TheJointsThatCountStandInTheFile) {
     };
     const double as_built = largest(json());
     nlohmann::json changed = json();
-    changed["graph"]["rigs"][0]["joints"] = {graph["rigs"][0]["joints"][0]};
+    changed["graph"]["rigs"][0]["joints"] = nlohmann::json::array({graph["rigs"][0]["joints"][0]});
     EXPECT_NE(largest(changed), as_built);
     EXPECT_NE(run_program({"graph", "info", path("changed.json")}).out.find("poses compared by 1 joint: Hips\n"),
               std::string::npos);

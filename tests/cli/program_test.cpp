@@ -260,6 +260,30 @@ TEST(Program, LongNamesAreCutInTheMiddle) {
     EXPECT_FALSE(std::filesystem::exists(png));
 }
 
+TEST(Program, NamesThatMisleadTheEyeAreShownAsTheyAre) {
+    const TempFolder folder;
+    const std::string name = "e\u202evil";
+    const std::string scene = folder.write(name + ".json", R"({"clips": {")" + name +
+                                                               R"(": {"dt": 0.5, "samples": [[0, 0, 1], [1, 0, 1]]}},
+        "agents": [{"name": ")" + name + R"(", "clip": ")" + name +
+                                                               R"("}, {"name": "B", "clip": ")" + name + R"("}]})");
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"info", scene},
+                                                      {"info", scene, "--json"},
+                                                      {"fit", scene},
+                                                      {"fit", scene, "--json"},
+                                                      {"query", scene, "--trace"},
+                                                      {"query", scene, "--json"},
+                                                      {"conflicts", scene},
+                                                      {"conflicts", scene, "--json"},
+                                                      {"info", scene + "x"},
+                                                      {"fit", scene, "--tree", name}}) {
+        const Result run = run_program(arguments);
+        const std::string said = run.out + run.err;
+        EXPECT_EQ(said.find("\u202e"), std::string::npos) << said;
+        EXPECT_NE(said.find("e\\u202evil"), std::string::npos) << said;
+    }
+}
+
 TEST(Program, ResultsThatCannotBeWrittenAreStatusThree) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
     const std::string scene = kProgramScenes + "crossing.json";

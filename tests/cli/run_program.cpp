@@ -11,7 +11,7 @@
 namespace mobbscope::testing {
 
 Result run_program(const std::vector<std::string>& arguments, const std::filesystem::path& stdout_to,
-                   const std::filesystem::path& stdin_from) {
+                   const std::filesystem::path& stdin_from, const std::function<void()>& in_child) {
     const TempFolder folder;
     const std::string out = stdout_to.empty() ? (folder.path() / "out").string() : stdout_to.string();
     const std::string err = (folder.path() / "err").string();
@@ -26,6 +26,7 @@ Result run_program(const std::vector<std::string>& arguments, const std::filesys
         ::dup2(::open(stdin_from.c_str(), O_RDONLY), STDIN_FILENO);
         ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
         ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
+        if (in_child) in_child();
         ::execv(argv[0], argv.data());
         ::_exit(127);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,9 @@ struct Result {
 };
 
 /// Waits for the program to end. `stdout_to`: a file to write results to instead of collecting them; `stdin_from`: one
-/// that standard input comes from, which is empty else.
+/// that standard input comes from, which is empty else; `in_child`: what is done there before, such as setting a limit.
 Result run_program(const std::vector<std::string>& arguments, const std::filesystem::path& stdout_to = {},
-                   const std::filesystem::path& stdin_from = "/dev/null");
+                   const std::filesystem::path& stdin_from = "/dev/null", const std::function<void()>& in_child = {});
 
 /// True if `err` is one whole line: what a refusal must be.
 bool is_one_line(const std::string& err);

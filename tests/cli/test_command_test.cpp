@@ -89,7 +89,8 @@ TEST_F(TestCommandTest, RefusesWhatIsNoRun) {
     expect_test_refused(test({"--html", (cases.path() / "scene.json").string()}), "is written as .html");
     expect_test_refused(test({"--junit", ""}), "the name is empty");
     cases.folder().write("path.png", "no picture");
-    expect_test_refused(test({"query/*", "--contact-sheet", (cases.path() / "path.png").string()}), "golden of 'path'");
+    expect_test_refused(test({"query/*", "--contact-sheet", (cases.path() / "path.png").string()}),
+                        "path.png', which it is made from");
     const std::string folder = cases.path().string();
     expect_test_refused(run_program({"test", folder, "--output", folder}), "where the goldens are");
     expect_test_refused(test({"--update", "all", "path"}), "--update: all");
@@ -617,6 +618,160 @@ TEST_F(DrawnTestCommandTest, AllPicturesStandInOneSheet) {
     EXPECT_LT(image.width, 400);
     EXPECT_GT(image.height, 120);
     EXPECT_LT(image.height, 200);
+}
+
+/// What did not pass stands first, marked.
+TEST_F(DrawnTestCommandTest, TheSheetBeginsWithWhatDidNotPass) {
+    take_all();
+    cases.add("zz", R"("veiw": {})");
+    const std::filesystem::path sheet = output / "sheet.png";
+    EXPECT_EQ(test({"--contact-sheet", sheet.string(), "--columns", "3"}).status, 1);
+    const Image image = read_png(sheet);
+    const auto marked = [&](int from, int to) {
+        constexpr std::array<std::uint8_t, 4> kMark{0xF0, 0x70, 0x1A, 255};
+        int count = 0;
+        for (int y = 0; y < image.height; ++y) {
+            for (int x = from; x < to; ++x) count += std::equal(kMark.begin(), kMark.end(), image.at(x, y)) ? 1 : 0;
+        }
+        return count;
+    };
+    EXPECT_GT(marked(0, image.width / 3), 1000);
+    EXPECT_LT(marked(image.width / 3, image.width), 500) << "a hit in a picture has that colour too";
+}
+
+TEST_F(DrawnTestCommandTest, ShardsTogetherAreAllCases) {
+    for (const char* name : {"b", "c", "d"}) cases.add(name);
+    EXPECT_EQ(test({"--list", "--shard", "1/2"}).out, "b\nd\nquery/end\n");
+    EXPECT_EQ(test({"--list", "--shard", "2/2"}).out, "c\npath\n");
+    EXPECT_EQ(test({"--list", "--shard", "2/2", "path", "d"}).out, "path\n");
+    for (const char* bad : {"0/2", "3/2", "2", "1/", "/", "a/b", "1/2/3"}) {
+        EXPECT_EQ(test({"--shard", bad}).status, 2) << bad;
+    }
+    take_all();
+    cases.folder().write("lost.png", "");
+    const Result run = test({"--shard", "2/2", "--json"});
+    EXPECT_EQ(run.status, 0);
+    const nlohmann::json report = nlohmann::json::parse(run.out);
+    EXPECT_EQ(report["shard"], "2/2");
+    EXPECT_EQ(report["summary"]["passed"], 2);
+    EXPECT_EQ(report["orphans"].size(), 1u) << "goldens of the other shards' cases are none";
+    const Result strict = test({"--shard", "1/2", "--strict"});
+    EXPECT_EQ(strict.status, 1);
+    EXPECT_PRED2(says, strict.out, ", shard 1/2: 3 passed");
+    const Result empty = test({"--shard", "9/9"});
+    EXPECT_EQ(empty.status, 0) << empty.err;
+    EXPECT_PRED2(says, empty.out, ", shard 9/9: no cases");
+    expect_test_refused(test({"--shard", "1/2", "--update", "all", "--new-reference"}), "--new-reference: ");
+    expect_test_refused(test({"--shard", "1/2", "--accept", output.string()}), "--accept: ");
+}
+
+TEST_F(DrawnTestCommandTest, ResultsStandInTheOrderOfTheCases) {
+    // The first takes longest.
+    cases.add("a", R"("panels": [{}, {}, {}, {}], "size": "1600x1200")");
+    for (const char* name : {"b", "c", "d"}) cases.add(name, R"("skip": "later")");
+    for (const std::string how : {"--json", "--json-lines"}) {
+        const Result run = test({how, "--jobs", "3"});
+        const std::vector<nlohmann::json> lines =
+            how == "--json" ? nlohmann::json::parse(run.out)["cases"].get<std::vector<nlohmann::json>>()
+                            : json_lines(run.out);
+        std::string names;
+        for (const nlohmann::json& line : lines) names += line["name"].get<std::string>() + ' ';
+        EXPECT_EQ(names, "a b c d path query/end ");
+    }
+    for (const char* bad : {"0", "-1", "x", "257"}) EXPECT_EQ(test({"--jobs", bad}).status, 2) << bad;
+}
+
+/// A case whose window waits, and the others.
+class HangingCaseTest : public DrawnTestCommandTest {
+  protected:
+    void add_hanging(const std::string& more) const {
+        cases.folder().write("hangs.script", "wait 3600\n");
+        cases.add("hangs", R"("window": {"script": "hangs.script"})" + more);
+    }
+    void expect_reports(const std::string& status_and_why) const {
+        EXPECT_PRED2(says, slurp(output / "junit.xml"), "tests=\"3\" failures=\"0\" errors=\"1\" skipped=\"0\"");
+        EXPECT_PRED2(says, slurp(output / "junit.xml"), status_and_why);
+        EXPECT_PRED2(says, slurp(output / "page.html"), status_and_why);
+        EXPECT_PRED2(says, slurp(output / "report.json"), status_and_why);
+        EXPECT_GT(read_png(output / "sheet.png").width, 320);
+    }
+    std::vector<std::string> all_reports() const {
+        return {"test",
+                cases.path().string(),
+                "--output",
+                output.string(),
+                "--junit",
+                (output / "junit.xml").string(),
+                "--html",
+                (output / "page.html").string(),
+                "--contact-sheet",
+                (output / "sheet.png").string()};
+    }
+};
+
+TEST_F(HangingCaseTest, TakesNoLongerThanItMay) {
+    take_all();
+    add_hanging(R"(, "time_limit": 0.5)");
+    const Result run = run_program(all_reports());
+    EXPECT_EQ(run.status, 1) << run.err;
+    EXPECT_PRED2(says, run.out, "failed: hangs: took longer than 0.5 s (time_limit)");
+    EXPECT_PRED2(says, run.out, ": 2 passed, 1 failed; drawn by ");
+    expect_reports("took longer than 0.5 s");
+    EXPECT_EQ(run_program({"test", cases.path().string(), "--list"}).status, 0);
+    cases.add("hangs", R"("time_limit": 0)");
+    EXPECT_PRED2(says, test({"hangs"}).out, "/time_limit: ");
+}
+
+/// The process that draws is ended from outside, as by a fault of its own.
+TEST_F(HangingCaseTest, ACrashLeavesTheOthersAndAllReports) {
+    take_all();
+    add_hanging("");
+    std::string command = "'" MOBBSCOPE_PROGRAM "'";
+    for (const std::string& word : all_reports()) command += " '" + word + "'";
+    const std::string said = (cases.path() / "said").string();
+    command += " --jobs 1 >'" + said +
+               "' 2>&1 & test=$!; until child=$(cat /proc/$test/task/$test/children) && "
+               "[ -n \"$child\" ]; do sleep 0.01; done; sleep 0.1; kill -KILL $child; wait $test";
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
+    EXPECT_PRED2(says, slurp(said), "failed: hangs: crashed: Killed");
+    EXPECT_PRED2(says, slurp(said), ": 2 passed, 1 failed; drawn by ");
+    expect_reports("crashed: Killed");
+}
+
+/// A case that draws its own folder would never end.
+TEST_F(DrawnTestCommandTest, ACaseStartsNoOther) {
+    cases.folder().write("chain.script", "run file.review .\n");
+    cases.add("chain", R"("window": {"script": "chain.script"})");
+    const Result run = test({"chain"});
+    EXPECT_EQ(run.status, 1);
+    EXPECT_PRED2(says, run.out, "chain.script: line 1: no case is drawn here: a picture test starts no other");
+    // What an earlier run left may be looked at, but not drawn again.
+    EXPECT_EQ(test({"path"}).status, 1);
+    cases.folder().write("chain.script",
+                         "run file.review \".\" \"out\"\nexpect /review/cases/path \"missing golden\"\n");
+    EXPECT_PRED2(says, test({"chain"}).out, "missing golden: chain: ");
+    cases.folder().write("chain.script", "run file.review \".\" \"out\"\nkey Shift+R\n");
+    EXPECT_PRED2(says, test({"chain"}).out, "missing golden: chain: ") << "a key's refusal is told in the window";
+}
+
+TEST_F(TestCommandTest, RequestsAreLinesOfJson) {
+    const auto asked = [&](const std::string& lines) {
+        cases.folder().write("lines", lines);
+        return run_program({"test", cases.path().string(), "--requests"}, {}, cases.path() / "lines");
+    };
+    const Result nonsense = asked("path\n");
+    EXPECT_EQ(nonsense.status, 2);
+    EXPECT_TRUE(is_one_line(nonsense.err)) << nonsense.err;
+    EXPECT_PRED2(says, nonsense.err, "a request: line 1");
+    EXPECT_EQ(asked("").status, 0);
+    expect_test_refused(run_program({"test", cases.path().string(), "path", "--requests"}), "leave out NAME");
+    expect_test_refused(run_program({"test", cases.path().string(), "--requests", "--update", "all"}),
+                        "leave out --up");
+    const Result run = asked(R"({"name": "none", "source": "reference", "fresh": "missing"})"
+                             "\n");
+    EXPECT_EQ(run.status, 0) << run.err;
+    ASSERT_TRUE(run.out.starts_with('\n')) << "it says when it can draw";
+    EXPECT_EQ(json_lines(run.out.substr(1)).size(), 1u);
 }
 
 TEST_F(DrawnTestCommandTest, BothBackendsDrawTheSamePicture) {

@@ -45,10 +45,11 @@ struct Conflicts {
 Conflicts find_conflicts(std::span<const mobb::PlacedTree> crowd, Search search, const Progress& progress = {}) {
     std::vector<int> person_of(crowd.size());
     std::iota(person_of.begin(), person_of.end(), 0);
-    PeopleConflicts people = find_people_conflicts(crowd, person_of, search, progress);
-    std::ranges::sort(people.found, {}, [](const PeopleConflict& found) { return std::pair(found.a, found.b); });
-    Conflicts out{{}, static_cast<std::int64_t>(people.pairs_tested)};
-    for (const PeopleConflict& found : people.found) {
+    const PeopleConflicts people = find_people_conflicts(crowd, person_of, search, progress);
+    std::vector<PeopleConflict> all = people.all();
+    std::ranges::sort(all, {}, [](const PeopleConflict& found) { return std::pair(found.a, found.b); });
+    Conflicts out{{}, static_cast<std::int64_t>(people.pairs_tested())};
+    for (const PeopleConflict& found : all) {
         EXPECT_EQ(found.intervals, found.deepest.intervals) << "there is one pair of paths";
         out.found.push_back(found.deepest);
     }
@@ -215,14 +216,14 @@ TEST(PeopleConflicts, AreOneForAPairThatMeetsOftenAndTheDeepestComesFirst) {
     add(3, 90, 0, 0);
     for (const Search search : {Search::trees, Search::direct}) {
         const PeopleConflicts conflicts = find_people_conflicts(crowd.placed(), person_of, search);
-        EXPECT_EQ(conflicts.pairs, 6u) << "of four people";
-        EXPECT_EQ(conflicts.pairs_tested, search == Search::direct ? 6u : 2u);
-        ASSERT_EQ(conflicts.found.size(), 2u);
-        const PeopleConflict& worst = conflicts.found[0];
+        EXPECT_EQ(conflicts.pairs(), 6u) << "of four people";
+        EXPECT_EQ(conflicts.pairs_tested(), search == Search::direct ? 6u : 2u);
+        ASSERT_EQ(conflicts.size(), 2u);
+        const PeopleConflict worst = conflicts[0];
         EXPECT_EQ(std::pair(worst.a, worst.b), std::pair(0, 2));
         EXPECT_EQ(worst.deepest.a, 2);
         EXPECT_NEAR(worst.deepest.least_clearance, -0.7, 1e-12);
-        const PeopleConflict& often = conflicts.found[1];
+        const PeopleConflict often = conflicts[1];
         EXPECT_EQ(std::pair(often.a, often.b), std::pair(0, 1));
         for (std::size_t i = 1; i < often.intervals.size(); ++i)
             EXPECT_GT(often.intervals[i].t0, often.intervals[i - 1].t1 + 1e-9) << "what touches is one";
@@ -231,7 +232,7 @@ TEST(PeopleConflicts, AreOneForAPairThatMeetsOftenAndTheDeepestComesFirst) {
         EXPECT_EQ(often.begins.intervals.front().t0, often.worst().t0);
     }
     EXPECT_EQ(conflict_count(1, 4, 0.25), "1 conflict among 4 agents, 0.25 s in all");
-    EXPECT_EQ(find_people_conflicts({}, {}, Search::trees).pairs, 0u);
+    EXPECT_EQ(find_people_conflicts({}, {}, Search::trees).pairs(), 0u);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Graphs cut out of recordings: what they promise holds at every transition.
 #include "walker_moves.h"
 
+#include <base/error.h>
 #include <crowd/graph/build_graph.h>
 #include <crowd/graph/graph_figures.h>
 #include <crowd/graph/pose_distance.h>
@@ -14,6 +15,8 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <tbb/global_control.h>
 
 #include <glm/geometric.hpp>
@@ -21,6 +24,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -475,6 +479,49 @@ TEST_F(ClipFolders, ABadFileIsLeftOutUnlessItWasNamed) {
     EXPECT_EQ(testing::input_error([&] { load({path("a")}, false); }), why);
     folder_.write("a/also_bad.bvh", "HIERARCHY");
     EXPECT_NE(testing::input_error([&] { load({path("a")}, false); }).find("; nor can 1 other file be read"),
+              std::string::npos);
+}
+
+TEST_F(ClipFolders, AFolderThatCannotBeReadIsLeftOutAndNamed) {
+    std::filesystem::create_directory(path("b/closed"));
+    folder_.write("b/closed/x.csv", "t,x,y,r\n0,0,0,0.4\n");
+    std::filesystem::permissions(folder_.path(), std::filesystem::perms::all);
+    std::filesystem::permissions(path("b/closed"), std::filesystem::perms::none);
+    const bool was_root = ::geteuid() == 0;  // who may read everything
+    if (was_root && ::seteuid(65534) != 0) GTEST_SKIP() << "root stays root";
+    std::vector<ClipFile> files;
+    std::string closed;
+    try {
+        files = clip_files({path("b")});
+        closed = testing::input_error([&] { clip_files({path("b/closed")}); });
+    } catch (const InputError& error) {
+        ADD_FAILURE() << error.what();
+    }
+    if (was_root && ::seteuid(0) != 0) std::abort();
+    const std::string why = path("b/closed").string() + ": the folder cannot be read: Permission denied";
+    EXPECT_EQ(closed, why);
+    const Recordings recordings = load_recordings(files, path("graph.json"), {}, false);
+    EXPECT_EQ(recordings.left_out, std::vector<std::string>{why});
+    EXPECT_FALSE(recordings.scene.clips.empty());
+    EXPECT_EQ(testing::input_error([&] { load_recordings(files, path("graph.json"), {}, true); }), why);
+}
+
+TEST(GraphBuild, ClipsThatAreTooLongForTheirJointsAreNotSaidToHaveNone) {
+    Scene scene = load_recordings(clip_files({kClips}), "graph.json", {}, true).scene;
+    // As an import leaves them of which there would be too many positions.
+    for (SceneClip& clip : scene.clips) clip.skeleton.reset();
+    EXPECT_NE(testing::input_error([&] { build_graph(scene, {}, "clips"); }).find("has too many samples"),
+              std::string::npos);
+}
+
+TEST(GraphBuild, MoreSamplesASecondThanMotionHasAreRefused) {
+    ImportOptions options;
+    options.fps = 1000;
+    EXPECT_NO_THROW(load_recordings(clip_files({kClips / "run.glb"}), "graph.json", options, true));
+    options.fps = 1001;
+    EXPECT_NE(testing::input_error([&] {
+                  load_recordings(clip_files({kClips / "run.glb"}), "graph.json", options, false);
+              }).find("has 1001 samples a second; graphs are built from up to 1000: lower --fps"),
               std::string::npos);
 }
 

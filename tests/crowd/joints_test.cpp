@@ -161,7 +161,7 @@ std::set<std::pair<int, int>> pairs_of(const Scene& people, Search search) {
         person_of.push_back(people.agents[static_cast<std::size_t>(who.agent)].run_agent);
     }
     std::set<std::pair<int, int>> out;
-    for (const PeopleConflict& found : find_people_conflicts(crowd, person_of, search).found)
+    for (const PeopleConflict& found : find_people_conflicts(crowd, person_of, search).all())
         out.emplace(found.a, found.b);
     return out;
 }

@@ -69,7 +69,7 @@ TEST(People, CollideWhereTheirPlaysDo) {
     std::set<std::pair<int, int>> found;
     std::vector<int> person_of(crowd.size());
     std::iota(person_of.begin(), person_of.end(), 0);
-    for (const PeopleConflict& conflict : find_people_conflicts(crowd, person_of, Search::trees).found) {
+    for (const PeopleConflict& conflict : find_people_conflicts(crowd, person_of, Search::trees).all()) {
         found.emplace(conflict.a, conflict.b);
     }
     EXPECT_EQ(found, expected);

@@ -229,14 +229,14 @@ TEST(Csv, WhatLooksLikeAMistypedNumberIsNoColumn) {
 }
 
 TEST(Csv, AbsurdCountsAreRefusedBeforeTheyAreMade) {
-    EXPECT_NE(csv_refusal("t,x,y,r\n0,0,0,0\n1,0,0,0\n1e12,0,0,0\n").find("more than 10000000 samples"),
+    EXPECT_NE(csv_refusal("t,x,y,r\n0,0,0,0\n1,0,0,0\n1e12,0,0,0\n").find("more than 2000000 samples"),
               std::string::npos);
     std::string many_commas = "t,x,y,r\n" + std::string(5'000'000, ',') + "\n";
     EXPECT_NE(csv_refusal(many_commas).find("more than 4 values"), std::string::npos);
     // The limit is for the file, not for each of its tracks.
     std::string tracks = "id,t,x,y,r\n";
     for (char id = 'a'; id < 'd'; ++id) {
-        for (const char* t : {"0", "1", "1.37", "150000"}) tracks += std::string(1, id) + ',' + t + ",0,0,0\n";
+        for (const char* t : {"0", "1", "1.37", "25000"}) tracks += std::string(1, id) + ',' + t + ",0,0,0\n";
     }
     EXPECT_NE(csv_refusal(tracks).find("track 'c'"), std::string::npos);
     // A gap may hold a hundred times what the file holds, and ten thousand.

@@ -114,4 +114,32 @@ class GltfBytes {
     int channel_count_ = 0;
 };
 
+/// A bit of everything: all interpolations, integers, sparse and interleaved elements, skins, morph targets, pointers.
+inline GltfBytes everything_in_gltf() {
+    GltfBytes bytes;
+    const int times = bytes.add_floats("SCALAR", {0, 0.5F, 1});
+    const int places = bytes.add_floats("VEC3", {0, 1, 0, 1, 1, 0, 2, 1, 0});
+    const std::vector<std::int16_t> turns{0, 0, 0, 32767, 0, 23170, 0, 23170, 0, 32767, 0, 0};
+    const int rotations = bytes.add("VEC4", 5122, turns, ",\"normalized\":true");
+    const int splines = bytes.add_floats("VEC3", std::vector<float>(27, 0.5F));
+    const int indices = bytes.add_view(std::vector<std::uint8_t>{0, 2});
+    const int values = bytes.add_view(std::vector<float>{0, 1, 0, 0, 2, 0}, ",\"byteStride\":12");
+    const int sparse = bytes.add_accessor(
+        R"("componentType":5126,"count":3,"type":"VEC3","sparse":{"count":2,"indices":{"bufferView":)" +
+        std::to_string(indices) + R"(,"componentType":5121},"values":{"bufferView":)" + std::to_string(values) + "}}");
+    bytes.channel("1", "translation", times, places).channel("1", "rotation", times, rotations);
+    bytes.channel("2", "translation", times, splines, "CUBICSPLINE").channel("2", "scale", times, sparse, "STEP");
+    bytes.channel("0", "weights", times, times).pointer_channel("/nodes/0/translation", times, places);
+    bytes.pointer_channel("/nodes/2/weights/0", times, times).pointer_channel("/materials/0/alphaCutoff", times, times);
+    bytes.animation("walk");
+    return bytes;
+}
+
+/// Of it.
+inline const std::string kEverythingNodes =
+    R"([{"children":[1],"scale":[1,1,1],"rotation":[0,0,0,1]},{"name":"hips","children":[2,3]},)"
+    R"({"name":"hand","translation":[0.3,0,0]},{"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0.1,0.2,0.3,1]}])";
+
+inline const std::string kEverythingSkins = R"(,"skins":[{"joints":[2]},{"joints":[1,2],"skeleton":0},{"joints":[3]}])";
+
 }  // namespace mobbscope::testing

@@ -14,33 +14,6 @@
 namespace mobbscope {
 namespace {
 
-/// A bit of everything: all interpolations, integers, sparse and interleaved elements, skins, morph targets, pointers.
-testing::GltfBytes everything() {
-    testing::GltfBytes bytes;
-    const int times = bytes.add_floats("SCALAR", {0, 0.5F, 1});
-    const int places = bytes.add_floats("VEC3", {0, 1, 0, 1, 1, 0, 2, 1, 0});
-    const std::vector<std::int16_t> turns{0, 0, 0, 32767, 0, 23170, 0, 23170, 0, 32767, 0, 0};
-    const int rotations = bytes.add("VEC4", 5122, turns, ",\"normalized\":true");
-    const int splines = bytes.add_floats("VEC3", std::vector<float>(27, 0.5F));
-    const int indices = bytes.add_view(std::vector<std::uint8_t>{0, 2});
-    const int values = bytes.add_view(std::vector<float>{0, 1, 0, 0, 2, 0}, ",\"byteStride\":12");
-    const int sparse = bytes.add_accessor(
-        R"("componentType":5126,"count":3,"type":"VEC3","sparse":{"count":2,"indices":{"bufferView":)" +
-        std::to_string(indices) + R"(,"componentType":5121},"values":{"bufferView":)" + std::to_string(values) + "}}");
-    bytes.channel("1", "translation", times, places).channel("1", "rotation", times, rotations);
-    bytes.channel("2", "translation", times, splines, "CUBICSPLINE").channel("2", "scale", times, sparse, "STEP");
-    bytes.channel("0", "weights", times, times).pointer_channel("/nodes/0/translation", times, places);
-    bytes.pointer_channel("/nodes/2/weights/0", times, times).pointer_channel("/materials/0/alphaCutoff", times, times);
-    bytes.animation("walk");
-    return bytes;
-}
-
-const std::string kNodes =
-    R"([{"children":[1],"scale":[1,1,1],"rotation":[0,0,0,1]},{"name":"hips","children":[2,3]},)"
-    R"({"name":"hand","translation":[0.3,0,0]},{"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0.1,0.2,0.3,1]}])";
-
-const std::string kSkins = R"(,"skins":[{"joints":[2]},{"joints":[1,2],"skeleton":0},{"joints":[3]}])";
-
 /// One byte, or a number in the text, is another.
 std::string nudged(std::string bytes, std::mt19937& random) {
     for (int edits = 1 + static_cast<int>(random() % 3); edits > 0; --edits) {
@@ -78,8 +51,8 @@ void try_to_read(const std::string& bytes, const std::string& name, Outcomes& ou
 
 TEST(GltfFuzz, DamagedTextIsReadOrRefused) {
     std::mt19937 random(20250302);
-    const testing::GltfBytes bytes = everything();
-    const std::string json = bytes.json(kNodes, kSkins);
+    const testing::GltfBytes bytes = testing::everything_in_gltf();
+    const std::string json = bytes.json(testing::kEverythingNodes, testing::kEverythingSkins);
     Outcomes outcomes;
     for (int round = 0; round < 12'000; ++round) {
         // The container stays whole, so that the damage gets past its checks.
@@ -92,12 +65,12 @@ TEST(GltfFuzz, DamagedTextIsReadOrRefused) {
 
 TEST(GltfFuzz, DamagedFilesAreReadOrRefused) {
     std::mt19937 random(20250303);
-    const testing::GltfBytes bytes = everything();
+    const testing::GltfBytes bytes = testing::everything_in_gltf();
     const std::string data = "data:application/octet-stream;base64,AAAAAAAAgD8AAAAAAAAAAAAAAAAAAABAAAAAAAAAAAA=";
     const std::array seeds{
         testing::slurp(std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/clips/stand.glb"),
-        bytes.glb(kNodes, kSkins),
-        testing::GltfBytes(bytes).json(kNodes, "", data),
+        bytes.glb(testing::kEverythingNodes, testing::kEverythingSkins),
+        testing::GltfBytes(bytes).json(testing::kEverythingNodes, "", data),
     };
     Outcomes outcomes;
     for (int round = 0; round < 6'000; ++round) {
@@ -110,7 +83,7 @@ TEST(GltfFuzz, DamagedFilesAreReadOrRefused) {
 }
 
 TEST(GltfFuzz, EveryTruncationIsRefused) {
-    const std::string bytes = everything().glb(kNodes);
+    const std::string bytes = testing::everything_in_gltf().glb(testing::kEverythingNodes);
     Outcomes outcomes;
     for (std::size_t length = 0; length < bytes.size(); ++length) {
         try_to_read(bytes.substr(0, length), "fuzz.glb", outcomes);

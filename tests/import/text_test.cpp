@@ -90,7 +90,7 @@ TEST(Text, Utf8IsToldFromOtherBytes) {
 }
 
 TEST(Text, QuotesAreShortAndOnOneLine) {
-    EXPECT_EQ(in_quotes("a\nb"), "'a?b'");
+    EXPECT_EQ(in_quotes("a\nb"), R"('a\u000ab')");
     EXPECT_EQ(in_quotes("A" + std::string(10'000, 'x') + "Z"),
               "'A" + std::string(29, 'x') + "\u2026" + std::string(28, 'x') + "Z'");
     EXPECT_TRUE(is_utf8(in_quotes(std::string(10'000, '\xe9')))) << "whatever a file holds";
@@ -106,11 +106,24 @@ TEST(Text, WhatIsLongIsCutInTheMiddle) {
 }
 
 TEST(Text, WhatSteersATerminalIsCleaned) {
-    EXPECT_EQ(cleaned("a\x1b[2J\r\n\t\x7f"), "a?[2J????");
+    EXPECT_EQ(cleaned("a\x1b[2J\r\n\t\x7f"), R"(a\u001b[2J\u000d\u000a\u0009\u007f)");
     EXPECT_EQ(cleaned("\xc2\x9b"
                       "1m \xc2\xa0\xc3\xa9"),
-              "?1m \xc2\xa0\xc3\xa9");
-    EXPECT_EQ(cleaned("caf\xe9"), "caf?");
+              "\\u009b1m \xc2\xa0\xc3\xa9");
+    EXPECT_EQ(cleaned("caf\xe9\x1b"), "caf?\\u001b");
+}
+
+TEST(Text, WhatMisleadsTheEyeIsCleaned) {
+    EXPECT_EQ(cleaned("walk\u202egpj.exe"), "walk\\u202egpj.exe");
+    for (const char32_t code :
+         {0xadU, 0x61cU, 0x200bU, 0x200dU, 0x200fU, 0x2028U, 0x2029U, 0x202aU, 0x2066U, 0x2069U, 0xfeffU}) {
+        const std::string text{static_cast<char>(code < 0x800 ? 0xc0 | code >> 6 : 0xe0 | code >> 12),
+                               static_cast<char>(0x80 | (code < 0x800 ? code & 0x3f : code >> 6 & 0x3f)),
+                               static_cast<char>(0x80 | (code & 0x3f))};
+        EXPECT_EQ(cleaned(text.substr(0, code < 0x800 ? 2 : 3)), formatted("\\u%04x", static_cast<unsigned>(code)));
+    }
+    EXPECT_EQ(cleaned("\U000e0041"), R"(\udb40\udc41)");
+    EXPECT_EQ(cleaned("\u05d0\u2026\u2190\ufffd\U0001f6b6"), "\u05d0\u2026\u2190\ufffd\U0001f6b6");
 }
 
 TEST(Text, TheNearestNameIsFoundAndOnlyNamedWhenMeant) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <mobb/chain_boxes.h>
 #include <mobb/placed_chain.h>
+#include <mobb/production.h>
 #include <mobb/query.h>
 #include <mobb/random_chain.h>
 #include <mobb/random_motion.h>
@@ -8,8 +9,11 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 namespace mobb {
@@ -455,6 +459,30 @@ TEST(Chain, IsAsItWasAfterARefusal) {
     EXPECT_THROW(chain.append(std::vector<ChainLink>{links[0], {nullptr}}), std::invalid_argument);
     EXPECT_EQ(chain.links(), static_cast<int>(links.size()));
     expect_same(chain, Chain(links));
+}
+
+TEST(Chain, ThreadsShareChainsAndBlocks) {
+    Random random(41);
+    const Chain chain(random_links(random, 12, 1, 60));
+    const ClipPtr walks = test::random_clip(random, 300), stands = test::random_clip(random, 40);
+    const Tree tree(stands, {});
+    const Blocks of_walks(walks), of_stands(stands);
+    const auto answers = [&] {
+        std::vector<std::optional<Contact>> contacts;
+        std::vector<bool> meet;
+        for (int i = 0; i < 500; ++i) {
+            const Placement place{{0.05 * i - 12, 0.3 * (i % 20) - 3}, 7.0 * i, 0.01 * i};
+            contacts.push_back(query(PlacedChain(chain, {}), PlacedTree(tree, place)));
+            meet.push_back(intersects(PlacedBlocks(of_walks, {}), PlacedBlocks(of_stands, place)));
+        }
+        return std::pair(contacts, meet);
+    };
+    const auto expected = answers();
+    std::vector<int> same(4, 0);
+    std::vector<std::thread> threads;
+    for (int& mine : same) threads.emplace_back([&] { mine = answers() == expected ? 1 : 0; });
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(same, std::vector<int>(4, 1));
 }
 
 }  // namespace

@@ -29,8 +29,8 @@ CaseResult result_of(const CaseFile& file, CaseOutcome outcome, const Image& act
     result.outcome = outcome;
     result.message = "why";
     result.shown = file.golden();
-    result.actual = actual;
-    result.golden = golden;
+    if (!actual.rgba.empty()) result.actual = png_bytes(actual);
+    if (!golden.rgba.empty()) result.golden = png_bytes(golden);
     if (!golden.rgba.empty()) result.image = diff(actual, golden);
     return result;
 }

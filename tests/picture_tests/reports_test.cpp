@@ -1,5 +1,6 @@
 #include <base/base64.h>
 #include <picture_tests/reports.h>
+#include <render/image/png.h>
 
 #include "support/temp_folder.h"
 
@@ -33,27 +34,30 @@ CaseResult result(const std::string& name, CaseOutcome outcome, const std::strin
     return out;
 }
 
+CaseResult with_pictures(CaseResult result, const Image& actual, const Image& golden, const DiffOptions& options = {}) {
+    result.actual = png_bytes(actual);
+    result.golden = png_bytes(golden);
+    result.image = diff(actual, golden, options);
+    return result;
+}
+
 CaseResult different(const std::string& name) {
-    CaseResult out = result(name, CaseOutcome::different, "50 pixels differ");
-    out.golden = grey(40, 20, 100);
-    out.actual = out.golden;
+    const CaseResult out = result(name, CaseOutcome::different, "50 pixels differ");
+    const Image golden = grey(40, 20, 100);
+    Image actual = golden;
     for (int x = 5; x < 15; ++x) {
-        for (int y = 4; y < 9; ++y) out.actual.at(x, y)[1] = 200;
+        for (int y = 4; y < 9; ++y) actual.at(x, y)[1] = 200;
     }
-    out.image = diff(out.actual, out.golden, diff_options(Tolerance::tight));
-    return out;
+    return with_pictures(out, actual, golden);
 }
 
 CaseResult passed(const std::string& name) {
-    CaseResult out = result(name, CaseOutcome::passed);
-    out.golden = out.actual = grey(8, 8, 30);
-    out.image = diff(out.actual, out.golden, diff_options(Tolerance::tight));
-    return out;
+    return with_pictures(result(name, CaseOutcome::passed), grey(8, 8, 30), grey(8, 8, 30));
 }
 
 CaseResult missing(const std::string& name) {
     CaseResult out = result(name, CaseOutcome::missing_golden, "there is no golden");
-    out.actual = grey(8, 8, 30);
+    out.actual = png_bytes(grey(8, 8, 30));
     return out;
 }
 
@@ -92,7 +96,8 @@ std::size_t times(const std::string& text, const std::string& part) {
 
 TEST(Markup, EverythingThatMeansSomethingIsEscaped) {
     EXPECT_EQ(escaped("<a href=\"x\">'&'"), "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;");
-    EXPECT_EQ(escaped(std::string("a\0b\x1b\n", 5)), "a?b??");
+    EXPECT_EQ(escaped(std::string("a\0b\x1b\n", 5)), R"(a\u0000b\u001b\u000a)");
+    EXPECT_EQ(escaped("a\u202eb"), "a\\u202eb");
     EXPECT_EQ(escaped("\xff"), "?");
     EXPECT_EQ(escaped("\xef\xbf\xbe\xef\xbf\xbd\xef\xbf\xbf"), "?\xef\xbf\xbd?");
     EXPECT_EQ(escaped("\xc3\xa9"), "\xc3\xa9");
@@ -118,8 +123,10 @@ TEST(Reports, TextHasALineForEachThatDidNotPass) {
               "15.0.6, 256 bits)\n"
               "Look at the pictures. Those that are right become goldens with\n"
               "  mobbscope test 'my pictures' --update 'levels/new one' moved\n");
-    EXPECT_EQ(written(write_text, {passed("fine")}, {"d", "", ""}),
-              "d: 1 passed; drawn by nothing: there is no OpenGL\n");
+    EXPECT_EQ(written(write_text, {result("a", CaseOutcome::skipped, "no OpenGL")}, {"d", "", ""}),
+              "skipped: a: no OpenGL\nd: 1 skipped; drawn by nothing: there is no OpenGL\n");
+    EXPECT_EQ(written(write_text, {result("a", CaseOutcome::failed, "crashed")}, {"d", "", ""}),
+              "failed: a: crashed\nd: 1 failed; drawn by nothing\n");
 }
 
 TEST(Reports, TextHoldsNoControlCharacters) {
@@ -152,8 +159,8 @@ TEST(Reports, JUnitTellsFailuresFromErrors) {
               "skip: skipped: not yet\n"
               "levels/new one: failure (missing golden): there is no golden\n"
               "moved: failure (different): 50 pixels differ\n"
-              "<b>\"A\" & 'B'</b>??[31m ? </script> ???: error (failed): scene.json: line 3: <b>\"A\" & "
-              "'B'</b>??[31m ? </script> ???\n");
+              "<b>\"A\" & 'B'</b>\\u0001\\u001b[31m ? </script> ???: error (failed): scene.json: line 3: <b>\"A\" & "
+              "'B'</b>\\u0001\\u001b[31m ? </script> ???\n");
 }
 
 TEST(Reports, JUnitOfNoCasesIsWellFormed) {
@@ -164,7 +171,7 @@ TEST(Reports, JUnitOfNoCasesIsWellFormed) {
 TEST(Reports, ThePageIsWellFormedAndNeedsNothingElse) {
     EXPECT_EQ(parsed(written(write_html, one_of_each()), "html"),
               "title 3 of 5 picture tests did not pass - my pictures\n"
-              "case ✕ failed <b>\"A\" & 'B'</b>??[31m ? </script> ???: \n"
+              "case ✕ failed <b>\"A\" & 'B'</b>\\u0001\\u001b[31m ? </script> ???: \n"
               "case ≠ different moved: golden 40x20, actual 40x20, difference 40x20\n"
               "case ∅ no golden levels/new one: actual 8x8\n"
               "folded – skipped 1: \n"
@@ -193,10 +200,9 @@ TEST(Reports, ThePageShowsTheNumbersOfADifference) {
 }
 
 TEST(Reports, PicturesOfTwoSizesAreComparedByEye) {
-    CaseResult sizes = result("sizes", CaseOutcome::different, "the picture is 8x8, the golden 40x20");
-    sizes.golden = grey(40, 20, 100);
-    sizes.actual = grey(8, 8, 30);
-    sizes.image = diff(sizes.actual, sizes.golden);
+    const CaseResult sizes =
+        with_pictures(result("sizes", CaseOutcome::different, "the picture is 8x8, the golden 40x20"), grey(8, 8, 30),
+                      grey(40, 20, 100));
     EXPECT_EQ(parsed(written(write_html, {sizes}), "html"),
               "title 1 of 1 picture test did not pass - my pictures\n"
               "case ≠ different sizes: golden 40x20, actual 8x8\n"
@@ -228,9 +234,9 @@ TEST(Reports, SayOnceByWhatWasDecidedOnAnotherSystem) {
 }
 
 TEST(Reports, APassWithPixelsThatDifferIsSaidAndCanBeSorted) {
-    CaseResult some = passed("some");
-    some.golden.at(2, 3)[0] = 200;
-    some.image = diff(some.actual, some.golden, {.pixel_fraction = 0});
+    Image golden = grey(8, 8, 30);
+    golden.at(2, 3)[0] = 200;
+    CaseResult some = with_pictures(passed("some"), grey(8, 8, 30), golden, {.pixel_fraction = 0});
     some.remarks = {what_differs(*some.image)};
     const std::vector<CaseResult> results{passed("none"), some};
     EXPECT_EQ(written(write_text, results),
@@ -263,6 +269,18 @@ TEST(Reports, OrphansAreToldAndFailAStrictRun) {
     EXPECT_EQ(times(junit, "tests=\"2\" failures=\"1\""), 2u);
     parsed(junit, "junit");
     EXPECT_EQ(times(written(write_html, results, facts), "<h1>1 golden has no case</h1>"), 1u);
+}
+
+TEST(Reports, AShardSaysSo) {
+    RunFacts facts = kFacts;
+    facts.shard = "2/3";
+    EXPECT_EQ(times(written(write_text, {passed("a")}, facts), "my pictures, shard 2/3: 1 passed"), 1u);
+    EXPECT_EQ(nlohmann::json::parse(written(write_json, {passed("a")}, facts))["shard"], "2/3");
+    EXPECT_EQ(times(written(write_junit, {passed("a")}, facts), "<property name=\"shard\" value=\"2/3\"/>"), 1u);
+    EXPECT_EQ(times(written(write_html, {passed("a")}, facts), "<dt>Shard</dt><dd>2/3</dd>"), 1u);
+    for (const Writer writer : {write_text, write_json, write_junit, write_html}) {
+        EXPECT_EQ(times(written(writer, {passed("a")}), "shard"), 0u);
+    }
 }
 
 TEST(Reports, AreTheSameEveryTime) {

@@ -5,6 +5,7 @@
 #include "support/temp_folder.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <cstdint>
@@ -36,6 +37,19 @@ TEST(Png, NothingElseIsLeftBehind) {
     write_png(folder.path() / "a.png", pattern());
     const std::filesystem::directory_iterator files(folder.path());
     EXPECT_EQ(std::distance(begin(files), end(files)), 1);
+}
+
+TEST(Png, TextsThatUnpackToMuchAreNotUnpacked) {
+    const std::string text =
+        testing::png_chunk("zTXt", std::string("k\0\0", 3) + testing::packed(std::string(7'000'000, 'a')));
+    std::string texts;
+    for (int i = 0; i < 100; ++i) texts += text;
+    const std::string file = testing::png_file({}, {0, 1, 2, 3, 255, 4, 5, 6, 255}, texts);
+    rusage before{}, after{};
+    ::getrusage(RUSAGE_SELF, &before);
+    EXPECT_EQ(read_png_bytes(file, "a.png").width, 2);
+    ::getrusage(RUSAGE_SELF, &after);
+    EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 200'000);  // kB, of the 700'000
 }
 
 TEST(Png, WhatCannotBeWrittenIsTheMachines) {

@@ -29,14 +29,14 @@ std::string scene_with(const std::string& definition, const nlohmann::json& obje
     const nlohmann::json placed = {{"clip", "c"}};
     if (definition == "") scene.update(object);
     if (definition == "imported" || definition == "inline") scene["clips"]["c"] = object;
-    if (definition == "agent") scene["agents"] = {object};
+    if (definition == "agent") scene["agents"] = nlohmann::json::array({object});
     const nlohmann::json move = {{"clip", "c"}, {"from", 0}, {"to", 0}, {"entry", {0, 0, 0}}, {"exit", {0, 0, 0}}};
     nlohmann::json graph = {{"hubs", {{{"name", "h"}}}}, {"moves", {move}}};
     if (definition == "graph") scene["graph"] = object;
-    if (definition == "hub") graph["hubs"] = {object};
+    if (definition == "hub") graph["hubs"] = nlohmann::json::array({object});
     if (definition == "bounds") graph["bounds"] = object;
-    if (definition == "rig") graph["rigs"] = {object};
-    if (definition == "move") graph["moves"] = {object};
+    if (definition == "rig") graph["rigs"] = nlohmann::json::array({object});
+    if (definition == "move") graph["moves"] = nlohmann::json::array({object});
     const std::set<std::string> of_graph{"hub", "bounds", "rig", "move"};
     if (of_graph.contains(definition)) scene["graph"] = graph;
     const std::set<std::string> of_crowd{"crowd", "crowd_agent", "play"};
@@ -51,13 +51,14 @@ std::string scene_with(const std::string& definition, const nlohmann::json& obje
     if (definition == "fit") scene["fit"] = object;
     if (definition == "view") scene["view"] = object;
     if (definition == "camera") scene["view"] = {{"camera", object}};
-    if (definition == "query") scene["queries"] = {object};
+    if (definition == "query") scene["queries"] = nlohmann::json::array({object});
     if (definition == "participant") scene["queries"] = {{{"a", object}, {"b", placed}}};
     if (definition == "expect") scene["queries"] = {{{"a", placed}, {"b", placed}, {"expect", object}}};
     if (definition == "contact") {
         scene["queries"] = {{{"a", placed}, {"b", placed}, {"expect", {{"collides", true}, {"contact", object}}}}};
     }
-    if (definition == "event") scene["queries"] = {{{"a", placed}, {"b", placed}, {"trace", {object}}}};
+    if (definition == "event")
+        scene["queries"] = {{{"a", placed}, {"b", placed}, {"trace", nlohmann::json::array({object})}}};
     return scene.dump();
 }
 

@@ -1,6 +1,8 @@
 #include <app/commands/arguments.h>
 #include <app/commands/command.h>
 
+#include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -18,9 +20,11 @@ void add_file(Session& session, const std::string& file) {
     session.add(paths_in(file));
 }
 
-void review_folder(Session& session, const std::string& folder) {
-    if (folder.empty()) return session.open_dialog(Dialog::review);
-    session.review(folder);
+void review_folder(Session& session, const std::string& argument) {
+    if (argument.empty()) return session.open_dialog(Dialog::review);
+    const std::vector<std::filesystem::path> given = paths_in(argument);
+    if (given.size() > 2) throw std::invalid_argument("give the folder of the cases, and one report at most");
+    session.review(given.front(), given.size() == 2 ? given.back() : std::filesystem::path());
 }
 
 std::vector<std::string> recent_names(const Session& session) {
@@ -56,9 +60,11 @@ std::vector<Command> file_commands() {
         Command("file.demo", "Open the demo",
                 "Opens the scene that comes with the program: two walkers whose paths cross, but not in time.",
                 &Session::open_demo, {.enabled = always}),
-        Command("file.review", "Review picture tests...",
-                "Draws the picture tests of a folder and shows what differs from their goldens.", review_folder,
-                {.argument = "[FOLDER]", .enabled = always}),
+        Command(
+            "file.review", "Review picture tests...",
+            "Draws the picture tests of a folder and shows what differs from their goldens. With a report of mobbscope "
+            "test, both in quotes, it shows that and draws nothing.",
+            review_folder, {.argument = "[FOLDER]", .enabled = always}),
         Command("file.reload", "Reload",
                 "Reads what is open again from its files, when another program has changed them.",
                 [](Session& session) { session.open(std::vector<std::filesystem::path>(session.opened())); },

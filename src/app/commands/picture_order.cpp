@@ -204,7 +204,7 @@ PictureOrder order_to_export(const Session& session) {
 }
 
 DrawList draw_list_of(const Session& session, const PictureOrder& order) {
-    check(order.options.size);
+    check(order.options);
     DrawList list = build_draw_list(*session.document().fitted, order.view, order.options);
     if (order.select) {
         const float scale = metrics_of(order.options.size, order.options.scale).scale;

@@ -2,6 +2,7 @@
 
 #include <condition_variable>
 #include <memory>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -56,7 +57,7 @@ struct Job::Shared {
 
 Job::Job(std::string title, Work work, std::function<void()> wake)
     : title_(std::move(title)), shared_(std::make_shared<Shared>(std::move(wake))) {
-    std::thread([shared = shared_, work = std::move(work)]() mutable {
+    auto to_the_end = [shared = shared_, work = std::move(work)]() mutable {
         Finish finish;
         std::exception_ptr error;
         try {
@@ -74,7 +75,15 @@ Job::Job(std::string title, Work work, std::function<void()> wake)
         }
         shared->changed.notify_all();
         shared->control.tell_news();
-    }).detach();
+    };
+    // Shared: a thread that cannot be started takes with it what it was given.
+    const auto all = std::make_shared<decltype(to_the_end)>(std::move(to_the_end));
+    try {
+        std::thread([all] { (*all)(); }).detach();
+    } catch (const std::system_error&) {
+        // Slower, and the window stands still meanwhile.
+        (*all)();
+    }
 }
 
 Job::~Job() { cancel(); }

@@ -43,8 +43,8 @@ class JobControl {
 /// Tells a job how much is done; it ends there if it was cancelled.
 std::function<void(std::size_t done, std::size_t all)> progress_of(JobControl& control);
 
-/// One piece of work in a thread of its own. It works on what it was given by value and hands over a closure that the
-/// window's thread runs.
+/// One piece of work in a thread of its own, or, where the system starts no more threads, done as it is made. It works
+/// on what it was given by value and hands over a closure that the window's thread runs.
 class Job {
   public:
     using Finish = std::function<void()>;

@@ -275,6 +275,11 @@ void Session::save_as(const std::filesystem::path& file) {
                          "another program has written it since it was opened: save under another name, or once more "
                          "to overwrite it");
     }
+    for (const SceneClip& clip : scene().clips) {
+        if (!clip.source || !same_file(file, source_path(scene(), clip))) continue;
+        throw InputError(file.string(), "",
+                         "clip " + in_quotes(clip.name) + " comes from this file; save under another name");
+    }
     Scene saved = scene();
     saved.view = view();
     saved.fit = document().fitted->options();
@@ -421,8 +426,8 @@ void Session::leave_excerpt() {
 
 void Session::review(const ReviewFolder& found) {
     const auto opened = std::make_shared<Review>(
-        found,
-        Review::Surroundings{attended_, hooks.wake, [this](const auto& file) { check_may_write(file); }, case_drawer});
+        found, Review::Surroundings{attended_, hooks.wake, [this](const auto& file) { check_may_write(file); },
+                                    case_drawer, may_write});
     close_case([this, opened] {
         stop();
         if (review_) opened->begin_as(*review_);

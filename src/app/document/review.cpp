@@ -15,8 +15,8 @@ namespace mobbscope::app {
 
 using picture_tests::CaseFile;
 using picture_tests::CaseOutcome;
+using picture_tests::CaseResult;
 using picture_tests::GoldenChange;
-using picture_tests::NamedResult;
 
 namespace {
 
@@ -49,8 +49,8 @@ bool ReviewCase::failing() const {
 
 double ReviewCase::difference() const {
     if (!drawn() || accepted) return 0;
-    if (!failing() && !result.figures) return 0;
-    return result.figures && result.figures->same_size ? result.figures->fraction() : 1;
+    if (!failing() && !result.image) return 0;
+    return result.image && result.image->same_size ? result.image->fraction() : 1;
 }
 
 // --- the review
@@ -70,9 +70,9 @@ Review::Review(ReviewFolder found, Surroundings surroundings)
 Review::~Review() { cancel(); }
 
 void Review::read_output(const picture_tests::CaseReport& report) {
-    for (const NamedResult& read : report.results) {
-        ReviewCase& one = cases_[index_of(read.name)];
-        one.result = read.result;
+    for (const CaseResult& read : report.results) {
+        ReviewCase& one = cases_[index_of(read.file.name)];
+        one.result = read;
         one.state = ReviewCase::State::drawn;
         one.from_output = true;
     }
@@ -193,11 +193,7 @@ const ReviewPictures& Review::pictures() {
         }
         if (!one.result.shown.empty()) pictures_.golden_file = one.result.shown;
         if (!pictures_.golden || !pictures_.actual) return pictures_;
-        const PictureSize size{pictures_.golden->width, pictures_.golden->height};
-        std::optional<Image> mask;
-        if (one.result.mask) mask = read_mask(*one.result.mask, size, pictures_.golden_file);
-        const DiffOptions options = one.result.figures ? one.result.figures->options : DiffOptions{};
-        ImageDiff found = diff(*pictures_.actual, *pictures_.golden, options, mask ? &*mask : nullptr);
+        ImageDiff found = compared_again(one.result, *pictures_.actual, *pictures_.golden);
         Image heat = std::exchange(found.heat, {});
         if (!heat.rgba.empty()) pictures_.difference = std::make_shared<const Image>(std::move(heat));
         pictures_.diff = std::move(found);
@@ -217,28 +213,33 @@ void Review::draw_all() {
 
 void Review::draw(const std::vector<std::size_t>& indices) {
     if (job_) throw std::invalid_argument("wait for the run, or stop it");
-    std::vector<CaseFile> files;
+    if (!surroundings_.may_draw) {
+        throw InputError("no case is drawn here: a picture test starts no other; remove this from its script");
+    }
+    std::vector<picture_tests::CaseOrder> orders;
     for (const std::size_t index : indices) {
-        files.push_back(cases_[index].file);
+        orders.push_back({cases_[index].file});
         cases_[index].state = ReviewCase::State::waiting;
         changed(index);
     }
     results_ = std::make_shared<Results>();
-    const auto work = [files, folder = folder_, drawer = surroundings_.drawer,
+    const auto work = [orders, folder = folder_, drawer = surroundings_.drawer,
                        results = results_](JobControl& control) -> Job::Finish {
         std::size_t done = 0;
-        const auto tell = [&](const NamedResult& result) {
+        const auto tell = [&](const CaseResult& result) {
             {
                 const std::scoped_lock lock(results->mutex);
                 results->ready.push_back(result);
             }
-            control.step(++done, files.size());
+            control.step(++done, orders.size());
             control.tell_news();
         };
-        draw_cases(drawer, folder, files, tell, [&] { control.step(done, files.size()); });
+        const std::vector<std::string> complaints =
+            draw_cases(drawer, folder, orders, tell, [&] { control.step(done, orders.size()); });
+        if (!complaints.empty()) throw MachineError(complaints.front());
         return {};
     };
-    job_ = std::make_unique<Job>("Drawing " + counted(files.size(), "case", "cases"), work, surroundings_.wake);
+    job_ = std::make_unique<Job>("Drawing " + counted(orders.size(), "case", "cases"), work, surroundings_.wake);
     job_->wait(surroundings_.attended ? kPatienceWithCases : std::chrono::hours(24));
 }
 
@@ -266,12 +267,12 @@ std::vector<ReviewNews> Review::poll() {
     std::vector<ReviewNews> to_tell;
     if (!job_) return to_tell;
     const bool done = job_->done();
-    std::vector<NamedResult> results;
+    std::vector<CaseResult> results;
     {
         const std::scoped_lock lock(results_->mutex);
         results.swap(results_->ready);
     }
-    for (const NamedResult& result : results) take_in(result);
+    for (const CaseResult& result : results) take_in(result);
     show_first_failing();
     if (!done) return to_tell;
     const std::unique_ptr<Job> job = std::move(job_);
@@ -284,12 +285,12 @@ std::vector<ReviewNews> Review::poll() {
     return to_tell;
 }
 
-void Review::take_in(const NamedResult& result) {
-    const std::size_t index = index_of(result.name);
+void Review::take_in(const CaseResult& result) {
+    const std::size_t index = index_of(result.file.name);
     ReviewCase& one = cases_[index];
     // Another picture than the one that was seen.
-    if (one.result.actual != result.result.actual) one.viewed = false;
-    one.result = result.result;
+    if (one.result.actual != result.actual) one.viewed = false;
+    one.result = result;
     one.state = ReviewCase::State::drawn;
     one.from_output = false;
     one.accepted = false;

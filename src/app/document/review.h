@@ -10,7 +10,6 @@
 #include <cases/case_result.h>
 #include <cases/drawing_child.h>
 #include <cases/golden_change.h>
-#include <cases/result_line.h>
 #include <render/image/image.h>
 #include <render/image/image_diff.h>
 
@@ -71,11 +70,11 @@ struct ReviewCase {
 
     picture_tests::CaseFile file;
     State state = State::not_drawn;
-    picture_tests::PackedResult result{};  ///< of what is drawn
-    bool from_output = false;              ///< the picture is one that an earlier run left
-    bool accepted = false;                 ///< its fresh goldens are written
-    bool viewed = false;                   ///< somebody has seen its pictures
-    bool marked = false;                   ///< chosen, among several
+    picture_tests::CaseResult result{};  ///< of what is drawn
+    bool from_output = false;            ///< the picture is one that an earlier run left
+    bool accepted = false;               ///< its fresh goldens are written
+    bool viewed = false;                 ///< somebody has seen its pictures
+    bool marked = false;                 ///< chosen, among several
 
     bool drawn() const { return state == State::drawn; }
     /// Passed, if its goldens were taken; only of what is drawn.
@@ -119,6 +118,7 @@ class Review {
         std::function<void()> wake{};                                         ///< from any thread: there is news
         std::function<void(const std::filesystem::path&)> check_may_write{};  ///< throws if that file may not be
         picture_tests::CaseDrawer drawer{};
+        bool may_draw = true;  ///< false: in the window of a picture test, which must not start others
     };
 
     Review(ReviewFolder found, Surroundings surroundings);
@@ -194,19 +194,19 @@ class Review {
         std::string said;  ///< of it last
         struct Taken {
             std::size_t index;
-            picture_tests::PackedResult before;  ///< whose fresh goldens were written
+            picture_tests::CaseResult before;  ///< whose fresh goldens were written
         };
         std::vector<Taken> taken;
     };
     /// What a run's thread hands over.
     struct Results {
         std::mutex mutex;
-        std::vector<picture_tests::NamedResult> ready;
+        std::vector<picture_tests::CaseResult> ready;
     };
 
     void read_output(const picture_tests::CaseReport& report);
     void show_first_failing();
-    void take_in(const picture_tests::NamedResult& result);
+    void take_in(const picture_tests::CaseResult& result);
     /// Writes the goldens of the cases, as one step; those that refuse are left out of it, and said.
     std::vector<ReviewNews> write(const std::vector<std::size_t>& indices);
     void show_some_of(const Step& step);

@@ -464,7 +464,7 @@ void export_dialog(Ui& ui) {
     const PictureOrder order = order_to_export(session);
     std::string why_no_size;
     try {
-        check(order.options.size);
+        check(order.options);
     } catch (const std::invalid_argument& error) {
         why_no_size = error.what();
     }

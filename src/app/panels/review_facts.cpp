@@ -27,7 +27,7 @@ std::string headline_of(const ReviewCase& one) {
 
 /// Of one that passed, whether the picture is the very golden.
 std::string passed_sentence(const ReviewCase& one) {
-    const auto& figures = one.result.figures;
+    const auto& figures = one.result.image;
     if (!figures || figures->largest == 0) return "The picture is the golden's.";
     if (figures->differing == 0)
         return "No pixel differs by more than " + std::to_string(figures->largest) + " of 255.";
@@ -53,7 +53,7 @@ std::string sentence_of(const Review& review, const ReviewCase& one) {
         const std::string file = finding.golden.filename().string();
         std::error_code ignored;
         const bool numbers = finding.golden.extension() == ".json";
-        const auto& figures = one.result.figures;
+        const auto& figures = one.result.image;
         out += out.empty() ? "" : " ";
         if (one.outcome() == CaseOutcome::missing_golden && !std::filesystem::exists(finding.golden, ignored)) {
             out += "There is no " + file + ".";

@@ -44,7 +44,7 @@ std::string outcome_word(const ReviewCase& one) {
 
 std::string outcome_words(const ReviewCase& one) {
     std::string out = outcome_word(one);
-    const auto& figures = one.result.figures;
+    const auto& figures = one.result.image;
     if (!one.drawn() || one.accepted || !figures) return out;
     if (!figures->same_size) return out + ", another size";
     const bool differs = one.outcome() == CaseOutcome::different;

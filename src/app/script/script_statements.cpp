@@ -252,6 +252,7 @@ ScriptAction make_wait(StatementWords& words) {
 
 ScriptAction make_size(StatementWords& words) {
     const PictureSize size = parse_size(words.next("a size: WxH"));
+    check(PictureOptions{.size = size});
     return [size](ScriptRun& run) {
         run.host.resize(size);
         run.host.settle();
@@ -271,6 +272,7 @@ void put(ScriptRun& run, const std::string& file, const std::string& text) {
     if (file.empty()) {
         run.out << text;
     } else {
+        check_not_read(file);
         write_file(file, text);
     }
 }

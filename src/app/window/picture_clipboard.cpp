@@ -1,23 +1,19 @@
 #include <app/window/picture_clipboard.h>
 #include <base/error.h>
+#include <base/process.h>
 
-#include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace mobbscope::app {
@@ -87,25 +83,11 @@ std::unique_ptr<std::FILE, FileCloser> nameless_file(const ClipboardProgram& pro
 }
 
 /// Waits until it has read all and went to the background.
-void wait_for_end(const ClipboardProgram& program, pid_t child) {
-    constexpr std::chrono::seconds kLongest{5};
-    constexpr std::chrono::milliseconds kAskEvery{5};
-    const auto end = std::chrono::steady_clock::now() + kLongest;
-    int status = 0;
-    for (;;) {
-        const pid_t ended = ::waitpid(child, &status, WNOHANG);
-        if (ended == child) break;
-        if (ended < 0 && errno != EINTR) refuse_copy(program, std::strerror(errno));
-        if (std::chrono::steady_clock::now() >= end) {
-            ::kill(child, SIGKILL);
-            ::waitpid(child, &status, 0);
-            refuse_copy(program, "it does not answer");
-        }
-        std::this_thread::sleep_for(kAskEvery);
-    }
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-    refuse_copy(program, WIFEXITED(status) ? "it ended with status " + std::to_string(WEXITSTATUS(status))
-                                           : std::string("it crashed"));
+void wait_for_end(const ClipboardProgram& program, Process& process) {
+    constexpr double kLongest = 5;  // seconds
+    const std::optional<int> status = process.wait(kLongest);
+    if (!status) refuse_copy(program, "it does not answer");
+    if (*status != 0) refuse_copy(program, "it " + how_it_ended(*status));
 }
 
 }  // namespace
@@ -122,22 +104,15 @@ void copy_picture_to_clipboard(std::string_view png) {
     const ClipboardProgram* program = usable_program();
     if (!program) throw MachineError("the picture cannot be copied: " + std::string(why_no_picture_clipboard()));
     const auto picture = nameless_file(*program, png);
-    posix_spawn_file_actions_t actions;
-    ::posix_spawn_file_actions_init(&actions);
-    ::posix_spawn_file_actions_adddup2(&actions, ::fileno(picture.get()), STDIN_FILENO);
-    // It stays when this program is gone, and must not hold its terminal.
-    ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    std::string name = found_in_path(program->name);
-    std::vector<char*> argv{name.data()};
-    std::vector<std::string> arguments(program->arguments.begin(), program->arguments.end());
-    for (std::string& argument : arguments) argv.push_back(argument.data());
-    argv.push_back(nullptr);
-    pid_t child = 0;
-    const int error = ::posix_spawn(&child, name.c_str(), &actions, nullptr, argv.data(), environ);
-    ::posix_spawn_file_actions_destroy(&actions);
-    if (error != 0) refuse_copy(*program, std::strerror(error));
-    wait_for_end(*program, child);
+    const std::vector<std::string> arguments(program->arguments.begin(), program->arguments.end());
+    std::optional<Process> process;
+    try {
+        // It stays in the background when this program is gone, and must not hold its terminal.
+        process.emplace(found_in_path(program->name), arguments, Process::Streams{.in = ::fileno(picture.get())});
+    } catch (const MachineError& error) {
+        refuse_copy(*program, error.what());
+    }
+    wait_for_end(*program, *process);
 }
 
 }  // namespace mobbscope::app

@@ -113,8 +113,7 @@ void render_batch(const std::filesystem::path& list, const RenderArguments& defa
     for (const BatchLine& line : lines) {
         at_line(name, line.number, [&] { plan.add(parsed(line.words, of_line)); });
     }
-    OutputCheck outputs = plan.sources();
-    if (list != "-") outputs.reads(list);
+    OutputCheck outputs;
     for (std::size_t i = 0; i < lines.size(); ++i) {
         at_line(name, lines[i].number, [&] { RenderPlan::check_outputs(plan.jobs()[i], outputs); });
     }

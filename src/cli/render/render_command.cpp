@@ -6,11 +6,11 @@
 #include <cli/render/render_job.h>
 #include <cli/render/render_options.h>
 #include <render/gl/backends.h>
+#include <render/pictures/draw_a_little.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <memory>
 #include <vector>
 
 namespace mobbscope::cli {
@@ -53,7 +53,7 @@ void print_backends_json(const std::vector<BackendReport>& backends) {
 
 /// On standard output, in words or as JSON. Throws MachineError if none works.
 void list_backends(bool json) {
-    const std::vector<BackendReport> backends = report_backends();
+    const std::vector<BackendReport> backends = report_backends(draw_a_little);
     json ? print_backends_json(backends) : print_words(backends);
     flush_results();
     const bool any = std::any_of(backends.begin(), backends.end(), [](const BackendReport& b) { return b.works; });
@@ -63,7 +63,7 @@ void list_backends(bool json) {
 void render_one(const RenderArguments& arguments) {
     RenderPlan plan;
     plan.add(arguments);
-    OutputCheck outputs = plan.sources();
+    OutputCheck outputs;
     RenderPlan::check_outputs(plan.jobs().front(), outputs);
     plan.draw(arguments.backend.value_or(Backend::automatic));
 }

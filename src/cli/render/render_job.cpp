@@ -30,10 +30,17 @@ namespace mobbscope::cli {
 
 namespace {
 
-/// For a person who waits; a script's log stays empty.
+/// For who waits: a script hears of a single large picture only, as its pictures show how far it is.
 class Patience {
   public:
     explicit Patience(std::size_t all) : all_(all) {}
+
+    /// Of many disks a single picture takes long.
+    void begins(const DrawList& list) const {
+        constexpr std::size_t kMany = 50'000;
+        if (list.disks.size() > kMany)
+            say("drawing " + std::to_string(list.disks.size()) + " disks: this may take a while");
+    }
 
     void one_more() {
         ++done_;
@@ -80,10 +87,11 @@ void check_selection(const RenderJob& job) {
 }
 
 /// `renderer`: null where nothing of it needs OpenGL.
-void draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* renderer) {
+void draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* renderer, const Patience& patience) {
     const RenderOutputs& outputs = picture.outputs;
     if (!picture.list) picture.list = build_draw_list(*job.paths, picture.view, job.arguments.picture);
     DrawList list = *std::exchange(picture.list, {});
+    patience.begins(list);
     if (job.arguments.select) {
         try {
             highlight_selected(job, picture.view, list);
@@ -91,16 +99,25 @@ void draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* renderer
             // Another picture of the sequence shows it.
         }
     }
-    if (!outputs.image.empty()) write_png(outputs.image, renderer->draw(list, job.arguments.picture.samples));
-    std::optional<IdImage> ids;
-    if (!outputs.ids.empty()) {
-        ids = renderer->draw_ids(list);
-        write_png(outputs.ids, id_picture(list, *ids));
+    std::string image, ids, text;
+    std::vector<FileBytes> files;
+    if (!outputs.image.empty()) {
+        image = png_bytes(renderer->draw(list, job.arguments.picture.samples));
+        files.push_back({outputs.image, image});
     }
-    if (outputs.draw_list.empty()) return;
-    std::ostringstream text;
-    write_draw_list(text, list, ids ? &*ids : nullptr);
-    write_file(outputs.draw_list, text.str());
+    std::optional<IdImage> drawn_ids;
+    if (!outputs.ids.empty()) {
+        drawn_ids = renderer->draw_ids(list);
+        ids = png_bytes(id_picture(list, *drawn_ids));
+        files.push_back({outputs.ids, ids});
+    }
+    if (!outputs.draw_list.empty()) {
+        std::ostringstream out;
+        write_draw_list(out, list, drawn_ids ? &*drawn_ids : nullptr);
+        text = out.str();
+        files.push_back({outputs.draw_list, text});
+    }
+    write_files(files);
 }
 
 /// Whether --follow says where the camera is: it does unless there is a target.
@@ -154,10 +171,6 @@ std::shared_ptr<KeptPaths> SceneStore::paths(const RenderArguments& arguments) {
     return found.paths.back();
 }
 
-void SceneStore::note_sources(OutputCheck& check) const {
-    for (const auto& loaded : scenes_) check.reads(loaded->scene);
-}
-
 void RenderPlan::add(RenderArguments arguments) {
     check_names(arguments.outputs);
     check_together(arguments);
@@ -187,7 +200,10 @@ void RenderPlan::check_and_frame(RenderJob& job) {
     if (turns_about_all) {
         camera = turning_camera(*job.paths, job.pictures.front().view, job.arguments.picture.size);
     }
+    const Progress progress = tell("planned", "pictures");
+    std::size_t planned = 0;
     for (RenderPicture& picture : job.pictures) {
+        progress(planned++, job.pictures.size());
         DrawList list = build_draw_list(*job.paths, picture.view, job.arguments.picture);
         note_glyphs(list);
         if (near) {
@@ -218,15 +234,6 @@ void RenderPlan::note_glyphs(const DrawList& list) {
     }
 }
 
-OutputCheck RenderPlan::sources() const {
-    OutputCheck check;
-    scenes_.note_sources(check);
-    for (const RenderJob& job : jobs_) {
-        if (!job.arguments.view.state.empty()) check.reads(job.arguments.view.state);
-    }
-    return check;
-}
-
 void RenderPlan::check_outputs(const RenderJob& job, OutputCheck& outputs) {
     for (const RenderPicture& picture : job.pictures) outputs.writes(picture.outputs);
 }
@@ -252,7 +259,7 @@ void RenderPlan::draw(Backend backend) {
                                                      *job.paths->fitted(), picture.view, job.arguments.file, backend,
                                                      job.arguments.picture.size, job.arguments.ui_scale.value_or(1)));
             } else {
-                draw_scene(job, picture, renderer ? &*renderer : nullptr);
+                draw_scene(job, picture, renderer ? &*renderer : nullptr, patience);
             }
             patience.one_more();
         }
@@ -267,10 +274,7 @@ void render_case(const Command& command, const RenderArguments& arguments) {
     if (arguments.outputs.image.empty()) throw UsageError("--output is required");
     const picture_tests::Case drawn = picture_tests::read_case(arguments.file);
     if (drawn.terms.skip) throw InputError(arguments.file.string(), "", "the case is skipped: " + *drawn.terms.skip);
-    OutputCheck outputs;
-    outputs.reads(arguments.file);
-    outputs.reads(drawn.shot.panels.front().fitted->scene());
-    outputs.writes(arguments.outputs);
+    check_output(arguments.outputs.image);
     std::error_code ignored;
     if (std::filesystem::equivalent(arguments.outputs.image, picture_tests::CaseFile{{}, arguments.file}.golden(),
                                     ignored)) {

@@ -22,9 +22,6 @@ class SceneStore {
     /// The paths of a fitted scene, for all of its pictures. Warns of what loading warns of. Throws InputError.
     std::shared_ptr<KeptPaths> paths(const RenderArguments& arguments);
 
-    /// Tells of the files that all of them came from.
-    void note_sources(OutputCheck& check) const;
-
   private:
     struct Loaded {
         ImportOptions options;
@@ -65,10 +62,8 @@ class RenderPlan {
 
     std::span<const RenderJob> jobs() const { return jobs_; }
 
-    /// Throws as OutputCheck::writes does for the files of one job; `outputs` is the plan's, told of all that is read.
+    /// Throws as OutputCheck::writes does for the files of one job; `outputs` is the plan's.
     static void check_outputs(const RenderJob& job, OutputCheck& outputs);
-    /// All files that are read, but for those that only the caller knows of.
-    OutputCheck sources() const;
 
     /// Draws and writes all pictures, once. Throws MachineError; pictures before that are whole.
     void draw(Backend backend);

@@ -295,6 +295,13 @@ void check_together(const RenderArguments& arguments) {
         contradict("--query", "--level", "a picture shows a query or levels; leave one out");
     }
     check_window(arguments);
+    if (!arguments.outputs.image.empty()) {
+        try {
+            check(arguments.picture);
+        } catch (const std::invalid_argument& error) {
+            throw InputError(std::string("--size, --samples: ") + error.what());
+        }
+    }
     check_camera(view);
     check_sequence(arguments);
 }

@@ -2,6 +2,7 @@
 #include <base/file.h>
 #include <base/random.h>
 #include <base/text.h>
+#include <base/threads.h>
 #include <crowd/graph/build_graph.h>
 #include <crowd/graph/continuity.h>
 #include <crowd/graph/cut_search.h>
@@ -34,6 +35,8 @@ namespace mobbscope {
 
 namespace {
 
+// Faster motion than that is noise, and joints of every frame are kept.
+constexpr double kMostRate = 1000;  // samples per second
 constexpr int kFramesApart = 5;     // of moments looked at as hubs, at least
 constexpr std::size_t kBatch = 32;  // of those looked at between two reports of progress
 
@@ -138,7 +141,9 @@ class Builder {
     BuiltGraph build() {
         BuiltGraph out;
         report_.recordings = scene_.clips.size();
-        report_.without_joints = scene_.clips.size() - recordings_.size();
+        for (const SceneClip& clip : scene_.clips) {
+            if (!clip.skeleton) ++(clip.facts.joints > 0 ? report_.too_long : report_.without_joints);
+        }
         report_.rigs = rigs_.rigs.size();
         for (const Recording& recording : recordings_) report_.seconds += recording.track.frames() * recording.track.dt;
         find_hubs();
@@ -163,6 +168,7 @@ class Builder {
             std::vector<Hub> candidates(of_rig.size());
             for (std::size_t begin = 0; begin < of_rig.size(); begin += kBatch) {
                 if (progress_) progress_(done + begin, all);
+                limit_worker_threads();
                 tbb::parallel_for(begin, std::min(begin + kBatch, of_rig.size()), [&](std::size_t i) {
                     candidates[i] = {of_rig[i], cuts_like(recordings_, of_rig[i], options_.bounds)};
                 });
@@ -445,6 +451,17 @@ Stance stance_at_end(const mobb::Clip& clip) {
     return {last + step, stance_at_begin(clip).heading_deg};
 }
 
+/// Throws InputError for motion that is sampled more often than a graph can use.
+void check_rate(const Scene& scene) {
+    for (const SceneClip& clip : scene.clips) {
+        const double rate = 1 / clip.clip->dt();
+        if (clip.facts.joints == 0 || rate <= kMostRate * (1 + 1e-6)) continue;
+        throw InputError(scene.file.string(), "clip " + in_quotes(clip.name),
+                         "has " + brief(rate) + " samples a second; graphs are built from up to " + brief(kMostRate) +
+                             ": lower --fps");
+    }
+}
+
 bool is_near(const Stance& stance) {
     return std::abs(stance.position.x) <= kMostStance && std::abs(stance.position.y) <= kMostStance;
 }
@@ -463,7 +480,9 @@ std::vector<ClipFile> clip_files(const std::vector<std::filesystem::path>& place
     for (const std::filesystem::path& place : places) {
         std::error_code ignored;
         if (std::filesystem::is_directory(place, ignored)) {
-            for (std::filesystem::path& file : clips_in(place, true)) all.push_back({std::move(file), true});
+            std::vector<UnreadableFolder> unreadable;
+            for (std::filesystem::path& file : clips_in(place, &unreadable)) all.push_back({std::move(file), true});
+            for (UnreadableFolder& of : unreadable) all.push_back({std::move(of.folder), true, std::move(of.why)});
         } else if (lower_extension(place) == ".json") {
             throw InputError(place.string(), "", "a graph is built from clip files; name those of the scene");
         } else {
@@ -496,11 +515,14 @@ Recordings load_recordings(const std::vector<ClipFile>& files, const std::filesy
     for (std::size_t i = 0; i < files.size(); ++i) {
         if (progress) progress(i, files.size());
         try {
+            if (!files[i].why_not.empty()) throw InputError(files[i].why_not);
             loaded.push_back(load_scene(files[i].path, options));
         } catch (const InputError& error) {
             if (strict || !files[i].in_folder) throw;
             out.left_out.emplace_back(error.what());
+            continue;
         }
+        check_rate(loaded.back());
     }
     if (loaded.empty()) {
         const std::size_t others = out.left_out.size() - 1;
@@ -520,6 +542,11 @@ BuiltGraph build_graph(const Scene& recordings, const GraphOptions& options, con
                        const Progress& progress) {
     check_options(options);
     BuiltGraph out = Builder(recordings, options, progress).build();
+    if (out.report.too_long > 0 && out.report.without_joints + out.report.too_long == out.report.recordings) {
+        throw InputError(place, "",
+                         "every clip with joints has too many samples to keep the joints of each; lower --fps, or give "
+                         "--trim");
+    }
     if (out.report.without_joints == out.report.recordings) {
         throw InputError(place, "", "no clip has joints, so no pose can be compared; give motion files, or --whole");
     }

@@ -18,6 +18,7 @@ namespace mobbscope {
 struct BuildReport {
     std::size_t recordings = 0;
     std::size_t without_joints = 0;  ///< of those; they cannot be cut
+    std::size_t too_long = 0;        ///< of those with joints: too many samples to keep the joints of each
     std::size_t rigs = 0;            ///< each has hubs of its own
     double seconds = 0;              ///< that recordings with joints last
     std::size_t pieces = 0;          ///< found between the hubs
@@ -38,10 +39,12 @@ struct BuiltGraph {
 struct ClipFile {
     std::filesystem::path path;
     bool in_folder = false;  ///< a folder was named, not this file: it may be left out if it is bad
+    std::string why_not{};   ///< it is a folder that cannot be read
 };
 
-/// The clip files (no trajectories) among files and in folders and their subfolders, each once, by their paths. Throws
-/// InputError for a folder that cannot be read or holds none, and for a scene file.
+/// The clip files (no trajectories) among files and in folders and their subfolders, each once, by their paths, and
+/// those subfolders that cannot be read. Throws InputError for a folder that cannot be read or holds none, and for a
+/// scene file.
 std::vector<ClipFile> clip_files(const std::vector<std::filesystem::path>& places);
 
 struct Recordings {
@@ -50,9 +53,9 @@ struct Recordings {
 };
 
 /// Clips of the files as one scene, with sources relative to `scene_file`, which need not exist. They are in the order
-/// of what they hold, and of their paths only where they hold the same. A bad file that was found in a folder is left
-/// out, unless `strict`. `progress` is told before each file. Throws InputError for another bad file, and if all are
-/// left out.
+/// of what they hold, and of their paths only where they hold the same. A bad file or folder that was found in a folder
+/// is left out, unless `strict`. `progress` is told before each file. Throws InputError for another bad file, if all
+/// are left out, and for motion of joints that is sampled more than 1000 times a second.
 Recordings load_recordings(const std::vector<ClipFile>& files, const std::filesystem::path& scene_file,
                            const ImportOptions& options, bool strict, const Progress& progress = {});
 

@@ -1,3 +1,4 @@
+#include <base/threads.h>
 #include <crowd/graph/continuity.h>
 #include <crowd/graph/graph_figures.h>
 #include <crowd/graph/rigs.h>
@@ -149,6 +150,7 @@ class Measurer {
 
     /// Every join is between two moves of the graph. `moves`: those whose contacts count.
     Continuity measure(const std::vector<Join>& joins, const std::vector<int>& moves) const {
+        limit_worker_threads();
         Continuity out = tbb::parallel_reduce(
             tbb::blocked_range<std::size_t>(0, joins.size()), Continuity{},
             [&](const tbb::blocked_range<std::size_t>& range, Continuity so_far) {

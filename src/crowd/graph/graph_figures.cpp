@@ -1,5 +1,6 @@
 #include <base/error.h>
 #include <base/text.h>
+#include <base/threads.h>
 #include <crowd/graph/graph_figures.h>
 #include <crowd/graph/pose_distance.h>
 #include <crowd/graph/rigs.h>
@@ -233,6 +234,7 @@ Transitions each_transition(const Scene& scene, const Progress& progress) {
     Transitions out{transitions_of(graph), {}, {}};
     out.pose_distance.assign(out.moves.size(), -1);
     out.root_speed.resize(out.moves.size());
+    limit_worker_threads();
     tbb::parallel_for(std::size_t{0}, out.moves.size(), [&](std::size_t i) {
         const std::size_t a = as_recorded(graph, out.moves[i].first);
         const std::size_t b = as_recorded(graph, out.moves[i].second);

@@ -1,3 +1,4 @@
+#include <base/threads.h>
 #include <crowd/graph/hub_choice.h>
 #include <scene/motion_graph.h>
 
@@ -110,6 +111,7 @@ std::vector<Hub> choose_hubs(const std::vector<Recording>& recordings, const std
     double covered = 0;
     while (static_cast<int>(chosen.size()) < options.hubs) {
         std::vector<double> seconds(candidates.size());
+        limit_worker_threads();
         tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
             std::vector<const Hub*> with = chosen;
             with.push_back(&candidates[i]);

@@ -1,4 +1,5 @@
 #include <base/text.h>
+#include <base/threads.h>
 #include <crowd/simulation/move_set.h>
 #include <mobb/separation.h>
 #include <scene/clip_turn.h>
@@ -155,6 +156,7 @@ void MoveSet::add_turned() {
         }
     }
     std::vector<std::optional<Move>> made(wanted.size());
+    limit_worker_threads();
     tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) { made[i] = turned_move(wanted[i]); });
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         if (!made[i]) continue;

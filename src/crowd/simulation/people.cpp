@@ -68,9 +68,27 @@ mobb::ClipPtr whole_motion(const Scene& run, const std::vector<mobb::ChainPartPt
     }
 }
 
+/// People of a run share its clips, but what each of them walks is a clip of its own.
+void check_samples(const Scene& run) {
+    std::size_t plays = 0, samples = 0;
+    for (const CrowdAgent& agent : run.crowd->agents) {
+        plays += agent.plays.size();
+        for (const Play& play : agent.plays) {
+            const int clip = run.graph->moves[static_cast<std::size_t>(play.move)].clip;
+            samples += static_cast<std::size_t>(run.clips[static_cast<std::size_t>(clip)].clip->count());
+        }
+    }
+    if (samples <= kMostWalkedSamples + kSamplesOfPlay * plays) return;
+    throw InputError(run.file.string(), "",
+                     "its people walk " + std::to_string(samples) + " samples in " + counted(plays, "play", "plays") +
+                         ", more than " + std::to_string(kMostWalkedSamples) + " and " +
+                         std::to_string(kSamplesOfPlay) + " for each play; let them play shorter clips");
+}
+
 }  // namespace
 
 Scene scene_of_people(const Scene& run) {
+    check_samples(run);
     const std::vector<mobb::ChainPartPtr> parts = parts_of(run);
     Scene out;
     out.file = run.file;

@@ -1,12 +1,14 @@
 #include <base/error.h>
 #include <base/random.h>
 #include <base/text.h>
+#include <base/threads.h>
 #include <crowd/simulation/plan_search.h>
 #include <crowd/simulation/simulate.h>
 
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <chrono>
 #include <functional>
 #include <queue>
 #include <stdexcept>
@@ -43,13 +45,16 @@ class Simulator {
 
     Simulation run() {
         refuse_unplayable();
-        for (int agent = 0; agent < options_.agents; ++agent) place(agent);
+        for (int agent = 0; agent < options_.agents; ++agent) {
+            place(agent);
+            if (is_time_to_tell()) tell(0);
+        }
         while (!turns_.empty()) {
             const Turn turn = turns_.top();
             turns_.pop();
             reservations_.forget_before(turn.time);
             make_choice(turn);
-            if (turn.time >= counts().simulated + options_.seconds / kReports) tell(turn.time);
+            if (turn.time >= counts().simulated + options_.seconds / kReports || is_time_to_tell()) tell(turn.time);
         }
         tell(options_.seconds);
         return std::move(simulation_);
@@ -58,7 +63,11 @@ class Simulator {
   private:
     SimulationCounts& counts() { return simulation_.counts; }
 
+    /// Whoever waits is not left without a word for long, however slow the run is.
+    bool is_time_to_tell() const { return std::chrono::steady_clock::now() - told_ > std::chrono::seconds(1); }
+
     void tell(double time) {
+        told_ = std::chrono::steady_clock::now();
         counts().simulated = time;
         if (progress_) progress_(counts());
     }
@@ -166,7 +175,10 @@ class Simulator {
         std::vector<Play>& plays = simulation_.run.agents[static_cast<std::size_t>(agent)].plays;
         reservations_.reserve(agent, static_cast<int>(plays.size()), play);
         plays.push_back(play);
-        ++counts().plays;
+        if (++counts().plays > kMostPlays) {
+            throw InputError("by " + brief(std::max(0.0, play.placement.start)) + " s the run has more than " +
+                             std::to_string(kMostPlays) + " plays; give fewer agents or seconds, or longer moves");
+        }
         counts().most_held = std::max(counts().most_held, reservations_.motions().size());
         // The joint is part of the choice: it is made before that.
         const double end = play.placement.start + moves_.until_joint(play.move);
@@ -181,6 +193,7 @@ class Simulator {
     Simulation simulation_;
     PlanSearch search_{moves_, reservations_, simulation_.run};
     std::priority_queue<Turn, std::vector<Turn>, std::greater<>> turns_;
+    std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
     std::vector<AskedPair> asked_;  ///< at the present choice point
 };
 
@@ -207,6 +220,7 @@ void check(const SimulateOptions& options) {
 Simulation simulate(const MoveSet& moves, const SimulateOptions& options, QuerySample* sample,
                     const SimulationProgress& progress) {
     check(options);
+    limit_worker_threads();
     tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
     return arena.execute([&] { return Simulator(moves, options, sample, progress).run(); });
 }

@@ -68,9 +68,10 @@ struct SimulateOptions {
 
 inline constexpr int kMaxAgents = 1'000'000;
 inline constexpr int kMaxThreads = 1024;
-inline constexpr double kMinSimulated = 1e-3;  ///< seconds
-inline constexpr double kMaxSimulated = 1e6;   ///< seconds, also of `ahead`, `grace` and `plan`
-inline constexpr double kMinArea = 1e-3;       ///< metres along a wall
+inline constexpr std::int64_t kMostPlays = 2'000'000;  ///< of a run: with their clips they take some 850 bytes each
+inline constexpr double kMinSimulated = 1e-3;          ///< seconds
+inline constexpr double kMaxSimulated = 1e6;           ///< seconds, also of `ahead`, `grace` and `plan`
+inline constexpr double kMinArea = 1e-3;               ///< metres along a wall
 inline constexpr double kMaxArea = 1e6;
 
 /// Throws std::invalid_argument, naming the option, if one is out of range.
@@ -111,16 +112,20 @@ void remove_run(Scene& scene);
 
 /// Runs a crowd. Every agent is placed at random, in mid-move, where it collides with nobody; then choices are made in
 /// the order of (time, agent) until every agent's moves reach the end. `sample` is offered the queries of all choices.
-/// Throws InputError if a hub is a dead end, or if there is no room for all agents.
+/// Throws InputError if a hub is a dead end, if there is no room for all agents, or for more than kMostPlays plays.
 Simulation simulate(const MoveSet& moves, const SimulateOptions& options, QuerySample* sample = nullptr,
                     const SimulationProgress& progress = {});
+
+/// The most samples of the people of a run together: so many, and so many for each play, which is half a minute.
+inline constexpr std::size_t kMostWalkedSamples = 10'000'000;
+inline constexpr std::size_t kSamplesOfPlay = 1'000;
 
 /// The people of a run as agents of an ordinary scene: one for each person, whose clip is the chain of all that the
 /// person plays, from the begin of the first play. A chain has one dt, and is held or linear: where a person goes on
 /// with a clip of another dt or motion, a further agent begins, called "17 from 4.2 s", and a linear clip before it has
 /// one more sample, what its last one runs on to. Agent::run_agent says who it is, counting those who play anything.
 /// Names and the fit are the run's. The scene must have a crowd and its graph. Throws InputError if a person plays more
-/// than a chain can hold.
+/// than a chain can hold, or all of them more than kMostWalkedSamples allows.
 Scene scene_of_people(const Scene& run);
 
 }  // namespace mobbscope

@@ -1,3 +1,4 @@
+#include <base/threads.h>
 #include <crowd/simulation/surroundings.h>
 #include <mobb/production.h>
 
@@ -202,6 +203,7 @@ std::vector<CandidateCheck> Surroundings::check_all(std::span<const PlayedMove* 
     if (candidates.size() <= kGrain) {
         check_range(0, candidates.size());
     } else {
+        limit_worker_threads();
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), kGrain),
                           [&](const auto& range) { check_range(range.begin(), range.end()); });
     }

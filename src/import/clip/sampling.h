@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,38 @@ inline constexpr double kEndTolerance = 0.001;
 
 /// The most samples that a file may become.
 inline constexpr std::size_t kMaxSamples = 10'000'000;
+
+/// The most samples, and poses of single joints, that a file or the sources of a scene become together beyond what they
+/// hold: with a high fps a small file would fill the memory, and take minutes to pose.
+inline constexpr std::size_t kMostMadeSamples = 2'000'000;
+inline constexpr std::size_t kMostMadePoses = 10'000'000;
+
+/// What was made so far, and what the files hold.
+class MadeSamples {
+  public:
+    /// `joints`: that are posed for each, 0 without a skeleton. False if that is more than may be made.
+    bool add(std::size_t samples, std::size_t joints) {
+        samples_ += samples;
+        poses_ += samples * joints;
+        // Twice: to make more samples of what is long is no fault.
+        return samples_ <= kMostMadeSamples + 2 * stored_ && poses_ <= kMostMadePoses + 2 * stored_poses_;
+    }
+    /// What add refused, for a message.
+    static std::string too_many() {
+        return "become more than " + std::to_string(kMostMadeSamples) + " samples, or " +
+               std::to_string(kMostMadePoses) +
+               " poses of single joints, beyond what the files hold; lower fps, give "
+               "trim";
+    }
+    /// Of frames that no clip before came from.
+    void add_stored(std::size_t frames, std::size_t joints) {
+        stored_ += frames;
+        stored_poses_ += frames * joints;
+    }
+
+  private:
+    std::size_t samples_ = 0, poses_ = 0, stored_ = 0, stored_poses_ = 0;
+};
 
 /// What times in whole milliseconds may have been rounded to, in seconds: 60 frames a second are then 16 or 17 ms
 /// apart.

@@ -16,7 +16,7 @@ std::string object_name(const FbxValue& value) {
     } else if (const std::size_t separator = name.find("::"); separator != name.npos) {
         name.erase(0, separator + 2);
     }
-    return cleaned(name);
+    return is_utf8(name) ? name : cleaned(name);
 }
 
 /// Whether a value is there and of that kind.

@@ -99,8 +99,8 @@ class MotionImport {
           height_(height),
           options_(options) {}
 
-    /// `poses_left`: of joints, for this clip and those after it.
-    ImportedClip make(double& poses_left) {
+    /// `poses_left`: of joints, for this clip and those after it; `made`: of this file.
+    ImportedClip make(double& poses_left, MadeSamples& made) {
         const MotionTimes& times = motion_.times();
         const SampleGrid grid = grid_of(times);
         const std::size_t stored = times.frames_only ? static_cast<std::size_t>(times.frames) : 0;
@@ -112,9 +112,11 @@ class MotionImport {
                                         " frames, which is too much; check the file, or lower fps");
         }
         poses_left -= poses;
-        if (poses_left < 0) {
-            throw std::invalid_argument(
-                "its clips together have too many joints and frames; name one with animation or root, or lower fps");
+        const auto posed = static_cast<std::size_t>(motion_.posed());
+        made.add_stored(static_cast<std::size_t>(times.frames), posed);
+        if (poses_left < 0 || !made.add(grid.count, posed)) {
+            throw std::invalid_argument("its clips " + MadeSamples::too_many() +
+                                        ", or name one with animation or root");
         }
         ImportedClip out;
         SourceFacts& facts = out.facts;
@@ -390,13 +392,14 @@ std::vector<ImportedClip> motion_clips(const MotionFile& motions, const std::fil
     const WantedClips wanted = at_place(path, "", [&] { return wanted_clips(motions, path, options); });
     const std::optional<double> height = at_place(path, "", [&] { return tallest_height(motions, options); });
     double poses_left = kMaxJointPosesOfFile;
+    MadeSamples made;
     std::vector<ImportedClip> clips;
     for (const WantedClip& of : wanted.clips) {
         const std::size_t i = of.animation;
         const std::string place = names.size() > 1 ? "animation " + in_quotes(names[i]) : "";
         ImportedClip& clip = clips.emplace_back(at_place(path, place, [&] {
             const RootedMotion it = motion_of(motions, of, options.root.has_value());
-            return MotionImport(motions, it, height, options).make(poses_left);
+            return MotionImport(motions, it, height, options).make(poses_left, made);
         }));
         clip.facts.animation = names[i];
         for (const std::string& warning : wanted.left_out) clip.facts.warnings.push_back({warning});

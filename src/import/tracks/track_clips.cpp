@@ -113,7 +113,9 @@ class TrackClipMaker {
         for (const std::string& warning : file.warnings) common_.warnings.push_back({warning});
         std::size_t points = 0;
         for (const Track& track : file.tracks) points += track.points.size();
-        if (!options.fps) most_filled_ = std::min(kMaxSamples, kMaxFill * points + kAlwaysFilled);
+        most_made_ = std::min(kMaxSamples, kMostMadeSamples + 2 * points);
+        most_filled_ = most_made_;
+        if (!options.fps) most_filled_ = std::min(most_made_, kMaxFill * points + kAlwaysFilled);
         if (!(clock_.duration() <= mobb::kMaxTime)) {
             throw std::invalid_argument("its frames last " + brief(clock_.duration()) + " s, over " +
                                         short_double(mobb::kMaxTime) + "; check them");
@@ -166,7 +168,7 @@ class TrackClipMaker {
             last = std::min(last, std::floor((options_.trim->second - start) / dt + kFrameTolerance));
         }
         if (first > last) return std::nullopt;
-        const std::size_t most = grid.has_gaps ? most_filled_ : kMaxSamples;
+        const std::size_t most = grid.has_gaps ? most_filled_ : resampled ? most_made_ : kMaxSamples;
         if (last - first >= static_cast<double>(most - std::min(count_, most))) {
             throw std::invalid_argument("its times make more than " + std::to_string(most) +
                                         " samples; check them, or lower fps");
@@ -246,6 +248,7 @@ class TrackClipMaker {
     const ImportOptions& options_;
     FrameClock clock_;
     SourceFacts common_;                     ///< what holds for every track
+    std::size_t most_made_ = kMaxSamples;    ///< samples that the file may become by resampling
     std::size_t most_filled_ = kMaxSamples;  ///< samples that the file may become by filling gaps
     std::size_t count_ = 0;                  ///< samples made so far
 };

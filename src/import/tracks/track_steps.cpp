@@ -50,6 +50,7 @@ double rounded_to(double value, int digits) { return *parse_double(formatted("%.
 /// Of what doubles as large as `largest` cannot tell from the step, the number of fewest digits, or of fewest a second.
 double without_noise(double step, double largest) {
     constexpr int kMostDigits = 12;
+    if (!std::isnormal(step) || !std::isnormal(1 / step)) return step;  // they have no digits to count
     const double noise = 4 * std::numeric_limits<double>::epsilon() * std::max(largest, step);
     for (int digits = 1; digits <= kMostDigits; ++digits) {
         for (const double candidate : {rounded_to(step, digits), 1 / rounded_to(1 / step, digits)}) {

@@ -17,6 +17,16 @@ void check(PictureSize size) {
                                 " in all");
 }
 
+void check(const PictureOptions& options) {
+    check(options.size);
+    const std::int64_t pixels = std::int64_t{options.size.width} * options.size.height;
+    if (pixels * (options.samples + 2) <= kMostDrawn) return;
+    throw std::invalid_argument(
+        "a picture of " + size_word(options.size) + " pixels with " + std::to_string(options.samples) +
+        " samples each takes too much memory: with so many samples there may be at most " +
+        std::to_string(kMostDrawn / (options.samples + 2)) + " pixels; take fewer of one or the other");
+}
+
 PictureSize parse_size(const std::string& text) {
     const std::size_t x = text.find('x');
     const std::optional<int> width = parse_int(std::string_view(text).substr(0, x));

@@ -32,6 +32,12 @@ inline constexpr int kMaxPixels = 7680 * 4320;
 /// Throws std::invalid_argument, saying what is allowed, unless a picture of this size can be made.
 void check(PictureSize size);
 
+/// Of a picture that is drawn: 8K with one sample, 5K with four. More would take over 2 GB: some 30 bytes a pixel and
+/// 18 a sample.
+inline constexpr std::int64_t kMostDrawn = std::int64_t{3} * kMaxPixels;  // pixels times samples and two
+/// The same, and that so many samples of each pixel can be kept.
+void check(const PictureOptions& options);
+
 /// "1280x720". Throws std::invalid_argument if it is no such text or check refuses it.
 PictureSize parse_size(const std::string& text);
 

@@ -1,17 +1,25 @@
 #include <base/error.h>
+#include <base/threads.h>
 #include <render/gl/backends.h>
+#include <render/gl/driver_watch.h>
 #include <render/gl/gl_context.h>
-#include <render/gl/gl_objects.h>
+#include <render/gl/renderer.h>
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <dlfcn.h>
 #include <glad/gl.h>
 #include <opened_libraries.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <chrono>
+#include <cstdlib>
 #include <initializer_list>
+#include <iterator>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace mobbscope {
@@ -118,9 +126,26 @@ class EglContext final : public GlContext {
     EGLContext context_ = EGL_NO_CONTEXT;
 };
 
+/// Mesa waits for ever for threads that it could not start.
+void ask_for_few_threads() {
+    constexpr const char* kVariable = "LP_NUM_THREADS";
+    static constexpr long kMostOfMesa = 32;
+    static const bool is_done = [] {
+        const char* asked = std::getenv(kVariable);
+        const long wanted = asked ? std::strtol(asked, nullptr, 10) : ::sysconf(_SC_NPROCESSORS_ONLN);
+        const int most = static_cast<int>(std::clamp(wanted, 0L, kMostOfMesa));
+        const int startable = startable_threads(most);
+        if (startable < most) ::setenv(kVariable, std::to_string(startable).c_str(), 1);
+        return true;
+    }();
+    static_cast<void>(is_done);
+}
+
 /// A context that is current. Throws std::runtime_error saying why it cannot be had here.
 template <class Context>
 std::unique_ptr<GlContext> open_current() {
+    ask_for_few_threads();
+    ::setenv("EGL_LOG_LEVEL", "fatal", 0);  // the one line that says why there is no OpenGL is ours
     std::unique_ptr<GlContext> context = std::make_unique<Context>();
     context->make_current();
     return context;
@@ -137,15 +162,22 @@ constexpr BackendRow kBackends[] = {{Backend::osmesa, "osmesa", open_current<Osm
 
 }  // namespace
 
-std::vector<BackendReport> report_backends() {
+std::vector<BackendReport> report_backends(const std::function<void(Renderer&)>& draw) {
+    constexpr std::chrono::seconds kLongest{30};  // shaders that are compiled for the first time take two
     std::vector<BackendReport> out;
     for (const BackendRow& row : kBackends) {
         BackendReport& report = out.emplace_back();
         report.name = row.name;
+        const auto draw_here = [&] {
+            Renderer renderer(row.open());
+            draw(renderer);
+            return renderer.version() + '\n' + renderer.device();
+        };
         try {
-            const std::unique_ptr<GlContext> context = row.open();
-            report.version = gl_string(GL_VERSION);
-            report.renderer = gl_string(GL_RENDERER);
+            const std::string told = done_in_child(draw_here, kLongest);
+            const std::size_t end = told.find('\n');
+            report.version = told.substr(0, end);
+            report.renderer = told.substr(end + 1);
             report.works = true;
         } catch (const std::runtime_error& error) {
             report.why_not = error.what();
@@ -164,15 +196,21 @@ std::optional<Backend> backend_from_name(std::string_view name) {
 
 std::unique_ptr<GlContext> GlContext::open(Backend backend) {
     std::string reasons;
-    for (const BackendRow& row : kBackends) {
+    for (std::size_t i = 0; i < std::size(kBackends); ++i) {
+        const BackendRow& row = kBackends[i];
         if (backend != Backend::automatic && backend != row.backend) continue;
+        if (const auto crash = go_on_watched(static_cast<int>(i), std::string(row.name), reasons)) {
+            i = static_cast<std::size_t>(crash->backend);
+            reasons = crash->reasons;
+            continue;
+        }
         try {
             return row.open();
         } catch (const std::runtime_error& error) {
             reasons += (reasons.empty() ? "" : "; ") + std::string(row.name) + ": " + error.what();
         }
     }
-    throw MachineError("no OpenGL 3.3 context without a display (" + reasons + ")");
+    throw MachineError("no OpenGL 3.3 context without a display (" + reasons + ")" + driver_advice());
 }
 
 SharedLibrary::SharedLibrary(const std::vector<std::string>& names) {

@@ -38,7 +38,8 @@ constexpr GLint kColors = 2;
 
 constexpr float kFlatBlock = 0.15f;        // of its distance: how far a block may reach and still have one scale
 constexpr std::size_t kMostBridged = 512;  // disks beside the picture that are drawn to save a draw call
-constexpr std::size_t kMostInBatch = 32;   // blocks in one draw call: between calls the nearest come first
+constexpr std::size_t kMostSidesAtOnce = std::size_t{1} << 18;  // in one draw call, of all its disks
+constexpr std::size_t kMostInBatch = 32;  // blocks in one draw call: between calls the nearest come first
 
 ColorBytes bytes_of(Rgba color) {
     ColorBytes out;
@@ -354,8 +355,11 @@ bool DiskPass::draw_more(const DrawList& list, std::size_t most, DrawStatistics&
     while (most > 0 && !undrawn_.empty()) {
         Batch& batch = undrawn_.back();
         Batch now = batch;
-        now.range.count = std::min(now.range.count, most);
+        const std::size_t at_once = std::max<std::size_t>(1, kMostSidesAtOnce / static_cast<std::size_t>(batch.sides));
+        now.range.count = std::min({now.range.count, most, at_once});
         draw(now, statistics);
+        // Software keeps the corners of a draw call until it is done: of a hundred thousand disks they are gigabytes.
+        if (now.range.count < batch.range.count) glFinish();
         most -= now.range.count;
         batch.range.first += now.range.count;
         batch.range.count -= now.range.count;

@@ -3,6 +3,7 @@
 #include <base/error.h>
 #include <render/gl/box_buffer.h>
 #include <render/gl/disk_pass.h>
+#include <render/gl/driver_watch.h>
 #include <render/gl/face_pass.h>
 #include <render/gl/gl_objects.h>
 #include <render/gl/line_pass.h>
@@ -288,6 +289,7 @@ struct Renderer::State {
         lines.draw_overlay(list.size, statistics);
         overlay.draw_texts(list.size, statistics);
         context->check("drawing");
+        note_drawn();
     }
 
     /// What was painted last.
@@ -437,6 +439,7 @@ IdImage Renderer::draw_ids(const DrawList& list) {
     image.rg.resize(2 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
     glReadPixels(0, 0, image.width, image.height, GL_RG_INTEGER, GL_UNSIGNED_INT, image.rg.data());
     s.context->check("drawing object ids");
+    note_drawn();
     flip_rows(image.rg, image.width, image.height, 2);
     return image;
 }

@@ -41,8 +41,8 @@ struct Image {
     }
 };
 
-/// Three of the largest pictures that are read, and what is between them.
-inline constexpr long long kMostStripPixels = 500'000'000;
+/// Three of the largest pictures that are read side by side, and what is between them.
+inline constexpr long long kMostStripPixels = 110'000'000;
 
 /// From left to right, their upper edges level, a few grey pixels between them and below shorter ones; pictures keep
 /// their pixels. At least one. Throws std::invalid_argument if that is more than kMostStripPixels.

@@ -175,12 +175,17 @@ Image shrunk_mask(const Image& mask, int side, PictureSize size) {
     return out;
 }
 
-ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& options, const Image* mask) {
+ImageDiff diff_of_sizes(PictureSize actual, PictureSize reference, const DiffOptions& options) {
     ImageDiff result;
     result.options = options;
-    result.actual_size = {actual.width, actual.height};
-    result.reference_size = {reference.width, reference.height};
-    result.same_size = result.actual_size == result.reference_size;
+    result.actual_size = actual;
+    result.reference_size = reference;
+    result.same_size = actual == reference;
+    return result;
+}
+
+ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& options, const Image* mask) {
+    ImageDiff result = diff_of_sizes({actual.width, actual.height}, {reference.width, reference.height}, options);
     if (!result.same_size) return result;
     if (mask && (mask->width != reference.width || mask->height != reference.height)) {
         throw std::invalid_argument("the mask has another size than the picture");

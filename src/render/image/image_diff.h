@@ -49,6 +49,9 @@ struct ImageDiff {
 ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& options = {},
                const Image* mask = nullptr);
 
+/// The same where the sizes differ: nothing is compared but them.
+ImageDiff diff_of_sizes(PictureSize actual, PictureSize reference, const DiffOptions& options = {});
+
 /// A mask. Throws InputError if it cannot be read, has another size than the picture (`picture`: its name in the
 /// message), or leaves nothing to compare.
 Image read_mask(const std::filesystem::path& file, PictureSize size, const std::filesystem::path& picture);

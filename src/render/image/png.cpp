@@ -6,31 +6,17 @@
 #include <png.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <csetjmp>
 #include <cstring>
-#include <fstream>
 #include <new>
 #include <string>
 #include <string_view>
-#include <system_error>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
 
 namespace {
-
-constexpr long long kMostPngPixels = 1LL << 27;
-
-std::vector<std::uint8_t> without_alpha(const Image& image) {
-    std::vector<std::uint8_t> rgb;
-    rgb.reserve(image.rgba.size() / 4 * 3);
-    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
-        rgb.insert(rgb.end(), image.rgba.begin() + static_cast<std::ptrdiff_t>(i),
-                   image.rgba.begin() + static_cast<std::ptrdiff_t>(i) + 3);
-    }
-    return rgb;
-}
 
 /// Reads a picture with libpng. What libpng refuses leaves its functions by a jump, which destroys nothing: they are
 /// called where no local variable needs to be destroyed.
@@ -55,6 +41,8 @@ class PngReader {
         png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
         // The caller checks the size, and speaks of it in pixels.
         png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+        // Pixels alone are wanted; a text of a few bytes can unpack to megabytes.
+        png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
         png_read_info(png_, info_);
         return true;
     }
@@ -122,63 +110,124 @@ class PngReader {
     png_infop info_ = nullptr;
 };
 
-}  // namespace
+[[noreturn]] void refuse(const PngReader& reader, const std::string& name) {
+    throw InputError(name, "byte " + std::to_string(reader.at()),
+                     "the PNG picture cannot be read up to here: " + reader.reason() + "; write or copy it again");
+}
 
-std::string png_bytes(const Image& image) {
-    // Opaque pictures, as all of ours are, do without alpha: a quarter less to write.
-    bool opaque = true;
-    for (std::size_t i = 3; i < image.rgba.size(); i += 4) opaque = opaque && image.rgba[i] == 255;
-    const std::vector<std::uint8_t> rgb = opaque ? without_alpha(image) : std::vector<std::uint8_t>{};
-    png_image written{};
-    written.version = PNG_IMAGE_VERSION;
-    written.width = static_cast<png_uint_32>(image.width);
-    written.height = static_cast<png_uint_32>(image.height);
-    written.format = opaque ? PNG_FORMAT_RGB : PNG_FORMAT_RGBA;
-    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(written);
-    std::string bytes(size, '\0');
-    const void* const pixels = opaque ? rgb.data() : image.rgba.data();
-    if (!png_image_write_to_memory(&written, bytes.data(), &size, 0, pixels, 0, nullptr)) {
-        throw MachineError(std::string("a picture could not be packed as PNG: ") + written.message);
+/// Packs a picture row by row: beside the picture only what is packed takes memory. Jumps as in PngReader.
+class PngWriter {
+  public:
+    PngWriter() {
+        png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, this, refuse, nullptr);
+        info_ = png_ ? png_create_info_struct(png_) : nullptr;
+        if (!info_) {
+            png_destroy_write_struct(&png_, nullptr);
+            throw std::bad_alloc();
+        }
     }
-    bytes.resize(size);
-    return bytes;
-}
+    ~PngWriter() { png_destroy_write_struct(&png_, &info_); }
+    PngWriter(const PngWriter&) = delete;
+    PngWriter& operator=(const PngWriter&) = delete;
 
-void write_png(const std::filesystem::path& file, const Image& image) {
-    const std::string bytes = png_bytes(image);
-    std::error_code ignored;
-    const std::filesystem::file_status status = std::filesystem::status(file, ignored);
-    const bool stream = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
-                        !std::filesystem::is_directory(status);
-    if (!stream) return write_file(file, bytes);
-    // A pipe or a device takes the bytes; it must not be replaced by a file.
-    std::ofstream out(file, std::ios::binary);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    if (!out) throw MachineError(file.string() + ": cannot be written: " + std::generic_category().message(errno));
-}
+    /// False where that is refused.
+    bool write(const Image& image) {
+        // Opaque pictures, as all of ours are, do without alpha: a quarter less to write.
+        if (is_opaque(image)) row_.resize(3 * static_cast<std::size_t>(image.width));
+        if (setjmp(png_jmpbuf(png_))) return false;
+        png_set_write_fn(png_, this, take_bytes, nullptr);
+        png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+        png_set_IHDR(png_, info_, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
+                     row_.empty() ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                     PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+        png_set_sRGB(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
+        png_write_info(png_, info_);
+        for (int y = 0; y < image.height; ++y)
+            png_write_row(png_, row_.empty() ? image.at(0, y) : without_alpha(image, y));
+        png_write_end(png_, nullptr);
+        return true;
+    }
 
-Image read_png(const std::filesystem::path& file) { return read_png_bytes(read_file(file), file.string()); }
+    std::string take() { return std::move(bytes_); }
+    bool out_of_memory() const { return out_of_memory_; }
+    const std::string& reason() const { return reason_; }
 
-Image read_png_bytes(std::string_view bytes, const std::string& name) {
+  private:
+    static bool is_opaque(const Image& image) {
+        for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
+            if (image.rgba[i] != 255) return false;
+        }
+        return true;
+    }
+
+    const std::uint8_t* without_alpha(const Image& image, int y) {
+        const std::uint8_t* from = image.at(0, y);
+        for (std::size_t i = 0; i < row_.size(); i += 3, from += 4) std::copy_n(from, 3, row_.data() + i);
+        return row_.data();
+    }
+
+    static void refuse(png_structp png, png_const_charp reason) {
+        static_cast<PngWriter*>(png_get_error_ptr(png))->reason_ = reason;
+        png_longjmp(png, 1);
+    }
+
+    static void take_bytes(png_structp png, png_bytep from, std::size_t size) {
+        auto& self = *static_cast<PngWriter*>(png_get_io_ptr(png));
+        try {
+            self.bytes_.append(reinterpret_cast<const char*>(from), size);
+        } catch (const std::bad_alloc&) {
+            self.out_of_memory_ = true;
+        }
+        if (self.out_of_memory_) png_error(png, "there is no memory");
+    }
+
+    std::string bytes_;
+    std::vector<std::uint8_t> row_;  ///< of an opaque picture
+    std::string reason_;
+    bool out_of_memory_ = false;
+    png_structp png_ = nullptr;
+    png_infop info_ = nullptr;
+};
+
+/// Reads the header; throws InputError where the bytes are no PNG, or damaged.
+PictureSize read_header(PngReader& reader, std::string_view bytes, const std::string& name) {
     if (png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, std::min<std::size_t>(bytes.size(), 8)) != 0) {
         throw InputError(name, "", "is no PNG picture; give a .png file");
     }
-    PngReader reader(bytes);
-    const auto refuse = [&] {
-        throw InputError(name, "byte " + std::to_string(reader.at()),
-                         "the PNG picture cannot be read up to here: " + reader.reason() + "; write or copy it again");
-    };
-    if (!reader.read_header()) refuse();
-    const long long width = reader.width();
-    const long long height = reader.height();
-    if (width > kMostPngPixels / height) {
-        throw InputError(name, "",
-                         "the picture of " + std::to_string(width) + "x" + std::to_string(height) +
-                             " pixels is too large; up to 134 million pixels are read");
+    if (!reader.read_header()) refuse(reader, name);
+    return {static_cast<int>(reader.width()), static_cast<int>(reader.height())};
+}
+
+}  // namespace
+
+std::string png_bytes(const Image& image) {
+    PngWriter writer;
+    if (!writer.write(image)) {
+        if (writer.out_of_memory()) throw std::bad_alloc();
+        throw MachineError("a picture could not be packed as PNG: " + writer.reason());
     }
-    Image image(static_cast<int>(width), static_cast<int>(height));
-    if (!reader.read_pixels(image)) refuse();
+    return writer.take();
+}
+
+void write_png(const std::filesystem::path& file, const Image& image) { write_file(file, png_bytes(image)); }
+
+Image read_png(const std::filesystem::path& file) { return read_png_bytes(read_file(file), file.string()); }
+
+PictureSize png_size(std::string_view bytes, const std::string& name) {
+    PngReader reader(bytes);
+    return read_header(reader, bytes, name);
+}
+
+Image read_png_bytes(std::string_view bytes, const std::string& name) {
+    PngReader reader(bytes);
+    const PictureSize size = read_header(reader, bytes, name);
+    if (size.width > kMostPngPixels / size.height) {
+        throw InputError(name, "",
+                         "the picture of " + size_word(size) + " pixels is too large; up to " +
+                             std::to_string(kMostPngPixels) + " pixels are read");
+    }
+    Image image(size.width, size.height);
+    if (!reader.read_pixels(image)) refuse(reader, name);
     return image;
 }
 

@@ -27,10 +27,10 @@ struct PathFocus {
     bool behind = false;                     ///< the boxes' colours matter more: all disks step back
 
     friend bool operator==(const PathFocus& a, const PathFocus& b) {
-        const auto range = [](const PathFocus& focus) {
+        const auto span_of = [](const PathFocus& focus) {
             return focus.range ? std::pair(focus.range->first, focus.range->count) : std::pair(-1, -1);
         };
-        return range(a) == range(b) && a.hit == b.hit && a.behind == b.behind;
+        return span_of(a) == span_of(b) && a.hit == b.hit && a.behind == b.behind;
     }
 };
 

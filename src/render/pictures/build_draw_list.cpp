@@ -8,9 +8,14 @@
 #include <scene/arrangement.h>
 #include <scene/crowd_scene.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <set>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <unordered_set>
 #include <utility>
 
 namespace mobbscope {
@@ -32,6 +37,26 @@ std::unique_ptr<Picture> picture_of(KeptPaths& kept, const ViewState& view, cons
     return space_time_picture(kept, view, options);
 }
 
+/// Any number of agents may play one long clip.
+void check_disks(const FittedScene& fitted, const ViewState& view) {
+    const Scene& scene = fitted.scene();
+    const auto samples_of = [&](int clip) {
+        return static_cast<std::size_t>(scene.clips[static_cast<std::size_t>(clip)].clip->count());
+    };
+    const bool draws_all = view.show != Show::moment && !view.projection && view.disks && !view.query;
+    if (!draws_all) return;
+    const std::unordered_set<std::string_view> hidden(view.hidden.begin(), view.hidden.end());
+    std::size_t shown = 0, own = 0;
+    for (const PlacedAgent& agent : fitted.placed_agents()) {
+        if (!hidden.contains(agent.name)) shown += samples_of(agent.clip);
+    }
+    for (std::size_t clip = 0; clip < scene.clips.size(); ++clip) own += samples_of(static_cast<int>(clip));
+    if (shown <= std::max(own, kMostDisksOfSharedClips)) return;
+    throw std::invalid_argument("its agents have " + std::to_string(shown) + " disks, and of clips that agents share " +
+                                std::to_string(kMostDisksOfSharedClips) +
+                                " are drawn; hide agents, trim their clips or lower fps");
+}
+
 /// Hands `use` the picture: of a run that of the scene at the view's time, with its followed agent's choice.
 template <class Use>
 auto with_picture(KeptPaths& kept, const ViewState& view, const PictureOptions& options, const FollowedChoice* choice,
@@ -39,7 +64,10 @@ auto with_picture(KeptPaths& kept, const ViewState& view, const PictureOptions& 
     check_scale(options.scale);
     const FittedScene& fitted = *kept.fitted();
     check_names(fitted.scene(), view);
-    if (!is_run(fitted.scene())) return use(*picture_of(kept, view, options, choice));
+    if (!is_run(fitted.scene())) {
+        check_disks(fitted, view);
+        return use(*picture_of(kept, view, options, choice));
+    }
     KeptPaths& seen = kept.shown_in(view);
     if (view.follow.empty() || !view.candidates) return use(*picture_of(seen, view, options, nullptr));
     const MoveSet moves(fitted);

@@ -6,6 +6,7 @@
 #include <scene/fitted_scene.h>
 #include <scene/view_state.h>
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,9 +16,13 @@ namespace mobbscope {
 class MoveSet;          // crowd/simulation/reservation_table.h
 struct FollowedChoice;  // crowd/simulation/choice.h
 
+/// The most disks of agents that are drawn where they share clips; agents with clips of their own may have any number.
+inline constexpr std::size_t kMostDisksOfSharedClips = 2'000'000;
+
 /// `scale`: of text and lines, kLeastScale..kMostScale (1 suits 1280x720); 0: what suits the size. Throws
 /// std::invalid_argument, saying what is allowed, if the scale is another, the view names a query or a step that there
-/// is not, or the scene has nothing to draw.
+/// is not, the scene has nothing to draw,
+/// or more than kMostDisksOfSharedClips.
 DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, PictureSize size, double scale = 0);
 
 /// The same with a background: an opaque one replaces the palette's. The samples are the renderer's. A run is drawn as

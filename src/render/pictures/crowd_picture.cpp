@@ -60,7 +60,7 @@ std::vector<DrawnAgent> boxed(std::span<const DrawnAgent> paths, const ViewState
     std::vector<DrawnAgent> own;
     for (const DrawnAgent& path : paths) {
         if (path.samples().count == 0 || path.hidden) continue;
-        boxes += shown_nodes(path.placed.tree(), view.levels).size();
+        if (boxes <= kMostCrowdBoxes) boxes += shown_nodes(path.placed.tree(), view.levels).size();
         all.push_back(path);
         if (path.run_agent == followed) own.push_back(path);
     }

@@ -48,17 +48,23 @@ void paste(const Image& from, Image& to, int x, int y) {
     }
 }
 
+/// Around an image that is pasted at (x, y): as wide as the gap lets it be without touching the next.
+void frame(const Image& image, Image& to, int x, int y, int width, const Rgba& color) {
+    const Image edge = sheet_ground({image.width + 2 * width, image.height + 2 * width}, color);
+    paste(edge, to, x - width, y - width);
+}
+
 /// A title in the middle of a picture of its own.
-Image title_picture(const std::string& title, PictureSize size, float text, const Palette& palette,
-                    const Rgba& background, Renderer& renderer) {
+Image title_picture(const SheetCell& cell, PictureSize size, float text, const Palette& palette, const Rgba& background,
+                    Renderer& renderer) {
     DrawList list;
     list.size = size;
     list.palette = palette;
     list.background = background;
     const auto room = static_cast<float>(size.width);
-    const std::string line = fit_text(title, kFace, text, room);
+    const std::string line = fit_text(cell.title, kFace, text, room);
     const float left = std::round(0.5f * (room - Font::of(kFace).width(line, text)));
-    list.texts.push_back(text_at(TextRole::caption, line, kFace, text, palette.text, {left, 0}));
+    list.texts.push_back(text_at(TextRole::caption, line, kFace, text, cell.mark.value_or(palette.text), {left, 0}));
     return renderer.draw(list);
 }
 
@@ -109,9 +115,11 @@ Image make_sheet(std::span<const SheetCell> cells, int columns, const Palette& p
         const int y = above + row * (size.height - needed) / rows;
         if (has_title(cells[i])) {
             const PictureSize room{width, spacing.title};
-            paste(title_picture(cells[i].title, room, spacing.text, palette, background, renderer), sheet, x, y);
+            paste(title_picture(cells[i], room, spacing.text, palette, background, renderer), sheet, x, y);
         }
-        paste(image, sheet, x + (width - image.width) / 2, y + spacing.title);
+        const int left = x + (width - image.width) / 2;
+        if (cells[i].mark) frame(image, sheet, left, y + spacing.title, spacing.gap / 3, *cells[i].mark);
+        paste(image, sheet, left, y + spacing.title);
     }
     return sheet;
 }

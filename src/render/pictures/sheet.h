@@ -7,6 +7,7 @@
 #include <render/image/image.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ inline constexpr std::int64_t kMostSheetPixels = std::int64_t{1} << 27;
 struct SheetCell {
     std::string title;  ///< UTF-8; where all are empty there is no room for titles
     Image image;
+    std::optional<Rgba> mark{};  ///< of its title and of a frame around it
 };
 
 /// The size of a cell's picture when `cells` of them in `columns` fill a sheet of this size, with or without titles.

@@ -1,0 +1,4 @@
+/// See by_threads.h.
+#pragma once
+
+#include "by_threads.h"

@@ -1,0 +1,31 @@
+/// Each reader with what the program does next with what it read; see Target::read.
+#pragma once
+
+#include <string>
+
+namespace mobbscope::fuzz {
+
+void read_fbx(const std::string& bytes);
+void read_gltf(const std::string& bytes);
+void read_bvh(const std::string& bytes);
+void read_csv(const std::string& bytes);
+void read_radius_table(const std::string& bytes);
+void read_jupedsim(const std::string& bytes);
+void read_text_tracks(const std::string& bytes);
+void read_trajnetpp(const std::string& bytes);
+void read_mapf_plan(const std::string& bytes);
+void read_text_plan(const std::string& bytes);
+void read_any_file(const std::string& bytes);  ///< told by its content, and packed by gzip
+void read_scene(const std::string& bytes);
+void read_case(const std::string& bytes);
+void read_script(const std::string& bytes);
+void read_view_state(const std::string& bytes);
+void read_settings(const std::string& bytes);
+void read_png_file(const std::string& bytes);
+void read_draw_list(const std::string& bytes);
+void read_result_line(const std::string& bytes);
+void read_request_line(const std::string& bytes);
+void read_report(const std::string& bytes);
+void read_reference(const std::string& bytes);
+
+}  // namespace mobbscope::fuzz

@@ -1,0 +1,74 @@
+/// Programs that this one starts, and the pipes to them.
+#pragma once
+
+#include <sys/types.h>
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope {
+
+/// A descriptor that is closed with this.
+class Descriptor {
+  public:
+    explicit Descriptor(int number = -1) : number_(number) {}
+    ~Descriptor() { close(); }
+    Descriptor(Descriptor&& other) noexcept : number_(other.release()) {}
+    Descriptor& operator=(Descriptor&& other) noexcept;
+    int get() const { return number_; }  ///< -1: closed
+    bool is_open() const { return number_ >= 0; }
+    void close();
+
+  private:
+    int release();
+    int number_;
+};
+
+/// Both ways, between two ends, neither of which a program that is started gets by itself.
+struct Connection {
+    Descriptor here, there;
+    /// Throws MachineError.
+    static Connection make();
+};
+
+/// Appends some of what has come to the end of a Connection, and waits for nothing; false where no more will come.
+bool read_some(const Descriptor& from, std::string& bytes);
+
+/// Sends all to the end of a Connection; false, and no signal, if the reader has gone.
+bool send_all(const Descriptor& to, std::string_view bytes);
+/// No more will be sent.
+void send_end(const Descriptor& to);
+
+/// A program at work. It is killed when this ends, when the thread that started it does, and with this program, however
+/// that ends.
+class Process {
+  public:
+    /// Its standard input, output and error: descriptors; -1: nothing, /dev/null.
+    struct Streams {
+        int in = -1, out = -1, err = -1;
+    };
+    /// Throws MachineError naming the program if it cannot be started.
+    Process(const std::filesystem::path& program, const std::vector<std::string>& arguments, const Streams& streams);
+    ~Process();
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
+
+    void kill() const;
+    /// How it ended, as waitpid tells it; nothing while it works.
+    std::optional<int> ended();
+    /// The same, waiting so long at most.
+    std::optional<int> wait(double seconds);
+
+  private:
+    pid_t child_ = 0;
+    std::optional<int> status_;
+};
+
+/// "crashed: Segmentation fault", "ended with status 2".
+std::string how_it_ended(int status);
+
+}  // namespace mobbscope

@@ -1,0 +1,211 @@
+// What small files and single options may cost: refused where it is too much, said in docs/limits.md.
+#include "run_program.h"
+
+#include <base/file.h>
+#include <conflicts/conflicts.h>
+#include <crowd/simulation/simulate.h>
+#include <import/clip/sampling.h>
+#include <import/skeleton/motion.h>
+#include <paper_tables/workload.h>
+#include <render/drawlist/picture_options.h>
+#include <render/image/image.h>
+#include <render/image/png.h>
+#include <render/pictures/build_draw_list.h>
+#include <support/png_file.h>
+#include <support/temp_folder.h>
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope {
+namespace {
+
+using testing::is_one_line;
+using testing::Result;
+using testing::run_program;
+using testing::TempFolder;
+
+/// "33,554,432".
+std::string with_commas(std::int64_t number) {
+    std::string out = std::to_string(number);
+    for (auto at = static_cast<std::ptrdiff_t>(out.size()) - 3; at > 0; at -= 3) out.insert(out.begin() + at, ',');
+    return out;
+}
+
+TEST(Limits, AreThoseOfTheTable) {
+    const std::string table = read_file(std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "docs/limits.md");
+    const auto expect_row = [&table](std::string_view what, std::int64_t limit) {
+        const std::size_t row = table.find("| " + std::string(what) + " |");
+        ASSERT_NE(row, std::string::npos) << what;
+        const std::string line = table.substr(row, table.find('\n', row) - row);
+        EXPECT_NE(line.find(' ' + with_commas(limit)), std::string::npos) << line << " but " << limit;
+    };
+    expect_row("samples of a file of tracks or a table", kMaxSamples);
+    expect_row("samples made of a file, or of the sources of a scene", kMostMadeSamples);
+    expect_row("poses of single joints likewise", kMostMadePoses);
+    expect_row("characters in a file", kMostCharacters);
+    expect_row("pixels of a picture that is read", kMostPngPixels);
+    expect_row("pixels of a strip", kMostStripPixels);
+    expect_row("side of a picture that is drawn", kMaxSide);
+    expect_row("its pixels", kMaxPixels);
+    expect_row("its pixels with 4 samples each", kMostDrawn / (4 + 2));
+    expect_row("its pixels with 8 samples each", kMostDrawn / (8 + 2));
+    expect_row("disks drawn of agents that share clips", kMostDisksOfSharedClips);
+    expect_row("conflicts in the window", kMostSceneConflicts);
+    expect_row("`simulate --agents`", kMaxAgents);
+    expect_row("plays of a run", kMostPlays);
+    expect_row("`bench --queries`", kMaxQueries);
+}
+
+class LimitsTest : public ::testing::Test {
+  protected:
+    std::string write(const std::string& name, const std::string& text) const {
+        write_file(folder.path() / name, text);
+        return folder.path() / name;
+    }
+    static void expect_refused(const Result& run, const std::string& why) {
+        EXPECT_EQ(run.status, 2) << run.err;
+        EXPECT_TRUE(is_one_line(run.err)) << run.err;
+        EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
+        EXPECT_EQ(run.out, "");
+    }
+
+    const TempFolder folder;
+};
+
+TEST_F(LimitsTest, AFewRowsDoNotBecomeAnyNumberOfSamples) {
+    // 50,000 seconds at 30 samples each: out of step, so made anew.
+    write("long.csv", "t,x,y,r\n0,0,0,1\n1,1,0,1\n50000,0,1,1\n");
+    EXPECT_EQ(run_program({"info", folder.path() / "long.csv"}).status, 0);
+    const std::string twice =
+        write("twice.json", R"({"clips": {"a": {"source": "long.csv"}, "b": {"source": "long.csv"}}})");
+    const Result run = run_program({"fit", twice});
+    expect_refused(run, "/clips/b/source: with this one the scene's clips become more than 2000000");
+}
+
+TEST_F(LimitsTest, AFewJointsDoNotBecomeAnyNumberOfPoses) {
+    std::string bvh = "HIERARCHY\nROOT r\n{\nOFFSET 0 0 0\nCHANNELS 3 Xposition Yposition Zposition\n";
+    for (int i = 0; i < 100; ++i) bvh += "JOINT j\n{\nOFFSET 0 1 0\nCHANNELS 0\n}\n";
+    bvh += "}\nMOTION\nFrames: 5\nFrame Time: 1000\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n4 0 0\n";
+    const std::string file = write("joints.bvh", bvh);
+    expect_refused(run_program({"info", file}), "joints.bvh: its clips become more than 2000000 samples, or 10000000");
+    EXPECT_EQ(run_program({"info", file, "--fps", "3"}).status, 0);
+}
+
+/// Bytes that the program takes at most.
+std::int64_t peak_memory(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), MOBBSCOPE_PROGRAM);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const int nothing = ::open("/dev/null", O_WRONLY);
+        ::dup2(nothing, STDOUT_FILENO);
+        std::vector<char*> words;
+        for (std::string& word : arguments) words.push_back(word.data());
+        words.push_back(nullptr);
+        ::execv(words.front(), words.data());
+        ::_exit(127);
+    }
+    int status = -1;
+    rusage usage{};
+    ::wait4(child, &status, 0, &usage);
+    EXPECT_EQ(status, 0);
+    constexpr std::int64_t kKilobyte = 1024;
+    return usage.ru_maxrss * kKilobyte;
+}
+
+TEST_F(LimitsTest, ConflictsAreWrittenAsTheyAreFound) {
+#ifdef MOBBSCOPE_SANITIZED
+    GTEST_SKIP() << "a sanitizer's memory is not the program's";
+#endif
+    const auto crowd = [this](int count) {
+        std::string text = R"({"clips": {"c": {"dt": 0.1, "samples": [[0, 0, 1]]}}, "agents": [)";
+        for (int i = 0; i < count; ++i)
+            text += std::string(i > 0 ? "," : "") + R"({"name": ")" + std::to_string(i) + R"(", "clip": "c"})";
+        return write("crowd.json", text + "]}");
+    };
+    const std::int64_t few = peak_memory({"conflicts", crowd(2)});
+    constexpr int kCount = 500;
+    constexpr std::int64_t kConflicts = std::int64_t{kCount} * (kCount - 1) / 2;
+    // What sorts them is kept, 32 bytes each, and who is near whom; each whole takes over 400.
+    EXPECT_LT(peak_memory({"conflicts", crowd(kCount)}) - few, 200 * kConflicts);
+}
+
+std::string header_alone(int width, int height) {
+    return testing::png_header({.width = width, .height = height}) + testing::png_chunk("IDAT", "");
+}
+
+TEST_F(LimitsTest, PicturesBeyondTheirPixelsAreRefusedByTheirHeader) {
+    const std::string large = write("large.png", header_alone(12000, 11000));
+    expect_refused(run_program({"diff", large, large, "--shift", "1"}),
+                   "large.png: the picture of 12000x11000 pixels is too large; up to 33554432 pixels are read");
+    const std::string tall = write("tall.png", header_alone(1, 134217728));
+    expect_refused(run_program({"diff", tall, tall}), "too large");
+}
+
+TEST_F(LimitsTest, MovesOfAGraphAreShort) {
+    write("long.csv", "t,x,y,r\n0,0,0,1\n1,1,0,1\n20000,0,1,1\n");
+    const std::string graph = R"({"clips": {"c": {"source": "long.csv"}}, "graph": {"hubs": [{"name": "h"}],
+        "moves": [{"clip": "c", "from": 0, "to": 0, "entry": [0, 0, 0], "exit": [0, 1, 0]}]}})";
+    const std::string run = folder.path() / "run.json";
+    expect_refused(run_program({"simulate", write("graph.json", graph), "-o", run}),
+                   "of 1 move there are 600001 samples, more than 500000 and 1000 for each");
+    const Result whole = run_program({"simulate", folder.path() / "long.csv", "--whole", "-o", run});
+    EXPECT_EQ(whole.status, 2) << whole.err;
+    EXPECT_NE(whole.err.find("long.csv: of 1 move there are 600001 samples"), std::string::npos) << whole.err;
+}
+
+TEST_F(LimitsTest, AgentsThatShareALongClipAreNotDrawnInAnyNumber) {
+    write("long.csv", "t,x,y,r\n0,0,0,1\n1,1,0,1\n5000,0,1,1\n");
+    std::string text = R"({"clips": {"c": {"source": "long.csv"}}, "agents": [)";
+    for (int i = 0; i < 20; ++i)
+        text += std::string(i > 0 ? "," : "") + R"({"name": ")" + std::to_string(i) + R"(", "clip": "c"})";
+    const Result run =
+        run_program({"render", write("agents.json", text + "]}"), "--draw-list", folder.path() / "l.json"});
+    EXPECT_EQ(run_program({"render", folder.path() / "agents.json", "--show", "moment", "--draw-list",
+                           folder.path() / "m.json"})
+                  .status,
+              0)
+        << "shows a disk of each";
+    EXPECT_EQ(run.status, 2);
+    EXPECT_NE(run.err.find("agents.json: its agents have 3000020 disks, and of clips that agents share 2000000"),
+              std::string::npos)
+        << run.err;
+}
+
+TEST_F(LimitsTest, PicturesWithTooManySamplesAreRefused) {
+    const std::string scene =
+        write("scene.json", R"({"clips": {"c": {"dt": 0.1, "samples": [[0, 0, 1]]}}, "agents": []})");
+    const std::string out = folder.path() / "out.png";
+    expect_refused(run_program({"render", scene, "-o", out, "--size", "7680x4320"}),
+                   "--size, --samples: a picture of 7680x4320 pixels with 4 samples each takes too much memory");
+    expect_refused(run_program({"render", scene, "-o", out, "--size", "7680x4320", "--ui"}), "takes too much memory");
+    expect_refused(run_program({"render", scene, "-o", out, "--size", "4096x4096", "--samples", "8"}),
+                   "at most 9953280");
+    EXPECT_FALSE(std::filesystem::exists(out));
+    const std::string list = folder.path() / "list.json";
+    EXPECT_EQ(run_program({"render", scene, "--draw-list", list, "--size", "7680x4320"}).status, 0)
+        << "needs no pixels";
+    write("a.case.json", R"({"mobbscope_case": 1, "scene": "scene.json", "size": "7680x4320"})");
+    EXPECT_NE(run_program({"test", folder.path(), "--output", folder.path() / "o"}).out.find("takes too much memory"),
+              std::string::npos);
+}
+
+TEST_F(LimitsTest, QueriesThatAreRecordedAndMeasuredAreLimited) {
+    expect_refused(run_program({"bench", "table1", "--queries", "1000001"}), "1 to 1000000");
+    expect_refused(
+        run_program({"simulate", "g.json", "-o", "r.json", "--record", "q.json", "--record-queries", "500001"}),
+        "0 to 500000");
+}
+
+}  // namespace
+}  // namespace mobbscope
