@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -335,6 +336,37 @@ void edit_png(std::vector<PngPart>& parts, Mutation& by) {
     }
 }
 
+using Mutate = std::string (*)(const std::string& bytes, Mutation& by);
+
+/// Of what is packed in another file, with what a donor has there.
+std::string mutated_inside(Mutate mutate, const std::string& text, const std::string& donor, Mutation& by) {
+    const std::vector<std::string> donors{donor};
+    Mutation inside{by.random, donors, by.bytes};
+    std::string out = mutate(text, inside);
+    by.random = inside.random;
+    return out;
+}
+
+Mutate mutated_as(Form form) {
+    switch (form) {
+        case Form::fbx:
+            return mutated_fbx;
+        case Form::json:
+            return mutated_json;
+        case Form::glb:
+            return mutated_glb;
+        case Form::lines:
+            return mutated_lines;
+        case Form::sqlite:
+            return mutated_sqlite;
+        case Form::gzip:
+            return mutated_gzip;
+        case Form::png:
+            return mutated_png;
+    }
+    throw std::logic_error("a form without a mutator");
+}
+
 }  // namespace
 
 std::string Mutation::odd_number() { return kOddNumbers[below(kOddNumbers.size())]; }
@@ -403,10 +435,7 @@ std::string mutated_glb(const std::string& bytes, Mutation& mutation) {
     if (!parts.binary.empty() && mutation.one_in(3)) {
         for (std::size_t edits = mutation.edits(); edits > 0; --edits) edit_numbers(parts.binary, mutation);
     } else {
-        const std::vector<std::string> texts{glb_parts(mutation.donor()).json};
-        Mutation inside{mutation.random, texts, mutation.bytes};
-        parts.json = mutated_json(parts.json, inside);
-        mutation.random = inside.random;
+        parts.json = mutated_inside(mutated_json, parts.json, glb_parts(mutation.donor()).json, mutation);
     }
     return parts.json.empty() ? "" : testing::join_glb(parts.json, parts.binary);
 }
@@ -423,40 +452,14 @@ std::string mutated_png(const std::string& bytes, Mutation& mutation) {
 std::string mutated_gzip(const std::string& bytes, Mutation& mutation) {
     const std::string unpacked = inflated(bytes);
     if (unpacked.empty()) return "";
-    const std::vector<std::string> texts{inflated(mutation.donor())};
-    Mutation inside{mutation.random, texts, mutation.bytes};
-    std::string out = testing::gzipped(mutated_lines(unpacked, inside));
-    mutation.random = inside.random;
+    std::string out = testing::gzipped(mutated_inside(mutated_lines, unpacked, inflated(mutation.donor()), mutation));
     if (mutation.one_in(8)) out += mutation.one_in(2) ? out : testing::gzipped(unpacked);
     if (mutation.one_in(16)) out.append(mutation.below(600), '\0');
     return out;
 }
 
 std::string mutated(Form form, const std::string& bytes, Mutation& mutation) {
-    std::string out;
-    switch (form) {
-        case Form::fbx:
-            out = mutated_fbx(bytes, mutation);
-            break;
-        case Form::json:
-            out = mutated_json(bytes, mutation);
-            break;
-        case Form::glb:
-            out = mutated_glb(bytes, mutation);
-            break;
-        case Form::lines:
-            out = mutated_lines(bytes, mutation);
-            break;
-        case Form::sqlite:
-            out = mutated_sqlite(bytes, mutation);
-            break;
-        case Form::gzip:
-            out = mutated_gzip(bytes, mutation);
-            break;
-        case Form::png:
-            out = mutated_png(bytes, mutation);
-            break;
-    }
+    const std::string out = mutated_as(form)(bytes, mutation);
     return out.empty() ? mutation.bytes(bytes) : out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <app/document/settings.h>
 #include <app/script/script.h>
+#include <base/descriptor.h>
 #include <base/error.h>
 #include <base/file.h>
 #include <base/json.h>
@@ -28,6 +29,7 @@
 #include <scene/fitted_scene.h>
 #include <scene/scene.h>
 #include <scene/view_options.h>
+#include <support/temp_folder.h>
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -57,43 +59,22 @@ void require(bool holds, const char* what) {
 /// A file in memory, for readers that take a name.
 class MemoryFile {
   public:
-    explicit MemoryFile(const std::string& bytes) : descriptor_(::memfd_create("fuzz", MFD_CLOEXEC)) {
-        if (descriptor_ < 0 || ::write(descriptor_, bytes.data(), bytes.size()) != static_cast<ssize_t>(bytes.size()))
+    explicit MemoryFile(const std::string& bytes) : file_(::memfd_create("fuzz", MFD_CLOEXEC)) {
+        if (!file_.is_open() || ::write(file_.get(), bytes.data(), bytes.size()) != static_cast<ssize_t>(bytes.size()))
             throw std::runtime_error("no file in memory");
     }
-    ~MemoryFile() { ::close(descriptor_); }
-    MemoryFile(const MemoryFile&) = delete;
-    MemoryFile& operator=(const MemoryFile&) = delete;
 
-    std::filesystem::path path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+    std::filesystem::path path() const { return "/proc/self/fd/" + std::to_string(file_.get()); }
 
   private:
-    int descriptor_;
+    Descriptor file_;
 };
 
-/// A folder of this process, for what is written and for files whose names are given.
-class ScratchFolder {
-  public:
-    ScratchFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "mobbscope-fuzz-XXXXXX").string();
-        if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-        path_ = name;
-    }
-    ~ScratchFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-    static const std::filesystem::path& path() {
-        static const ScratchFolder folder;
-        return folder.path_;
-    }
-
-  private:
-    std::filesystem::path path_;
-};
+/// Of this process, for what is written and for files whose names are given.
+const std::filesystem::path& scratch_folder() {
+    static const testing::TempFolder folder;
+    return folder.path();
+}
 
 std::uint32_t hash_of(std::string_view bytes) {
     std::uint32_t hash = 2166136261;
@@ -247,7 +228,7 @@ void read_view_state(const std::string& bytes) {
 }
 
 void read_settings(const std::string& bytes) {
-    const std::filesystem::path file = ScratchFolder::path() / "settings.json";
+    const std::filesystem::path file = scratch_folder() / "settings.json";
     std::ofstream(file, std::ios::binary) << bytes;
     const app::Settings settings = app::load_settings(file);
     app::save_settings(file, settings);
@@ -284,8 +265,8 @@ void read_report(const std::string& bytes) {
 }
 
 void read_reference(const std::string& bytes) {
-    std::ofstream(picture_tests::reference_file(ScratchFolder::path()), std::ios::binary) << bytes;
-    picture_tests::read_reference(ScratchFolder::path());
+    std::ofstream(picture_tests::reference_file(scratch_folder()), std::ios::binary) << bytes;
+    picture_tests::read_reference(scratch_folder());
 }
 
 }  // namespace mobbscope::fuzz

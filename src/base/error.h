@@ -13,8 +13,8 @@ namespace mobbscope {
 class InputError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
-    /// "file: place: message"; an empty place is left out, and the file "-" is called standard input. Of a name that
-    /// is no line of text what is none becomes '?'.
+    /// "file: place: message"; an empty place is left out, and the file "-" is called standard input. Names are
+    /// cleaned.
     InputError(const std::string& file, const std::string& place, const std::string& message)
         : std::runtime_error((file == "-" ? "standard input" : cleaned(file)) + ": " +
                              (place.empty() ? "" : place + ": ") + message) {}

@@ -31,8 +31,8 @@ std::string read_beginning(const std::filesystem::path& file, std::size_t most);
 /// Remembers that a file is read. read_file does by itself; this is for one that will be.
 void note_read(const std::filesystem::path& file);
 
-/// All that were read, from the root, in any order.
-std::vector<std::filesystem::path> files_read();
+/// Those that were read since this was asked last, from the root.
+std::vector<std::filesystem::path> take_files_read();
 
 /// Throws InputError if a file is one that was read, by whatever name or link: it must not be replaced by what is made
 /// from it.

@@ -1,4 +1,5 @@
 // Whole files are written: into unfinished ones first, which then take their names.
+#include <base/descriptor.h>
 #include <base/error.h>
 #include <base/file.h>
 #include <base/text.h>
@@ -43,6 +44,7 @@ constexpr std::time_t kLeftBehind = 60;  // seconds after which nobody is about 
 struct ReadFiles {
     std::mutex mutex;
     std::map<std::pair<dev_t, ino_t>, fs::path> names;
+    std::vector<fs::path> not_taken;
 };
 
 ReadFiles& read_files() {
@@ -162,11 +164,8 @@ bool is_left_behind(int folder, const char* name) {
     struct stat status {};
     if (::fstatat(folder, name, &status, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(status.st_mode)) return false;
     if (status.st_uid != ::geteuid() || std::time(nullptr) - status.st_mtime < kLeftBehind) return false;
-    const int file = ::openat(folder, name, O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-    if (file < 0) return false;
-    const bool unlocked = ::flock(file, LOCK_EX | LOCK_NB) == 0;
-    ::close(file);
-    return unlocked;
+    const Descriptor file(::openat(folder, name, O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+    return file.is_open() && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0;
 }
 
 /// What killed processes left in a folder; once for each folder.
@@ -187,16 +186,6 @@ void remove_left_behind(const fs::path& folder) {
 }
 
 // --- one file
-
-struct CloseDescriptor {
-    int descriptor;
-    explicit CloseDescriptor(int to_close) : descriptor(to_close) {}
-    ~CloseDescriptor() {
-        if (descriptor >= 0) ::close(descriptor);
-    }
-    CloseDescriptor(const CloseDescriptor&) = delete;
-    CloseDescriptor& operator=(const CloseDescriptor&) = delete;
-};
 
 MachineError unwritable(const fs::path& file, const std::string& why) {
     return MachineError(file.string() + ": cannot be written: " + why);
@@ -231,11 +220,11 @@ int open_waiting(const fs::path& file) {
 /// A pipe or a device, which must not be replaced by a file.
 void write_stream(const FileBytes& wanted) {
     // Without a reader, opening a pipe would wait for ever; one that was started together with this is soon there.
-    const CloseDescriptor out(open_waiting(wanted.file));
-    if (out.descriptor < 0)
+    const Descriptor out(open_waiting(wanted.file));
+    if (!out.is_open())
         throw errno == ENXIO ? unwritable(wanted.file, "nobody reads from it") : unwritable(wanted.file, errno);
-    ::fcntl(out.descriptor, F_SETFL, O_WRONLY);
-    write_all(out.descriptor, wanted);
+    ::fcntl(out.get(), F_SETFL, O_WRONLY);
+    write_all(out.get(), wanted);
 }
 
 /// The owner, and the rights of those that open the file; not those of its process, which set-user-id bits give.
@@ -264,17 +253,17 @@ class UnfinishedFile {
         if (replaces_ && ::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0) throw unwritable(file_, errno);
         remove_left_behind(folder());
         open();
-        ::flock(descriptor_->descriptor, LOCK_EX | LOCK_NB);  // see is_left_behind
-        write_all(descriptor_->descriptor, wanted);
-        if (replaces_) keep_owner_and_rights(descriptor_->descriptor, wanted, replaced);
+        ::flock(descriptor_.get(), LOCK_EX | LOCK_NB);  // see is_left_behind
+        write_all(descriptor_.get(), wanted);
+        if (replaces_) keep_owner_and_rights(descriptor_.get(), wanted, replaced);
         // Else a loss of power after the renaming may leave an empty file in the place of the old one.
-        if (replaces_ && ::fsync(descriptor_->descriptor) != 0 && errno != EINVAL) throw unwritable(file_, errno);
+        if (replaces_ && ::fsync(descriptor_.get()) != 0 && errno != EINVAL) throw unwritable(file_, errno);
     }
 
     /// Gives it a name in its folder, which a file needs that is to replace another.
     void name_it() {
         if (name_) return;
-        const std::string open_file = "/proc/self/fd/" + std::to_string(descriptor_->descriptor);
+        const std::string open_file = "/proc/self/fd/" + std::to_string(descriptor_.get());
         name_.emplace(folder(), [&](const char* name) {
             return ::linkat(AT_FDCWD, open_file.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
         });
@@ -285,8 +274,8 @@ class UnfinishedFile {
     void take_place(bool with_return) {
         if (with_return && replaces_) {
             // Under its other name it must not be taken for one that was left behind.
-            old_.emplace(::open(target_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-            if (old_->descriptor >= 0) ::flock(old_->descriptor, LOCK_SH | LOCK_NB);
+            old_ = Descriptor(::open(target_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+            if (old_.is_open()) ::flock(old_.get(), LOCK_SH | LOCK_NB);
         }
         if (with_return && replaces_ && name_->swap_with(target_)) {
             swapped_ = true;
@@ -310,11 +299,11 @@ class UnfinishedFile {
     void open() {
         // Without a name it goes with its process, however that ends.
         if (::access("/proc/self/fd", X_OK) == 0)
-            descriptor_.emplace(::open(folder().c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666));
-        if (descriptor_ && descriptor_->descriptor >= 0) return;
+            descriptor_ = Descriptor(::open(folder().c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666));
+        if (descriptor_.is_open()) return;
         name_.emplace(folder(), [this](const char* name) {
-            descriptor_.emplace(::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-            return descriptor_->descriptor >= 0;
+            descriptor_ = Descriptor(::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+            return descriptor_.is_open();
         });
         if (name_->error() != 0) throw unwritable(file_, name_->error());
     }
@@ -322,9 +311,9 @@ class UnfinishedFile {
     fs::path file_;
     fs::path target_;
     bool replaces_ = false;
-    std::optional<CloseDescriptor> descriptor_;
+    Descriptor descriptor_;
     std::optional<UnfinishedName> name_;
-    std::optional<CloseDescriptor> old_;
+    Descriptor old_;
     bool swapped_ = false;
 };
 
@@ -341,14 +330,13 @@ void note_read(const fs::path& file) {
     if (!present) return;
     const std::lock_guard lock(read_files().mutex);
     // The present folder may be another later.
-    read_files().names.insert_or_assign(*present, whole_path(file));
+    const auto [at, is_new] = read_files().names.insert_or_assign(*present, whole_path(file));
+    if (is_new) read_files().not_taken.push_back(at->second);
 }
 
-std::vector<fs::path> files_read() {
+std::vector<fs::path> take_files_read() {
     const std::lock_guard lock(read_files().mutex);
-    std::vector<fs::path> out;
-    for (const auto& [number, file] : read_files().names) out.push_back(file);
-    return out;
+    return std::exchange(read_files().not_taken, {});
 }
 
 void check_not_read(const fs::path& file) {

@@ -57,20 +57,6 @@ int error_told(const Descriptor& from) {
 
 }  // namespace
 
-Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
-    if (this == &other) return *this;
-    close();
-    number_ = other.release();
-    return *this;
-}
-
-void Descriptor::close() {
-    if (number_ >= 0) ::close(number_);
-    number_ = -1;
-}
-
-int Descriptor::release() { return std::exchange(number_, -1); }
-
 Connection Connection::make() {
     std::array<int, 2> ends{};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
@@ -130,8 +116,7 @@ Process::Process(const std::filesystem::path& program, const std::vector<std::st
 Process::~Process() {
     if (child_ == 0 || status_) return;
     kill();
-    int ignored = 0;
-    while (::waitpid(child_, &ignored, 0) < 0 && errno == EINTR) continue;
+    wait_for_child(child_);
 }
 
 void Process::kill() const {
@@ -145,10 +130,25 @@ std::optional<int> Process::ended() {
 }
 
 std::optional<int> Process::wait(double seconds) {
+    if (!status_) status_ = wait_for_child(child_, seconds);
+    return status_;
+}
+
+std::optional<int> wait_for_child(pid_t child, double seconds) {
     constexpr std::chrono::milliseconds kAskEvery(2);
     const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-    while (!ended() && std::chrono::steady_clock::now() < until) std::this_thread::sleep_for(kAskEvery);
-    return status_;
+    int status = 0;
+    while (::waitpid(child, &status, WNOHANG) != child) {
+        if (std::chrono::steady_clock::now() >= until) return std::nullopt;
+        std::this_thread::sleep_for(kAskEvery);
+    }
+    return status;
+}
+
+int wait_for_child(pid_t child) {
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+    return status;
 }
 
 std::string how_it_ended(int status) {

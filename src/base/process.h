@@ -1,6 +1,8 @@
 /// Programs that this one starts, and the pipes to them.
 #pragma once
 
+#include <base/descriptor.h>
+
 #include <sys/types.h>
 
 #include <array>
@@ -11,22 +13,6 @@
 #include <vector>
 
 namespace mobbscope {
-
-/// A descriptor that is closed with this.
-class Descriptor {
-  public:
-    explicit Descriptor(int number = -1) : number_(number) {}
-    ~Descriptor() { close(); }
-    Descriptor(Descriptor&& other) noexcept : number_(other.release()) {}
-    Descriptor& operator=(Descriptor&& other) noexcept;
-    int get() const { return number_; }  ///< -1: closed
-    bool is_open() const { return number_ >= 0; }
-    void close();
-
-  private:
-    int release();
-    int number_;
-};
 
 /// Both ways, between two ends, neither of which a program that is started gets by itself.
 struct Connection {
@@ -67,6 +53,11 @@ class Process {
     pid_t child_ = 0;
     std::optional<int> status_;
 };
+
+/// How a child process ended, as waitpid tells it, waiting so long at most; nothing if it still works.
+std::optional<int> wait_for_child(pid_t child, double seconds);
+/// The same, however long it works.
+int wait_for_child(pid_t child);
 
 /// "crashed: Segmentation fault", "ended with status 2".
 std::string how_it_ended(int status);

@@ -239,22 +239,38 @@ bool is_utf8(std::string_view text) {
     return true;
 }
 
+char32_t read_code_point(std::string_view utf8, std::size_t& at) {
+    constexpr char32_t kMalformed = 0xFFFD;
+    const auto lead = static_cast<unsigned char>(utf8[at++]);
+    const int following = lead < 0x80 ? 0 : (lead >> 5) == 6 ? 1 : (lead >> 4) == 14 ? 2 : (lead >> 3) == 30 ? 3 : -1;
+    if (following < 0) return kMalformed;
+    char32_t code = following == 0 ? lead : lead & (0x3Fu >> following);
+    for (int k = 0; k < following; ++k) {
+        if (at >= utf8.size() || (static_cast<unsigned char>(utf8[at]) >> 6) != 2) return kMalformed;
+        code = (code << 6) | (static_cast<unsigned char>(utf8[at++]) & 0x3Fu);
+    }
+    return code;
+}
+
+std::vector<char32_t> code_points(std::string_view utf8) {
+    std::vector<char32_t> out;
+    for (std::size_t at = 0; at < utf8.size();) out.push_back(read_code_point(utf8, at));
+    return out;
+}
+
 std::string with_escapes(std::string_view text) {
     std::string out;
-    for (std::size_t i = 0; i < text.size();) {
-        const auto lead = static_cast<unsigned char>(text[i]);
-        const std::size_t length = lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
-        char32_t code = length == 1 ? lead : lead & (0x7fu >> length);
-        for (std::size_t k = 1; k < length; ++k) code = code << 6 | (static_cast<unsigned char>(text[i + k]) & 0x3f);
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t begin = at;
+        const char32_t code = read_code_point(text, at);
         if (!is_misleading(code)) {
-            out += text.substr(i, length);
+            out += text.substr(begin, at - begin);
         } else if (code < 0x10000) {
             out += formatted("\\u%04x", static_cast<unsigned>(code));
         } else {
             const auto above = static_cast<unsigned>(code - 0x10000);
             out += formatted("\\u%04x\\u%04x", 0xd800 + (above >> 10), 0xdc00 + (above & 0x3ff));
         }
-        i += length;
     }
     return out;
 }

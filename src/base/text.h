@@ -72,6 +72,11 @@ std::string_view trimmed(std::string_view text);
 /// Whether the bytes are well-formed UTF-8 (RFC 3629).
 bool is_utf8(std::string_view text);
 
+/// The code point that begins at byte `at` < utf8.size(), which moves behind it; U+FFFD for a malformed byte.
+char32_t read_code_point(std::string_view utf8, std::size_t& at);
+/// All of them.
+std::vector<char32_t> code_points(std::string_view utf8);
+
 /// UTF-8 text in which characters that steer a terminal, and those that nobody sees but that change how others look
 /// (directions of writing, joiners, separators), stand as JSON writes them: "\u001b", "\u202e".
 std::string with_escapes(std::string_view text);

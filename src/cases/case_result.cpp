@@ -1,3 +1,4 @@
+#include <base/error.h>
 #include <cases/case_result.h>
 #include <render/image/png.h>
 
@@ -25,6 +26,15 @@ ImageDiff compared_again(const CaseResult& result, const Image& actual, const Im
     std::optional<Image> mask;
     if (result.mask) mask = read_mask(*result.mask, {golden.width, golden.height}, result.shown);
     return diff(actual, golden, result.image ? result.image->options : DiffOptions{}, mask ? &*mask : nullptr);
+}
+
+std::optional<Image> heat_map(const CaseResult& result) {
+    if (!result.image || !result.image->same_size || result.golden.empty()) return std::nullopt;
+    try {
+        return compared_again(result, read_png_bytes(result.actual), read_png_bytes(result.golden)).heat;
+    } catch (const InputError&) {
+        return std::nullopt;  // its mask is gone meanwhile
+    }
 }
 
 bool can_be_taken(CaseOutcome outcome, std::string_view other_here) {

@@ -101,6 +101,8 @@ bool lacks_opengl(const CaseResult& result);
 /// The pictures of a result, compared anew with its mask, for the heat map. Throws InputError if the mask cannot be
 /// read.
 ImageDiff compared_again(const CaseResult& result, const Image& actual, const Image& golden);
+/// Of a result that has both pictures; nothing if they cannot be compared again.
+std::optional<Image> heat_map(const CaseResult& result);
 
 /// Whether there is a picture that is not the golden's, and goldens are taken here.
 bool can_be_taken(const CaseResult& result);

@@ -38,16 +38,12 @@ double time_limit_of(const CaseFile& file) {
     }
 }
 
-CaseResult without_picture(const CaseFile& file, CaseOutcome outcome, std::string why) {
+CaseResult failed(const CaseFile& file, std::string why) {
     CaseResult out;
     out.file = file;
-    out.outcome = outcome;
+    out.outcome = CaseOutcome::failed;
     out.message = std::move(why);
     return out;
-}
-
-CaseResult failed(const CaseFile& file, std::string why) {
-    return without_picture(file, CaseOutcome::failed, std::move(why));
 }
 
 /// A process that draws one case after the other.

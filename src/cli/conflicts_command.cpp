@@ -215,8 +215,8 @@ void run_conflicts(const ConflictsCommandArguments& arguments, int& status) {
     std::vector<mobb::PlacedTree> crowd;
     for (const PlacedAgent& who : scene.placed_agents()) crowd.push_back(scene.placed(who));
     const People people(scene.scene());
-    const PeopleConflicts conflicts = find_people_conflicts(
-        crowd, people.of_agents(), arguments.fit.brute ? Search::direct : Search::trees, tell("tested", "pairs"));
+    const PeopleConflicts conflicts(crowd, people.of_agents(), arguments.fit.brute ? Search::direct : Search::trees,
+                                    tell("tested", "pairs"));
     const Findings findings{scene.scene(), people, crowd, conflicts};
     arguments.json ? write_json(findings) : print_text(findings);
     flush_results();

@@ -73,8 +73,7 @@ Scene load_moves(const SimulateCommandArguments& arguments, Importer& importer) 
                          "there is no motion graph; make one with graph build, or give --whole, and every clip may "
                          "follow every other");
     }
-    const std::string why_too_long = why_moves_are_too_long(scene, *scene.graph);
-    if (!why_too_long.empty()) throw InputError(arguments.graph.string(), "", why_too_long);
+    check_moves(scene, *scene.graph, arguments.graph.string());
     scene.view = {};
     scene.fit = arguments.fit.over(scene.fit);
     return scene;

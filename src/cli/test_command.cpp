@@ -28,7 +28,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <span>
 #include <sstream>
 #include <stdexcept>
@@ -289,13 +288,10 @@ int answer_requests(const TestCommandArguments& arguments) {
     }
     std::cout << '\n';  // it can draw
     flush_results();
-    std::set<std::filesystem::path> told;
     for (std::string line; std::getline(std::cin, line);) {
         const picture_tests::CaseRequest request = picture_tests::read_request_line(line);
         const CaseFile file = picture_tests::case_named(arguments.folder, request.name);
-        CaseResult result = run_case(file, maker.get(), no_opengl, request.options);
-        std::erase_if(result.read, [&](const std::filesystem::path& read) { return !told.insert(read).second; });
-        write_result_line(std::cout, result);
+        write_result_line(std::cout, run_case(file, maker.get(), no_opengl, request.options));
         flush_results();
     }
     return kDone;
@@ -305,15 +301,15 @@ int answer_requests(const TestCommandArguments& arguments) {
 void check_masks(const std::vector<CaseFile>& cases) {
     for (const CaseFile& file : cases) {
         std::optional<std::filesystem::path> mask;
-        std::optional<Image> golden;
+        std::optional<PictureSize> golden;
         try {
             const picture_tests::CaseTerms terms = picture_tests::read_terms(file);
             if (!terms.skip) mask = terms.mask;
-            if (mask) golden = read_png(file.golden());
+            if (mask) golden = png_size(read_file(file.golden()), file.golden().string());
         } catch (const InputError&) {
             // What is wrong with a case or a golden, or that there is none, is told where the case is drawn.
         }
-        if (golden) read_mask(*mask, {golden->width, golden->height}, file.golden());
+        if (golden) read_mask(*mask, *golden, file.golden());
     }
 }
 
@@ -326,17 +322,13 @@ picture_tests::RunOptions run_options(const TestCommandArguments& arguments, con
 }
 
 std::vector<std::string> orphans_of(const TestCommandArguments& arguments, const std::vector<CaseFile>& all) {
-    const auto whole = [](const std::filesystem::path& file) {
-        std::error_code gone;
-        const std::filesystem::path absolute = std::filesystem::absolute(file, gone);
-        return (gone ? file : absolute).lexically_normal();
-    };
-    const std::filesystem::path output = whole(arguments.output / "");
+    const std::filesystem::path output = whole_path(arguments.output) / "";
     std::vector<std::string> out;
     for (const std::filesystem::path& file : picture_tests::orphaned_goldens(arguments.folder, all)) {
         // The contact sheet and pictures of an earlier run may stand there.
-        const bool is_sheet = !arguments.contact_sheet.empty() && whole(file) == whole(arguments.contact_sheet);
-        if (!is_sheet && !whole(file).string().starts_with(output.string())) out.push_back(file.string());
+        const bool is_sheet =
+            !arguments.contact_sheet.empty() && whole_path(file) == whole_path(arguments.contact_sheet);
+        if (!is_sheet && !whole_path(file).string().starts_with(output.string())) out.push_back(file.string());
     }
     return out;
 }

@@ -65,6 +65,7 @@ Conflict conflict_of(const mobb::PlacedTree& a, const mobb::PlacedTree& b, Searc
 constexpr int kPieceSamples = 16;  // few enough that a piece is small on the floor, enough that pieces are few
 constexpr double kMostCellsPerPiece = 8;
 constexpr std::size_t kPairsAtFirst = 1'000'000;
+constexpr std::size_t kMostKept = 10'000;  // conflicts, some 600 bytes each
 // Widen the pieces by more than any rounding of the predicate, of held and of linear clips (see mobb/separation.cpp):
 // it must not hit where they are apart.
 constexpr double kWidening = 1e-14;
@@ -324,8 +325,10 @@ PeopleConflicts::PeopleConflicts(std::span<const mobb::PlacedTree> crowd, std::s
             if (auto conflict = conflict_between(a, b)) met[other].push_back(std::move(*conflict));
         });
         for (const auto& [other, conflicts] : met) {
-            const PeopleConflict found = put_together(person, other, conflicts);
-            ranked_.push_back({found.deepest.least_clearance, found.seconds(), found.worst().t0, found.a, found.b});
+            PeopleConflict found = put_together(person, other, conflicts);
+            ranked_.push_back(
+                {found.deepest.least_clearance, found.seconds(), found.worst().t0, found.a, found.b, ranked_.size()});
+            if (kept_.size() < kMostKept) kept_.push_back(std::move(found));
         }
     }
     std::sort(ranked_.begin(), ranked_.end(), [](const Ranked& x, const Ranked& y) {
@@ -336,17 +339,12 @@ PeopleConflicts::PeopleConflicts(std::span<const mobb::PlacedTree> crowd, std::s
 
 PeopleConflict PeopleConflicts::operator[](std::size_t index) const {
     const Ranked& ranked = ranked_[index];
+    if (ranked.found < kept_.size()) return kept_[ranked.found];
     std::vector<Conflict> of_paths;
     for_each_pair(ranked.a, ranked.b, [&](int a, int b) {
         if (auto conflict = conflict_between(a, b)) of_paths.push_back(std::move(*conflict));
     });
     return put_together(ranked.a, ranked.b, of_paths);
-}
-
-std::vector<PeopleConflict> PeopleConflicts::all() const {
-    std::vector<PeopleConflict> out;
-    for (std::size_t i = 0; i < size(); ++i) out.push_back((*this)[i]);
-    return out;
 }
 
 std::size_t PeopleConflicts::pairs() const {
@@ -358,11 +356,6 @@ double PeopleConflicts::seconds() const {
     double sum = 0;
     for (const Ranked& conflict : ranked_) sum += conflict.seconds;
     return sum;
-}
-
-PeopleConflicts find_people_conflicts(std::span<const mobb::PlacedTree> crowd, std::span<const int> person_of,
-                                      Search search, const Progress& progress) {
-    return {crowd, person_of, search, progress};
 }
 
 std::string conflict_count(std::size_t conflicts, std::size_t people, double seconds) {
@@ -378,7 +371,7 @@ std::vector<SceneConflict> conflicts_in(const FittedScene& fitted, const Progres
         trees.push_back(one.joint ? mobb::PlacedTree(*one.joint, one.path.placement) : fitted.placed(one.path));
         person_of.push_back(one.person);
     }
-    const PeopleConflicts conflicts = find_people_conflicts(trees, person_of, Search::trees, progress);
+    const PeopleConflicts conflicts(trees, person_of, Search::trees, progress);
     if (conflicts.size() > kMostSceneConflicts) {
         throw InputError(shown_name(fitted.scene().file), "",
                          "it has " + std::to_string(conflicts.size()) + " conflicts, more than the " +

@@ -47,19 +47,22 @@ struct PeopleConflict {
 };
 
 /// Every pair of people who collide, each once however often they meet, worst first: the deepest overlap, of equals the
-/// longest, then the earliest. What a conflict is in full is searched again when it is asked for: of a crowd in one
-/// place there are millions.
+/// longest, then the earliest. Of a crowd in one place there are millions: what the first ten thousand are in full is
+/// kept, of others it is searched again when it is asked for.
 class PeopleConflicts {
   public:
-    /// Finds them; see find_people_conflicts.
+    /// `person_of` says, for each path of the crowd, whose it is: a person's paths stand together, and people count
+    /// from 0 in their order. A person's own paths, which join, are no conflict. Search::trees asks the trees of those
+    /// paths that come near each other (near_pairs). Search::direct measures every pair of samples of every pair of
+    /// paths. Both find the same. `progress` is told of pairs of paths. The trees may be of any kind, and must outlive
+    /// what is found.
     PeopleConflicts(std::span<const mobb::PlacedTree> crowd, std::span<const int> person_of, Search search,
-                    const Progress& progress);
+                    const Progress& progress = {});
 
     std::size_t size() const { return ranked_.size(); }
     bool empty() const { return ranked_.empty(); }
     /// 0 <= index < size().
     PeopleConflict operator[](std::size_t index) const;
-    std::vector<PeopleConflict> all() const;
 
     std::size_t pairs() const;                            ///< of people
     std::size_t pairs_tested() const { return tested_; }  ///< of people: of whose paths any two were searched
@@ -69,6 +72,7 @@ class PeopleConflicts {
     struct Ranked {
         double least_clearance, seconds, begin;
         int a, b;
+        std::size_t found;  ///< the number that was found before it
     };
 
     /// Calls test(a, b) for the paths of a person and of later ones that may collide, a by a; `with`: of that one
@@ -85,14 +89,8 @@ class PeopleConflicts {
     std::vector<std::pair<int, int>> near_;  ///< of a search through trees
     std::size_t tested_ = 0;
     std::vector<Ranked> ranked_;
+    std::vector<PeopleConflict> kept_;  ///< the first that were found
 };
-
-/// `person_of` says, for each path of the crowd, whose it is: a person's paths stand together, and people count from 0
-/// in their order. A person's own paths, which join, are no conflict. Search::trees asks the trees of those paths that
-/// come near each other (near_pairs). Search::direct measures every pair of samples of every pair of paths. Both find
-/// the same. `progress` is told of pairs of paths. The trees may be of any kind, and must outlive what is found.
-PeopleConflicts find_people_conflicts(std::span<const mobb::PlacedTree> crowd, std::span<const int> person_of,
-                                      Search search, const Progress& progress = {});
 
 /// "2 conflicts among 22 agents, 1.3 s in all": a conflict is a pair of people.
 std::string conflict_count(std::size_t conflicts, std::size_t people, double seconds);

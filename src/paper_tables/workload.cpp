@@ -55,8 +55,7 @@ double mean_duration(const Workload& workload) {
 
 Workload crowd_queries(Scene scene, int count, const CrowdDraw& draw) {
     if (!scene.graph) scene.graph = std::make_shared<const MotionGraph>(graph_of_whole_clips(scene));
-    const std::string why_too_long = why_moves_are_too_long(scene, *scene.graph);
-    if (!why_too_long.empty()) throw InputError(scene.file.string(), "", why_too_long);
+    check_moves(scene, *scene.graph, scene.file.string());
     const mobb::FitOptions fit = scene.fit;
     const FittedScene fitted(std::move(scene), fit);
     SimulateOptions options;

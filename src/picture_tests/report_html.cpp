@@ -1,5 +1,4 @@
 #include <base/base64.h>
-#include <base/error.h>
 #include <base/text.h>
 #include <cases/case_report.h>
 #include <picture_tests/reports.h>
@@ -54,26 +53,23 @@ void write_command(std::ostream& out, const char* purpose, const std::string& co
         << "</code> <button type=\"button\" class=\"copy\" hidden>Copy</button></p>\n";
 }
 
-/// The bytes of a PNG file, and how large its picture is.
-struct PagePicture {
-    std::string_view png;
-    PictureSize size;
-};
-
-void write_image(std::ostream& out, const PagePicture& picture, const std::string& what) {
-    out << "<img width=\"" << picture.size.width << "\" height=\"" << picture.size.height << "\" alt=\""
-        << escaped(what) << "\" src=\"data:image/png;base64," << base64(picture.png) << "\">";
+/// `png`: the bytes of a PNG file.
+void write_image(std::ostream& out, std::string_view png, const std::string& what) {
+    const PictureSize size = png_size(png, what);
+    out << "<img width=\"" << size.width << "\" height=\"" << size.height << "\" alt=\"" << escaped(what)
+        << "\" src=\"data:image/png;base64," << base64(png) << "\">";
 }
 
-void write_figure(std::ostream& out, const char* kind, const char* title, const PagePicture& picture,
-                  const std::string& name, const std::optional<PixelRect>& bounds = {}) {
-    out << "<figure class=\"" << kind << "\"><figcaption>" << title << " <small>" << size_text(picture.size)
+void write_figure(std::ostream& out, const char* kind, const char* title, std::string_view png, const std::string& name,
+                  const std::optional<PixelRect>& bounds = {}) {
+    const PictureSize size = png_size(png, name);
+    out << "<figure class=\"" << kind << "\"><figcaption>" << title << " <small>" << size_text(size)
         << "</small></figcaption><div class=\"paper\">";
-    write_image(out, picture, std::string(title) + ": " + name);
+    write_image(out, png, std::string(title) + ": " + name);
     if (bounds) {
-        out << "<svg viewBox=\"0 0 " << picture.size.width << ' ' << picture.size.height
-            << "\" aria-hidden=\"true\"><rect x=\"" << bounds->x << "\" y=\"" << bounds->y << "\" width=\""
-            << bounds->width << "\" height=\"" << bounds->height << "\"/></svg>";
+        out << "<svg viewBox=\"0 0 " << size.width << ' ' << size.height << "\" aria-hidden=\"true\"><rect x=\""
+            << bounds->x << "\" y=\"" << bounds->y << "\" width=\"" << bounds->width << "\" height=\"" << bounds->height
+            << "\"/></svg>";
     }
     out << "</div></figure>\n";
 }
@@ -133,23 +129,13 @@ void write_pictures(std::ostream& out, const CaseResult& result) {
     const std::string& name = result.file.name;
     if (has_actual && has_golden) write_modes(out);
     out << "<div class=\"pictures\" data-mode=\"side\">\n";
-    std::optional<Image> actual, golden;
-    if (has_golden) golden = read_png_bytes(result.golden);
-    if (has_actual) actual = read_png_bytes(result.actual);
-    if (golden) write_figure(out, "golden", "Golden", {result.golden, {golden->width, golden->height}}, name);
-    if (actual) write_figure(out, "actual", "Actual", {result.actual, {actual->width, actual->height}}, name);
-    const bool compared = result.image && result.image->same_size;
-    if (compared && actual && golden) {
-        try {
-            const Image heat = compared_again(result, *actual, *golden).heat;
-            const std::string png = png_bytes(heat);
-            write_figure(out, "difference", "Difference", {png, {heat.width, heat.height}}, name, result.image->bounds);
-        } catch (const InputError&) {
-            // Its mask is gone meanwhile; the numbers are there.
-        }
+    if (has_golden) write_figure(out, "golden", "Golden", result.golden, name);
+    if (has_actual) write_figure(out, "actual", "Actual", result.actual, name);
+    if (const std::optional<Image> heat = heat_map(result)) {
+        write_figure(out, "difference", "Difference", png_bytes(*heat), name, result.image->bounds);
     }
     out << "</div>\n";
-    if (compared) write_numbers(out, result);
+    if (result.image && result.image->same_size) write_numbers(out, result);
 }
 
 void write_lines(std::ostream& out, const std::vector<std::string>& lines) {
@@ -255,8 +241,7 @@ void write_passed(std::ostream& out, const Results& passed) {
     for (const CaseResult* result : passed) {
         out << "<figure" << sort_keys(*result)
             << "><button type=\"button\" class=\"thumbnail\" aria-pressed=\"false\">";
-        write_image(out, {result->actual, result->image ? result->image->actual_size : PictureSize{}},
-                    result->file.name);
+        write_image(out, result->actual, result->file.name);
         out << "</button><figcaption>" << escaped(result->file.name) << "<small>" << how_much(*result) << "</small>";
         for (const std::string& remark : result->remarks) out << "<small>" << escaped(remark) << "</small>";
         out << "</figcaption></figure>\n";

@@ -326,19 +326,10 @@ void run(CaseResult& result, PictureMaker& maker, const RunOptions& options) {
             std::erase_if(result.fresh, [&](const GoldenChange& one) { return !lacks || (one.bytes && one.replaces); });
         }
     }
-    result.actual = png_bytes(*shown.actual);
+    const std::optional<std::string> packed = fresh_bytes(result, result.shown);
+    result.actual = packed ? *packed : png_bytes(*shown.actual);
     // Of a case that passed one picture is enough.
     if (!passed && !shown.golden.rgba.empty()) result.golden = png_bytes(shown.golden);
-}
-
-/// The heat map of a result that has one.
-std::optional<std::string> heat_png(const CaseResult& result) {
-    if (!result.image || !result.image->same_size || result.golden.empty()) return std::nullopt;
-    try {
-        return png_bytes(compared_again(result, read_png_bytes(result.actual), read_png_bytes(result.golden)).heat);
-    } catch (const InputError&) {
-        return std::nullopt;  // its mask is gone meanwhile
-    }
 }
 
 }  // namespace
@@ -379,7 +370,7 @@ CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view 
         result.fresh.clear();
     }
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    result.read = files_read();
+    result.read = take_files_read();
     return result;
 }
 
@@ -416,7 +407,8 @@ std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const
         const std::optional<std::string> fresh = fresh_bytes(result, file);
         keep("actual" + ending, shown && !fresh ? png(result.actual) : fresh);
         keep("golden" + ending, shown ? png(result.golden) : std::nullopt);
-        keep("heat" + ending, shown && keeps ? heat_png(result) : std::nullopt);
+        const std::optional<Image> heat = shown && keeps ? heat_map(result) : std::nullopt;
+        keep("heat" + ending, heat ? std::optional(png_bytes(*heat)) : std::nullopt);
     }
     for (const CaseFile::Golden golden : {&CaseFile::draw, &CaseFile::plain_state}) {
         const std::filesystem::path file = (result.file.*golden)();

@@ -1,3 +1,4 @@
+#include <base/error.h>
 #include <base/text.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
@@ -264,17 +265,18 @@ void write_graph(JsonWriter& out, const MotionGraph& graph, const std::function<
     out.end_object();
 }
 
-std::string why_moves_are_too_long(const Scene& scene, const MotionGraph& graph) {
+void check_moves(const Scene& scene, const MotionGraph& graph, const std::string& file) {
     std::size_t moves = 0, samples = 0;
     for (const GraphMove& move : graph.moves) {
         if (move.turned) continue;
         ++moves;
         samples += static_cast<std::size_t>(scene.clips[static_cast<std::size_t>(move.clip)].clip->count());
     }
-    if (samples <= kMostMoveSamples + kSamplesOfMove * moves) return "";
-    return "of " + counted(moves, "move", "moves") + " there are " + std::to_string(samples) + " samples, more than " +
-           std::to_string(kMostMoveSamples) + " and " + std::to_string(kSamplesOfMove) +
-           " for each; take shorter moves, or lower fps";
+    if (samples <= kMostMoveSamples + kSamplesOfMove * moves) return;
+    throw InputError(file, "",
+                     "of " + counted(moves, "move", "moves") + " there are " + std::to_string(samples) +
+                         " samples, more than " + std::to_string(kMostMoveSamples) + " and " +
+                         std::to_string(kSamplesOfMove) + " for each; take shorter moves, or lower fps");
 }
 
 }  // namespace mobbscope

@@ -135,7 +135,7 @@ void write_graph(JsonWriter& out, const MotionGraph& graph, const std::function<
 inline constexpr std::size_t kMostMoveSamples = 500'000;
 inline constexpr std::size_t kSamplesOfMove = 1'000;
 
-/// Why a crowd cannot play the scene's graph, if its moves are too long; else empty.
-std::string why_moves_are_too_long(const Scene& scene, const MotionGraph& graph);
+/// Throws InputError naming the file if the moves of the scene's graph are too long for a crowd to play.
+void check_moves(const Scene& scene, const MotionGraph& graph, const std::string& file);
 
 }  // namespace mobbscope

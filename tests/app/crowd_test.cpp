@@ -9,6 +9,7 @@
 #include <render/pictures/candidates.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
+#include <support/conflicts.h>
 #include <support/temp_folder.h>
 
 #include "app/crowded_run.h"
@@ -229,7 +230,8 @@ TEST_F(CrowdTest, ConflictsAreCountedAsTheCommandCountsThem) {
         crowd.push_back(people.placed(who));
         person_of.push_back(people.scene().agents[static_cast<std::size_t>(who.agent)].run_agent);
     }
-    const std::vector<PeopleConflict> other = find_people_conflicts(crowd, person_of, Search::direct).all();
+    const std::vector<PeopleConflict> other =
+        mobbscope::testing::all_of(PeopleConflicts(crowd, person_of, Search::direct));
     ASSERT_EQ(session.conflicts()->size(), other.size());
     std::set<std::pair<int, int>> pairs;
     for (std::size_t i = 0; i < other.size(); ++i) {

@@ -3,7 +3,7 @@
 #include <render/gl/driver_watch.h>
 #include <support/temp_folder.h>
 
-#include "cli/run_program.h"
+#include "cli/render_runs.h"
 #include "render/backends.h"
 
 #include <fcntl.h>
@@ -29,9 +29,6 @@ namespace {
 using testing::Result;
 using testing::run_program;
 
-constexpr const char* kSmallScene =
-    R"({"mobbscope": 1, "clips": {"p": {"dt": 1, "samples": [[0, 0, 0.4], [0.1, 0, 0.4]]}}, "agents": [{"name": "A", "clip": "p"}]})";
-
 /// What puts the libraries that crash before the real ones.
 std::function<void()> with_drivers(const std::vector<std::string>& libraries, const std::string& fault) {
     std::string folders;
@@ -47,7 +44,7 @@ const std::vector<std::string> kBothDrivers{"libOSMesa.so.8", "libEGL.so.1"};
 class DriverCrash : public ::testing::Test {
   protected:
     void SetUp() override {
-        folder_.write("scene.json", kSmallScene);
+        folder_.write("scene.json", testing::kStandingScene);
         folder_.write("s.script", "picture " + picture() + "\n");
     }
     std::string scene() const { return (folder_.path() / "scene.json").string(); }
@@ -208,6 +205,16 @@ class WatchedProgram : public DriverCrash {
 
     pid_t program_ = 0, child_ = 0;
 };
+
+TEST(WatchedStatus, IsTheChildsWhereTheParentsParentIgnoresChildren) {
+    if (!testing::open_or_skip(Backend::automatic)) return;
+    const testing::TempFolder folder;
+    const std::string scene = folder.write("scene.json", testing::kStandingScene);
+    const std::string script = folder.write("s.script", "expect /none 1\n");
+    const Result run =
+        run_program({scene, "--headless", "--script", script}, {}, "/dev/null", [] { ::signal(SIGCHLD, SIG_IGN); });
+    EXPECT_EQ(run.status, 1) << run.err;
+}
 
 TEST_F(WatchedProgram, EndsWithItsChildBySignals) {
     ::kill(program_, SIGTERM);

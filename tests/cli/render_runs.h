@@ -19,6 +19,10 @@ namespace mobbscope::testing {
 
 inline const std::string kCrossing = MOBBSCOPE_SOURCE_DIR "/assets/scenes/crossing.json";
 
+/// A person who stands for a moment: the least that everything is drawn of.
+inline constexpr const char* kStandingScene =
+    R"({"mobbscope": 1, "clips": {"p": {"dt": 1, "samples": [[0, 0, 0.4], [0.1, 0, 0.4]]}}, "agents": [{"name": "A", "clip": "p"}]})";
+
 inline void expect_refused(const Result& run, int status, const std::string& why) {
     EXPECT_EQ(run.status, status) << run.err;
     EXPECT_TRUE(is_one_line(run.err)) << run.err;

@@ -2,7 +2,7 @@
 #include <base/threads.h>
 #include <support/temp_folder.h>
 
-#include "cli/run_program.h"
+#include "cli/render_runs.h"
 #include "render/backends.h"
 
 #include <grp.h>
@@ -21,9 +21,6 @@ namespace {
 using testing::Result;
 using testing::run_program;
 
-constexpr const char* kStandingScene =
-    R"({"mobbscope": 1, "clips": {"p": {"dt": 1, "samples": [[0, 0, 0.4], [0.1, 0, 0.4]]}}, "agents": [{"name": "A", "clip": "p"}]})";
-
 /// The system starts no more threads and processes. Limits do not bind root, so somebody else does it then.
 void start_nothing_more() {
     constexpr unsigned kNobodyElse = 61'973;
@@ -37,7 +34,7 @@ void start_nothing_more() {
 class FewThreads : public ::testing::Test {
   protected:
     void SetUp() override {
-        folder_.write("scene.json", kStandingScene);
+        folder_.write("scene.json", testing::kStandingScene);
         folder_.write("s.script", "state\n");
         std::filesystem::permissions(folder_.path(), std::filesystem::perms::all);
     }
@@ -99,7 +96,7 @@ TEST(DeletedFolder, WholeNamesWork) {
 
 TEST(DeletedFolder, OthersAreRefusedInALine) {
     const testing::TempFolder folder;
-    folder.write("scene.json", kStandingScene);
+    folder.write("scene.json", testing::kStandingScene);
     const std::string scene = (folder.path() / "scene.json").string();
     const std::vector<std::vector<std::string>> commands{
         {"render", scene, "-o", "x.png"},

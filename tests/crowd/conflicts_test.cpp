@@ -1,6 +1,7 @@
 // Conflicts through the trees are those of the direct search, and few pairs are tested for them.
 #include <conflicts/conflicts.h>
 #include <mobb/random_motion.h>
+#include <support/conflicts.h>
 
 #include <gtest/gtest.h>
 
@@ -45,8 +46,8 @@ struct Conflicts {
 Conflicts find_conflicts(std::span<const mobb::PlacedTree> crowd, Search search, const Progress& progress = {}) {
     std::vector<int> person_of(crowd.size());
     std::iota(person_of.begin(), person_of.end(), 0);
-    const PeopleConflicts people = find_people_conflicts(crowd, person_of, search, progress);
-    std::vector<PeopleConflict> all = people.all();
+    const PeopleConflicts people(crowd, person_of, search, progress);
+    std::vector<PeopleConflict> all = testing::all_of(people);
     std::ranges::sort(all, {}, [](const PeopleConflict& found) { return std::pair(found.a, found.b); });
     Conflicts out{{}, static_cast<std::int64_t>(people.pairs_tested())};
     for (const PeopleConflict& found : all) {
@@ -215,7 +216,7 @@ TEST(PeopleConflicts, AreOneForAPairThatMeetsOftenAndTheDeepestComesFirst) {
     add(2, 4, -0.3, 3);
     add(3, 90, 0, 0);
     for (const Search search : {Search::trees, Search::direct}) {
-        const PeopleConflicts conflicts = find_people_conflicts(crowd.placed(), person_of, search);
+        const PeopleConflicts conflicts(crowd.placed(), person_of, search);
         EXPECT_EQ(conflicts.pairs(), 6u) << "of four people";
         EXPECT_EQ(conflicts.pairs_tested(), search == Search::direct ? 6u : 2u);
         ASSERT_EQ(conflicts.size(), 2u);
@@ -232,7 +233,23 @@ TEST(PeopleConflicts, AreOneForAPairThatMeetsOftenAndTheDeepestComesFirst) {
         EXPECT_EQ(often.begins.intervals.front().t0, often.worst().t0);
     }
     EXPECT_EQ(conflict_count(1, 4, 0.25), "1 conflict among 4 agents, 0.25 s in all");
-    EXPECT_EQ(find_people_conflicts({}, {}, Search::trees).pairs(), 0u);
+    EXPECT_EQ(PeopleConflicts({}, {}, Search::trees).pairs(), 0u);
+}
+
+/// More than are kept in full: the last of them are searched again.
+TEST(PeopleConflicts, AreTheSameHoweverManyThereAre) {
+    constexpr int kPeople = 150;
+    constexpr double kApart = 0.001;
+    Crowd crowd;
+    for (int i = 0; i < kPeople; ++i) crowd.add(walking(kApart * i, 0, 3), {});
+    std::vector<int> person_of(kPeople);
+    std::iota(person_of.begin(), person_of.end(), 0);
+    const PeopleConflicts conflicts(crowd.placed(), person_of, Search::trees);
+    ASSERT_EQ(conflicts.size(), std::size_t{kPeople} * (kPeople - 1) / 2);
+    for (const PeopleConflict& found : testing::all_of(conflicts)) {
+        ASSERT_NEAR(found.deepest.least_clearance, kApart * (found.b - found.a) - 1, 1e-9) << found.a << ' ' << found.b;
+        ASSERT_EQ(found.intervals, found.deepest.intervals);
+    }
 }
 
 }  // namespace

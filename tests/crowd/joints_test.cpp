@@ -9,6 +9,7 @@
 #include <scene/crowd_scene.h>
 #include <scene/drawn_agent.h>
 #include <scene/view_state.h>
+#include <support/conflicts.h>
 
 #include <gtest/gtest.h>
 
@@ -161,7 +162,7 @@ std::set<std::pair<int, int>> pairs_of(const Scene& people, Search search) {
         person_of.push_back(people.agents[static_cast<std::size_t>(who.agent)].run_agent);
     }
     std::set<std::pair<int, int>> out;
-    for (const PeopleConflict& found : find_people_conflicts(crowd, person_of, search).all())
+    for (const PeopleConflict& found : testing::all_of(PeopleConflicts(crowd, person_of, search)))
         out.emplace(found.a, found.b);
     return out;
 }

@@ -5,6 +5,7 @@
 #include <conflicts/conflicts.h>
 #include <crowd/simulation/simulate.h>
 #include <scene/crowd_run.h>
+#include <support/conflicts.h>
 
 #include <gtest/gtest.h>
 
@@ -69,7 +70,7 @@ TEST(People, CollideWhereTheirPlaysDo) {
     std::set<std::pair<int, int>> found;
     std::vector<int> person_of(crowd.size());
     std::iota(person_of.begin(), person_of.end(), 0);
-    for (const PeopleConflict& conflict : find_people_conflicts(crowd, person_of, Search::trees).all()) {
+    for (const PeopleConflict& conflict : testing::all_of(PeopleConflicts(crowd, person_of, Search::trees))) {
         found.emplace(conflict.a, conflict.b);
     }
     EXPECT_EQ(found, expected);

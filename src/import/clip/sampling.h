@@ -34,6 +34,9 @@ inline constexpr std::size_t kMaxSamples = 10'000'000;
 inline constexpr std::size_t kMostMadeSamples = 2'000'000;
 inline constexpr std::size_t kMostMadePoses = 10'000'000;
 
+/// Twice what the files hold: to make more samples of what is long is no fault.
+constexpr std::size_t most_made(std::size_t stored) { return kMostMadeSamples + 2 * stored; }
+
 /// What was made so far, and what the files hold.
 class MadeSamples {
   public:
@@ -41,8 +44,7 @@ class MadeSamples {
     bool add(std::size_t samples, std::size_t joints) {
         samples_ += samples;
         poses_ += samples * joints;
-        // Twice: to make more samples of what is long is no fault.
-        return samples_ <= kMostMadeSamples + 2 * stored_ && poses_ <= kMostMadePoses + 2 * stored_poses_;
+        return samples_ <= most_made(stored_) && poses_ <= kMostMadePoses + 2 * stored_poses_;
     }
     /// What add refused, for a message.
     static std::string too_many() {

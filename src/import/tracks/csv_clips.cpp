@@ -126,7 +126,7 @@ class MotionMaker {
             for (const TimedDisk& row : rows_) samples.push_back(row.disk);
         } else {
             samples = sample(rows_, sample_grid(rows_.front().t, rows_.back().t, options_.trim, step,
-                                                std::min(kMaxSamples, kMostMadeSamples + 2 * rows_.size())));
+                                                std::min(kMaxSamples, most_made(rows_.size()))));
         }
         const bool in_column = !options_.radius || std::holds_alternative<RadiusColumn>(*options_.radius);
         const double radius = in_column ? 0 : metres_of(*options_.radius, "", "");

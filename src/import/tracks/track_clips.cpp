@@ -113,7 +113,7 @@ class TrackClipMaker {
         for (const std::string& warning : file.warnings) common_.warnings.push_back({warning});
         std::size_t points = 0;
         for (const Track& track : file.tracks) points += track.points.size();
-        most_made_ = std::min(kMaxSamples, kMostMadeSamples + 2 * points);
+        most_made_ = std::min(kMaxSamples, most_made(points));
         most_filled_ = most_made_;
         if (!options.fps) most_filled_ = std::min(most_made_, kMaxFill * points + kAlwaysFilled);
         if (!(clock_.duration() <= mobb::kMaxTime)) {

@@ -35,20 +35,6 @@ GlyphBitmap hollow_box(float advance, float size) {
     return box;
 }
 
-/// The code point that begins at `at`, which moves behind it.
-char32_t read_code_point(std::string_view utf8, std::size_t& at) {
-    constexpr char32_t kMalformed = 0xFFFD;
-    const auto lead = static_cast<unsigned char>(utf8[at++]);
-    const int following = lead < 0x80 ? 0 : (lead >> 5) == 6 ? 1 : (lead >> 4) == 14 ? 2 : (lead >> 3) == 30 ? 3 : -1;
-    if (following < 0) return kMalformed;
-    char32_t code = following == 0 ? lead : lead & (0x3Fu >> following);
-    for (int k = 0; k < following; ++k) {
-        if (at >= utf8.size() || (static_cast<unsigned char>(utf8[at]) >> 6) != 2) return kMalformed;
-        code = (code << 6) | (static_cast<unsigned char>(utf8[at++]) & 0x3Fu);
-    }
-    return code;
-}
-
 }  // namespace
 
 Font::Font(std::string_view data) {
@@ -125,12 +111,6 @@ GlyphBitmap Font::rasterise(char32_t code, float size, float shift) const {
                                       scale, scale, shift, 0, index);
     }
     return bitmap;
-}
-
-std::vector<char32_t> code_points(std::string_view utf8) {
-    std::vector<char32_t> out;
-    for (std::size_t at = 0; at < utf8.size();) out.push_back(read_code_point(utf8, at));
-    return out;
 }
 
 std::string fit_text(const std::string& text, FontFace face, float size, float width) {

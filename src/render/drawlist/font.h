@@ -52,9 +52,6 @@ class Font {
     std::shared_ptr<const stbtt_fontinfo> info_;
 };
 
-/// The code points of UTF-8 text; a malformed byte becomes U+FFFD.
-std::vector<char32_t> code_points(std::string_view utf8);
-
 /// `text`, or its beginning and an ellipsis, so that it is at most `width` pixels wide.
 std::string fit_text(const std::string& text, FontFace face, float size, float width);
 

@@ -1,3 +1,4 @@
+#include <base/process.h>
 #include <base/text.h>
 #include <base/threads.h>
 #include <render/gl/driver_crash.h>
@@ -26,7 +27,6 @@
 #include <new>
 #include <stdexcept>
 #include <string_view>
-#include <thread>
 #include <utility>
 
 namespace mobbscope {
@@ -87,12 +87,6 @@ pid_t fork_to_watch(Told* told) {
     if (::getppid() != parent) ::_exit(0);
     note_crashes(told->crash);
     return 0;
-}
-
-int wait_for(pid_t child) {
-    int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-    return status;
 }
 
 /// While it lives, signals that end a program go to the child.
@@ -188,7 +182,7 @@ std::optional<DriverCrash> go_on_watched(int backend, const std::string& name, c
         // Memory that is free here too need not be copied before the child writes to it.
         ::malloc_trim(0);
 #endif
-        end_as(wait_for(child), *told);
+        end_as(wait_for_child(child), *told);
         const std::string before = told->text.data();
         watching.has_crashed = true;
         crash = {told->backend,
@@ -224,25 +218,19 @@ std::string done_in_child(const std::function<std::string()>& work, std::chrono:
         }
         ::_exit(0);
     }
-    constexpr std::chrono::milliseconds kAskEvery{2};
-    int status = 0;
-    const auto end = std::chrono::steady_clock::now() + longest;
-    while (::waitpid(child, &status, WNOHANG) == 0) {
-        if (std::chrono::steady_clock::now() > end) {
-            ::kill(child, SIGKILL);
-            wait_for(child);
-            drop(told);
-            throw std::runtime_error("hangs: not done after " + std::to_string(longest.count()) + " ms" +
-                                     driver_advice());
-        }
-        std::this_thread::sleep_for(kAskEvery);
+    const std::optional<int> status = wait_for_child(child, std::chrono::duration<double>(longest).count());
+    if (!status) {
+        ::kill(child, SIGKILL);
+        wait_for_child(child);
+        drop(told);
+        throw std::runtime_error("hangs: not done after " + std::to_string(longest.count()) + " ms" + driver_advice());
     }
     std::string text = told->text.data();
     const bool has_failed = told->has_failed;
     const std::string crash = told->crash.signal != 0 ? described(told->crash) : "";
     drop(told);
     if (!crash.empty()) throw std::runtime_error(crash + driver_advice());
-    if (WIFSIGNALED(status)) throw std::runtime_error(std::string("crashed (") + ::strsignal(WTERMSIG(status)) + ")");
+    if (WIFSIGNALED(*status)) throw std::runtime_error(std::string("crashed (") + ::strsignal(WTERMSIG(*status)) + ")");
     if (has_failed) throw std::runtime_error(text);
     return text;
 }

@@ -1,3 +1,4 @@
+#include <base/text.h>
 #include <render/gl/glyph_atlas.h>
 
 #include <algorithm>

@@ -1,0 +1,17 @@
+/// All conflicts of a crowd at once: those of tests are few.
+#pragma once
+
+#include <conflicts/conflicts.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace mobbscope::testing {
+
+inline std::vector<PeopleConflict> all_of(const PeopleConflicts& conflicts) {
+    std::vector<PeopleConflict> out;
+    for (std::size_t i = 0; i < conflicts.size(); ++i) out.push_back(conflicts[i]);
+    return out;
+}
+
+}  // namespace mobbscope::testing
