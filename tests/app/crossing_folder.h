@@ -2,7 +2,7 @@
 #pragma once
 
 #include <app/commands/command.h>
-#include <app/document/session.h>
+#include <app/session/session.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ class CrossingFolder {
 /// The texts of all messages, and what else is easily asked of a session.
 inline std::string all_messages(const Session& session) {
     std::string out;
-    for (const Message& message : session.messages()) out += message.text + '\n';
+    for (const Message& message : session.notifications.all()) out += message.text + '\n';
     return out;
 }
 

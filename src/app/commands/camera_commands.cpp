@@ -61,7 +61,7 @@ bool meets(const Rect& rect, std::span<const glm::vec2> points) {
 
 PictureFrame present_picture(const Session& session) {
     const double scale = session.hooks.viewport_scale ? session.hooks.viewport_scale() : 0;
-    return picture_frame(session.fitted(), session.view(), viewport_size(session), scale);
+    return picture_frame(session.workspace.fitted(), session.workspace.view(), viewport_size(session), scale);
 }
 
 Camera framing_box(const Camera& camera, const PictureFrame& picture, const Bounds& box) {
@@ -78,7 +78,7 @@ PictureSize viewport_size(const Session& session) {
 void move_camera(Session& session, const std::function<Camera(const Camera&, const PictureFrame&)>& move) {
     const PictureFrame picture = present_picture(session);
     const Camera moved = move(picture.camera, picture);
-    session.change_view([&](ViewState& view) {
+    session.workspace.change_view([&](ViewState& view) {
         view.camera = moved;
         if (!picture.moment) view.time_height = picture.space.time_height;
     });
@@ -86,13 +86,13 @@ void move_camera(Session& session, const std::function<Camera(const Camera&, con
 
 std::optional<Bounds> box_of(const Session& session, const Selection& selected) {
     Bounds bounds;
-    const std::vector<DrawnAgent> shown = drawn_agents(session.fitted(), session.view());
+    const std::vector<DrawnAgent> shown = drawn_agents(session.workspace.fitted(), session.workspace.view());
     const std::optional<int> index =
-        selected.on_path() ? index_in_view(session.fitted(), session.view(), selected.path) : std::nullopt;
+        selected.on_path() ? index_in_view(session.workspace.fitted(), session.workspace.view(), selected.path) : std::nullopt;
     const mobb::Clip* of_clip = selected.kind == Selection::Kind::clip
-                                    ? session.scene().clips[static_cast<std::size_t>(selected.index)].clip.get()
+                                    ? session.workspace.scene().clips[static_cast<std::size_t>(selected.index)].clip.get()
                                     : nullptr;
-    const bool all = selected.kind == Selection::Kind::query && session.view().query == selected.index;
+    const bool all = selected.kind == Selection::Kind::query && session.workspace.view().query == selected.index;
     for (const DrawnAgent& agent : shown) {
         const mobb::PlacedClip& clip = agent.clip();
         if (!all && index != agent.index && of_clip != &clip.clip()) continue;
@@ -105,7 +105,7 @@ std::optional<Bounds> box_of(const Session& session, const Selection& selected) 
         }
     }
     if (bounds.min.x > bounds.max.x) return std::nullopt;
-    if (session.view().show == Show::moment) {
+    if (session.workspace.view().show == Show::moment) {
         const std::vector<double> heights = cylinder_heights(shown);
         bounds.min.z = 0;
         bounds.max.z = *std::max_element(heights.begin(), heights.end());
@@ -114,10 +114,10 @@ std::optional<Bounds> box_of(const Session& session, const Selection& selected) 
 }
 
 std::optional<TestCorners> corners_of_test(const Session& session) {
-    const RecordedQuery* recorded = session.recorded();
-    if (!recorded || session.view().show == Show::moment) return std::nullopt;
-    const auto event = recorded->trace[session.step()];
-    const std::vector<DrawnAgent> sides = drawn_agents(session.fitted(), session.view());
+    const RecordedQuery* recorded = session.workspace.recorded();
+    if (!recorded || session.workspace.view().show == Show::moment) return std::nullopt;
+    const auto event = recorded->trace[session.workspace.step()];
+    const std::vector<DrawnAgent> sides = drawn_agents(session.workspace.fitted(), session.workspace.view());
     return TestCorners{corners_of_node(sides[0].placed, event.a), corners_of_node(sides[1].placed, event.b)};
 }
 
@@ -199,29 +199,29 @@ void frame_box(Session& session, const Bounds& box) {
 
 void go_along_with(Session& session, const TestCorners& boxes, const Rect& part) {
     const PictureFrame picture = present_picture(session);
-    const double chosen = session.view().time_height;
-    session.settle_camera(session.active_place(), framing_in(boxes, picture, part),
+    const double chosen = session.workspace.view().time_height;
+    session.views.settle_camera(session.views.active(), framing_in(boxes, picture, part),
                           chosen > 0 ? 0 : picture.space.time_height);
 }
 
-bool follows(const Session& session) { return !session.view().follow.empty(); }
+bool follows(const Session& session) { return !session.workspace.view().follow.empty(); }
 
 void follow_agent(Session& session, const std::string& name, double metres) {
-    index_of_name(agent_names(session), name, "agent");
-    session.change_view([&](ViewState& view) { view.follow = name; });
+    index_of_name(agent_names(session.workspace), name, "agent");
+    session.workspace.change_view([&](ViewState& view) { view.follow = name; });
     frame_followed(session, metres);
-    select_agent_named(session, name);
+    select_agent_named(session.workspace, name);
 }
 
 void frame_followed(Session& session, double metres) {
     move_camera(session, [&](const Camera&, const PictureFrame& picture) {
-        return framing_followed(session.fitted(), session.view(), picture, metres);
+        return framing_followed(session.workspace.fitted(), session.workspace.view(), picture, metres);
     });
 }
 
 void center_followed(Session& session) {
     move_camera(session, [&](Camera camera, const PictureFrame& picture) {
-        const glm::dvec3 foot = target_of_followed(session.fitted(), session.view(), picture);
+        const glm::dvec3 foot = target_of_followed(session.workspace.fitted(), session.workspace.view(), picture);
         camera.target = foot + glm::dvec3(0, 0, 0.5 * kStanding);
         camera.shift = {0, 0};
         return camera;

@@ -1,7 +1,7 @@
 /// The view with a camera that says where it stands, for commands that move it.
 #pragma once
 
-#include <app/document/session.h>
+#include <app/session/session.h>
 #include <render/drawlist/draw_list.h>
 #include <render/layout/framing.h>
 

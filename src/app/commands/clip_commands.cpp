@@ -11,39 +11,39 @@ namespace mobbscope::app {
 namespace {
 
 bool has_source(const Session& session, int clip) {
-    const auto& clips = session.scene().clips;
+    const auto& clips = session.workspace.scene().clips;
     return clip >= 0 && static_cast<std::size_t>(clip) < clips.size() && clips[static_cast<std::size_t>(clip)].source;
 }
 
 /// The clip that import commands are about: of the dialog, else the selected one or that of the selected agent, else
 /// the first from a file; -1: none.
 int clip_to_import(const Session& session) {
-    if (session.dialog == Dialog::import_clip) return session.importing.clip;
-    const Selection& selected = session.selection;
+    if (session.dialogs.now == Dialog::import_clip) return session.imports.dialog.clip;
+    const Selection& selected = session.workspace.selection;
     if (selected.kind == Selection::Kind::clip && has_source(session, selected.index)) return selected.index;
     if (selected.on_path()) {
-        const auto who = placed_agent_of(session.fitted(), selected.path);
+        const auto who = placed_agent_of(session.workspace.fitted(), selected.path);
         if (who && has_source(session, who->clip)) return who->clip;
     }
-    const auto& clips = session.scene().clips;
+    const auto& clips = session.workspace.scene().clips;
     const auto at = std::ranges::find_if(clips, [](const SceneClip& clip) { return clip.source.has_value(); });
     return at == clips.end() ? -1 : static_cast<int>(at - clips.begin());
 }
 
 /// The clip of the dialog, the selected one, that of the selected agent, or the only one; -1: none.
 int clip_to_move(const Session& session) {
-    if (session.dialog == Dialog::import_clip) return session.importing.clip;
-    const Selection& selected = session.selection;
+    if (session.dialogs.now == Dialog::import_clip) return session.imports.dialog.clip;
+    const Selection& selected = session.workspace.selection;
     if (selected.kind == Selection::Kind::clip) return selected.index;
-    const auto who = selected.on_path() ? placed_agent_of(session.fitted(), selected.path) : std::nullopt;
+    const auto who = selected.on_path() ? placed_agent_of(session.workspace.fitted(), selected.path) : std::nullopt;
     if (who) return who->clip;
-    return session.scene().clips.size() == 1 ? 0 : -1;
+    return session.workspace.scene().clips.size() == 1 ? 0 : -1;
 }
 
-bool can_move(const Session& session) { return has_scene(session) && !session.crowd() && !session.scene().graph; }
+bool can_move(const Session& session) { return has_scene(session) && !session.workspace.crowd() && !session.workspace.scene().graph; }
 
 std::string_view why_not_move(const Session& session) {
-    return session.crowd() ? "a run is not edited" : "the motion graph was cut out of these clips";
+    return session.workspace.crowd() ? "a run is not edited" : "the motion graph was cut out of these clips";
 }
 
 /// held or linear, and behind it whose.
@@ -53,23 +53,23 @@ void set_motion(Session& session, const std::string& text) {
     const auto motion = mobb::motion_from_name(both.substr(0, end));
     if (!motion) throw std::invalid_argument("motion is held or linear, not " + in_quotes(both.substr(0, end)));
     const std::string_view named = trimmed(both.substr(end));
-    const int clip = named.empty() ? clip_to_move(session) : index_of_name(clip_names(session), named, "clip");
+    const int clip = named.empty() ? clip_to_move(session) : index_of_name(clip_names(session.workspace), named, "clip");
     if (clip < 0) throw std::invalid_argument("select the clip, or an agent that plays it");
-    session.set_motion(clip, session.dialog == Dialog::import_clip && session.importing.whole_file, *motion);
+    session.imports.set_motion(clip, session.dialogs.now == Dialog::import_clip && session.imports.dialog.whole_file, *motion);
 }
 
 bool can_import(const Session& session) {
-    return !session.crowd() && !session.scene().graph && clip_to_import(session) >= 0;
+    return !session.workspace.crowd() && !session.workspace.scene().graph && clip_to_import(session) >= 0;
 }
 
 std::string_view why_no_import(const Session& session) {
-    if (session.crowd()) return "a run is not edited";
-    return session.scene().graph ? "the motion graph was cut out of these clips" : "no clip comes from a file";
+    if (session.workspace.crowd()) return "a run is not edited";
+    return session.workspace.scene().graph ? "the motion graph was cut out of these clips" : "no clip comes from a file";
 }
 
 std::vector<std::string> names_of_sources(const Session& session) {
     std::vector<std::string> out;
-    for (const SceneClip& clip : session.scene().clips) {
+    for (const SceneClip& clip : session.workspace.scene().clips) {
         if (clip.source) out.push_back(clip.name);
     }
     return out;
@@ -77,8 +77,8 @@ std::vector<std::string> names_of_sources(const Session& session) {
 
 /// A clip's name, and behind it the option that the dialog is opened for.
 void open_dialog(Session& session, const std::string& text) {
-    if (text.empty()) return session.open_import(clip_to_import(session));
-    const std::vector<std::string> names = clip_names(session);
+    if (text.empty()) return session.imports.open(clip_to_import(session));
+    const std::vector<std::string> names = clip_names(session.workspace);
     std::string name(trimmed(text));
     std::string option;
     const std::size_t blank = name.rfind(' ');
@@ -87,7 +87,7 @@ void open_dialog(Session& session, const std::string& text) {
         option = name.substr(blank + 1);
         name = trimmed(std::string_view(name).substr(0, blank));
     }
-    session.open_import(index_of_name(names, name, "clip"), option);
+    session.imports.open(index_of_name(names, name, "clip"), option);
 }
 
 void set(Session& session, const std::string& text) {
@@ -96,7 +96,7 @@ void set(Session& session, const std::string& text) {
     std::vector<std::string> keys;
     for (const ImportOption& option : kImportOptions) keys.emplace_back(option.key);
     const int option = index_of_name(keys, both.substr(0, end), "import option");
-    session.set_import(clip_to_import(session), session.dialog == Dialog::import_clip && session.importing.whole_file,
+    session.imports.set(clip_to_import(session), session.dialogs.now == Dialog::import_clip && session.imports.dialog.whole_file,
                        keys[static_cast<std::size_t>(option)], std::string(trimmed(both.substr(end))));
 }
 
@@ -123,7 +123,7 @@ std::vector<Command> clip_commands() {
                  .chosen =
                      [](const Session& session, const std::string& motion) {
                          const int clip = clip_to_move(session);
-                         return clip >= 0 && name(session.fitted().tree(clip).clip().motion()) == motion;
+                         return clip >= 0 && name(session.workspace.fitted().tree(clip).clip().motion()) == motion;
                      }}),
     };
     return in_menu("Edit", rows);

@@ -2,7 +2,7 @@
 /// table.
 #pragma once
 
-#include <app/document/session.h>
+#include <app/session/session.h>
 #include <app/input/key.h>
 #include <scene/view_options.h>
 
@@ -18,7 +18,7 @@
 namespace mobbscope::app {
 
 /// The rule of commands that need nothing but a scene.
-inline bool has_scene(const Session& session) { return !session.empty(); }
+inline bool has_scene(const Session& session) { return !session.workspace.empty(); }
 inline bool always(const Session&) { return true; }
 
 /// Why a command that says no more cannot be done.

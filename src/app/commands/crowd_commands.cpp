@@ -23,9 +23,9 @@ constexpr double kNear = 2.5;  // metres around two that meet
 // --- following
 
 void stop_following(Session& session) {
-    const double time = shown_time(session);
-    const glm::dvec3 anchor = camera_anchor(session.fitted(), session.view(), time);
-    session.change_view([&](ViewState& view) {
+    const double time = shown_time(session.workspace);
+    const glm::dvec3 anchor = camera_anchor(session.workspace.fitted(), session.workspace.view(), time);
+    session.workspace.change_view([&](ViewState& view) {
         view.follow.clear();
         // What was in the middle stays there.
         if (view.camera.target) *view.camera.target += glm::dvec3(anchor.x, anchor.y, 0);
@@ -34,22 +34,22 @@ void stop_following(Session& session) {
 
 void follow(Session& session, const std::string& name) {
     if (!name.empty()) return follow_agent(session, name, kAroundFollowed);
-    const std::string who = current_agent(session);
-    if (who.empty()) return session.tell(MessageLevel::info, "Click somebody first to follow them");
-    if (who == session.view().follow) return stop_following(session);
+    const std::string who = current_agent(session.workspace);
+    if (who.empty()) return session.notifications.tell(MessageLevel::info, "Click somebody first to follow them");
+    if (who == session.workspace.view().follow) return stop_following(session);
     follow_agent(session, who, kAroundFollowed);
 }
 
 // --- plays and choices
 
 const CrowdAgent* followed(const Session& session) {
-    const auto run_agent = current_run_agent(session);
-    return run_agent ? &session.crowd()->agents[static_cast<std::size_t>(*run_agent)] : nullptr;
+    const auto run_agent = current_run_agent(session.workspace);
+    return run_agent ? &session.workspace.crowd()->agents[static_cast<std::size_t>(*run_agent)] : nullptr;
 }
 
 void to_time(Session& session, double time) {
-    session.stop();
-    session.change_view([&](ViewState& view) { view.time = time; });
+    session.playback.stop();
+    session.workspace.change_view([&](ViewState& view) { view.time = time; });
 }
 
 void to_play(Session& session, const std::string& text) {
@@ -63,7 +63,7 @@ template <int direction>
 std::optional<double> next_choice(const Session& session) {
     const CrowdAgent* agent = followed(session);
     if (!agent) return std::nullopt;
-    const double now = run_time(session.scene(), session.view());
+    const double now = run_time(session.workspace.scene(), session.workspace.view());
     std::optional<double> best;
     for (std::size_t i = 1; i < agent->plays.size(); ++i) {
         const double at = agent->plays[i].chosen_at;
@@ -91,9 +91,9 @@ Command candidates_command() {
 }
 
 void point_out(Session& session, const std::string& text) {
-    const int count = static_cast<int>(session.choice()->choice.candidates.size());
-    session.point_out(whole_number_in(text, "the candidate", 0, count - 1));
-    session.change_view([](ViewState& view) { view.candidates = true; });
+    const int count = static_cast<int>(session.crowds.choice()->choice.candidates.size());
+    session.crowds.point_out(whole_number_in(text, "the candidate", 0, count - 1));
+    session.workspace.change_view([](ViewState& view) { view.candidates = true; });
 }
 
 constexpr std::array<std::string_view, 4> kColumns{"outcome", "clip", "reason", "contact"};
@@ -108,33 +108,33 @@ std::size_t which_of(const std::array<std::string_view, N>& names, const char* w
 /// The same column once more turns the order round.
 void sort_candidates(Session& session, const std::string& text) {
     const auto by = static_cast<CandidateList::Column>(which_of(kColumns, "column", text));
-    CandidateList& list = session.candidates;
+    CandidateList& list = session.crowds.list;
     list.descending = list.by == by && !list.descending;
     list.by = by;
 }
 
 void list_candidates(Session& session, const std::string& text) {
-    session.candidates.which = static_cast<CandidateList::Which>(which_of(kWhich, "choice", text));
+    session.crowds.list.which = static_cast<CandidateList::Which>(which_of(kWhich, "choice", text));
 }
 
 void open_candidate(Session& session, const std::string& text) {
-    int index = session.candidate();
+    int index = session.crowds.candidate();
     if (!text.empty()) {
         index = whole_number_in(text, "the candidate", 0, std::numeric_limits<int>::max());
     }
-    session.open_candidate(index);
+    session.excerpts.open_candidate(index);
 }
 
 // --- conflicts
 
-bool can_find(const Session& session) { return !session.empty() && !session.job() && can_conflict(session); }
-bool has_conflicts(const Session& session) { return session.conflicts() && !session.conflicts()->empty(); }
+bool can_find(const Session& session) { return !session.workspace.empty() && !session.jobs.job() && can_conflict(session.workspace); }
+bool has_conflicts(const Session& session) { return session.crowds.conflicts() && !session.crowds.conflicts()->empty(); }
 
 void to_conflict(Session& session, int index) {
-    const ConflictPlace place = conflict_place(session, (*session.conflicts())[static_cast<std::size_t>(index)]);
-    session.stop();
-    session.conflict = index;
-    session.change_view([&](ViewState& view) {
+    const ConflictPlace place = conflict_place(session.workspace, (*session.crowds.conflicts())[static_cast<std::size_t>(index)]);
+    session.playback.stop();
+    session.workspace.conflict = index;
+    session.workspace.change_view([&](ViewState& view) {
         view.query.reset();
         view.time = place.time;
     });
@@ -142,33 +142,33 @@ void to_conflict(Session& session, int index) {
 }
 
 void go_conflict(Session& session, const std::string& text) {
-    to_conflict(session, whole_number_in(text, "the conflict", 0, static_cast<int>(session.conflicts()->size()) - 1));
+    to_conflict(session, whole_number_in(text, "the conflict", 0, static_cast<int>(session.crowds.conflicts()->size()) - 1));
 }
 
 template <int direction>
 bool has_next_conflict(const Session& session) {
     if (!has_conflicts(session)) return false;
-    const int next = session.conflict + direction;
-    return next >= 0 && next < static_cast<int>(session.conflicts()->size());
+    const int next = session.workspace.conflict + direction;
+    return next >= 0 && next < static_cast<int>(session.crowds.conflicts()->size());
 }
 template <int direction>
 void next_conflict(Session& session) {
-    to_conflict(session, session.conflict + direction);
+    to_conflict(session, session.workspace.conflict + direction);
 }
 
 void open_conflict(Session& session, const std::string& text) {
-    const int last = static_cast<int>(session.conflicts()->size()) - 1;
-    const int index = text.empty() ? session.conflict : whole_number_in(text, "the conflict", 0, last);
+    const int last = static_cast<int>(session.crowds.conflicts()->size()) - 1;
+    const int index = text.empty() ? session.workspace.conflict : whole_number_in(text, "the conflict", 0, last);
     if (index < 0) throw std::invalid_argument("choose a conflict first: click one in the list");
-    session.open_conflict((*session.conflicts())[static_cast<std::size_t>(index)]);
+    session.excerpts.open_conflict((*session.crowds.conflicts())[static_cast<std::size_t>(index)]);
 }
 
 void open_pair(Session& session, const std::string& name) {
-    const auto path = current_path(session);
-    const int index = index_of_name(agent_names(session), name, "agent");
-    const PlacedAgent other = session.fitted().placed_agents()[static_cast<std::size_t>(index)];
+    const auto path = current_path(session.workspace);
+    const int index = index_of_name(agent_names(session.workspace), name, "agent");
+    const PlacedAgent other = session.workspace.fitted().placed_agents()[static_cast<std::size_t>(index)];
     if (other.name == path->name) throw std::invalid_argument("an agent cannot be asked against itself: name another");
-    session.open_excerpt(*path, other);
+    session.excerpts.open(*path, other);
 }
 
 }  // namespace
@@ -184,12 +184,12 @@ std::vector<Command> crowd_commands() {
                 "Shows so many seconds of a run before and after its time in space-time, 0.1 to 60.",
                 [](Session& session, const std::string& text) {
                     const double window = number_in(text, "the window", kLeastTimeWindow, kMostTimeWindow);
-                    session.change_view([&](ViewState& view) { view.time_window = window; });
+                    session.workspace.change_view([&](ViewState& view) { view.time_window = window; });
                 },
                 {.menu = kNoMenu,
                  .argument = "S",
                  .enabled = &Session::crowd,
-                 .present = [](const Session& session) { return short_double(session.view().time_window); }}),
+                 .present = [](const Session& session) { return short_double(session.workspace.view().time_window); }}),
         Command("crowd.next_choice", "Next choice", "Goes to the time at which the agent chooses next.", to_choice<1>,
                 {.shortcut = "N", .enabled = has_choice<1>}),
         Command("crowd.previous_choice", "Previous choice", "Goes to the time at which the agent chose before.",
@@ -206,7 +206,7 @@ std::vector<Command> crowd_commands() {
                  .choices = [](const Session&) { return std::vector<std::string>(kColumns.begin(), kColumns.end()); },
                  .chosen =
                      [](const Session& session, const std::string& column) {
-                         return column == kColumns[static_cast<std::size_t>(session.candidates.by)];
+                         return column == kColumns[static_cast<std::size_t>(session.crowds.list.by)];
                      }}),
         Command("crowd.list_candidates", "List candidates",
                 "Lists all candidates of the last choice, those that were free, or those that were rejected.",
@@ -215,7 +215,7 @@ std::vector<Command> crowd_commands() {
                  .choices = [](const Session&) { return std::vector<std::string>(kWhich.begin(), kWhich.end()); },
                  .chosen =
                      [](const Session& session, const std::string& which) {
-                         return which == kWhich[static_cast<std::size_t>(session.candidates.which)];
+                         return which == kWhich[static_cast<std::size_t>(session.crowds.list.which)];
                      }}),
         Command(
             "crowd.open_candidate", "Open the candidate as a scene",
@@ -225,7 +225,7 @@ std::vector<Command> crowd_commands() {
                 "Opens what the selected agent and another walk now as a scene with the query between them.", open_pair,
                 {.argument = "AGENT",
                  .enabled =
-                     [](const Session& session) { return session.is_crowd() && current_path(session).has_value(); }}),
+                     [](const Session& session) { return session.workspace.is_crowd() && current_path(session.workspace).has_value(); }}),
         Command("conflicts.find", "Find conflicts",
                 "Looks for all pairs of people who collide, through the trees, and lists the deepest overlap first.",
                 &Session::find_conflicts, {.enabled = can_find}),

@@ -37,21 +37,21 @@ mobb::Placement aside(const FittedScene& fitted, const mobb::Clip& clip) {
     return {{rounded_up(x), rounded_up(y)}, 0, start};
 }
 
-void select_agent(Session& session, int agent) { session.select({Selection::Kind::path, {agent, -1, 0}, -1}); }
+void select_agent(Session& session, int agent) { session.workspace.select({Selection::Kind::path, {agent, -1, 0}, -1}); }
 
 void add(Session& session, const std::string& name) {
-    const int clip = index_of_name(clip_names(session), name, "clip");
+    const int clip = index_of_name(clip_names(session.workspace), name, "clip");
     const mobb::Placement placement =
-        aside(session.fitted(), *session.scene().clips[static_cast<std::size_t>(clip)].clip);
+        aside(session.workspace.fitted(), *session.workspace.scene().clips[static_cast<std::size_t>(clip)].clip);
     int agent = 0;
-    session.edit({"adding an agent that plays " + name, ""},
+    session.workspace.edit({"adding an agent that plays " + name, ""},
                  [&](Scene& scene) { agent = add_agent(scene, clip, placement); });
     select_agent(session, agent);
 }
 
 void duplicate(Session& session) {
     int copy = 0;
-    edit_selected_agent(session, {"duplicating " + selected_agent_name(session), ""}, [&](Scene& scene, int agent) {
+    edit_selected_agent(session.workspace, {"duplicating " + selected_agent_name(session.workspace), ""}, [&](Scene& scene, int agent) {
         copy = duplicate_agent(scene, agent);
         mobb::Placement placement = scene.agents[static_cast<std::size_t>(copy)].placement;
         placement.translate += glm::dvec2(kAside, kAside) / std::sqrt(2.0);
@@ -61,16 +61,16 @@ void duplicate(Session& session) {
 }
 
 void remove(Session& session) {
-    edit_selected_agent(session, {"removing " + selected_agent_name(session), ""},
+    edit_selected_agent(session.workspace, {"removing " + selected_agent_name(session.workspace), ""},
                         [](Scene& scene, int agent) { remove_agent(scene, agent); });
     // The next agent has its index now.
-    session.select({});
+    session.workspace.select({});
 }
 
-void rename(Session& session, const std::string& name) { session.rename_agent(selected_agent(session), name); }
+void rename(Session& session, const std::string& name) { session.edits.rename_agent(selected_agent(session.workspace), name); }
 
 const mobb::Placement& selected_placement(const Session& session) {
-    return session.fitted().placed_agents()[static_cast<std::size_t>(selected_agent(session))].placement;
+    return session.workspace.fitted().placed_agents()[static_cast<std::size_t>(selected_agent(session.workspace))].placement;
 }
 
 template <class Change>
@@ -78,10 +78,10 @@ void place_agent(Session& session, const Change& change) {
     const mobb::Placement before = selected_placement(session);
     mobb::Placement placement = before;
     change(placement);
-    EditName name = name_of_placing(selected_agent_name(session), before, placement);
+    EditName name = name_of_placing(selected_agent_name(session.workspace), before, placement);
     // Each command is an edit of its own.
     name.group.clear();
-    edit_selected_agent(session, name, [&](Scene& scene, int agent) { place_agent(scene, agent, placement); });
+    edit_selected_agent(session.workspace, name, [&](Scene& scene, int agent) { place_agent(scene, agent, placement); });
 }
 
 void move(Session& session, const std::string& text) {
@@ -117,19 +117,19 @@ void set_color(Session& session, const std::string& text) {
             throw std::invalid_argument("the colour cannot be " + in_quotes(text) + ": give one like #E69F00, or none");
         }
     }
-    edit_selected_agent(session, {"colouring " + selected_agent_name(session) + ": " + text, ""},
+    edit_selected_agent(session.workspace, {"colouring " + selected_agent_name(session.workspace) + ": " + text, ""},
                         [&](Scene& scene, int agent) { scene.agents[static_cast<std::size_t>(agent)].color = color; });
 }
 
 void go_to_state(Session& session, const std::string& text) {
-    const int last = static_cast<int>(session.history().count()) - 1;
-    session.go_to_state(static_cast<std::size_t>(whole_number_in(text, "the state", 0, last)));
+    const int last = static_cast<int>(session.workspace.history.count()) - 1;
+    session.edits.go_to_state(static_cast<std::size_t>(whole_number_in(text, "the state", 0, last)));
 }
 
 void copy_figures(Session& session) {
-    const Described what = describe(session.fitted(), session.selection);
+    const Described what = describe(session.workspace.fitted(), session.workspace.selection);
     if (session.hooks.set_clipboard) session.hooks.set_clipboard(lines_of(what));
-    session.tell(MessageLevel::info, "Copied the figures of " + what.name);
+    session.notifications.tell(MessageLevel::info, "Copied the figures of " + what.name);
 }
 
 }  // namespace
@@ -139,33 +139,33 @@ std::vector<Command> edit_commands() {
         Command("edit.undo", "Undo", "Takes back the last edit, or the looking around since.", &Session::undo,
                 {.shortcut = "Ctrl+Z",
                  .repeats = true,
-                 .enabled = [](const Session& session) { return session.history().can_undo(); }}),
+                 .enabled = [](const Session& session) { return session.workspace.history.can_undo(); }}),
         Command("edit.redo", "Redo", "Brings back what was undone.", &Session::redo,
                 {.shortcut = "Ctrl+Y Ctrl+Shift+Z",
                  .repeats = true,
-                 .enabled = [](const Session& session) { return session.history().can_redo(); }}),
+                 .enabled = [](const Session& session) { return session.workspace.history.can_redo(); }}),
         Command("edit.history", "History...", "Lists what was done; a click goes back or on to it.",
-                [](Session& session) { session.open_dialog(Dialog::history); }),
+                [](Session& session) { session.dialogs.open(Dialog::history); }),
         Command("edit.go_to", "To a state of the history",
                 "Goes to a state of what was done, by its number from 0, the oldest.", go_to_state,
                 {.menu = kNoMenu, .argument = "N"}),
         Command("edit.copy_figures", "Copy figures", "Copies what is selected with all its numbers, a line each.",
                 copy_figures,
-                {.enabled = {[](const Session& session) { return session.selection.kind != Selection::Kind::none; },
+                {.enabled = {[](const Session& session) { return session.workspace.selection.kind != Selection::Kind::none; },
                              [](const Session&) -> std::string_view { return "nothing is selected"; }}}),
         Command("agent.make", "Make these agents",
                 "Makes an agent of every clip that is shown, where it is: agents can be placed and asked.",
                 [](Session& session) {
-                    session.edit({"making agents", ""}, add_agents_for_clips);
+                    session.workspace.edit({"making agents", ""}, add_agents_for_clips);
                 },
                 {.enabled = {shows_bare_clips,
                              [](const Session& session) -> std::string_view {
-                                 return session.crowd() ? "a run is not edited" : "they are agents already";
+                                 return session.workspace.crowd() ? "a run is not edited" : "they are agents already";
                              }}}),
         Command("agent.add", "Add agent", "Adds an agent that plays a clip, a little aside from the others.", add,
                 {.argument = "CLIP",
                  .enabled = {[](const Session& session) {
-                                 return has_scene(session) && !session.crowd() && !shows_bare_clips(session);
+                                 return has_scene(session) && !session.workspace.crowd() && !shows_bare_clips(session.workspace);
                              },
                              why_no_agent},
                  .choices = clip_names}),

@@ -17,23 +17,23 @@ namespace {
 
 /// Another document's picture gets another name.
 void name_file(Session& session) {
-    ExportDialog& dialog = session.exporting;
-    if (dialog.opening == session.opening()) return;
+    ExportDialog& dialog = session.dialogs.exporting;
+    if (dialog.opening == session.workspace.opening()) return;
     dialog.file.clear();
     dialog.file = export_file(session).string();
     dialog.agreed.clear();
-    dialog.opening = session.opening();
+    dialog.opening = session.workspace.opening();
 }
 
 void open_export_dialog(Session& session) {
     name_file(session);
-    const ExportDialog& dialog = session.exporting;
-    session.open_dialog(Dialog::export_picture, {.text = dialog.file});
+    const ExportDialog& dialog = session.dialogs.exporting;
+    session.dialogs.open(Dialog::export_picture, {.text = dialog.file});
 }
 
 void write_and_tell(Session& session, const PictureOrder& order, const std::filesystem::path& file) {
     const std::size_t bytes = write_picture(session, order, file);
-    session.tell(MessageLevel::info,
+    session.notifications.tell(MessageLevel::info,
                  "Wrote " + file.string() + " (" + size_text(order.options.size) + ", " + bytes_text(bytes) + ")");
 }
 
@@ -41,7 +41,7 @@ void copy_picture_of(Session& session, const PictureOrder& order) {
     const std::string png = png_of(session, order);
     if (!session.hooks.set_clipboard_picture) throw std::invalid_argument("there is no clipboard for pictures");
     session.hooks.set_clipboard_picture(png);
-    session.tell(MessageLevel::info, "Copied the picture (" + size_text(order.options.size) + ")");
+    session.notifications.tell(MessageLevel::info, "Copied the picture (" + size_text(order.options.size) + ")");
 }
 
 /// `shown`: the line stands in the dialog.
@@ -51,9 +51,9 @@ void copy_line_of(Session& session, const PictureOrder& order, const std::string
     if (session.hooks.set_clipboard) session.hooks.set_clipboard(line);
     std::string said = shown ? "Copied the command line" : "Copied: " + line;
     if (!has_file) {
-        said += ". No file holds the scene as it is: it was written to " + session.exporting.aside->file.string();
+        said += ". No file holds the scene as it is: it was written to " + session.dialogs.exporting.aside->file.string();
     }
-    session.tell(MessageLevel::info, said);
+    session.notifications.tell(MessageLevel::info, said);
 }
 
 const Condition kHasPictureClipboard{[](const Session& session) {
@@ -113,15 +113,15 @@ std::vector<Command> export_commands() {
         Command("picture.file", "Picture file", "Says where the export dialog writes to.",
                 [](Session& session, const std::string& file) {
                     check_file_name(file);
-                    session.exporting.file = file;
-                    session.exporting.opening = session.opening();
-                    if (session.dialog == Dialog::export_picture) session.input.set_text(file);
+                    session.dialogs.exporting.file = file;
+                    session.dialogs.exporting.opening = session.workspace.opening();
+                    if (session.dialogs.now == Dialog::export_picture) session.dialogs.input.set_text(file);
                 },
                 {.menu = kNoMenu, .argument = "FILE.png"}),
         Command("picture.browse", "Browse for the picture file", "Asks for the file of the export dialog.",
                 [](Session& session) {
                     name_file(session);
-                    session.open_dialog(Dialog::export_file);
+                    session.dialogs.open(Dialog::export_file);
                 },
                 {.menu = kNoMenu}),
         Command("picture.write", "Write picture as in the dialog",

@@ -11,20 +11,20 @@ namespace mobbscope::app {
 namespace {
 
 void open_file(Session& session, const std::string& file) {
-    if (file.empty()) return session.open_dialog(Dialog::open);
-    session.open(paths_in(file));
+    if (file.empty()) return session.dialogs.open(Dialog::open);
+    session.files.open(paths_in(file));
 }
 
 void add_file(Session& session, const std::string& file) {
-    if (file.empty()) return session.open_dialog(Dialog::add);
-    session.add(paths_in(file));
+    if (file.empty()) return session.dialogs.open(Dialog::add);
+    session.files.add(paths_in(file));
 }
 
 void review_folder(Session& session, const std::string& argument) {
-    if (argument.empty()) return session.open_dialog(Dialog::review);
+    if (argument.empty()) return session.dialogs.open(Dialog::review);
     const std::vector<std::filesystem::path> given = paths_in(argument);
     if (given.size() > 2) throw std::invalid_argument("give the folder of the cases, and one report at most");
-    session.review(given.front(), given.size() == 2 ? given.back() : std::filesystem::path());
+    session.reviews.open(given.front(), given.size() == 2 ? given.back() : std::filesystem::path());
 }
 
 std::vector<std::string> recent_names(const Session& session) {
@@ -34,8 +34,8 @@ std::vector<std::string> recent_names(const Session& session) {
 }
 
 void save_as(Session& session, const std::string& file) {
-    if (file.empty()) return session.open_dialog(Dialog::save_as);
-    session.save_as(file);
+    if (file.empty()) return session.dialogs.open(Dialog::save_as);
+    session.files.save_as(file);
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ std::vector<Command> file_commands() {
         Command("file.add", "Add files...", "Adds clips, or the agents and clips of another scene, to what is open.",
                 add_file, {.argument = "[FILE]", .enabled = always}),
         Command("file.recent", "Open recent", "Opens a file that was open before.",
-                [](Session& session, const std::string& file) { session.open({file}); },
+                [](Session& session, const std::string& file) { session.files.open({file}); },
                 {.argument = "FILE", .enabled = always, .choices = recent_names}),
         Command(
             "file.reopen_last", "Reopen last session",
@@ -67,8 +67,8 @@ std::vector<Command> file_commands() {
             review_folder, {.argument = "[FOLDER]", .enabled = always}),
         Command("file.reload", "Reload",
                 "Reads what is open again from its files, when another program has changed them.",
-                [](Session& session) { session.open(std::vector<std::filesystem::path>(session.opened())); },
-                {.shortcut = "F5", .enabled = [](const Session& session) { return !session.opened().empty(); }}),
+                [](Session& session) { session.files.open(std::vector<std::filesystem::path>(session.workspace.opened)); },
+                {.shortcut = "F5", .enabled = [](const Session& session) { return !session.workspace.opened.empty(); }}),
         Command("file.save", "Save", "Writes the scene and how it is seen to its file.", &Session::save,
                 {.shortcut = "Ctrl+S"}),
         Command("file.save_as", "Save as...",

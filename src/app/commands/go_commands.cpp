@@ -17,15 +17,15 @@ struct NamedPaths {
     explicit NamedPaths(const Session& session) {
         std::unordered_set<std::string> known;
         const auto add = [&](const AgentRef& path) {
-            const std::string name = placed_agent_of(session.fitted(), path)->name;
+            const std::string name = placed_agent_of(session.workspace.fitted(), path)->name;
             if (!known.insert(name).second) return;
             names.push_back(name);
             paths.push_back(path);
         };
-        for (int side = 0; side < (session.view().query ? 2 : 0); ++side) {
-            add(agent_in_view(session.fitted(), session.view(), side));
+        for (int side = 0; side < (session.workspace.view().query ? 2 : 0); ++side) {
+            add(agent_in_view(session.workspace.fitted(), session.workspace.view(), side));
         }
-        for (int i = 0; i < static_cast<int>(session.fitted().placed_agents().size()); ++i) add({i, -1, 0});
+        for (int i = 0; i < static_cast<int>(session.workspace.fitted().placed_agents().size()); ++i) add({i, -1, 0});
     }
     std::vector<std::string> names;
     std::vector<AgentRef> paths;
@@ -37,17 +37,17 @@ AgentRef path_named(const Session& session, std::string_view name) {
 }
 
 const mobb::Tree& tree_of(const Session& session, const AgentRef& path) {
-    return session.fitted().tree(placed_agent_of(session.fitted(), path)->clip);
+    return session.workspace.fitted().tree(placed_agent_of(session.workspace.fitted(), path)->clip);
 }
 
-const mobb::Tree& selected_tree(const Session& session) { return tree_of(session, session.selection.path); }
+const mobb::Tree& selected_tree(const Session& session) { return tree_of(session, session.workspace.selection.path); }
 
 /// Selects something of a path and brings it into the picture: what a query does not show is outside of it, and a node
 /// is seen only on its level.
 void go_to(Session& session, const Selection& selected) {
-    const bool in_view = index_in_view(session.fitted(), session.view(), selected.path).has_value();
+    const bool in_view = index_in_view(session.workspace.fitted(), session.workspace.view(), selected.path).has_value();
     const mobb::Tree& tree = tree_of(session, selected.path);
-    session.change_view([&](ViewState& view) {
+    session.workspace.change_view([&](ViewState& view) {
         if (!in_view) view.query.reset();
         if (selected.kind != Selection::Kind::node || view.query) return;
         const std::vector<int> shown = shown_nodes(tree, view.levels);
@@ -55,10 +55,10 @@ void go_to(Session& session, const Selection& selected) {
         const int level = tree.level(selected.index);
         view.levels = {level, level, false};
     });
-    session.select(selected);
+    session.workspace.select(selected);
 }
 
-void go_to_node(Session& session, int node) { go_to(session, {Selection::Kind::node, session.selection.path, node}); }
+void go_to_node(Session& session, int node) { go_to(session, {Selection::Kind::node, session.workspace.selection.path, node}); }
 
 void go_agent(Session& session, const std::string& name) {
     go_to(session, {Selection::Kind::path, path_named(session, name), -1});
@@ -81,7 +81,7 @@ void go_sample(Session& session, const std::string& text) {
 
 /// A node's parent, or a sample's leaf; -1 if there is none.
 int parent(const Session& session) {
-    const Selection& selected = session.selection;
+    const Selection& selected = session.workspace.selection;
     if (selected.kind == Selection::Kind::sample) return leaf_of_sample(selected_tree(session), selected.index);
     if (selected.kind != Selection::Kind::node) return -1;
     return selected_tree(session).parent(selected.index);
@@ -89,7 +89,7 @@ int parent(const Session& session) {
 
 /// A node's first child, or a path's root; -1 if there is none.
 int child(const Session& session) {
-    const Selection& selected = session.selection;
+    const Selection& selected = session.workspace.selection;
     if (selected.kind == Selection::Kind::path) return 0;
     if (selected.kind != Selection::Kind::node) return -1;
     return selected_tree(session).children(selected.index)[0];
@@ -98,8 +98,8 @@ int child(const Session& session) {
 /// The node before or after on the same level; -1 if there is none.
 template <int direction>
 int neighbour(const Session& session) {
-    if (session.selection.kind != Selection::Kind::node) return -1;
-    return neighbour_on_level(selected_tree(session), session.selection.index, direction);
+    if (session.workspace.selection.kind != Selection::Kind::node) return -1;
+    return neighbour_on_level(selected_tree(session), session.workspace.selection.index, direction);
 }
 
 /// A command that goes to the node that `find` finds, if it finds one.
@@ -116,27 +116,27 @@ void go_to_found(Session& session) {
 
 template <FocusMove move>
 void move_focus(Session& session) {
-    session.focus_move = move;
+    session.keys.move = move;
 }
 
 /// One thing after the other, what lies in front first.
 void put_away(Session& session) {
-    if (session.has_message_up()) return session.put_messages_away();
-    session.select({});
+    if (session.notifications.has_up()) return session.notifications.put_away();
+    session.workspace.select({});
 }
 
 void go_clip(Session& session, const std::string& name) {
-    session.select({Selection::Kind::clip, {}, index_of_name(clip_names(session), name, "clip")});
+    session.workspace.select({Selection::Kind::clip, {}, index_of_name(clip_names(session.workspace), name, "clip")});
 }
 
 bool has_contact(const Session& session) {
-    const RecordedQuery* recorded = session.recorded();
+    const RecordedQuery* recorded = session.workspace.recorded();
     return recorded && recorded->contact;
 }
 
 void go_contact(Session& session) {
-    const RecordedQuery& recorded = *session.recorded();
-    session.change_view([&](ViewState& view) {
+    const RecordedQuery& recorded = *session.workspace.recorded();
+    session.workspace.change_view([&](ViewState& view) {
         view.time = recorded.contact->time;
         view.step = {Step::Unit::end, 0};  // the search ends with the hit
     });
@@ -147,7 +147,7 @@ void go_contact(Session& session) {
 std::vector<Command> go_commands() {
     const std::vector<Command> rows{
         Command("go.palette", "Search...", "Finds commands, agents, clips, queries and nodes by a few letters.",
-                [](Session& session) { session.open_dialog(Dialog::palette); },
+                [](Session& session) { session.dialogs.open(Dialog::palette); },
                 {.shortcut = "Ctrl+P", .enabled = always}),
         Command("go.agent", "Agent", "Selects an agent.", go_agent,
                 {.argument = "NAME", .choices = [](const Session& session) { return NamedPaths(session).names; }}),
@@ -187,7 +187,7 @@ std::vector<Command> go_commands() {
                 {.shortcut = "Escape",
                  .enabled =
                      [](const Session& session) {
-                         return session.selection.kind != Selection::Kind::none || session.has_message_up();
+                         return session.workspace.selection.kind != Selection::Kind::none || session.notifications.has_up();
                      }}),
     };
     return in_menu("Go", rows);

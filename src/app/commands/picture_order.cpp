@@ -26,8 +26,8 @@ namespace {
 
 /// What is selected, where the picture shows it.
 std::optional<NamedPart> selected_part(const Session& session, const PictureOrder& order) {
-    const Selection& selected = session.selection;
-    const FittedScene& fitted = session.fitted();
+    const Selection& selected = session.workspace.selection;
+    const FittedScene& fitted = session.workspace.fitted();
     if (!selected.on_path()) return std::nullopt;
     const auto agent = index_in_view(fitted, order.view, selected.path);
     if (!agent) return std::nullopt;
@@ -118,11 +118,11 @@ std::string picture_options(const PictureOptions& options) {
 
 /// Whether the one file that was opened holds the scene.
 bool is_in_its_file(const Session& session) {
-    const std::filesystem::path& file = session.scene().file;
+    const std::filesystem::path& file = session.workspace.scene().file;
     const bool one_file =
-        session.opened().empty() || (session.opened().size() == 1 && session.opened().front() == file);
+        session.workspace.opened.empty() || (session.workspace.opened.size() == 1 && session.workspace.opened.front() == file);
     // The scene of a case is seen and fitted as the case says, not as its file.
-    const bool as_file = !session.modified() && !session.in_excerpt() && session.open_case_name().empty();
+    const bool as_file = !session.workspace.modified() && !session.workspace.in_excerpt() && session.reviews.open_case_name().empty();
     return as_file && one_file && !file.empty();
 }
 
@@ -152,16 +152,16 @@ std::filesystem::path temporary_scene_file(const Session& session) {
     if (!::mkdtemp(name.data())) {
         throw MachineError(folder.string() + ": no temporary folder can be made there: " + std::strerror(errno));
     }
-    const std::string stem = std::filesystem::path(session.title()).stem().string();
+    const std::string stem = std::filesystem::path(session.workspace.title()).stem().string();
     return std::filesystem::path(name) / ((stem.empty() ? "scene" : stem) + ".json");
 }
 
 /// Throws MachineError, and leaves nothing, if it cannot be written; InputError where nothing may be.
 std::filesystem::path write_scene_aside(const Session& session, const ViewState& view) {
-    session.check_may_write("a temporary file for " + session.title());
-    Scene aside = session.scene();
+    session.files.check_may_write("a temporary file for " + session.workspace.title());
+    Scene aside = session.workspace.scene();
     aside.view = view;
-    aside.fit = session.document().fitted->options();
+    aside.fit = session.workspace.document().fitted->options();
     std::filesystem::path file = temporary_scene_file(session);
     try {
         move_to_file(aside, file);
@@ -177,7 +177,7 @@ std::filesystem::path write_scene_aside(const Session& session, const ViewState&
 }  // namespace
 
 PictureOrder order_of_viewport(const Session& session) {
-    PictureOrder out{session.view(), {}, {}};
+    PictureOrder out{session.workspace.view(), {}, {}};
     out.options.size = viewport_size(session);
     // 0: what suits the size, as `render` takes it without being told.
     out.options.scale = session.hooks.viewport_scale ? session.hooks.viewport_scale() : 0;
@@ -205,10 +205,10 @@ PictureOrder order_to_export(const Session& session) {
 
 DrawList draw_list_of(const Session& session, const PictureOrder& order) {
     check(order.options);
-    DrawList list = build_draw_list(*session.document().fitted, order.view, order.options);
+    DrawList list = build_draw_list(*session.workspace.document().fitted, order.view, order.options);
     if (order.select) {
         const float scale = metrics_of(order.options.size, order.options.scale).scale;
-        add_selection(list, session.fitted(), order.view, *order.select, scale);
+        add_selection(list, session.workspace.fitted(), order.view, *order.select, scale);
     }
     return list;
 }
@@ -220,7 +220,7 @@ std::string png_of(const Session& session, const PictureOrder& order) {
 
 std::size_t write_picture(const Session& session, const PictureOrder& order, const std::filesystem::path& file) {
     check_file_name(file);
-    session.check_may_write(file);
+    session.files.check_may_write(file);
     if (lower_extension(file) != ".png") {
         throw InputError(file.string(), "", "pictures are written as .png; rename the output");
     }
@@ -230,33 +230,33 @@ std::size_t write_picture(const Session& session, const PictureOrder& order, con
 }
 
 std::filesystem::path export_file(const Session& session) {
-    const std::filesystem::path folder = session.file() ? session.file()->parent_path() : session.settings.folder;
-    const std::string& typed = session.exporting.file;
-    if (typed.empty()) return folder / (std::filesystem::path(session.title()).stem().string() + ".png");
+    const std::filesystem::path folder = session.workspace.file ? session.workspace.file->parent_path() : session.settings.folder;
+    const std::string& typed = session.dialogs.exporting.file;
+    if (typed.empty()) return folder / (std::filesystem::path(session.workspace.title()).stem().string() + ".png");
     return with_extension(typed.find('/') == std::string::npos ? folder / typed : typed_path(typed, {}), ".png");
 }
 
 std::optional<std::string> render_line(const Session& session, const PictureOrder& order, const std::string& output) {
-    const FittedScene& fitted = *session.document().fitted;
+    const FittedScene& fitted = *session.workspace.document().fitted;
     if (is_in_its_file(session)) {
         // Of an unchanged scene, its `view` is the one in the file.
         const std::string fit = fitted.fits().size() == 1 ? "" : fit_options(fitted.options());
         if (auto line =
-                render_line_of({session.scene().file, session.scene(), session.scene().view}, fit, order, output))
+                render_line_of({session.workspace.scene().file, session.workspace.scene(), session.workspace.scene().view}, fit, order, output))
             return line;
     }
-    const std::optional<ExportDialog::SceneAside>& aside = session.exporting.aside;
+    const std::optional<ExportDialog::SceneAside>& aside = session.dialogs.exporting.aside;
     std::error_code ignored;
     if (!aside || &aside->of->scene() != &fitted.scene() || !std::filesystem::exists(aside->file, ignored)) {
         return std::nullopt;
     }
     const std::string fit = fitted.options() == aside->of->options() ? "" : fit_options(fitted.options());
-    return render_line_of({aside->file, session.scene(), aside->view}, fit, order, output);
+    return render_line_of({aside->file, session.workspace.scene(), aside->view}, fit, order, output);
 }
 
 std::string render_line_with_scene(Session& session, const PictureOrder& order, const std::string& output) {
     if (auto line = render_line(session, order, output)) return *line;
-    session.exporting.aside = {session.document().fitted, order.view, write_scene_aside(session, order.view)};
+    session.dialogs.exporting.aside = {session.workspace.document().fitted, order.view, write_scene_aside(session, order.view)};
     return *render_line(session, order, output);  // as no option differs from a scene that was just written
 }
 

@@ -2,7 +2,7 @@
 /// that asks for it.
 #pragma once
 
-#include <app/document/session.h>
+#include <app/session/session.h>
 #include <render/drawlist/draw_list.h>
 #include <render/drawlist/picture_options.h>
 #include <render/parts/highlights.h>

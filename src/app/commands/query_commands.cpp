@@ -16,39 +16,39 @@ namespace {
 
 using mobb::Outcome;
 
-bool has_queries(const Session& session) { return !session.fitted().queries().empty(); }
+bool has_queries(const Session& session) { return !session.workspace.fitted().queries().empty(); }
 std::string_view why_no_query(const Session& session) {
-    return session.crowd() ? "a run is asked for its conflicts" : "there is no query";
+    return session.workspace.crowd() ? "a run is asked for its conflicts" : "there is no query";
 }
-bool may_capture(const Session& session) { return has_queries(session) && !session.job() && !session.in_excerpt(); }
-bool in_query(const Session& session) { return session.view().query.has_value(); }
-int query_total(const Session& session) { return static_cast<int>(session.fitted().queries().size()); }
+bool may_capture(const Session& session) { return has_queries(session) && !session.jobs.job() && !session.workspace.in_excerpt(); }
+bool in_query(const Session& session) { return session.workspace.view().query.has_value(); }
+int query_total(const Session& session) { return static_cast<int>(session.workspace.fitted().queries().size()); }
 
 void select(Session& session, const std::string& text) {
-    session.show_query(whole_number_in(text, "the query", 0, query_total(session) - 1));
-    session.focus_move = FocusMove::picture;  // its arrows step now
+    session.queries.show(whole_number_in(text, "the query", 0, query_total(session) - 1));
+    session.keys.move = FocusMove::picture;  // its arrows step now
 }
 
 void leave(Session& session) {
-    session.change_view([](ViewState& view) { view.query.reset(); });
+    session.workspace.change_view([](ViewState& view) { view.query.reset(); });
 }
 
-void next(Session& session) { session.show_query(session.view().query.value_or(-1) + 1); }
+void next(Session& session) { session.queries.show(session.workspace.view().query.value_or(-1) + 1); }
 
-void previous(Session& session) { session.show_query(session.view().query.value_or(query_total(session)) - 1); }
+void previous(Session& session) { session.queries.show(session.workspace.view().query.value_or(query_total(session)) - 1); }
 
 // --- what is asked
 
 std::vector<std::string> others(const Session& session) {
-    std::vector<std::string> names = path_names(session);
-    if (has_selected_agent(session)) names.erase(names.begin() + selected_agent(session));
+    std::vector<std::string> names = path_names(session.workspace);
+    if (has_selected_agent(session.workspace)) names.erase(names.begin() + selected_agent(session.workspace));
     return names;
 }
 
 /// The query that asks these two against each other, in either order.
 std::optional<int> query_of(const Session& session, int a, int b) {
     for (int i = 0; i < query_total(session); ++i) {
-        const SceneQuery query = session.fitted().queries()[static_cast<std::size_t>(i)];
+        const SceneQuery query = session.workspace.fitted().queries()[static_cast<std::size_t>(i)];
         const auto [low, high] = std::minmax(query.a.agent, query.b.agent);
         if (low == std::min(a, b) && high == std::max(a, b)) return i;
     }
@@ -56,11 +56,11 @@ std::optional<int> query_of(const Session& session, int a, int b) {
 }
 
 void add_against(Session& session, const std::string& other) {
-    const int a = selected_agent(session);
-    const int b = index_of_name(path_names(session), other, "agent");
+    const int a = selected_agent(session.workspace);
+    const int b = index_of_name(path_names(session.workspace), other, "agent");
     // What is asked already is only shown.
-    if (const auto known = query_of(session, a, b)) return session.show_query(*known);
-    session.edit({"asking " + selected_agent_name(session) + " against " + other, ""}, [&](Scene& scene) {
+    if (const auto known = query_of(session, a, b)) return session.queries.show(*known);
+    session.workspace.edit({"asking " + selected_agent_name(session.workspace) + " against " + other, ""}, [&](Scene& scene) {
         add_agents_for_clips(scene);
         scene.view.query = static_cast<int>(add_query(scene, a, b));
         scene.view.step = {};
@@ -69,33 +69,33 @@ void add_against(Session& session, const std::string& other) {
 
 /// The query that is edited: the selected one, else that in view.
 std::optional<int> edited_query(const Session& session) {
-    if (session.selection.kind == Selection::Kind::query) return session.selection.index;
-    return session.view().query;
+    if (session.workspace.selection.kind == Selection::Kind::query) return session.workspace.selection.index;
+    return session.workspace.view().query;
 }
 
 void remove_edited(Session& session) {
     const int query = *edited_query(session);
-    const SceneQuery asked = session.fitted().queries()[static_cast<std::size_t>(query)];
-    session.edit({"no longer asking " + asked.a.name + " against " + asked.b.name, ""}, [&](Scene& scene) {
+    const SceneQuery asked = session.workspace.fitted().queries()[static_cast<std::size_t>(query)];
+    session.workspace.edit({"no longer asking " + asked.a.name + " against " + asked.b.name, ""}, [&](Scene& scene) {
         remove_query(scene, static_cast<std::size_t>(query));
         std::optional<int>& shown = scene.view.query;
         if (shown == query) shown.reset();
         if (shown && *shown > query) --*shown;
     });
     // Those behind it have other indices now.
-    if (session.selection.kind == Selection::Kind::query || session.selection.path.query >= 0) session.select({});
+    if (session.workspace.selection.kind == Selection::Kind::query || session.workspace.selection.path.query >= 0) session.workspace.select({});
 }
 
 bool is_expected(const Session& session) {
     const auto query = edited_query(session);
-    return query && session.fitted().queries()[static_cast<std::size_t>(*query)].expect.has_value();
+    return query && session.workspace.fitted().queries()[static_cast<std::size_t>(*query)].expect.has_value();
 }
 
 void expect(Session& session) {
     const auto query = static_cast<std::size_t>(*edited_query(session));
     const bool was_expected = is_expected(session);
-    const std::optional<mobb::Contact> contact = session.answer_of(query).contact;
-    session.edit({was_expected ? "expecting nothing" : "expecting the answer", ""}, [&](Scene& scene) {
+    const std::optional<mobb::Contact> contact = session.queries.answer_of(query).contact;
+    session.workspace.edit({was_expected ? "expecting nothing" : "expecting the answer", ""}, [&](Scene& scene) {
         make_queries_explicit(scene);
         scene.queries[query].expect =
             was_expected ? std::nullopt : std::optional<Expectation>({contact.has_value(), contact});
@@ -113,10 +113,10 @@ int asked_query(const Session& session, const std::string& text) {
 /// The two with their samples inside and the answer expected, as a scene that stands alone.
 void capture(Session& session, const std::string& text) {
     const auto index = static_cast<std::size_t>(asked_query(session, text));
-    const SceneQuery query = session.fitted().queries()[index];
-    const std::optional<mobb::Contact> contact = session.answer_of(index).contact;
-    session.open_excerpt(query.a, query.b);
-    session.edit({"capturing " + query.a.name + " against " + query.b.name, ""}, [&](Scene& scene) {
+    const SceneQuery query = session.workspace.fitted().queries()[index];
+    const std::optional<mobb::Contact> contact = session.queries.answer_of(index).contact;
+    session.excerpts.open(query.a, query.b);
+    session.workspace.edit({"capturing " + query.a.name + " against " + query.b.name, ""}, [&](Scene& scene) {
         for (SceneClip& clip : scene.clips) {
             clip.source.reset();
             clip.options = {};
@@ -129,31 +129,31 @@ void capture(Session& session, const std::string& text) {
 }
 
 void copy_query_command(Session& session, const std::string& text) {
-    session.show_query(asked_query(session, text));
+    session.queries.show(asked_query(session, text));
     run_command(session, "file.copy_command");
 }
 
 void copy_answer(Session& session, const std::string& text) {
-    session.show_query(asked_query(session, text));
-    const std::shared_ptr<const QueryFindings> findings = session.findings();
+    session.queries.show(asked_query(session, text));
+    const std::shared_ptr<const QueryFindings> findings = session.queries.findings();
     std::string answer = answer_words(findings->sides, findings->clearance) + ".\n";
     for (const std::string& sentence : why_words(findings->sides, findings->clearance, findings->floor)) {
         answer += sentence + '\n';
     }
     if (session.hooks.set_clipboard) session.hooks.set_clipboard(answer);
-    session.tell(MessageLevel::info, "Copied: " + answer);
+    session.notifications.tell(MessageLevel::info, "Copied: " + answer);
 }
 
 // --- steps
 
 void to_event(Session& session, int event) {
-    session.change_view([&](ViewState& view) { view.step = {Step::Unit::event, static_cast<double>(event)}; });
+    session.workspace.change_view([&](ViewState& view) { view.step = {Step::Unit::event, static_cast<double>(event)}; });
 }
 
 /// Without a query in view its first one is shown instead, at this step.
 bool entered(Session& session, Step step) {
     if (in_query(session)) return false;
-    session.show_query(0, step);
+    session.queries.show(0, step);
     return true;
 }
 
@@ -165,78 +165,78 @@ void first(Session& session) {
 }
 
 void back(Session& session) {
-    if (!entered(session, kEnd)) to_event(session, std::max(session.step() - 1, 0));
+    if (!entered(session, kEnd)) to_event(session, std::max(session.workspace.step() - 1, 0));
 }
 
 void forward(Session& session) {
     if (!entered(session, kFirst))
-        to_event(session, std::min(session.step() + 1, session.recorded()->trace.size() - 1));
+        to_event(session, std::min(session.workspace.step() + 1, session.workspace.recorded()->trace.size() - 1));
 }
 
 void last(Session& session) {
-    if (!entered(session, kEnd)) session.change_view([](ViewState& view) { view.step = kEnd; });
+    if (!entered(session, kEnd)) session.workspace.change_view([](ViewState& view) { view.step = kEnd; });
 }
 
 void to(Session& session, const std::string& text) {
-    to_event(session, whole_number_in(text, "the step", 0, session.recorded()->trace.size() - 1));
+    to_event(session, whole_number_in(text, "the step", 0, session.workspace.recorded()->trace.size() - 1));
 }
 
 void percent(Session& session, const std::string& text) {
     const double share = number_in(text, "the percentage", 0, 100);
-    session.change_view([&](ViewState& view) { view.step = {Step::Unit::percent, share}; });
+    session.workspace.change_view([&](ViewState& view) { view.step = {Step::Unit::percent, share}; });
 }
 
-bool has_step_before(const Session& session) { return session.step_before().has_value(); }
+bool has_step_before(const Session& session) { return session.queries.step_before().has_value(); }
 std::string_view why_no_step_before(const Session& session) {
     return in_query(session) ? "no other step was looked at" : "no query is shown";
 }
 
 void to_step_before(Session& session) {
-    const Step before = *session.step_before();
-    session.change_view([&](ViewState& view) { view.step = before; });
+    const Step before = *session.queries.step_before();
+    session.workspace.change_view([&](ViewState& view) { view.step = before; });
 }
 
 /// To the next event that ended so; says so if there is none.
 void to_next(Session& session, Outcome outcome, const char* what) {
-    const int from = in_query(session) ? session.step() : -1;
+    const int from = in_query(session) ? session.workspace.step() : -1;
     entered(session, kFirst);
-    const mobb::Trace& trace = session.recorded()->trace;
+    const mobb::Trace& trace = session.workspace.recorded()->trace;
     for (int event = from + 1; event < trace.size(); ++event) {
         if (trace[event].outcome == outcome) return to_event(session, event);
     }
-    session.tell(MessageLevel::info, std::string("There is no later test that ") + what);
+    session.notifications.tell(MessageLevel::info, std::string("There is no later test that ") + what);
 }
 
 /// Which side of the query in view the selected node is of; none if no node of it is selected.
 std::optional<int> side_of_node(const Session& session) {
-    if (!in_query(session) || session.selection.kind != Selection::Kind::node) return std::nullopt;
-    return index_in_view(session.fitted(), session.view(), session.selection.path);
+    if (!in_query(session) || session.workspace.selection.kind != Selection::Kind::node) return std::nullopt;
+    return index_in_view(session.workspace.fitted(), session.workspace.view(), session.workspace.selection.path);
 }
 
 /// To the next test of the selected node; behind the last one to the first again.
 void to_next_of_node(Session& session) {
     const bool of_a = *side_of_node(session) == 0;
-    const mobb::Trace& trace = session.recorded()->trace;
+    const mobb::Trace& trace = session.workspace.recorded()->trace;
     for (int i = 1; i <= trace.size(); ++i) {
-        const int event = (session.step() + i) % trace.size();
-        if ((of_a ? trace[event].a : trace[event].b) == session.selection.index) return to_event(session, event);
+        const int event = (session.workspace.step() + i) % trace.size();
+        if ((of_a ? trace[event].a : trace[event].b) == session.workspace.selection.index) return to_event(session, event);
     }
-    session.tell(MessageLevel::info, "The selected node is never tested: the search ended before it");
+    session.notifications.tell(MessageLevel::info, "The selected node is never tested: the search ended before it");
 }
 
 /// The next event of the same pair, or of the next pair that is not below it.
 std::optional<int> event_after_pair(const Session& session) {
-    const mobb::Trace& trace = session.recorded()->trace;
-    const int depth = trace[session.step()].depth;
-    for (int event = session.step() + 1; event < trace.size(); ++event) {
+    const mobb::Trace& trace = session.workspace.recorded()->trace;
+    const int depth = trace[session.workspace.step()].depth;
+    for (int event = session.workspace.step() + 1; event < trace.size(); ++event) {
         if (trace[event].depth <= depth) return event;
     }
     return std::nullopt;
 }
 
 int parent_event(const Session& session) {
-    const mobb::Trace& trace = session.recorded()->trace;
-    return trace[session.step()].parent;
+    const mobb::Trace& trace = session.workspace.recorded()->trace;
+    return trace[session.workspace.step()].parent;
 }
 
 }  // namespace
@@ -250,12 +250,12 @@ std::vector<Command> query_commands() {
             {.shortcut = "PageDown",
              .repeats = true,
              .enabled =
-                 [](const Session& session) { return session.view().query.value_or(-1) + 1 < query_total(session); }}),
+                 [](const Session& session) { return session.workspace.view().query.value_or(-1) + 1 < query_total(session); }}),
         Command("query.previous", "Previous query", "Shows the previous query with its answer.", previous,
                 {.shortcut = "PageUp",
                  .repeats = true,
                  .enabled =
-                     [](const Session& session) { return session.view().query.value_or(query_total(session)) > 0; }}),
+                     [](const Session& session) { return session.workspace.view().query.value_or(query_total(session)) > 0; }}),
         Command("query.none", "Close the query", "Leaves the query in view for the levels of all trees.", leave,
                 {.shortcut = "Q", .enabled = {in_query, why_no_step}}),
         Command("query.add", "Ask against", "Asks whether the selected agent collides with another.", add_against,
@@ -293,7 +293,7 @@ std::vector<Command> query_commands() {
                 {.menu = kNoMenu,
                  .argument = "N",
                  .enabled = {in_query, why_no_step},
-                 .present = [](const Session& session) { return std::to_string(session.step()); }}),
+                 .present = [](const Session& session) { return std::to_string(session.workspace.step()); }}),
         Command("step.next_separated", "Next separation",
                 "Shows the next test that found two boxes separated in space.",
                 [](Session& session) { to_next(session, Outcome::separated, "found boxes separated in space"); },
@@ -309,7 +309,7 @@ std::vector<Command> query_commands() {
                 "Shows the next test of the selected node, and behind the last one the first.", to_next_of_node,
                 {.enabled = {[](const Session& session) { return side_of_node(session).has_value(); },
                              [](const Session& session) -> std::string_view {
-                                 return session.view().query ? "no node of the query is selected" : "no query is shown";
+                                 return session.workspace.view().query ? "no node of the query is selected" : "no query is shown";
                              }}}),
         Command("step.over", "Step over", "Shows the next test that is not about parts of the present two nodes.",
                 [](Session& session) { to_event(session, *event_after_pair(session)); },

@@ -1,7 +1,7 @@
 /// What a person is in the midst of, and what can be done then: the help begins with it.
 #pragma once
 
-#include <app/document/session.h>
+#include <app/session/session.h>
 
 #include <span>
 #include <string_view>

@@ -16,7 +16,7 @@ std::vector<std::string> as_strings(std::span<const std::string_view> names) { r
 template <class Option>
 void fit(Session& session, const std::string& doing, const std::string& text, Option mobb::FitOptions::*option,
          Option value) {
-    session.refit({doing + ": " + text, doing}, [=](mobb::FitOptions& options) { options.*option = value; });
+    session.edits.refit({doing + ": " + text, doing}, [=](mobb::FitOptions& options) { options.*option = value; });
 }
 
 /// What a name stands for.
@@ -62,27 +62,27 @@ std::vector<Command> tree_commands() {
                 {.argument = "K",
                  .choices = [](const Session&) { return as_strings(mobb::tree_kind_names()); },
                  .chosen = [](const Session& session,
-                              const std::string& kind) { return name(session.fitted().options().tree) == kind; }}),
+                              const std::string& kind) { return name(session.workspace.fitted().options().tree) == kind; }}),
         Command("tree.axes", "Axes",
                 "Takes the directions of boxes from first to last sample, from the principal axes, or the tightest.",
                 set_axes,
                 {.argument = "K",
                  .choices = [](const Session&) { return as_strings(mobb::axes_names()); },
                  .chosen = [](const Session& session,
-                              const std::string& axes) { return name(session.fitted().options().axes) == axes; }}),
+                              const std::string& axes) { return name(session.workspace.fitted().options().axes) == axes; }}),
         Command("tree.leaf", "Samples in a leaf...",
                 "Makes a node of at most N samples a leaf; 10 is the usual number.", set_leaf,
                 {.argument = "N",
-                 .present = [](const Session& session) { return std::to_string(session.fitted().options().leaf); }}),
+                 .present = [](const Session& session) { return std::to_string(session.workspace.fitted().options().leaf); }}),
         Command("tree.levels", "Levels of the trees...",
                 "Ends the trees after N levels; 0 lets them go down to their leaves.", set_tree_levels,
                 {.argument = "N",
-                 .present = [](const Session& session) { return std::to_string(session.fitted().options().levels); }}),
+                 .present = [](const Session& session) { return std::to_string(session.workspace.fitted().options().levels); }}),
         Command(
             "tree.time_scale", "Time scale...", "Mixes time with space in free boxes at so many metres per second.",
             set_time_scale,
             {.argument = "W",
-             .present = [](const Session& session) { return short_double(session.fitted().options().time_scale); }}),
+             .present = [](const Session& session) { return short_double(session.workspace.fitted().options().time_scale); }}),
     };
     return in_menu("Tree", rows);
 }

@@ -21,7 +21,7 @@ constexpr double kKeyZoom = 1.25;
 constexpr double kOrbitStep = 5;  // degrees
 constexpr std::array kScales{0.5, 0.75, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0};
 
-bool shows_levels(const Session& session) { return has_scene(session) && !session.view().query; }
+bool shows_levels(const Session& session) { return has_scene(session) && !session.workspace.view().query; }
 
 // --- the camera
 
@@ -36,52 +36,52 @@ void frame_by_itself(Camera& camera) {
 Command see_from(CameraPreset preset, std::string_view id, std::string_view title, std::string_view key,
                  std::string_view doc) {
     const auto see = [preset](Session& session) {
-        session.change_view([&](ViewState& view) { view.camera.preset = preset; });
+        session.workspace.change_view([&](ViewState& view) { view.camera.preset = preset; });
     };
-    const auto is_seen = [preset](const Session& session) { return session.view().camera.preset == preset; };
+    const auto is_seen = [preset](const Session& session) { return session.workspace.view().camera.preset == preset; };
     return {id, title, doc, see, {.shortcut = key, .checked = is_seen}};
 }
 
 bool may_have_perspective(const Session& session) {
-    Camera camera = session.view().camera;
+    Camera camera = session.workspace.view().camera;
     camera.perspective = true;
     return has_scene(session) && orientation(camera).perspective;
 }
 
 void frame_all(Session& session) {
-    session.change_view([&](ViewState& view) {
+    session.workspace.change_view([&](ViewState& view) {
         frame_by_itself(view.camera);
         // What is framed may have become larger since, by another unit or a longer clip.
-        if (view.show == Show::space_time && !session.has_chosen_height()) view.time_height = 0;
+        if (view.show == Show::space_time && !session.views.has_chosen_height()) view.time_height = 0;
     });
 }
 
 /// Whether an agent is selected, and no part of its path; in the picture of a moment an agent stands where a sample is.
 bool is_agent_selected(const Session& session) {
-    const Selection& selected = session.selection;
+    const Selection& selected = session.workspace.selection;
     if (!selected.on_path() || selected.path.agent < 0) return false;
     return selected.kind == Selection::Kind::path ||
-           (selected.kind == Selection::Kind::sample && session.view().show == Show::moment);
+           (selected.kind == Selection::Kind::sample && session.workspace.view().show == Show::moment);
 }
 
 /// Frames the selected agent while the camera follows one: it follows the selected one from now on, as nobody else
 /// stays in its picture.
 void frame_selected_agent(Session& session) {
-    const std::string who = current_agent(session);
-    if (who == session.view().follow) return frame_followed(session, kAroundFollowed);
+    const std::string who = current_agent(session.workspace);
+    if (who == session.workspace.view().follow) return frame_followed(session, kAroundFollowed);
     follow_agent(session, who, kAroundFollowed);
 }
 
 /// What is selected, else the pair under test; none: neither is in the picture.
 std::optional<Bounds> what_to_frame(const Session& session) {
     // A query that is selected is the one in view: what is looked at is its test.
-    const bool apart = session.selection.kind != Selection::Kind::query;
-    const std::optional<Bounds> selected = apart ? box_of(session, session.selection) : std::nullopt;
+    const bool apart = session.workspace.selection.kind != Selection::Kind::query;
+    const std::optional<Bounds> selected = apart ? box_of(session, session.workspace.selection) : std::nullopt;
     return selected ? selected : box_of_test(session);
 }
 
 void frame_selection(Session& session) {
-    const bool whom = session.selection.kind == Selection::Kind::none || is_agent_selected(session);
+    const bool whom = session.workspace.selection.kind == Selection::Kind::none || is_agent_selected(session);
     if (follows(session) && whom) return frame_selected_agent(session);
     if (const std::optional<Bounds> box = what_to_frame(session)) return frame_box(session, *box);
     return follows(session) ? frame_followed(session, kAroundFollowed) : frame_all(session);
@@ -111,7 +111,7 @@ Command orbit_step(glm::dvec2 way, std::string_view id, std::string_view title, 
 
 // --- what is drawn
 
-bool shows_moment(const Session& session) { return session.view().show == Show::moment; }
+bool shows_moment(const Session& session) { return session.workspace.view().show == Show::moment; }
 
 std::string_view subject(const ViewState& view) {
     if (view.show == Show::moment) return "moment";
@@ -121,11 +121,11 @@ std::string_view subject(const ViewState& view) {
 /// Heights mean something else in a picture of something else: each has its own camera, and frames the scene when it is
 /// shown first. A disk is framed each time, as it may be another one.
 void show_other_picture(Session& session, const std::function<void(ViewState&)>& change) {
-    session.change_view([&](ViewState& view) {
-        session.cameras_aside[subject(view)] = view.camera;
+    session.workspace.change_view([&](ViewState& view) {
+        session.workspace.cameras_aside[subject(view)] = view.camera;
         change(view);
-        const auto known = session.cameras_aside.find(subject(view));
-        if (known != session.cameras_aside.end() && !view.projection) {
+        const auto known = session.workspace.cameras_aside.find(subject(view));
+        if (known != session.workspace.cameras_aside.end() && !view.projection) {
             view.camera = known->second;
         } else {
             frame_by_itself(view.camera);
@@ -138,23 +138,23 @@ void toggle_moment(Session& session) {
     const auto toggle = [](ViewState& view) {
         view.show = view.show == Show::moment ? Show::space_time : Show::moment;
     };
-    if (!follows(session) || !session.view().camera.target) return show_other_picture(session, toggle);
-    session.change_view(toggle);
+    if (!follows(session) || !session.workspace.view().camera.target) return show_other_picture(session, toggle);
+    session.workspace.change_view(toggle);
     center_followed(session);
 }
 
 /// Levels of the deepest tree in the picture.
 int depth_in_view(const Session& session) {
     int depth = 1;
-    for (const PlacedAgent& who : session.fitted().placed_agents()) {
-        depth = std::max(depth, session.fitted().tree(who.clip).depth());
+    for (const PlacedAgent& who : session.workspace.fitted().placed_agents()) {
+        depth = std::max(depth, session.workspace.fitted().tree(who.clip).depth());
     }
     return depth;
 }
 
 /// A query's picture has no levels: showing some leaves it.
 void show_levels(Session& session, LevelRange levels) {
-    session.change_view([&](ViewState& view) {
+    session.workspace.change_view([&](ViewState& view) {
         view.levels = levels;
         view.query.reset();
     });
@@ -165,21 +165,21 @@ std::string_view why_no_level(const Session& session) {
 }
 
 bool can_be_finer(const Session& session) {
-    const LevelRange levels = session.view().levels;
+    const LevelRange levels = session.workspace.view().levels;
     return shows_levels(session) && !levels.leaves && levels.last + 1 < depth_in_view(session);
 }
 
 void finer(Session& session) {
-    const LevelRange levels = session.view().levels;
+    const LevelRange levels = session.workspace.view().levels;
     show_levels(session, {levels.first + 1, levels.last + 1, false});
 }
 
 bool can_be_coarser(const Session& session) {
-    return shows_levels(session) && (session.view().levels.leaves || session.view().levels.first > 0);
+    return shows_levels(session) && (session.workspace.view().levels.leaves || session.workspace.view().levels.first > 0);
 }
 
 void coarser(Session& session) {
-    const LevelRange levels = session.view().levels;
+    const LevelRange levels = session.workspace.view().levels;
     const int deepest = depth_in_view(session) - 1;
     // Leaves are of several levels, and a range from a file may go deeper than the trees do.
     if (levels.leaves) return show_levels(session, {deepest, deepest, false});
@@ -191,22 +191,22 @@ void set_shown_levels(Session& session, const std::string& levels) { show_levels
 
 void set_time_height(Session& session, const std::string& metres) {
     const double height = metres == "auto" ? 0 : number_in(metres, "the height of a second", 1e-6, 1e6);
-    session.change_view([&](ViewState& view) { view.time_height = height; });
+    session.workspace.change_view([&](ViewState& view) { view.time_height = height; });
 }
 
 /// The selected sample's disk, and the leaf that holds it; none if it is not in the picture. The agents of a run are
 /// others at every time, so that none of them keeps its number.
 std::optional<DiskProjection> selected_disk(const Session& session) {
-    const Selection& selected = session.selection;
-    if (selected.kind != Selection::Kind::sample || session.crowd()) return std::nullopt;
-    const auto who = index_in_view(session.fitted(), session.view(), selected.path);
+    const Selection& selected = session.workspace.selection;
+    if (selected.kind != Selection::Kind::sample || session.workspace.crowd()) return std::nullopt;
+    const auto who = index_in_view(session.workspace.fitted(), session.workspace.view(), selected.path);
     if (!who) return std::nullopt;
-    const mobb::Tree& tree = session.fitted().tree(placed_agent_of(session.fitted(), selected.path)->clip);
+    const mobb::Tree& tree = session.workspace.fitted().tree(placed_agent_of(session.workspace.fitted(), selected.path)->clip);
     return DiskProjection{*who, leaf_of_sample(tree, selected.index), selected.index};
 }
 
 void toggle_projection(Session& session) {
-    const auto disk = session.view().projection ? std::nullopt : selected_disk(session);
+    const auto disk = session.workspace.view().projection ? std::nullopt : selected_disk(session);
     show_other_picture(session, [&](ViewState& view) { view.projection = disk; });
 }
 
@@ -236,40 +236,40 @@ void smaller(Session& session) {
 // --- time
 
 void set_time(Session& session, double time) {
-    session.change_view([&](ViewState& view) { view.time = time; });
+    session.workspace.change_view([&](ViewState& view) { view.time = time; });
 }
 
 /// The shortest sample of the paths in the picture, seconds.
 double sample_time(const Session& session) {
     double dt = std::numeric_limits<double>::max();
-    for_each_agent_in_view(session.fitted(), session.view(), [&](const PlacedAgent& who) {
-        dt = std::min(dt, session.fitted().tree(who.clip).clip().dt());
+    for_each_agent_in_view(session.workspace.fitted(), session.workspace.view(), [&](const PlacedAgent& who) {
+        dt = std::min(dt, session.workspace.fitted().tree(who.clip).clip().dt());
     });
     return dt;
 }
 
 /// To the next multiple of a sample after (before) the present time, counted from the first moment.
 void step_time(Session& session, int direction) {
-    const mobb::Interval span = session.time_span();
+    const mobb::Interval span = session.workspace.time_span();
     const double dt = sample_time(session);
-    const double at = (session.view().time.value_or(span.t0) - span.t0) / dt;
+    const double at = (session.workspace.view().time.value_or(span.t0) - span.t0) / dt;
     const double next = direction > 0 ? std::floor(at + kHair) + 1 : std::ceil(at - kHair) - 1;
-    session.stop();
+    session.playback.stop();
     set_time(session, std::clamp(span.t0 + next * dt, span.t0, span.t1));
 }
 
 void play(Session& session) {
-    if (session.playing()) return session.stop();
-    session.play();
+    if (session.playback.playing()) return session.playback.stop();
+    session.playback.play();
 }
 
-bool is_split(const Session& session) { return session.view_count() > 1; }
+bool is_split(const Session& session) { return session.views.count() > 1; }
 
 void toggle_split(Session& session) {
-    if (is_split(session)) return session.close_other_views();
-    mobb::FitOptions other = session.fitted().options();
+    if (is_split(session)) return session.views.close_others();
+    mobb::FitOptions other = session.workspace.fitted().options();
     other.tree = other.tree == mobb::TreeKind::umobb ? mobb::TreeKind::mobb : mobb::TreeKind::umobb;
-    session.split_view(other.tree == mobb::TreeKind::umobb ? "UMOBB" : "MOBB", other);
+    session.views.split(other.tree == mobb::TreeKind::umobb ? "UMOBB" : "MOBB", other);
 }
 
 // --- the tables, in the order of the menus
@@ -285,11 +285,11 @@ std::vector<Command> direction_commands() {
         Command("view.perspective", "Perspective",
                 "Draws what is farther smaller; without it, equal lengths stay equal.",
                 [](Session& session) {
-                    session.change_view([](ViewState& view) { view.camera.perspective = !view.camera.perspective; });
+                    session.workspace.change_view([](ViewState& view) { view.camera.perspective = !view.camera.perspective; });
                 },
                 {.shortcut = "5",
                  .enabled = may_have_perspective,
-                 .checked = [](const Session& session) { return orientation(session.view().camera).perspective; }}),
+                 .checked = [](const Session& session) { return orientation(session.workspace.view().camera).perspective; }}),
         Command(
             "view.frame", "Frame the selection",
             "Brings what is selected into the middle, as large as it fits; without a selection the pair under test, "
@@ -300,8 +300,8 @@ std::vector<Command> direction_commands() {
         Command("view.follow_test", "Follow the test",
                 "Lets the camera go to the pair under test whenever a step's boxes are cut off, lie below a panel, or "
                 "are small in the picture.",
-                [](Session& session) { session.follow_test = !session.follow_test; },
-                {.checked = [](const Session& session) { return session.follow_test; }}),
+                [](Session& session) { session.views.follow_test = !session.views.follow_test; },
+                {.checked = [](const Session& session) { return session.views.follow_test; }}),
     };
     return in_menu("View", rows);
 }
@@ -351,14 +351,14 @@ std::vector<Command> picture_commands() {
                 toggle_split, {.checked = is_split}),
         Command("view.other", "Go to the other view",
                 "Of a split view: commands and panels are about the next part from now on.",
-                [](Session& session) { session.activate_view((session.active_place() + 1) % session.view_count()); },
+                [](Session& session) { session.views.activate((session.views.active() + 1) % session.views.count()); },
                 {.shortcut = "F6", .enabled = is_split}),
         Command(
             "view.link_cameras", "Link cameras",
             "Of a split view: moving the camera of one part moves that of the other.",
-            [](Session& session) { session.link_cameras(!session.document().linked_cameras); },
+            [](Session& session) { session.views.link_cameras(!session.workspace.document().linked_cameras); },
             {.enabled = is_split,
-             .checked = [](const Session& session) { return is_split(session) && session.document().linked_cameras; }}),
+             .checked = [](const Session& session) { return is_split(session) && session.workspace.document().linked_cameras; }}),
     };
     return in_menu("View", rows);
 }
@@ -380,7 +380,7 @@ std::vector<Command> level_commands() {
                 set_shown_levels,
                 {.menu = kNoMenu,
                  .argument = "N|A:B|leaves",
-                 .present = [](const Session& session) { return to_string(session.view().levels); }}),
+                 .present = [](const Session& session) { return to_string(session.workspace.view().levels); }}),
         Command("view.finer", "Finer level", "Shows the boxes one level further down the trees.", finer,
                 {.shortcut = "]", .repeats = true, .enabled = {can_be_finer, why_no_level}}),
         Command("view.coarser", "Coarser level", "Shows the boxes one level nearer to the roots.", coarser,
@@ -389,12 +389,12 @@ std::vector<Command> level_commands() {
             "view.leaves", "Leaves", "Shows the leaves of the trees, whatever their level; leaves the query in view.",
             [](Session& session) { set_shown_levels(session, "leaves"); },
             {.shortcut = "E",
-             .checked = [](const Session& session) { return !session.view().query && session.view().levels.leaves; }}),
+             .checked = [](const Session& session) { return !session.workspace.view().query && session.workspace.view().levels.leaves; }}),
         Command("view.time_height", "Height of a second",
                 "Draws a second so many metres high; auto makes the scene about as tall as wide.", set_time_height,
                 {.menu = kNoMenu,
                  .argument = "M|auto",
-                 .present = [](const Session& session) { return view_option("time_height").text(session.view()); }}),
+                 .present = [](const Session& session) { return view_option("time_height").text(session.workspace.view()); }}),
     };
     return in_menu("View/Levels", rows);
 }
@@ -406,9 +406,9 @@ std::vector<Command> window_commands() {
             "Shows how far the selected sample's disk reaches along the axes of its leaf's box, instead of all else.",
             toggle_projection,
             {.menu = "View/Show",
-             .enabled = {[](const Session& session) { return session.view().projection || selected_disk(session); },
+             .enabled = {[](const Session& session) { return session.workspace.view().projection || selected_disk(session); },
                          [](const Session&) { return std::string_view("no sample in the picture is selected"); }},
-             .checked = [](const Session& session) { return session.view().projection.has_value(); }}),
+             .checked = [](const Session& session) { return session.workspace.view().projection.has_value(); }}),
         option_command(view_option("theme")),
         Command("window.scale", "Scale of text and panels", "Makes text and panels so many times as large, 0.5 to 4.",
                 set_scale,
@@ -437,31 +437,31 @@ std::vector<Command> time_commands() {
                  .argument = "S",
                  .present =
                      [](const Session& session) {
-                         return session.view().time ? short_double(*session.view().time) : std::string();
+                         return session.workspace.view().time ? short_double(*session.workspace.view().time) : std::string();
                      }}),
         Command(
             "time.clear", "No time cursor", "Takes the time cursor out of the picture.",
             [](Session& session) {
-                session.stop();
-                session.change_view([](ViewState& view) { view.time.reset(); });
+                session.playback.stop();
+                session.workspace.change_view([](ViewState& view) { view.time.reset(); });
             },
-            {.enabled = [](const Session& session) { return session.view().time.has_value() && !session.crowd(); }}),
+            {.enabled = [](const Session& session) { return session.workspace.view().time.has_value() && !session.workspace.crowd(); }}),
         Command("time.play", "Play", "Lets the time cursor run, or stops it.", play,
-                {.shortcut = "Space", .checked = [](const Session& session) { return session.playing(); }}),
+                {.shortcut = "Space", .checked = [](const Session& session) { return session.playback.playing(); }}),
         Command("time.start", "To the first moment", "Puts the time cursor where the first path begins.",
-                [](Session& session) { set_time(session, session.time_span().t0); }),
+                [](Session& session) { set_time(session, session.workspace.time_span().t0); }),
         Command("time.end", "To the last moment", "Puts the time cursor where the last path ends.",
-                [](Session& session) { set_time(session, session.time_span().t1); }),
+                [](Session& session) { set_time(session, session.workspace.time_span().t1); }),
         Command("time.forward", "A sample on", "Moves the time cursor on by a sample.",
                 [](Session& session) { step_time(session, 1); }, {.shortcut = ".", .repeats = true}),
         Command("time.back", "A sample back", "Moves the time cursor back by a sample.",
                 [](Session& session) { step_time(session, -1); }, {.shortcut = ",", .repeats = true}),
         Command(
             "time.speed", "Speed of playing", "Plays so many seconds of the scene in a second, 0.01 to 100.",
-            [](Session& session, const std::string& text) { session.speed = number_in(text, "the speed", 0.01, 100); },
+            [](Session& session, const std::string& text) { session.playback.speed = number_in(text, "the speed", 0.01, 100); },
             {.argument = "X",
              .enabled = always,
-             .present = [](const Session& session) { return short_double(session.speed); }}),
+             .present = [](const Session& session) { return short_double(session.playback.speed); }}),
     };
     return in_menu("View/Time", rows);
 }

@@ -82,11 +82,11 @@ bool file_field(Ui& ui, const ExportTarget& target) {
     const FieldEvents events = text_field(ui, "The file to write, a .png", {}, FieldText::file_name);
     ui.mark("export.path");
     ImGui::EndChild();
-    session.exporting.file = session.input.text;
+    session.dialogs.exporting.file = session.dialogs.input.text;
     ImGui::SameLine();
     if (marked_button(ui, "Browse...", "export.browse")) invoke(session, "picture.browse");
     ImGui::PushFont(ui.style.caption);
-    const bool asks = session.input.confirming;
+    const bool asks = session.dialogs.input.confirming;
     const std::string said = asks ? "This file exists. Enter overwrites it." : target.says;
     const bool refused = !target.why_not.empty();
     text_line(refused ? ui.style.error
@@ -161,7 +161,7 @@ std::pair<double, double> range_of_side(bool keeps, double side, double other) {
 
 void size_fields(Ui& ui, PictureSize size) {
     Session& session = ui.session;
-    ExportDialog& dialog = session.exporting;
+    ExportDialog& dialog = session.dialogs.exporting;
     const bool keeps = session.settings.picture_export.keeps_shape;
     if (size != dialog.made || !keeps) dialog.shape = dialog.made = size;
     form_label(ui, "", nullptr);
@@ -230,11 +230,11 @@ void shown_boxes(Ui& ui) {
     const float left = ImGui::GetCursorPosX();
     int index = 0;
     for (const ViewOption& option : view_options()) {
-        const bool may_be = option.may_be_seen ? option.may_be_seen(session.view()) : true;
+        const bool may_be = option.may_be_seen ? option.may_be_seen(session.workspace.view()) : true;
         if (option.without.empty() || !may_be) continue;
         if (index++ % 2 == 1) ImGui::SameLine(left + column);
         const std::string key(option.key);
-        const bool is_seen = can_leave_out(option, session.view());
+        const bool is_seen = can_leave_out(option, session.workspace.view());
         bool shown = is_seen && !without.contains(key);
         ImGui::BeginDisabled(!is_seen);
         if (ImGui::Checkbox(std::string(option.title).c_str(), &shown)) {
@@ -272,7 +272,7 @@ void settings_fields(Ui& ui, const PictureOrder& order, const std::string& why_n
 // --- the preview
 
 void make_preview(Session& session) {
-    ExportDialog& dialog = session.exporting;
+    ExportDialog& dialog = session.dialogs.exporting;
     const auto begun = std::chrono::steady_clock::now();
     dialog.shown = dialog.wanted;
     dialog.image.reset();
@@ -291,10 +291,10 @@ void make_preview(Session& session) {
 /// Has a preview made for so much room, in pixels, if it is not there.
 void want_preview(Ui& ui, const PictureOrder& order, ImVec2 room) {
     Session& session = ui.session;
-    ExportDialog& dialog = session.exporting;
+    ExportDialog& dialog = session.dialogs.exporting;
     const PictureSize size = order.options.size;
     const double times = std::max(size.width / std::max<double>(room.x, 1), size.height / std::max<double>(room.y, 1));
-    ExportDialog::Preview wanted{session.document().fitted, order.view, order.options,
+    ExportDialog::Preview wanted{session.workspace.document().fitted, order.view, order.options,
                                  order.select ? text_of(*order.select) : "",
                                  std::max(1, static_cast<int>(std::ceil(times)))};
     if (!wanted.same_picture(dialog.wanted)) {
@@ -302,14 +302,14 @@ void want_preview(Ui& ui, const PictureOrder& order, ImVec2 room) {
         dialog.wanted_since = ui.now;
     }
     if (dialog.wanted.same_picture(dialog.shown)) return;
-    const double wait = session.attended() ? std::min(dialog.seconds, 1e-3 * kLongestRest) : 0;
+    const double wait = session.options.attended ? std::min(dialog.seconds, 1e-3 * kLongestRest) : 0;
     const double due = dialog.wanted_since + wait - ui.now;
     if (due > 0) return ui.want_frame_in(due);
-    session.enqueue([&session] { make_preview(session); });
+    session.queue.push([&session] { make_preview(session); });
 }
 
 void draw_preview(Ui& ui, const PictureOrder& order, float height) {
-    const ExportDialog& dialog = ui.session.exporting;
+    const ExportDialog& dialog = ui.session.dialogs.exporting;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 room{ImGui::GetContentRegionAvail().x, height};
     want_preview(ui, order, room);
@@ -336,13 +336,13 @@ void draw_preview(Ui& ui, const PictureOrder& order, float height) {
 
 /// What is exported, and as what.
 std::string exported_subject(const Session& session) {
-    std::string out = "What the window shows of " + session.title();
-    if (!session.open_case_name().empty()) out = "The scene of the case " + session.open_case_name();
-    if (session.view_count() < 2) return out;
-    const std::size_t place = session.active_place();
-    const std::string which = place == 0 ? "the left" : place + 1 == session.view_count() ? "the right" : "the middle";
+    std::string out = "What the window shows of " + session.workspace.title();
+    if (!session.reviews.open_case_name().empty()) out = "The scene of the case " + session.reviews.open_case_name();
+    if (session.views.count() < 2) return out;
+    const std::size_t place = session.views.active();
+    const std::string which = place == 0 ? "the left" : place + 1 == session.views.count() ? "the right" : "the middle";
     return out + ", " + which + " view alone (" +
-           std::string(mobb::info(session.document().fitted->options().tree).label) + ")";
+           std::string(mobb::info(session.workspace.document().fitted->options().tree).label) + ")";
 }
 
 // --- the command line
@@ -400,19 +400,19 @@ float command_line_height() {
 
 void export_now(Ui& ui, const ExportTarget& target) {
     Session& session = ui.session;
-    if (target.is_there && !session.input.confirming && session.exporting.agreed != target.file) {
-        session.input.confirming = true;
-        session.input.fresh = true;  // another name may be typed
+    if (target.is_there && !session.dialogs.input.confirming && session.dialogs.exporting.agreed != target.file) {
+        session.dialogs.input.confirming = true;
+        session.dialogs.input.fresh = true;  // another name may be typed
         return;
     }
-    session.enqueue([&session, file = target.file] {
+    session.queue.push([&session, file = target.file] {
         try {
             run_command(session, "picture.write", file.string());
-            session.exporting.agreed = file;
-            if (session.dialog == Dialog::export_picture) session.close_dialog();
+            session.dialogs.exporting.agreed = file;
+            if (session.dialogs.now == Dialog::export_picture) session.dialogs.close();
         } catch (const std::exception& error) {
-            session.tell(MessageLevel::error, error.what());
-            session.input.confirming = false;
+            session.notifications.tell(MessageLevel::error, error.what());
+            session.dialogs.input.confirming = false;
         }
     });
 }
@@ -436,7 +436,7 @@ bool export_buttons(Ui& ui, const std::string& why_no_picture, const std::string
     Session& session = ui.session;
     ImGui::BeginDisabled(!why_not.empty());
     const bool pressed_it =
-        marked_button(ui, session.input.confirming ? "Overwrite" : "Export", "export.ok", why_not.empty());
+        marked_button(ui, session.dialogs.input.confirming ? "Overwrite" : "Export", "export.ok", why_not.empty());
     ImGui::EndDisabled();
     if (!why_not.empty() && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
         ImGui::SetTooltip("%s", why_not.c_str());
@@ -448,7 +448,7 @@ bool export_buttons(Ui& ui, const std::string& why_no_picture, const std::string
     ImGui::SameLine();
     const float close = button_width("Close");
     ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowContentRegionMax().x - close));
-    if (marked_button(ui, "Close", "export.close")) session.enqueue([&session] { session.close_dialog(); });
+    if (marked_button(ui, "Close", "export.close")) session.queue.push([&session] { session.dialogs.close(); });
     return pressed_it;
 }
 
@@ -456,8 +456,8 @@ bool export_buttons(Ui& ui, const std::string& why_no_picture, const std::string
 
 void export_dialog(Ui& ui) {
     Session& session = ui.session;
-    if (session.empty()) {
-        session.enqueue([&session] { session.close_dialog(); });  // what was to be exported is closed
+    if (session.workspace.empty()) {
+        session.queue.push([&session] { session.dialogs.close(); });  // what was to be exported is closed
         return;
     }
     const bool keys_are_taken = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) || ImGui::GetIO().WantTextInput;

@@ -77,7 +77,7 @@ bool is_clip(const FileEntry& entry) { return !entry.folder && unpacked_extensio
 /// Pictures that are compared must not change with the dates of files.
 std::string date_text(const Session& session, std::time_t when) {
     std::tm parts{};
-    if (!session.may_write || !::localtime_r(&when, &parts)) return "";
+    if (!session.options.may_write || !::localtime_r(&when, &parts)) return "";
     std::array<char, 32> text{};
     const std::size_t length = std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M", &parts);
     return {text.data(), length};
@@ -86,55 +86,55 @@ std::string date_text(const Session& session, std::time_t when) {
 /// Where one was last; a scene that has a file is saved beside it.
 void begin(Session& session, const Purpose& purpose) {
     std::filesystem::path folder = session.settings.folder;
-    if (purpose.writes() && session.file()) folder = session.file()->parent_path();
+    if (purpose.writes() && session.workspace.file) folder = session.workspace.file->parent_path();
     if (!folder.empty() && !is_folder(folder)) folder.clear();
-    const std::string open = session.scene().file.filename().string();
-    const bool to_export = session.dialog == Dialog::export_file;
+    const std::string open = session.workspace.scene().file.filename().string();
+    const bool to_export = session.dialogs.now == Dialog::export_file;
     const std::filesystem::path exported = to_export ? export_file(session) : std::filesystem::path();
     if (to_export && is_folder(exported.parent_path())) folder = exported.parent_path();
-    session.browser.order_by(session.settings.file_order);
-    session.browser.begin(folder, purpose.extensions, open);
-    const std::string stem = std::filesystem::path(session.title()).stem().string();
-    session.input.set_text(to_export ? exported.filename().string() : purpose.writes() ? stem + purpose.extension : "");
+    session.dialogs.browser.order_by(session.settings.file_order);
+    session.dialogs.browser.begin(folder, purpose.extensions, open);
+    const std::string stem = std::filesystem::path(session.workspace.title()).stem().string();
+    session.dialogs.input.set_text(to_export ? exported.filename().string() : purpose.writes() ? stem + purpose.extension : "");
 }
 
 /// What was typed led elsewhere; the name of a file that is to be written stays.
 void keep_name(Session& session, const Purpose& purpose) {
-    const std::string& typed = session.input.text;
-    session.input.set_text(purpose.writes() ? typed.substr(typed.rfind('/') + 1) : "");
+    const std::string& typed = session.dialogs.input.text;
+    session.dialogs.input.set_text(purpose.writes() ? typed.substr(typed.rfind('/') + 1) : "");
 }
 
 void go_into(Session& session, const Purpose& purpose, const std::filesystem::path& folder) {
-    session.browser.go(folder);
+    session.dialogs.browser.go(folder);
     keep_name(session, purpose);
 }
 
 void go_up(Session& session, const Purpose& purpose) {
-    session.browser.go_up();
+    session.dialogs.browser.go_up();
     keep_name(session, purpose);
 }
 
 /// Does the dialog's command with files; what goes wrong is said, and the dialog stays.
 void take(Session& session, const Purpose& purpose, const std::vector<std::filesystem::path>& files) {
-    const Dialog dialog = session.dialog;
+    const Dialog dialog = session.dialogs.now;
     try {
         run_command(session, purpose.command, as_argument(files));
-        if (session.dialog == dialog) session.close_dialog();
+        if (session.dialogs.now == dialog) session.dialogs.close();
     } catch (const std::exception& error) {
-        session.tell(MessageLevel::error, error.what());
-        session.input.fresh = true;
+        session.notifications.tell(MessageLevel::error, error.what());
+        session.dialogs.input.fresh = true;
     }
 }
 
 /// A file that is to be written, with the extension that it lacks; asks before another one is overwritten.
 void take_written(Session& session, const Purpose& purpose) {
-    DialogInput& input = session.input;
-    std::filesystem::path path = typed_path(input.text, session.browser.folder());
+    DialogInput& input = session.dialogs.input;
+    std::filesystem::path path = typed_path(input.text, session.dialogs.browser.folder());
     if (is_folder(path)) return go_into(session, purpose, path);
     path = with_extension(path, purpose.extension);
     std::error_code ignored;
-    const bool keeps_own = session.dialog == Dialog::save_as && session.file() &&
-                           std::filesystem::equivalent(path, *session.file(), ignored);
+    const bool keeps_own = session.dialogs.now == Dialog::save_as && session.workspace.file &&
+                           std::filesystem::equivalent(path, *session.workspace.file, ignored);
     if (!keeps_own && !input.confirming && std::filesystem::exists(path, ignored)) {
         input.confirming = true;
         input.fresh = true;
@@ -142,26 +142,26 @@ void take_written(Session& session, const Purpose& purpose) {
     }
     const auto pending_goes_on = [&] {
         try {
-            session.save_as(path);  // closes the dialog, and goes on with what waited for it
+            session.files.save_as(path);  // closes the dialog, and goes on with what waited for it
         } catch (const std::exception& error) {
-            session.tell(MessageLevel::error, error.what());
+            session.notifications.tell(MessageLevel::error, error.what());
             input.fresh = true;
         }
     };
     // Who agreed here is not asked again where it is written.
-    if (session.dialog == Dialog::export_file) session.exporting.agreed = input.confirming ? path : "";
-    session.dialog == Dialog::save_as ? pending_goes_on() : take(session, purpose, {path});
+    if (session.dialogs.now == Dialog::export_file) session.dialogs.exporting.agreed = input.confirming ? path : "";
+    session.dialogs.now == Dialog::save_as ? pending_goes_on() : take(session, purpose, {path});
 }
 
 /// What is chosen, which is what was typed where that is listed; a folder is gone into.
 void take_read(Session& session, const Purpose& purpose) {
-    const std::vector<std::filesystem::path> chosen = session.browser.chosen();
+    const std::vector<std::filesystem::path> chosen = session.dialogs.browser.chosen();
     if (chosen.size() == 1 && is_folder(chosen.front())) return go_into(session, purpose, chosen.front());
     if (!chosen.empty()) return take(session, purpose, chosen);
-    const std::string& typed = session.input.text;
-    const std::filesystem::path path = typed_path(typed, session.browser.folder()).lexically_normal();
+    const std::string& typed = session.dialogs.input.text;
+    const std::filesystem::path path = typed_path(typed, session.dialogs.browser.folder()).lexically_normal();
     if (typed.empty()) {
-        session.input.fresh = true;
+        session.dialogs.input.fresh = true;
     } else if (is_folder(path)) {
         go_into(session, purpose, path);
     } else {
@@ -183,12 +183,12 @@ void crumbs(Ui& ui, const Purpose& purpose) {
     Session& session = ui.session;
     const std::string prefix = purpose.prefix;
     const auto go = [&](const std::filesystem::path& folder) {
-        session.enqueue([&session, purpose, folder] { go_into(session, purpose, folder); });
+        session.queue.push([&session, purpose, folder] { go_into(session, purpose, folder); });
     };
-    if (ImGui::ArrowButton("##up", ImGuiDir_Up)) session.enqueue([&session, purpose] { go_up(session, purpose); });
+    if (ImGui::ArrowButton("##up", ImGuiDir_Up)) session.queue.push([&session, purpose] { go_up(session, purpose); });
     ui.mark(prefix + ".up");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("The folder above (Backspace, or Alt+Up)");
-    const std::vector<std::filesystem::path> way = session.browser.way();
+    const std::vector<std::filesystem::path> way = session.dialogs.browser.way();
     const std::size_t first = way.size() > kMostCrumbs ? way.size() - kMostCrumbs : 0;
     const float room = ImGui::GetContentRegionMax().x / static_cast<float>(kMostCrumbs + 1);
     ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0, 0, 0, 0));
@@ -226,7 +226,7 @@ std::vector<FilePlace> places(const Session& session) {
     std::vector<FilePlace> out;
     const std::string home = expanded("~");
     out.push_back({"Home", home == "~" ? "/" : home});
-    if (session.file()) out.push_back({"This scene's", typed_path(".", session.file()->parent_path())});
+    if (session.workspace.file) out.push_back({"This scene's", typed_path(".", session.workspace.file->parent_path())});
     try {
         out.push_back({"Examples", demo_scene_file().parent_path().parent_path()});
     } catch (const MachineError&) {
@@ -254,7 +254,7 @@ void place_list(Ui& ui, const Purpose& purpose) {
             ImGui::PushID(static_cast<int>(i));
             ImGui::PushID(mark.c_str());
             if (ImGui::Selectable(fitted_text(place.name, ImGui::GetContentRegionAvail().x).c_str())) {
-                session.enqueue([&session, purpose, to = place.folder] { go_into(session, purpose, to); });
+                session.queue.push([&session, purpose, to = place.folder] { go_into(session, purpose, to); });
             }
             ImGui::PopID();
             ImGui::PopID();
@@ -296,7 +296,7 @@ void order_by(Session& session, const std::string& column) {
     const std::string first = column == "name" ? column : "-" + column;
     const std::string other = column == "name" ? "-" + column : column;
     now = now == first ? other : first;
-    session.browser.order_by(now);
+    session.dialogs.browser.order_by(now);
 }
 
 /// The heads of the columns; a click orders by one, the next one the other way round.
@@ -336,7 +336,7 @@ void column_heads(Ui& ui, const Purpose& purpose, const Columns& columns) {
 
 /// One line of the list; returns whether it was clicked.
 bool file_row(Ui& ui, const FileEntry& entry, std::size_t index, const Columns& columns) {
-    const FileBrowser& browser = ui.session.browser;
+    const FileBrowser& browser = ui.session.dialogs.browser;
     const float height = ImGui::GetTextLineHeight() + ui.px(6);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::PushID(static_cast<int>(index));
@@ -364,19 +364,19 @@ bool file_row(Ui& ui, const FileEntry& entry, std::size_t index, const Columns& 
 /// A click on an entry; whether it is taken.
 bool clicked_entry(Session& session, const Purpose& purpose, std::size_t index) {
     const ImGuiIO& io = ImGui::GetIO();
-    const FileEntry& entry = session.browser.entries()[index];
-    session.input.fresh = true;  // keys go on in the field
-    session.browser.choose(index, io.KeyShift && !purpose.writes()  ? Choose::range
+    const FileEntry& entry = session.dialogs.browser.entries()[index];
+    session.dialogs.input.fresh = true;  // keys go on in the field
+    session.dialogs.browser.choose(index, io.KeyShift && !purpose.writes()  ? Choose::range
                                   : io.KeyCtrl && !purpose.writes() ? Choose::toggle
                                                                     : Choose::only);
     const bool twice = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
     if (purpose.writes()) {
         if (entry.folder && twice) {
-            session.enqueue(
-                [&session, purpose, to = session.browser.listed() / entry.name] { go_into(session, purpose, to); });
+            session.queue.push(
+                [&session, purpose, to = session.dialogs.browser.listed() / entry.name] { go_into(session, purpose, to); });
         }
         // The name of a file that is there may be meant for the new one.
-        if (!entry.folder) session.input.set_text(entry.name);
+        if (!entry.folder) session.dialogs.input.set_text(entry.name);
         return twice && !entry.folder;
     }
     return twice;
@@ -384,7 +384,7 @@ bool clicked_entry(Session& session, const Purpose& purpose, std::size_t index) 
 
 /// The keys that move through the list while the field has the others.
 bool keys_in_list(Session& session, const Purpose& purpose) {
-    FileBrowser& browser = session.browser;
+    FileBrowser& browser = session.dialogs.browser;
     const ImGuiIO& io = ImGui::GetIO();
     if (browser.entries().empty() || io.KeyAlt) return false;
     int at = static_cast<int>(browser.cursor());
@@ -401,14 +401,14 @@ bool keys_in_list(Session& session, const Purpose& purpose) {
         if (io.KeyCtrl && pressed(key)) order_by(session, column);
     }
     if (several && io.KeyCtrl && pressed(ImGuiKey_Space)) browser.choose(browser.cursor(), Choose::toggle);
-    if (several && io.KeyCtrl && pressed(ImGuiKey_A) && session.input.text.empty()) browser.choose_all();
+    if (several && io.KeyCtrl && pressed(ImGuiKey_A) && session.dialogs.input.text.empty()) browser.choose_all();
     return moved;
 }
 
 /// Whether an entry was taken by a double click.
 bool listing(Ui& ui, const Purpose& purpose, bool moved) {
     Session& session = ui.session;
-    const FileBrowser& browser = session.browser;
+    const FileBrowser& browser = session.dialogs.browser;
     const Columns columns = columns_of(ui, ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize);
     column_heads(ui, purpose, columns);
     ImGui::BeginChild("entries", {0, 0}, false);
@@ -417,7 +417,7 @@ bool listing(Ui& ui, const Purpose& purpose, bool moved) {
         words(ui.style.error, browser.error());
     } else if (browser.entries().empty()) {
         words(ui.style.quiet, purpose.writes()             ? "No such file is here yet."
-                              : session.input.text.empty() ? "There is nothing here that can be opened."
+                              : session.dialogs.input.text.empty() ? "There is nothing here that can be opened."
                                                            : "No name here holds what is typed.");
     }
     std::optional<std::size_t> clicked;
@@ -442,16 +442,16 @@ bool listing(Ui& ui, const Purpose& purpose, bool moved) {
 
 const FileSummary* summary_at_cursor(Ui& ui) {
     Session& session = ui.session;
-    const FileBrowser& browser = session.browser;
+    const FileBrowser& browser = session.dialogs.browser;
     if (browser.entries().empty()) return nullptr;
     const std::filesystem::path file = browser.listed() / browser.entries()[browser.cursor()].name;
-    const FileSummary* summary = session.preview.ask(file, ui.now, !session.attended(), session.hooks.wake);
-    if (!summary) ui.want_frame_in(session.preview.ask_again_in(ui.now));
+    const FileSummary* summary = session.dialogs.preview.ask(file, ui.now, !session.options.attended, session.hooks.wake);
+    if (!summary) ui.want_frame_in(session.dialogs.preview.ask_again_in(ui.now));
     return summary;
 }
 
 void preview(Ui& ui) {
-    const FileBrowser& browser = ui.session.browser;
+    const FileBrowser& browser = ui.session.dialogs.browser;
     if (browser.entries().empty()) return;
     const FileEntry& entry = browser.entries()[browser.cursor()];
     ImGui::TextUnformatted(fitted_text(entry.name, ImGui::GetContentRegionAvail().x).c_str());
@@ -482,7 +482,7 @@ void preview(Ui& ui) {
 
 /// In a line, where there is no room beside the list.
 std::string in_a_line(Ui& ui, bool has_preview) {
-    const FileBrowser& browser = ui.session.browser;
+    const FileBrowser& browser = ui.session.dialogs.browser;
     if (browser.chosen_count() > 1) return counted(browser.chosen_count(), "entry", "entries") + " chosen";
     const FileSummary* summary = has_preview ? nullptr : summary_at_cursor(ui);
     return summary ? summary->title : "";
@@ -500,12 +500,12 @@ bool flowing_button(Ui& ui, const char* label, const std::string& mark, const ch
 
 void file_dialog(Ui& ui) {
     Session& session = ui.session;
-    DialogInput& input = session.input;
-    FileBrowser& browser = session.browser;
-    const Purpose purpose = purpose_of(session.dialog);
+    DialogInput& input = session.dialogs.input;
+    FileBrowser& browser = session.dialogs.browser;
+    const Purpose purpose = purpose_of(session.dialogs.now);
     const std::string prefix = purpose.prefix;
     const auto enqueue = [&](void (*what)(Session&, const Purpose&)) {
-        session.enqueue([&session, purpose, what] { what(session, purpose); });
+        session.queue.push([&session, purpose, what] { what(session, purpose); });
     };
     if (input.generation == 0) begin(session, purpose);
     begin_dialog(ui, "file", {kDialogWidth, kDialogHeight});
@@ -523,7 +523,7 @@ void file_dialog(Ui& ui) {
                                    : text_field(ui, "A part of a name, or a path; Tab completes it", complete);
     ui.mark(prefix + ".path");
     browser.follow(input.text, !purpose.writes());
-    session.settings.folder = session.attended() ? browser.way().back() : browser.folder();
+    session.settings.folder = session.options.attended ? browser.way().back() : browser.folder();
     const bool moved = keys_in_list(session, purpose);
     if (ImGui::GetIO().KeyCtrl && pressed(Key::h)) browser.show_hidden(!browser.shows_hidden());
 
@@ -531,7 +531,7 @@ void file_dialog(Ui& ui) {
     const bool has_places = room >= ui.px(kPlacesWidth + kLeastList);
     const float preview_room = room - (has_places ? ui.px(kPlacesWidth) : 0);
     const bool has_preview =
-        !purpose.writes() && session.dialog != Dialog::review && preview_room >= ui.px(kPreviewWidth + kLeastList);
+        !purpose.writes() && session.dialogs.now != Dialog::review && preview_room >= ui.px(kPreviewWidth + kLeastList);
     const bool one_line = room >= ui.px(600);
     const float foot = (one_line ? 1.0f : 2.0f) * ImGui::GetFrameHeightWithSpacing() + ui.px(4);
     if (has_places) {
@@ -550,13 +550,13 @@ void file_dialog(Ui& ui) {
         ImGui::EndChild();
     }
 
-    const bool of_folder = session.dialog == Dialog::review;
+    const bool of_folder = session.dialogs.now == Dialog::review;
     const bool agreed =
         marked_button(ui, input.confirming ? "Overwrite" : purpose.button, (prefix + ".ok").c_str(), true);
     accepted |= agreed && !of_folder;
     ImGui::SameLine();
     if (marked_button(ui, "Cancel", (prefix + ".cancel").c_str())) {
-        session.enqueue([&session] { session.close_dialog(); });
+        session.queue.push([&session] { session.dialogs.close(); });
     }
     bool as_clips = agreed && of_folder;
     if (!purpose.writes() && !of_folder) {
@@ -585,7 +585,7 @@ void file_dialog(Ui& ui) {
     }
     end_dialog();
     if (as_clips) {
-        session.enqueue([&session, purpose] { take(session, purpose, {folder_of_clips(session.browser)}); });
+        session.queue.push([&session, purpose] { take(session, purpose, {folder_of_clips(session.dialogs.browser)}); });
     } else if (accepted) {
         enqueue(purpose.writes() ? take_written : take_read);
     } else if (up) {

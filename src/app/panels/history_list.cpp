@@ -19,7 +19,7 @@ std::string name_of_state(const History& history, std::size_t state) {
 }
 
 void state_row(Ui& ui, std::size_t state) {
-    const History& history = ui.session.history();
+    const History& history = ui.session.workspace.history;
     const std::size_t now = history.place();
     const std::string remark = state == now ? "now" : state < now ? "undo to here" : "redo to here";
     if (row(ui, {"history." + std::to_string(state), name_of_state(history, state), remark, state == now})) {
@@ -33,7 +33,7 @@ void history_list(Ui& ui) {
     begin_dialog(ui, "history", {420, 440});
     dialog_title(ui, "History");
     words(ui.style.quiet, "A click, Up or Down goes there; what comes later stays until something else is done.");
-    const History& history = ui.session.history();
+    const History& history = ui.session.workspace.history;
     const int count = static_cast<int>(history.count());
     int now = static_cast<int>(history.place());
     const bool moved = move_picked(now, count);

@@ -67,7 +67,7 @@ bool choice_row(Ui& ui, const ImportField& field, const std::string& label, cons
 /// What the file has to choose from, searched by a few letters where it is much; a unit or a radius may be any number
 /// too.
 void offered_choices(Ui& ui, const ImportField& field) {
-    std::string& search = ui.session.importing.search;
+    std::string& search = ui.session.imports.dialog.search;
     if (ImGui::IsWindowAppearing()) search.clear();
     const std::vector<OfferedChoice>& all = field.offer->choices;
     const bool is_unit = field.option.key == std::string_view("unit");
@@ -142,7 +142,7 @@ void number_option(Ui& ui, const ImportField& field) {
 }
 
 void trim_field(Ui& ui, const ImportField& field) {
-    const double seconds = ui.session.importing.offer ? ui.session.importing.offer->seconds : 0;
+    const double seconds = ui.session.imports.dialog.offer ? ui.session.imports.dialog.offer->seconds : 0;
     const auto [begin, end] = field.clip.options.trim.value_or(std::pair(0.0, seconds));
     const float spacing = ui.px(6);
     const float width = (ImGui::CalcItemWidth() - spacing) / 2;
@@ -184,8 +184,8 @@ void field_remarks(Ui& ui, const ImportField& field, float left) {
         line(ui.style.warning, "! " + said(warning));
         ui.mark(field.mark() + ".warning");
     }
-    const auto refused = ui.session.importing.refused.find(field.option.key);
-    if (refused != ui.session.importing.refused.end()) {
+    const auto refused = ui.session.imports.dialog.refused.find(field.option.key);
+    if (refused != ui.session.imports.dialog.refused.end()) {
         line(ui.style.error, "\u00D7 " + refused->second.text + ": " + refused->second.why);
         ui.mark(field.mark() + ".error");
     }
@@ -193,7 +193,7 @@ void field_remarks(Ui& ui, const ImportField& field, float left) {
 }
 
 void import_field(Ui& ui, const ImportField& field) {
-    ClipImport& now = ui.session.importing;
+    ClipImport& now = ui.session.imports.dialog;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const bool asked_for = now.field == field.option.key;
     ImGui::PushID(field.option.key);
@@ -237,7 +237,7 @@ void import_field(Ui& ui, const ImportField& field) {
 
 /// A clip of the scene to go on with.
 void clip_chooser(Ui& ui, int index) {
-    const auto& clips = ui.session.scene().clips;
+    const auto& clips = ui.session.workspace.scene().clips;
     form_label(ui, "Clip", "Which clip of the scene");
     if (!begin_dropdown(ui, "import.clip", clips[static_cast<std::size_t>(index)].name, "Clip")) return;
     clipped_rows(ui, "clips", static_cast<int>(clips.size()), ImGui::GetTextLineHeightWithSpacing(), [&](int i) {
@@ -255,10 +255,10 @@ void clip_chooser(Ui& ui, int index) {
 }
 
 void whole_file(Ui& ui, int index) {
-    const std::size_t clips = clips_of_same_source(ui.session.scene(), index).size();
+    const std::size_t clips = clips_of_same_source(ui.session.workspace.scene(), index).size();
     if (clips < 2) return;
     ImGui::Checkbox(("for all " + std::to_string(clips) + " clips of this file").c_str(),
-                    &ui.session.importing.whole_file);
+                    &ui.session.imports.dialog.whole_file);
     ui.mark("import.whole_file");
     if (ImGui::IsItemHovered()) {
         ImGui::SetTooltip(
@@ -267,8 +267,8 @@ void whole_file(Ui& ui, int index) {
 }
 
 void fields(Ui& ui, const SceneClip& clip, int index) {
-    const ClipImport& now = ui.session.importing;
-    if (ui.session.scene().clips.size() > 1) clip_chooser(ui, index);
+    const ClipImport& now = ui.session.imports.dialog;
+    if (ui.session.workspace.scene().clips.size() > 1) clip_chooser(ui, index);
     whole_file(ui, index);
     if (!now.offer) {
         words(now.unreadable.empty() ? ui.style.quiet : ui.style.error,
@@ -300,11 +300,11 @@ std::string said_of(const SceneClip& clip) {
 
 void import_dialog(Ui& ui) {
     Session& session = ui.session;
-    const int index = session.importing.clip;
-    const auto& clips = session.scene().clips;
+    const int index = session.imports.dialog.clip;
+    const auto& clips = session.workspace.scene().clips;
     const bool is_there = index >= 0 && static_cast<std::size_t>(index) < clips.size();
     if (!is_there || !clips[static_cast<std::size_t>(index)].source) {
-        session.enqueue([&session] { session.close_dialog(); });  // the clip, or that it has a file, was undone
+        session.queue.push([&session] { session.dialogs.close(); });  // the clip, or that it has a file, was undone
         return;
     }
     const SceneClip& clip = clips[static_cast<std::size_t>(index)];
@@ -336,7 +336,7 @@ void import_dialog(Ui& ui) {
     const float close = button_width("Close");
     ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - close);
     if (marked_button(ui, "Close", "import.close", true) || (pressed(ImGuiKey_Enter) && !keys_are_taken)) {
-        session.enqueue([&session] { session.close_dialog(); });
+        session.queue.push([&session] { session.dialogs.close(); });
     }
     end_dialog();
 }

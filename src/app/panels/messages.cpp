@@ -50,7 +50,7 @@ MessagePlace place_of(const Ui& ui) {
     const ImVec2 room = ImGui::GetIO().DisplaySize;
     const float gap = ui.px(12);
     // Below what a dialog says and asks.
-    if (ui.session.dialog != Dialog::none) {
+    if (ui.session.dialogs.now != Dialog::none) {
         const float width = std::min(room.x - 2 * gap, ui.px(kWidest));
         return {{(room.x + width) / 2, room.y - gap}, width};
     }
@@ -78,9 +78,9 @@ Wish buttons(Ui& ui, const Message& message, const std::string& mark) {
     Session& session = ui.session;
     if (message.offer) {
         if (small_button(ui, message.offer->label.c_str(), mark + ".offer")) {
-            session.enqueue([&session, offer = *message.offer] {
-                if (session.dialog == Dialog::messages) session.close_dialog();
-                session.put_messages_away();
+            session.queue.push([&session, offer = *message.offer] {
+                if (session.dialogs.now == Dialog::messages) session.dialogs.close();
+                session.notifications.put_away();
                 run_command(session, offer.command, offer.argument);
             });
         }
@@ -147,13 +147,13 @@ void draw_bell(ImDrawList& draw, ImVec2 middle, float height, ImU32 color) {
 void messages(Ui& ui) {
     Session& session = ui.session;
     std::vector<std::size_t> up;
-    for (std::size_t i = session.messages().size(); i-- > 0;) {
-        if (session.messages()[i].up) up.push_back(i);
+    for (std::size_t i = session.notifications.all().size(); i-- > 0;) {
+        if (session.notifications.all()[i].up) up.push_back(i);
     }
     if (up.empty()) return;
     const std::size_t shown = std::min(up.size(), kMostUp);
     float needed = 0;
-    for (std::size_t i = 0; i < shown; ++i) needed = std::max(needed, width_of(ui, session.messages()[up[i]]));
+    for (std::size_t i = 0; i < shown; ++i) needed = std::max(needed, width_of(ui, session.notifications.all()[up[i]]));
     MessagePlace place = place_of(ui);
     place.width = std::min(place.width, needed);
     ImGui::SetNextWindowPos(place.corner, ImGuiCond_Always, {1, 1});
@@ -171,7 +171,7 @@ void messages(Ui& ui) {
     std::optional<std::size_t> gone;
     // The latest at the bottom, where the eye goes first.
     for (std::size_t i = shown; i-- > 0;) {
-        const Message& message = session.messages()[up[i]];
+        const Message& message = session.notifications.all()[up[i]];
         if (draw_message(ui, message, "message." + std::to_string(up[i]), "", true) == Wish::dismiss) gone = up[i];
     }
     if (up.size() > shown) {
@@ -179,13 +179,13 @@ void messages(Ui& ui) {
     }
     const bool held = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
     ImGui::End();
-    ui.want_frame_in(session.age_messages(ui.now, held));
-    if (gone) session.enqueue([&session, index = *gone] { session.dismiss(index); });
+    ui.want_frame_in(session.notifications.age(ui.now, held));
+    if (gone) session.queue.push([&session, index = *gone] { session.notifications.dismiss(index); });
 }
 
 float message_bell(Ui& ui) {
     Session& session = ui.session;
-    const std::size_t unread = session.unread();
+    const std::size_t unread = session.notifications.unread();
     const std::string count = unread > 0 ? std::to_string(unread) : "";
     const float pad = ui.px(10);
     const float height = ImGui::GetFrameHeight();
@@ -200,11 +200,11 @@ float message_bell(Ui& ui) {
     if (hovered) {
         const std::string key(first_shortcut(*find_command("help.messages")));
         const std::string text = unread > 0                   ? counted(unread, "unread message", "unread messages")
-                                 : session.messages().empty() ? std::string("No messages")
+                                 : session.notifications.all().empty() ? std::string("No messages")
                                                               : std::string("Messages");
         ImGui::SetTooltip("%s (%s)", text.c_str(), key.c_str());
     }
-    const bool error = std::ranges::any_of(session.messages(), [](const Message& message) {
+    const bool error = std::ranges::any_of(session.notifications.all(), [](const Message& message) {
         return !message.read && message.level == MessageLevel::error;
     });
     const ImU32 color = unread > 0 ? (error ? ui.style.error : ui.style.warning)
@@ -222,13 +222,13 @@ float message_bell(Ui& ui) {
 
 void message_list(Ui& ui) {
     Session& session = ui.session;
-    DialogInput& input = session.input;
+    DialogInput& input = session.dialogs.input;
     begin_dialog(ui, "message list", {kListWidth, kListHeight});
     dialog_title(ui, "Messages");
     const float foot = ImGui::GetFrameHeightWithSpacing() + ui.px(4);
     ImGui::BeginChild("list", {0, -foot}, false);
     ImGui::Dummy({0, ui.px(2)});
-    const std::vector<Message>& all = session.messages();
+    const std::vector<Message>& all = session.notifications.all();
     const int count = static_cast<int>(all.size());
     if (all.empty()) ImGui::TextDisabled("Nothing was said yet.");
     const bool moved = move_picked(input.picked, count);
@@ -259,7 +259,7 @@ void message_list(Ui& ui) {
         session.hooks.set_clipboard(picked->text);
     }
     if (marked_button(ui, "Close", "messages.close", true) || pressed(ImGuiKey_Enter)) {
-        session.enqueue([&session] { session.close_dialog(); });
+        session.queue.push([&session] { session.dialogs.close(); });
     }
     if (!all.empty()) {
         ImGui::SameLine();
@@ -269,7 +269,7 @@ void message_list(Ui& ui) {
         ImGui::TextDisabled("Up and Down choose, Ctrl+C copies, Delete takes it off the list");
     }
     end_dialog();
-    if (gone) session.enqueue([&session, which = *gone] { session.dismiss(which); });
+    if (gone) session.queue.push([&session, which = *gone] { session.notifications.dismiss(which); });
     ui.want_frame_in(1);  // the ages go on
 }
 

@@ -38,11 +38,11 @@ bool palette_row(Ui& ui, int index, bool picked, const std::string& text, const 
 }
 
 void run(Session& session, const Command& command, const std::string& argument) {
-    session.enqueue([&session, &command, argument] {
+    session.queue.push([&session, &command, argument] {
         if (argument.empty() && (command.needs_argument() || command.choices)) {
             return ask_for_argument(session, command);
         }
-        session.close_dialog();
+        session.dialogs.close();
         run_command(session, command.id, argument);
     });
 }
@@ -71,7 +71,7 @@ int pick_from_list(DialogInput& input, int count, bool entered, const Draw& draw
 
 void all(Ui& ui) {
     Session& session = ui.session;
-    DialogInput& input = session.input;
+    DialogInput& input = session.dialogs.input;
     const bool entered = text_field(ui, "Search commands, agents, clips, queries, nodes (A 2.1)").entered;
     ui.mark("palette.input");
     ImGui::Dummy({0, ui.px(2)});
@@ -96,7 +96,7 @@ void all(Ui& ui) {
 /// The second step: what the command is to be done with.
 void argument(Ui& ui, const Command& command) {
     Session& session = ui.session;
-    DialogInput& input = session.input;
+    DialogInput& input = session.dialogs.input;
     ImGui::TextUnformatted(std::string(command.title).c_str());
     const bool entered = text_field(ui, std::string(command.argument).c_str()).entered;
     ui.mark("palette.input");
@@ -122,7 +122,7 @@ void argument(Ui& ui, const Command& command) {
 }  // namespace
 
 void palette(Ui& ui) {
-    const Command* command = find_command(ui.session.input.command);
+    const Command* command = find_command(ui.session.dialogs.input.command);
     // A number needs no list.
     const bool has_list = !command || command->choices;
     begin_dialog(ui, "palette", {560, has_list ? 420.0f : 130.0f}, 0.25f);

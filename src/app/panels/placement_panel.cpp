@@ -28,12 +28,12 @@ void rename_agent(Ui& ui, int agent, const std::string& name) {
     form_label(ui, "Name", "What the agent is called in queries and pictures");
     const std::optional<std::string> text = text_edit(ui, "agent.name", name);
     if (!text) return;
-    ui.session.enqueue([&session = ui.session, agent, text = *text] { session.rename_agent(agent, text); });
+    ui.session.queue.push([&session = ui.session, agent, text = *text] { session.edits.rename_agent(agent, text); });
 }
 
 void color_field(Ui& ui, const PlacedAgent& who, int index) {
     form_label(ui, "Colour", nullptr);
-    const Rgba now = agent_color(ui.session.scene(), who, index);
+    const Rgba now = agent_color(ui.session.workspace.scene(), who, index);
     std::array<float, 3> rgb{now.r, now.g, now.b};
     const bool changed =
         ImGui::ColorEdit3("##agent.color", rgb.data(), ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel);
@@ -44,16 +44,16 @@ void color_field(Ui& ui, const PlacedAgent& who, int index) {
     if (!changed) return;
     const auto byte = [](float c) { return static_cast<std::uint8_t>(std::lround(255 * c)); };
     const Color wanted{byte(rgb[0]), byte(rgb[1]), byte(rgb[2])};
-    ui.session.enqueue([&session = ui.session, who, wanted] {
-        session.edit({"colouring " + who.name + ": " + to_string(wanted), "color"},
+    ui.session.queue.push([&session = ui.session, who, wanted] {
+        session.workspace.edit({"colouring " + who.name + ": " + to_string(wanted), "color"},
                      [&](Scene& scene) { scene.agents.at(static_cast<std::size_t>(who.agent)).color = wanted; });
     });
 }
 
 /// The selected one, also by a node or a sample; none in a run, whose agents stand where they were simulated.
 std::optional<PlacedAgent> agent_to_place(const Session& session) {
-    if (session.crowd() || !session.selection.on_path()) return std::nullopt;
-    const auto who = placed_agent_of(session.fitted(), session.selection.path);
+    if (session.workspace.crowd() || !session.workspace.selection.on_path()) return std::nullopt;
+    const auto who = placed_agent_of(session.workspace.fitted(), session.workspace.selection.path);
     return who && who->agent >= 0 ? who : std::nullopt;
 }
 
@@ -113,10 +113,10 @@ void placement_panel(Ui& ui) {
                                  .least = -mobb::kMaxTime,
                                  .most = mobb::kMaxTime},
                                 "Global time at which the clip begins");
-    color_field(ui, *who, session.selection.path.agent);
+    color_field(ui, *who, session.workspace.selection.path.agent);
     if (changed) {
-        session.enqueue([&session, who = *who, placement] {
-            session.edit(name_of_placing(who.name, who.placement, placement),
+        session.queue.push([&session, who = *who, placement] {
+            session.workspace.edit(name_of_placing(who.name, who.placement, placement),
                          [&](Scene& scene) { place_agent(scene, who.agent, placement); });
         });
     }

@@ -15,8 +15,8 @@ namespace {
 
 /// Which of the queries is in view, and the ways to the others.
 void query_header(Ui& ui) {
-    const std::size_t count = ui.session.fitted().queries().size();
-    const std::string which = std::to_string(*ui.session.view().query + 1) + " / " + std::to_string(count);
+    const std::size_t count = ui.session.workspace.fitted().queries().size();
+    const std::string which = std::to_string(*ui.session.workspace.view().query + 1) + " / " + std::to_string(count);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(6), ui.px(1)});
     ImGui::AlignTextToFramePadding();
     text_line(ui.style.quiet, count == 1 ? "Query" : "Query " + which);
@@ -28,7 +28,7 @@ void query_header(Ui& ui) {
     }
     flow(button_width("close"));
     query_button(ui, "close", "query.none");
-    if (ui.session.in_excerpt()) {
+    if (ui.session.workspace.in_excerpt()) {
         flow(button_width("back to the crowd"));
         command_button(ui, "back to the crowd", "crowd.back", "crowd.back");
     }
@@ -53,10 +53,10 @@ void answer_sign(Ui& ui, bool collide, ImU32 color) {
 }
 
 void expectation(Ui& ui) {
-    const auto index = static_cast<std::size_t>(*ui.session.view().query);
-    const SceneQuery query = ui.session.fitted().queries()[index];
+    const auto index = static_cast<std::size_t>(*ui.session.workspace.view().query);
+    const SceneQuery query = ui.session.workspace.fitted().queries()[index];
     if (query.expect) {
-        const auto wrong = disagreement(query, ui.session.answer_of(index));
+        const auto wrong = disagreement(query, ui.session.queries.answer_of(index));
         if (!wrong) {
             words(ui.style.quiet, "As the scene expects.");
             return;
@@ -89,8 +89,8 @@ void right_aligned(const std::string& text, float right, ImU32 color) {
 void no_query(Ui& ui) {
     const Session& session = ui.session;
     if (!section(ui, "QUERY")) return;
-    const char* what = session.empty() ? "Open a scene to ask whether two agents collide."
-                       : session.fitted().queries().empty()
+    const char* what = session.workspace.empty() ? "Open a scene to ask whether two agents collide."
+                       : session.workspace.fitted().queries().empty()
                            ? "A query asks whether two agents ever collide. Make or add agents at the left: every "
                              "pair of them is asked by itself."
                            : "Choose a query at the left to see why the two collide, or why not.";
@@ -105,7 +105,7 @@ void query_button(Ui& ui, const char* label, const char* command) {
 }
 
 void query_panel(Ui& ui, QueryPictures& pictures) {
-    const std::shared_ptr<const QueryFindings> findings = ui.session.findings();
+    const std::shared_ptr<const QueryFindings> findings = ui.session.queries.findings();
     if (!findings) return no_query(ui);
     query_header(ui);
     query_answer(ui, *findings);
@@ -136,7 +136,7 @@ void query_answer(Ui& ui, const QueryFindings& findings) {
         }
     });
     ui.mark("query.answer");
-    if (const auto& contact = ui.session.recorded()->contact) {
+    if (const auto& contact = ui.session.workspace.recorded()->contact) {
         contact_rows(ui, findings, *contact);
         query_button(ui, "Go to contact", "go.contact");
     }
@@ -148,7 +148,7 @@ void query_counters(Ui& ui, const QueryFindings& findings) {
     const StepCounts total = findings.recursion.total();
     const StepCounts now = findings.recursion.so_far.empty()
                                ? StepCounts{}
-                               : findings.recursion.so_far[static_cast<std::size_t>(ui.session.step())];
+                               : findings.recursion.so_far[static_cast<std::size_t>(ui.session.workspace.step())];
     const float left = ImGui::GetCursorPosX();
     const float room = ImGui::GetContentRegionAvail().x;
     const float first = left + 0.68f * room;

@@ -42,7 +42,7 @@ void cell_menu(Ui& ui, const Recursion& recursion, const std::vector<PairCell>& 
         const ImVec2 mouse = ImGui::GetMousePosOnOpeningCurrentPopup();
         const auto under =
             std::find_if(cells.rbegin(), cells.rend(), [&](const PairCell& cell) { return contains(cell, at, mouse); });
-        if (under == cells.rend()) return test_menu(ui.session, ui.session.step());
+        if (under == cells.rend()) return test_menu(ui.session, ui.session.workspace.step());
         return test_menu(ui.session, recursion.pairs[static_cast<std::size_t>(under->pair)].last);
     });
 }
@@ -146,11 +146,11 @@ void QueryPictures::square(Ui& ui, const QueryFindings& findings) {
     const bool clicked = ImGui::IsItemClicked();
 
     const std::vector<PairCell>& cells = square_.of(
-        ui.session.findings(), size, size, [&] { return square_cells(recursion, square.a, square.b, size, size); });
+        ui.session.queries.findings(), size, size, [&] { return square_cells(recursion, square.a, square.b, size, size); });
     cell_menu(ui, recursion, cells, square.min);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(square.min, square.max, ui.style.raised);
-    const int step = ui.session.step();
+    const int step = ui.session.workspace.step();
     const int present = recursion.pair_of[static_cast<std::size_t>(step)];
     // Later cells lie in earlier ones: the last that the mouse is in is the smallest.
     const PairCell* under = draw_cells(
@@ -181,13 +181,13 @@ void QueryPictures::square(Ui& ui, const QueryFindings& findings) {
     const RecursionPair& pair = recursion.pairs[static_cast<std::size_t>(under->pair)];
     const std::string more =
         under->merged > 1 ? "\nand " + std::to_string(under->merged - 1) + " smaller pairs here" : "";
-    ImGui::SetTooltip("%s%s", step_sentence(findings.sides, ui.session.recorded()->trace, pair.last).c_str(),
+    ImGui::SetTooltip("%s%s", step_sentence(findings.sides, ui.session.workspace.recorded()->trace, pair.last).c_str(),
                       more.c_str());
     if (clicked) invoke(ui.session, "step.to", std::to_string(pair.last));
 }
 
 void QueryPictures::icicle(Ui& ui, ImVec2 size) {
-    const std::shared_ptr<const QueryFindings> findings = ui.session.findings();
+    const std::shared_ptr<const QueryFindings> findings = ui.session.queries.findings();
     const int width = static_cast<int>(size.x);
     if (!findings || findings->recursion.pairs.empty() || width < 1) return;
     const Recursion& recursion = findings->recursion;
@@ -202,7 +202,7 @@ void QueryPictures::icicle(Ui& ui, ImVec2 size) {
     cell_menu(ui, recursion, cells, at);
     const bool hovered = ImGui::IsItemHovered();
     const bool clicked = ImGui::IsItemClicked();
-    const int step = ui.session.step();
+    const int step = ui.session.workspace.step();
     const int present = recursion.pair_of[static_cast<std::size_t>(step)];
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.PushClipRect(at, {at.x + size.x, at.y + size.y}, true);
@@ -232,16 +232,16 @@ void QueryPictures::icicle(Ui& ui, ImVec2 size) {
     const RecursionPair& pair = recursion.pairs[static_cast<std::size_t>(under->pair)];
     const std::string more = under->merged > 1 ? "\nand " + std::to_string(under->merged - 1) + " more pairs here" : "";
     ImGui::SetTooltip("%s\n%d events here and below%s",
-                      step_sentence(findings->sides, ui.session.recorded()->trace, pair.last).c_str(),
+                      step_sentence(findings->sides, ui.session.workspace.recorded()->trace, pair.last).c_str(),
                       pair.end - pair.first, more.c_str());
     if (clicked) invoke(ui.session, "step.to", std::to_string(pair.first));
 }
 
 void QueryPictures::strip(Ui& ui, float width, float height) {
-    const std::shared_ptr<const QueryFindings> findings = ui.session.findings();
+    const std::shared_ptr<const QueryFindings> findings = ui.session.queries.findings();
     const int columns = static_cast<int>(width);
     if (!findings || findings->recursion.pairs.empty() || columns < 1) return;
-    const mobb::Trace& trace = ui.session.recorded()->trace;
+    const mobb::Trace& trace = ui.session.workspace.recorded()->trace;
     const std::vector<StripCell>& cells = strip_.of(findings, columns, 0, [&] { return strip_cells(trace, columns); });
 
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -253,7 +253,7 @@ void QueryPictures::strip(Ui& ui, float width, float height) {
         return cells[std::min<std::size_t>(index, cells.size() - 1)];
     };
     context_menu(ui, [&] { return test_menu(ui.session, cell_at(ImGui::GetMousePosOnOpeningCurrentPopup().x).first); });
-    const int step = ui.session.step();
+    const int step = ui.session.workspace.step();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(at, {at.x + width, at.y + height}, ui.style.raised);
     const float room = height - ui.px(4);  // the rest is for the marker

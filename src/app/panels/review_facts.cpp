@@ -252,7 +252,7 @@ void files(Ui& ui, const Review& review, const ReviewCase& one, const ReviewPict
 }  // namespace
 
 void review_facts(Ui& ui, const std::optional<glm::ivec2>& pixel) {
-    Review& review = *ui.session.review();
+    Review& review = *ui.session.reviews.review();
     const ReviewCase& one = review.shown();
     const ReviewPictures& pictures = review.pictures();
     heading(ui, "CASE", std::to_string(review.current() + 1) + " of " + std::to_string(review.cases().size()));

@@ -28,7 +28,7 @@ constexpr int kMostSceneRows = 9;
 /// Of which items the filter of the lists leaves some.
 template <class NameOf>
 std::vector<int> filtered(const Session& session, int count, const NameOf& name_of) {
-    const std::string wanted = lower(session.filter);
+    const std::string wanted = lower(session.workspace.filter);
     std::vector<int> out;
     for (int i = 0; i < count; ++i) {
         if (wanted.empty() || lower(name_of(i)).find(wanted) != std::string::npos) out.push_back(i);
@@ -42,31 +42,31 @@ std::string count_text(std::size_t shown, std::size_t all) {
 
 void filter_field(Ui& ui) {
     Session& session = ui.session;
-    const std::size_t longest = std::max(agent_count(session), session.scene().clips.size());
-    if (longest <= static_cast<std::size_t>(kMostSceneRows) && session.filter.empty()) return;
+    const std::size_t longest = std::max(agent_count(session.workspace), session.workspace.scene().clips.size());
+    if (longest <= static_cast<std::size_t>(kMostSceneRows) && session.workspace.filter.empty()) return;
     ImGui::Dummy({0, ui.px(2)});
     ImGui::SetNextItemWidth(-1);
-    ImGui::InputTextWithHint("##filter", "Filter the lists by name", &session.filter);
+    ImGui::InputTextWithHint("##filter", "Filter the lists by name", &session.workspace.filter);
     ui.mark("scene.filter");
 }
 
 /// The right-click menu of a row, which is selected by it.
 void row_menu(Ui& ui, const Selection& self) {
     context_menu(ui, [&] {
-        ui.session.select(self);
+        ui.session.workspace.select(self);
         return selection_menu(ui.session);
     });
 }
 
 /// Of a row that is selected by a click: arrows through the list select too, so that keys are about what has the ring.
 void row_keys(Ui& ui, const Selection& self) {
-    if (ui.focus.arrived_at_last()) ui.session.select(self);
+    if (ui.focus.arrived_at_last()) ui.session.workspace.select(self);
     row_menu(ui, self);
 }
 
 /// What stands beside an agent: how long its clip is; of a run which move it plays.
 std::string clip_remark(const Session& session, const SceneClip& clip) {
-    return session.crowd() ? fitted_text(clip.name, 90) : formatted("%.1f s", clip.clip->duration());
+    return session.workspace.crowd() ? fitted_text(clip.name, 90) : formatted("%.1f s", clip.clip->duration());
 }
 
 /// A row with the buttons of its agents; `about` draws what belongs to the row itself, which is the last item then.
@@ -75,7 +75,7 @@ bool agents_row(Ui& ui, Row shown, const ListedAgents& listed, const std::functi
     const ImVec2 end{corner.x + ImGui::GetContentRegionAvail().x, corner.y + ImGui::GetFrameHeight()};
     const bool lit = ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(corner, end);
     shown.hovered = shown.hovered || lit;
-    shown.quiet = shown.quiet || are_hidden(ui.session, listed.who);
+    shown.quiet = shown.quiet || are_hidden(ui.session.workspace, listed.who);
     if (!listed.who.empty()) {
         shown.buttons = agent_buttons_width(ui);
         shown.right = lit ? shown.buttons : shown_buttons_width(ui, listed);
@@ -97,7 +97,7 @@ void path_row(Ui& ui, const FittedScene& fitted, int index) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const SceneClip& clip = fitted.scene().clips[static_cast<std::size_t>(who.clip)];
     const ListedAgents listed{text_of_agent(who.name), {who.name}};
-    const bool hidden = are_hidden(session, listed.who);
+    const bool hidden = are_hidden(session.workspace, listed.who);
     const auto about = [&] {
         row_keys(ui, self);
         const float side = ui.px(10);
@@ -118,27 +118,27 @@ void path_row(Ui& ui, const FittedScene& fitted, int index) {
                                     {.mark = "agent." + std::to_string(index),
                                      .name = who.name,
                                      .remark = clip_remark(session, clip),
-                                     .selected = on_it(session.selection),
-                                     .hovered = on_it(session.hovered),
+                                     .selected = on_it(session.workspace.selection),
+                                     .hovered = on_it(session.workspace.hovered),
                                      .indent = ui.px(18)},
                                     listed, about);
-    if (clicked) session.select(self);
+    if (clicked) session.workspace.select(self);
 }
 
 /// What the picture does not show as the scene has it, and the way back.
 void shown_buttons(Ui& ui) {
     Session& session = ui.session;
-    const std::size_t hidden = session.view().hidden.size();
+    const std::size_t hidden = session.workspace.view().hidden.size();
     if (hidden > 0) {
         const std::string label = "show " + std::to_string(hidden) + " hidden";
         // Of a run it stands there by itself.
-        if (!session.crowd()) flow(button_width(label.c_str()));
+        if (!session.workspace.crowd()) flow(button_width(label.c_str()));
         if (small_button(ui, label.c_str(), "scene.show_all", "Bring everybody back into the picture  (Shift+V)")) {
             invoke(session, "agent.show_all");
         }
     }
-    if (session.crowd() || session.fitted().placed_agents().size() < 2) return;
-    const bool in_grid = session.view().arrange == Arrange::grid;
+    if (session.workspace.crowd() || session.workspace.fitted().placed_agents().size() < 2) return;
+    const bool in_grid = session.workspace.view().arrange == Arrange::grid;
     const char* label = in_grid ? "where they are" : "in a grid";
     flow(button_width(label));
     if (small_button(ui, label, "scene.arrange",
@@ -146,32 +146,32 @@ void shown_buttons(Ui& ui) {
                              : "Draw them apart from one another, with names; queries are asked where they are")) {
         invoke(session, "view.arrange");
     }
-    if (in_grid && session.view().query) {
+    if (in_grid && session.workspace.view().query) {
         words(ui.style.quiet, "A query is shown where the two are, not in the grid.");
     }
 }
 
 void agents(Ui& ui) {
     Session& session = ui.session;
-    const FittedScene& fitted = session.fitted();
+    const FittedScene& fitted = session.workspace.fitted();
     const bool has_agents = !fitted.scene().agents.empty();
     // Of a run its people; what they play before and after now is theirs.
     const auto count =
-        static_cast<int>(session.crowd() ? session.crowd()->agents.size() : fitted.placed_agents().size());
+        static_cast<int>(session.workspace.crowd() ? session.workspace.crowd()->agents.size() : fitted.placed_agents().size());
     const std::vector<int> shown = filtered(session, count, [&](int i) -> const std::string& {
         return fitted.placed_agents()[static_cast<std::size_t>(i)].name;
     });
-    const bool in_grid = is_in_grid(fitted.scene(), session.view());
+    const bool in_grid = is_in_grid(fitted.scene(), session.workspace.view());
     const char* title = has_agents ? "AGENTS" : in_grid ? "CLIPS IN A GRID" : "CLIPS WHERE THEY ARE";
     if (!section(ui, title, count_text(shown.size(), static_cast<std::size_t>(count)))) return;
     rows(ui, "##agents", static_cast<int>(shown.size()), kMostSceneRows,
          [&](int i) { path_row(ui, fitted, shown[static_cast<std::size_t>(i)]); });
-    if (shows_bare_clips(session)) {
+    if (shows_bare_clips(session.workspace)) {
         if (small_button(ui, "make these agents", "scene.make_agents",
                          "An agent for every clip, where it is: agents can be placed and asked")) {
             invoke(session, "agent.make");
         }
-    } else if (!session.crowd()) {
+    } else if (!session.workspace.crowd()) {
         if (small_button(ui, "+ agent", "scene.add_agent", "Add an agent that plays one of the clips")) {
             ImGui::OpenPopup("add agent");
         }
@@ -190,10 +190,10 @@ void agents(Ui& ui) {
 
 void clip_row(Ui& ui, int index, float indent) {
     Session& session = ui.session;
-    const SceneClip& clip = session.scene().clips[static_cast<std::size_t>(index)];
+    const SceneClip& clip = session.workspace.scene().clips[static_cast<std::size_t>(index)];
     const Selection self{Selection::Kind::clip, {}, index};
     const bool warned = !clip.facts.warnings.empty();
-    const ListedAgents listed{kOfClip + clip.name, agents_of_clip(session, index)};
+    const ListedAgents listed{kOfClip + clip.name, agents_of_clip(session.workspace, index)};
     const auto about = [&] {
         row_keys(ui, self);
         if (ImGui::IsItemHovered()) ui.hovered = self;
@@ -209,12 +209,12 @@ void clip_row(Ui& ui, int index, float indent) {
                                     {.mark = "clip." + std::to_string(index),
                                      .name = clip.name,
                                      .remark = (warned ? "! " : "") + formatted("%.1f s", clip.clip->duration()),
-                                     .selected = session.selection == self,
-                                     .hovered = session.hovered == self,
+                                     .selected = session.workspace.selection == self,
+                                     .hovered = session.workspace.hovered == self,
                                      .indent = indent,
                                      .remark_color = warned ? ui.style.warning : 0},
                                     listed, about);
-    if (clicked) session.select(self);
+    if (clicked) session.workspace.select(self);
 }
 
 /// A line of the list of clips: a clip, or the heading of a group.
@@ -225,7 +225,7 @@ struct ClipLine {
 
 /// The lines that the filter leaves; a group that is folded has its heading alone.
 std::vector<ClipLine> clip_lines(const Session& session, const std::vector<int>& shown) {
-    const std::vector<ClipGroup>& groups = session.clip_groups();
+    const std::vector<ClipGroup>& groups = session.workspace.clip_groups();
     std::vector<ClipLine> out;
     if (groups.empty()) {
         for (const int clip : shown) out.push_back({-1, clip});
@@ -237,7 +237,7 @@ std::vector<ClipLine> clip_lines(const Session& session, const std::vector<int>&
         std::ranges::set_intersection(group.clips, shown, std::back_inserter(in_group));
         if (in_group.empty()) continue;
         out.push_back({g, -1});
-        if (session.folded_groups.contains(group.title)) continue;
+        if (session.workspace.folded_groups.contains(group.title)) continue;
         for (const int clip : in_group) out.push_back({g, clip});
     }
     return out;
@@ -245,9 +245,9 @@ std::vector<ClipLine> clip_lines(const Session& session, const std::vector<int>&
 
 void group_row(Ui& ui, int index) {
     Session& session = ui.session;
-    const ClipGroup& group = session.clip_groups()[static_cast<std::size_t>(index)];
-    const ListedAgents listed{kOfGroup + group.title, agents_of_group(session, group)};
-    const bool folded = session.folded_groups.contains(group.title);
+    const ClipGroup& group = session.workspace.clip_groups()[static_cast<std::size_t>(index)];
+    const ListedAgents listed{kOfGroup + group.title, agents_of_group(session.workspace, group)};
+    const bool folded = session.workspace.folded_groups.contains(group.title);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const auto about = [&] {
         if (!listed.who.empty()) context_menu(ui, [&] { return shown_menu(session, listed); });
@@ -271,14 +271,14 @@ void group_row(Ui& ui, int index) {
                                      .indent = ui.px(12)},
                                     listed, about);
     if (!clicked) return;
-    session.enqueue([&session, title = group.title] {
-        if (session.folded_groups.erase(title) == 0) session.folded_groups.insert(title);
+    session.queue.push([&session, title = group.title] {
+        if (session.workspace.folded_groups.erase(title) == 0) session.workspace.folded_groups.insert(title);
     });
 }
 
 void clips(Ui& ui) {
     Session& session = ui.session;
-    const auto& all = session.scene().clips;
+    const auto& all = session.workspace.scene().clips;
     const std::vector<int> shown = filtered(session, static_cast<int>(all.size()), [&](int i) -> const std::string& {
         return all[static_cast<std::size_t>(i)].name;
     });
@@ -288,7 +288,7 @@ void clips(Ui& ui) {
         const ClipLine& line = lines[static_cast<std::size_t>(i)];
         line.clip < 0 ? group_row(ui, line.group) : clip_row(ui, line.clip, line.group < 0 ? 0 : ui.px(12));
     });
-    if (session.crowd()) return;
+    if (session.workspace.crowd()) return;
     if (small_button(ui, "+ files", "scene.add_files", "Add clips, or the clips and agents of another scene")) {
         invoke(session, "file.add");
     }
@@ -296,22 +296,22 @@ void clips(Ui& ui) {
 
 void queries(Ui& ui) {
     Session& session = ui.session;
-    const auto count = static_cast<int>(session.fitted().queries().size());
-    const bool all_pairs = session.scene().queries.empty() && count > 1;
+    const auto count = static_cast<int>(session.workspace.fitted().queries().size());
+    const bool all_pairs = session.workspace.scene().queries.empty() && count > 1;
     if (!section(ui, "QUERIES", (all_pairs ? "all pairs, " : "") + std::to_string(count))) return;
     rows(ui, "##queries", count, kMostSceneRows, [&](int i) {
-        const SceneQuery query = session.fitted().queries()[static_cast<std::size_t>(i)];
-        const Answer& answer = session.answer_of(static_cast<std::size_t>(i));
+        const SceneQuery query = session.workspace.fitted().queries()[static_cast<std::size_t>(i)];
+        const Answer& answer = session.queries.answer_of(static_cast<std::size_t>(i));
         const Selection self{Selection::Kind::query, {}, i};
         const bool hit = answer.contact.has_value();
         const bool unexpected = query.expect && query.expect->collides != hit;
         const Palette& palette = ui.style.palette;
         const std::string found = hit ? formatted("hit %.2f s", answer.contact->time) : "miss";
         if (row(ui, {"query." + std::to_string(i), query.a.name + " against " + query.b.name,
-                     (unexpected ? "! " : "") + found, session.view().query == i, session.hovered == self, 0,
+                     (unexpected ? "! " : "") + found, session.workspace.view().query == i, session.workspace.hovered == self, 0,
                      to_im(readable(hit ? palette.hit : palette.separated, palette))})) {
-            invoke(session, session.view().query == i ? "query.none" : "query.select",
-                   session.view().query == i ? "" : std::to_string(i));
+            invoke(session, session.workspace.view().query == i ? "query.none" : "query.select",
+                   session.workspace.view().query == i ? "" : std::to_string(i));
         }
         row_menu(ui, self);
         if (!ImGui::IsItemHovered()) return;
@@ -321,13 +321,13 @@ void queries(Ui& ui) {
     });
     if (count == 0)
         words(ui.style.quiet,
-              session.scene().agents.empty() ? "agents are asked, bare clips are not" : "needs two agents");
+              session.workspace.scene().agents.empty() ? "agents are asked, bare clips are not" : "needs two agents");
 }
 
 }  // namespace
 
 void scene_panel(Ui& ui) {
-    if (ui.session.empty()) {
+    if (ui.session.workspace.empty()) {
         words(ui.style.quiet, "Nothing is open");
         return;
     }
@@ -335,21 +335,21 @@ void scene_panel(Ui& ui) {
     agents(ui);
     clips(ui);
     // A run is asked for its conflicts.
-    if (!ui.session.crowd()) queries(ui);
+    if (!ui.session.workspace.crowd()) queries(ui);
 }
 
 void selection_panel(Ui& ui) {
     const Session& session = ui.session;
-    if (session.empty()) return;
+    if (session.workspace.empty()) return;
     if (!section(ui, "SELECTION")) return;
-    if (session.selection.kind == Selection::Kind::none || session.selection.kind == Selection::Kind::query) {
+    if (session.workspace.selection.kind == Selection::Kind::none || session.workspace.selection.kind == Selection::Kind::query) {
         words(ui.style.quiet,
               "Click a disk, a box or a name; click again for what lies behind.\n\nDrag to turn the view, Shift-drag "
               "to move it, "
               "roll the wheel to zoom. F1 says what can be done.");
         return;
     }
-    const Described what = describe(session.fitted(), session.selection);
+    const Described what = describe(session.workspace.fitted(), session.workspace.selection);
     ImGui::TextWrapped("%s", what.name.c_str());
     for (const auto& [key, value] : what.facts) {
         form_label(ui, key.c_str(), nullptr);

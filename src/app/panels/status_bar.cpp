@@ -25,20 +25,20 @@ constexpr double kSweep = 1.6;               // seconds that the bar takes where
 /// "2 agents, 2 clips, 62 nodes, 21 tests": all of the scene, and the tests of the query in view. Of picture tests what
 /// came of them.
 std::string counts(const Session& session) {
-    if (session.reviewing()) {
-        const Review& review = *session.review();
+    if (session.reviews.shown()) {
+        const Review& review = *session.reviews.review();
         return counted(review.cases().size(), "picture test", "picture tests") + ": " + sum_of(review);
     }
-    if (session.empty()) return "";
-    const FittedScene& fitted = *session.document().fitted;
-    const std::size_t agents = session.crowd() ? session.crowd()->agents.size() : session.scene().agents.size();
+    if (session.workspace.empty()) return "";
+    const FittedScene& fitted = *session.workspace.document().fitted;
+    const std::size_t agents = session.workspace.crowd() ? session.workspace.crowd()->agents.size() : session.workspace.scene().agents.size();
     std::size_t nodes = 0;
-    for (int clip = 0; clip < static_cast<int>(session.scene().clips.size()); ++clip) {
+    for (int clip = 0; clip < static_cast<int>(session.workspace.scene().clips.size()); ++clip) {
         nodes += fitted.tree(clip).nodes().size();
     }
     std::string out = agents > 0 ? counted(agents, "agent", "agents") + ", " : "";
-    out += counted(session.scene().clips.size(), "clip", "clips") + ", " + counted(nodes, "node", "nodes");
-    if (const RecordedQuery* recorded = session.recorded()) {
+    out += counted(session.workspace.scene().clips.size(), "clip", "clips") + ", " + counted(nodes, "node", "nodes");
+    if (const RecordedQuery* recorded = session.workspace.recorded()) {
         out += ", " + counted(recorded->trace.size(), "test", "tests");
     }
     return out;
@@ -46,16 +46,16 @@ std::string counts(const Session& session) {
 
 /// What is under the mouse, as short as it can be said.
 std::string hover_facts(const Session& session) {
-    const Selection& what = session.hovered;
-    if (session.reviewing()) return "";
-    if (what.kind == Selection::Kind::none || !exists(session.fitted(), what)) return "";
+    const Selection& what = session.workspace.hovered;
+    if (session.reviews.shown()) return "";
+    if (what.kind == Selection::Kind::none || !exists(session.workspace.fitted(), what)) return "";
     if (what.kind == Selection::Kind::query) {
         const auto index = static_cast<std::size_t>(what.index);
-        return sentence(session.fitted().queries()[index], session.answer_of(index).contact);
+        return sentence(session.workspace.fitted().queries()[index], session.queries.answer_of(index).contact);
     }
     constexpr std::array<std::string_view, 7> kFacts{"clip",  "samples",   "time", "radius",
                                                      "speed", "tightness", "lasts"};
-    const Described described = describe(session.fitted(), what);
+    const Described described = describe(session.workspace.fitted(), what);
     std::string out = cleaned(described.name);
     for (const auto& [key, value] : described.facts) {
         if (std::ranges::find(kFacts, key) != kFacts.end()) out += "   " + key + ' ' + cleaned(value);
@@ -66,15 +66,15 @@ std::string hover_facts(const Session& session) {
 /// The work under way: jobs of the scene, the oldest first, and behind them the run of picture tests.
 std::vector<const Job*> work_under_way(const Session& session) {
     std::vector<const Job*> out;
-    for (std::size_t i = 0; i < session.job_count(); ++i) out.push_back(&session.job(i));
-    if (session.review() && session.review()->drawing()) out.push_back(session.review()->run());
+    for (std::size_t i = 0; i < session.jobs.count(); ++i) out.push_back(&session.jobs.job(i));
+    if (session.reviews.review() && session.reviews.review()->drawing()) out.push_back(session.reviews.review()->run());
     return out;
 }
 
 /// Ends the first of it.
 void cancel_first(Session& session) {
-    if (session.job()) return session.cancel_job(0);
-    session.cancel_review_run();
+    if (session.jobs.job()) return session.jobs.cancel(0);
+    session.reviews.cancel_run();
 }
 
 /// The work under way from `right` to the left; returns where it begins.
@@ -111,7 +111,7 @@ float job_part(Ui& ui, const std::vector<const Job*>& work, float right) {
     ImGui::Dummy({width, line});
     ui.mark("job.0.bar");
     ImGui::SetCursorPos({right - button, y});
-    if (small_button(ui, "Cancel", "job.0.cancel")) session.enqueue([&session] { cancel_first(session); });
+    if (small_button(ui, "Cancel", "job.0.cancel")) session.queue.push([&session] { cancel_first(session); });
     return left;
 }
 

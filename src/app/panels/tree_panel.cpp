@@ -70,12 +70,12 @@ void whole(Ui& ui, const char* label, const char* command, const char* what, int
                                           .now = static_cast<double>(now),
                                           .least = static_cast<double>(least),
                                           .most = std::numeric_limits<int>::max(),
-                                          .live = !ui.session.job()});
+                                          .live = !ui.session.jobs.job()});
     if (wanted) invoke(ui.session, command, formatted("%.0f", *wanted));
 }
 
 void time_scale(Ui& ui) {
-    const mobb::FitOptions& fit = ui.session.fitted().options();
+    const mobb::FitOptions& fit = ui.session.workspace.fitted().options();
     form_label(ui, "Time scale", "Metres per second that mix time with space in free boxes (w); no other boxes use it");
     ImGui::BeginDisabled(!mobb::info(fit.tree).uses_time_scale());
     const auto wanted = number_field(ui, {.mark = "tree.time_scale",
@@ -85,7 +85,7 @@ void time_scale(Ui& ui) {
                                           .least = 1 / mobb::kMaxTimeScale,
                                           .most = mobb::kMaxTimeScale,
                                           .by_factors = true,
-                                          .live = !ui.session.job()});
+                                          .live = !ui.session.jobs.job()});
     ImGui::EndDisabled();
     if (wanted) invoke(ui.session, "tree.time_scale", short_double(*wanted));
 }
@@ -94,7 +94,7 @@ constexpr float kLeastCell = 10.5f;  // pixels at scale 1: a level's number
 
 /// Left and Right go to the next level; with Shift they make a range longer or shorter.
 void level_keys(Ui& ui, int depth) {
-    LevelRange wanted = ui.session.view().levels;
+    LevelRange wanted = ui.session.workspace.view().levels;
     for (const Chord& chord : ui.focus.take("view.level")) {
         if (chord.key == Key::enter) continue;
         const int way = chord.key == Key::right ? 1 : -1;
@@ -102,12 +102,12 @@ void level_keys(Ui& ui, int depth) {
         const int next = std::clamp(last + way, 0, depth - 1);
         wanted = {chord.shift && !wanted.leaves ? std::min(wanted.first, next) : next, next, false};
     }
-    if (wanted != ui.session.view().levels) invoke(ui.session, "view.level", to_string(wanted));
+    if (wanted != ui.session.workspace.view().levels) invoke(ui.session, "view.level", to_string(wanted));
 }
 
 /// Which levels are drawn: a cell for each, lit where it is. A click shows one level, a drag or Shift a range.
 void shown_levels(Ui& ui, int depth) {
-    const LevelRange shown = ui.session.view().levels;
+    const LevelRange shown = ui.session.workspace.view().levels;
     form_label(ui, "Show", "Which boxes are drawn: click a level; drag over several, or Shift-click, for a range");
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 padding = ImGui::GetStyle().FramePadding;
@@ -134,7 +134,7 @@ void shown_levels(Ui& ui, int depth) {
     for (int level = 0; level < depth; ++level) {
         const ImVec2 min{corner.x + cell * static_cast<float>(level) + 1, corner.y + 1};
         const ImVec2 max{corner.x + cell * static_cast<float>(level + 1) - 1, corner.y + size.y - 1};
-        const bool lit = !shown.leaves && !ui.session.view().query && level >= std::min(shown.first, depth - 1) &&
+        const bool lit = !shown.leaves && !ui.session.workspace.view().query && level >= std::min(shown.first, depth - 1) &&
                          level <= shown.last;
         if (lit || level == over)
             draw.AddRectFilled(min, max, lit ? to_im(with_alpha(ui.style.palette.accent, 0.45f)) : ui.style.raised,
@@ -153,7 +153,7 @@ void shown_levels(Ui& ui, int depth) {
     } else {
         ImGui::SetCursorScreenPos({corner.x, ImGui::GetCursorScreenPos().y});
     }
-    const bool on = shown.leaves && !ui.session.view().query;
+    const bool on = shown.leaves && !ui.session.workspace.view().query;
     ImGui::PushStyleColor(ImGuiCol_Button, on ? to_im(with_alpha(ui.style.palette.accent, 0.45f)) : ui.style.window);
     if (ImGui::Button("leaves")) invoke(ui.session, "view.leaves");
     ImGui::PopStyleColor();
@@ -162,27 +162,27 @@ void shown_levels(Ui& ui, int depth) {
 
 /// The clip of the document that one plays: of a run that of the play, which is drawn as one that runs on.
 int clip_of(const Session& session, const PlacedAgent& who) {
-    if (!session.crowd()) return who.clip;
-    const Agent& agent = session.fitted().scene().agents[static_cast<std::size_t>(who.agent)];
-    const CrowdAgent& person = session.crowd()->agents[static_cast<std::size_t>(agent.run_agent)];
+    if (!session.workspace.crowd()) return who.clip;
+    const Agent& agent = session.workspace.fitted().scene().agents[static_cast<std::size_t>(who.agent)];
+    const CrowdAgent& person = session.workspace.crowd()->agents[static_cast<std::size_t>(agent.run_agent)];
     const int move = person.plays[static_cast<std::size_t>(agent.play)].move;
-    return session.scene().graph->moves[static_cast<std::size_t>(move)].clip;
+    return session.workspace.scene().graph->moves[static_cast<std::size_t>(move)].clip;
 }
 
 /// The tree that the bars are about: of what is selected, else the first that is seen.
 int clip_in_focus(const Session& session) {
-    if (session.selection.kind == Selection::Kind::clip) return session.selection.index;
-    if (session.selection.on_path()) {
-        if (const auto who = placed_agent_of(session.fitted(), session.selection.path)) return clip_of(session, *who);
+    if (session.workspace.selection.kind == Selection::Kind::clip) return session.workspace.selection.index;
+    if (session.workspace.selection.on_path()) {
+        if (const auto who = placed_agent_of(session.workspace.fitted(), session.workspace.selection.path)) return clip_of(session, *who);
     }
-    return clip_of(session, session.fitted().placed_agents().front());
+    return clip_of(session, session.workspace.fitted().placed_agents().front());
 }
 
 /// Volume of each level as a bar, and how much of it the disks fill.
 void level_bars(Ui& ui, int clip) {
     const Session& session = ui.session;
-    const auto& figures = session.figures_of(clip);
-    if (!section(ui, "VOLUME BY LEVEL", session.scene().clips[static_cast<std::size_t>(clip)].name)) return;
+    const auto& figures = session.queries.figures_of(clip);
+    if (!section(ui, "VOLUME BY LEVEL", session.workspace.scene().clips[static_cast<std::size_t>(clip)].name)) return;
     // Free boxes may take more room the finer they are: their fits overlap.
     double most = 1e-300;
     for (const mobb::LevelFigures& level : figures) most = std::max(most, level.volume);
@@ -194,11 +194,11 @@ void level_bars(Ui& ui, int clip) {
         const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x);
         const bool clicked = ImGui::InvisibleButton(("level" + std::to_string(i)).c_str(), {width, height});
         ui.mark("level." + std::to_string(i));
-        if (session.view().levels.first == level.level) ui.focus.begin_here();
+        if (session.workspace.view().levels.first == level.level) ui.focus.begin_here();
         const bool over = ImGui::IsItemHovered();
-        const LevelRange shown = session.view().levels;
+        const LevelRange shown = session.workspace.view().levels;
         const bool drawn =
-            !shown.leaves && !session.view().query && level.level >= shown.first && level.level <= shown.last;
+            !shown.leaves && !session.workspace.view().query && level.level >= shown.first && level.level <= shown.last;
         const bool large = level.volume >= 100 && level.volume < 1e6;
         const char* format = large ? (level.tightness ? "%.0f  %3.0f%%" : "%.0f      ")
                                    : (level.tightness ? "%.3g  %3.0f%%" : "%.3g      ");
@@ -245,7 +245,7 @@ void level_bars(Ui& ui, int clip) {
 /// How the trees are fitted, and which of their boxes are shown.
 void fit_fields(Ui& ui) {
     const Session& session = ui.session;
-    const mobb::FitOptions fit = session.fitted().options();
+    const mobb::FitOptions fit = session.workspace.fitted().options();
     choose(ui, "Kind", "tree.kind", fit.tree, "What bounds the disks");
     ImGui::BeginDisabled(!mobb::info(fit.tree).splits());
     whole(ui, "Leaf samples", "tree.leaf", "The number of samples of a leaf", fit.leaf, 1,
@@ -259,15 +259,15 @@ void fit_fields(Ui& ui) {
           "0: all; 1 is the paper's \"1 level\" tree");
     ImGui::EndDisabled();
     time_scale(ui);
-    shown_levels(ui, session.fitted().tree(clip_in_focus(session)).depth());
-    choose(ui, "Colour by", "view.color_by", session.view().color_by, "What the boxes' colours mean");
+    shown_levels(ui, session.workspace.fitted().tree(clip_in_focus(session)).depth());
+    choose(ui, "Colour by", "view.color_by", session.workspace.view().color_by, "What the boxes' colours mean");
 }
 
 }  // namespace
 
 void tree_panel(Ui& ui) {
     const Session& session = ui.session;
-    if (session.empty()) return;
+    if (session.workspace.empty()) return;
     ImGui::PushID("tree");
     if (section(ui, "TREE")) fit_fields(ui);
     level_bars(ui, clip_in_focus(session));

@@ -33,10 +33,10 @@ template <class Draw>
 void panel(Ui& ui, const std::string& name, ImVec2 size, const Draw& draw) {
     const Session& session = ui.session;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), ui.px(5)});
-    ImGui::BeginChild((session.in_excerpt() ? name + " of excerpt" : name).c_str(), size, false,
+    ImGui::BeginChild((session.workspace.in_excerpt() ? name + " of excerpt" : name).c_str(), size, false,
                       ImGuiWindowFlags_AlwaysUseWindowPadding);
     int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("opening"));
-    if (std::exchange(shown, session.opening()) != session.opening()) ImGui::SetScrollY(0);
+    if (std::exchange(shown, session.workspace.opening()) != session.workspace.opening()) ImGui::SetScrollY(0);
     ui.focus.panel(name);
     draw();
     ImGui::EndChild();
@@ -94,7 +94,7 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     const auto spacing = [] { ImGui::SameLine(0, 0); };
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
 
-    const bool reviewing = ui.session.reviewing();
+    const bool reviewing = ui.session.reviews.shown();
     // The placement stands below the lists: they stay where they are when somebody is selected.
     const float placement = reviewing ? 0 : std::min(placement_height(ui), 0.5f * room.y);
     ImGui::BeginGroup();
@@ -130,14 +130,14 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     spacing();
     panel(ui, reviewing ? "facts" : "right", {right, room.y}, [&] {
         if (reviewing) return review_facts(ui, pixel);
-        if (ui.session.is_crowd() && !ui.session.view().query) {
+        if (ui.session.workspace.is_crowd() && !ui.session.workspace.view().query) {
             crowd_panel(ui);
         } else {
             query_panel(ui, pictures);
         }
         selection_panel(ui);
     });
-    ui.session.hovered = ui.hovered;
+    ui.session.workspace.hovered = ui.hovered;
     status_bar(ui, {io.DisplaySize.x, status});
     ImGui::PopStyleVar();
     ImGui::End();

@@ -56,9 +56,9 @@ std::string name_of(const Session& session, const Selection& selection) {
         case Selection::Kind::none:
             return "";
         case Selection::Kind::clip:
-            return session.scene().clips[index].name;
+            return session.workspace.scene().clips[index].name;
         case Selection::Kind::query: {
-            const SceneQuery query = session.fitted().queries()[index];
+            const SceneQuery query = session.workspace.fitted().queries()[index];
             return query.a.name + " against " + query.b.name;
         }
         case Selection::Kind::path:
@@ -66,13 +66,13 @@ std::string name_of(const Session& session, const Selection& selection) {
         case Selection::Kind::sample:
             break;
     }
-    return placed_agent_of(session.fitted(), selection.path)->name;
+    return placed_agent_of(session.workspace.fitted(), selection.path)->name;
 }
 
 Json selection_json(const Session& session, const Selection& selection) {
     constexpr std::array<const char*, 6> kSelectionKinds{"none", "path", "node", "sample", "clip", "query"};
     Json json{{"kind", kSelectionKinds[static_cast<std::size_t>(selection.kind)]}};
-    if (selection.kind == Selection::Kind::none || !exists(session.fitted(), selection)) return json;
+    if (selection.kind == Selection::Kind::none || !exists(session.workspace.fitted(), selection)) return json;
     json["name"] = name_of(session, selection);
     if (selection.on_path()) {
         const AgentRef& path = selection.path;
@@ -83,41 +83,41 @@ Json selection_json(const Session& session, const Selection& selection) {
 }
 
 Json query_json(const Session& session) {
-    const RecordedQuery* recorded = session.recorded();
+    const RecordedQuery* recorded = session.workspace.recorded();
     if (!recorded) return nullptr;
-    const int index = *session.view().query;
-    const SceneQuery query = session.fitted().queries()[static_cast<std::size_t>(index)];
+    const int index = *session.workspace.view().query;
+    const SceneQuery query = session.workspace.fitted().queries()[static_cast<std::size_t>(index)];
     Json tests;
     for (const mobb::TestKind test : mobb::kTestKinds) tests[mobb::name(test)] = recorded->tests[test];
-    const mobb::Trace::Event event = recorded->trace[session.step()];
-    const std::vector<DrawnAgent> sides = drawn_agents(session.fitted(), session.view());
+    const mobb::Trace::Event event = recorded->trace[session.workspace.step()];
+    const std::vector<DrawnAgent> sides = drawn_agents(session.workspace.fitted(), session.workspace.view());
     return {{"index", index},
             {"a", query.a.name},
             {"b", query.b.name},
             {"collides", recorded->contact.has_value()},
             {"contact_time", recorded->contact ? Json(recorded->contact->time) : Json(nullptr)},
-            {"step", session.step()},
+            {"step", session.workspace.step()},
             {"steps", recorded->trace.size()},
             {"tests", std::move(tests)},
             {"outcome", mobb::name(event.outcome)},
-            {"sentence", step_sentence(sides, recorded->trace, session.step())}};
+            {"sentence", step_sentence(sides, recorded->trace, session.workspace.step())}};
 }
 
 Json crowd_json(const Session& session) {
-    if (!session.is_crowd()) return nullptr;
-    Json json{{"following", text_or_null(session.view().follow)}, {"choice", nullptr}, {"conflicts", nullptr}};
-    if (const FollowedChoice* followed = session.choice()) {
+    if (!session.workspace.is_crowd()) return nullptr;
+    Json json{{"following", text_or_null(session.workspace.view().follow)}, {"choice", nullptr}, {"conflicts", nullptr}};
+    if (const FollowedChoice* followed = session.crowds.choice()) {
         const Choice& choice = followed->choice;
         json["choice"] = {{"play", followed->play},
                           {"time", choice.time},
                           {"candidates", choice.candidates.size()},
                           {"taken", choice.taken},
                           {"comes_out", followed->comes_out},
-                          {"pointed_out", session.candidate()},
-                          {"sentence", choice_sentence(session.scene(), *followed)}};
+                          {"pointed_out", session.crowds.candidate()},
+                          {"sentence", choice_sentence(session.workspace.scene(), *followed)}};
     }
-    if (const auto* conflicts = session.conflicts()) {
-        json["conflicts"] = {{"count", conflicts->size()}, {"shown", session.conflict}};
+    if (const auto* conflicts = session.crowds.conflicts()) {
+        json["conflicts"] = {{"count", conflicts->size()}, {"shown", session.workspace.conflict}};
     }
     return json;
 }
@@ -125,7 +125,7 @@ Json crowd_json(const Session& session) {
 Json messages_json(const Session& session) {
     constexpr std::array<const char*, 3> kLevels{"info", "warning", "error"};
     Json json = Json::array();
-    for (const Message& message : session.messages()) {
+    for (const Message& message : session.notifications.all()) {
         Json one{{"level", kLevels[static_cast<std::size_t>(message.level)]}, {"text", message.text}};
         if (message.offer) one["offer"] = message.offer->command;
         if (!message.up) one["put_away"] = true;
@@ -136,14 +136,14 @@ Json messages_json(const Session& session) {
 
 /// The clip in the import dialog: what is taken of its file by itself, and what was refused.
 Json import_json(const Session& session) {
-    const ClipImport& now = session.importing;
+    const ClipImport& now = session.imports.dialog;
     Json taken = Json::object();
     if (now.offer) {
         for (const OptionOffer& option : now.offer->options) taken[option.key] = text_or_null(option.taken);
     }
     Json refused = Json::object();
     for (const auto& [option, refusal] : now.refused) refused[option] = refusal.why;
-    return {{"clip", session.scene().clips[static_cast<std::size_t>(now.clip)].name},
+    return {{"clip", session.workspace.scene().clips[static_cast<std::size_t>(now.clip)].name},
             {"field", text_or_null(now.field)},
             {"whole_file", now.whole_file},
             {"taken", std::move(taken)},
@@ -159,16 +159,16 @@ std::string_view kind_name(Dialog dialog) {
 
 /// The export dialog: what it is asked for, by the options' keys, and the file.
 Json export_json(const Session& session) {
-    Json json{{"file", session.exporting.file}};
+    Json json{{"file", session.dialogs.exporting.file}};
     for (const ExportOption& option : export_options()) {
         json[option.key] = option.text(session.settings.picture_export);
     }
-    if (session.exporting.aside) json["scene_aside"] = session.exporting.aside->file.string();
+    if (session.dialogs.exporting.aside) json["scene_aside"] = session.dialogs.exporting.aside->file.string();
     return json;
 }
 
 Json review_json(const Session& session) {
-    const Review& review = *session.review();
+    const Review& review = *session.reviews.review();
     const ReviewLook& look = review.look;
     const ReviewCase& shown = review.shown();
     const auto state_of = [](const ReviewCase& one) -> Json {
@@ -181,7 +181,7 @@ Json review_json(const Session& session) {
     for (const std::size_t index : review.listed()) listed.push_back(review.cases()[index].file.name);
     Json marked = Json::array();
     for (const std::size_t index : review.marked()) marked.push_back(review.cases()[index].file.name);
-    return {{"shown", session.reviewing()},
+    return {{"shown", session.reviews.shown()},
             {"folder", review.folder().string()},
             {"cases", std::move(cases)},
             {"listed", std::move(listed)},
@@ -199,7 +199,7 @@ Json review_json(const Session& session) {
             {"drawing", review.drawing()},
             {"undo", text_or_null(review.undo_title())},
             {"redo", text_or_null(review.redo_title())},
-            {"open_case", text_or_null(session.open_case_name())}};
+            {"open_case", text_or_null(session.reviews.open_case_name())}};
 }
 
 // --- what is expected of it
@@ -276,35 +276,35 @@ std::string instead(const std::string& pointer, const Json& is, const std::strin
 
 Json state_json(const Session& session) {
     Json json;
-    json["title"] = session.title();
-    json["file"] = session.file() ? Json(session.file()->string()) : Json(nullptr);
-    json["modified"] = session.modified();
-    json["empty"] = session.empty();
-    json["scene"] = scene_json(session.scene());
-    json["view"] = view_json(session.view());
-    json["selection"] = selection_json(session, session.selection);
-    json["hovered"] = selection_json(session, session.hovered);
+    json["title"] = session.workspace.title();
+    json["file"] = session.workspace.file ? Json(session.workspace.file->string()) : Json(nullptr);
+    json["modified"] = session.workspace.modified();
+    json["empty"] = session.workspace.empty();
+    json["scene"] = scene_json(session.workspace.scene());
+    json["view"] = view_json(session.workspace.view());
+    json["selection"] = selection_json(session, session.workspace.selection);
+    json["hovered"] = selection_json(session, session.workspace.hovered);
     json["query"] = query_json(session);
     json["crowd"] = crowd_json(session);
-    json["excerpt"] = session.in_excerpt();
-    json["time"] = or_null(session.view().time);
-    json["playing"] = session.playing();
-    json["dialog"] = kind_name(session.dialog);
-    if (!session.focus.empty()) json["focus"] = session.focus;
+    json["excerpt"] = session.workspace.in_excerpt();
+    json["time"] = or_null(session.workspace.view().time);
+    json["playing"] = session.playback.playing();
+    json["dialog"] = kind_name(session.dialogs.now);
+    if (!session.keys.focus.empty()) json["focus"] = session.keys.focus;
     json["messages"] = messages_json(session);
-    if (session.unread() > 0) json["unread"] = session.unread();
-    json["undo"] = text_or_null(session.history().undo_title());
-    json["redo"] = text_or_null(session.history().redo_title());
+    if (session.notifications.unread() > 0) json["unread"] = session.notifications.unread();
+    json["undo"] = text_or_null(session.workspace.history.undo_title());
+    json["redo"] = text_or_null(session.workspace.history.redo_title());
     json["job"] = nullptr;
-    if (const Job* job = session.job()) json["job"] = {{"title", job->title()}, {"progress", job->progress()}};
-    if (session.dialog == Dialog::import_clip) json["import"] = import_json(session);
-    if (session.dialog == Dialog::export_picture) json["export"] = export_json(session);
-    if (session.review()) json["review"] = review_json(session);
-    if (session.view_count() > 1) {
+    if (const Job* job = session.jobs.job()) json["job"] = {{"title", job->title()}, {"progress", job->progress()}};
+    if (session.dialogs.now == Dialog::import_clip) json["import"] = import_json(session);
+    if (session.dialogs.now == Dialog::export_picture) json["export"] = export_json(session);
+    if (session.reviews.review()) json["review"] = review_json(session);
+    if (session.views.count() > 1) {
         json["views"] = Json::array();
-        for (std::size_t place = 0; place < session.view_count(); ++place) {
-            const SceneView seen = session.view_at(place);
-            json["views"].push_back({{"active", place == session.active_place()},
+        for (std::size_t place = 0; place < session.views.count(); ++place) {
+            const SceneView seen = session.views.at(place);
+            json["views"].push_back({{"active", place == session.views.active()},
                                      {"fit", seen.fitted->fits()[seen.fitted->fit_in_use()]->name},
                                      {"tree", mobb::name(seen.fitted->options().tree)},
                                      {"view", view_json(seen.view)}});

@@ -16,16 +16,16 @@ constexpr std::size_t kMostChoices = 40;  // more than these are found by the pa
 /// "Undo moving A".
 std::string title_of(const Session& session, const Command& command) {
     std::string title(command.title);
-    if (command.id == "file.reopen_last" && session.has_last()) title += ": " + session.last_title();
-    if (command.id == "edit.undo" && session.history().can_undo()) title += ' ' + session.history().undo_title();
-    if (command.id == "edit.redo" && session.history().can_redo()) title += ' ' + session.history().redo_title();
-    if (command.id == "review.undo") title += ' ' + session.review()->undo_title();
-    if (command.id == "review.redo") title += ' ' + session.review()->redo_title();
+    if (command.id == "file.reopen_last" && session.files.has_last()) title += ": " + session.files.last_title();
+    if (command.id == "edit.undo" && session.workspace.history.can_undo()) title += ' ' + session.workspace.history.undo_title();
+    if (command.id == "edit.redo" && session.workspace.history.can_redo()) title += ' ' + session.workspace.history.redo_title();
+    if (command.id == "review.undo") title += ' ' + session.reviews.review()->undo_title();
+    if (command.id == "review.redo") title += ' ' + session.reviews.review()->redo_title();
     return title;
 }
 
 void ask(Session& session, const Command& command) {
-    session.enqueue([&session, &command] { ask_for_argument(session, command); });
+    session.queue.push([&session, &command] { ask_for_argument(session, command); });
 }
 
 /// Why the last item cannot be done, under the mouse; nothing for one that can.

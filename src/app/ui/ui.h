@@ -1,7 +1,7 @@
 /// What panels are drawn with: one frame of Dear ImGui over the session.
 #pragma once
 
-#include <app/document/session.h>
+#include <app/session/session.h>
 #include <app/ui/focus.h>
 #include <app/ui/style.h>
 #include <render/drawlist/draw_list.h>

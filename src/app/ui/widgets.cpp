@@ -364,14 +364,14 @@ std::optional<double> typed_number(Ui& ui, const NumberField& field, std::string
     const std::optional<double> value = parse_double(text);
     const std::string unit = field.unit.empty() ? "" : (field.unit == "\u00B0" ? "" : " ") + field.unit;
     if (!value || !std::isfinite(*value)) {
-        ui.session.tell(MessageLevel::warning, in_quotes(text) + " is no number; " + field.what + " stays " +
+        ui.session.notifications.tell(MessageLevel::warning, in_quotes(text) + " is no number; " + field.what + " stays " +
                                                    number_text(field, field.now) + unit);
         return std::nullopt;
     }
     const double within = whole_or_not(field, *value);
     if (*value < field.least || *value > field.most) {
         const bool low = *value < field.least;
-        ui.session.tell(MessageLevel::info, field.what + (low ? " is at least " : " is at most ") +
+        ui.session.notifications.tell(MessageLevel::info, field.what + (low ? " is at least " : " is at most ") +
                                                 number_text(field, low ? field.least : field.most) + unit);
     }
     return within;
@@ -442,14 +442,14 @@ std::optional<double> number_keys(Ui& ui, const NumberField& field) {
         const double next = whole_or_not(field, stepped(field, value, chord.key == Key::up ? steps : -steps));
         if (next == value) {
             const bool low = chord.key == Key::down;
-            ui.session.tell(MessageLevel::info,
+            ui.session.notifications.tell(MessageLevel::info,
                             field.what + (low ? " is at least " : " is at most ") + number_text(field, next));
         }
         value = next;
     }
     if (value == field.now) return std::nullopt;
     // However often a key is pressed, the number is changed once.
-    ui.session.enqueue([&session = ui.session] { session.reopen_group(); });
+    ui.session.queue.push([&session = ui.session] { session.reopen_group(); });
     return value;
 }
 

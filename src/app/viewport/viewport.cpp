@@ -119,7 +119,7 @@ std::optional<OverlayClick> overlay_click(const DrawList& list, glm::vec2 pixel)
 
 Selection selection_of(const Session& session, const ObjectId& id) {
     return {id.kind == ObjectId::Kind::box ? Selection::Kind::node : Selection::Kind::sample,
-            agent_in_view(session.fitted(), session.view(), id.agent), id.index};
+            agent_in_view(session.workspace.fitted(), session.workspace.view(), id.agent), id.index};
 }
 
 /// Nothing is open: what to do.
@@ -139,8 +139,8 @@ void welcome(Ui& ui) {
     ImGui::SameLine();
     if (ImGui::Button("Open the demo")) invoke(ui.session, "file.demo");
     ui.mark("welcome.demo");
-    if (ui.session.has_last()) {
-        if (ImGui::Button(("Reopen last session: " + ui.session.last_title()).c_str())) {
+    if (ui.session.files.has_last()) {
+        if (ImGui::Button(("Reopen last session: " + ui.session.files.last_title()).c_str())) {
             invoke(ui.session, "file.reopen_last");
         }
         ui.mark("welcome.reopen");
@@ -150,10 +150,10 @@ void welcome(Ui& ui) {
 
 /// The selected agent, where it changes the picture.
 std::string standing_out(const Session& session) {
-    if (session.view().query || !session.selection.on_path() || names_fit(agent_count(session))) {
+    if (session.workspace.view().query || !session.workspace.selection.on_path() || names_fit(agent_count(session.workspace))) {
         return "";
     }
-    const AgentNames selected = selected_agents(session);
+    const AgentNames selected = selected_agents(session.workspace);
     return selected.empty() ? "" : selected.front();
 }
 
@@ -183,7 +183,7 @@ Camera Viewport::shown_camera() const { return list_ ? list_->camera : key_->vie
 
 /// The camera has jumped, by a command or by undo: it flies there instead, if somebody is looking.
 void Viewport::take_off(Ui& ui, const Key& next) {
-    const bool jumped = key_ && list_ && ui.session.attended() && drag_ == Drag::none && key_->fitted == next.fitted &&
+    const bool jumped = key_ && list_ && ui.session.options.attended && drag_ == Drag::none && key_->fitted == next.fitted &&
                         key_->size == next.size && !(key_->view.camera == next.view.camera);
     if (!jumped) {
         if (!key_ || key_->fitted != next.fitted || key_->size != next.size) flight_.reset();
@@ -204,7 +204,7 @@ void Viewport::take_off(Ui& ui, const Key& next) {
 Viewport::Key Viewport::wanted(const Ui& ui, PictureSize size, const FollowedChoice* choice) const {
     // Text follows the panels where they are made larger than the picture would have it by itself.
     const double words = ui.style.scale > 1 ? std::max<double>(ui.style.scale, metrics_of(size).scale) : 0;
-    const SceneView seen = ui.session.view_at(view_place_);
+    const SceneView seen = ui.session.views.at(view_place_);
     return {seen.fitted,
             seen.view,
             size,
@@ -217,9 +217,9 @@ Viewport::Key Viewport::wanted(const Ui& ui, PictureSize size, const FollowedCho
 void Viewport::settle(Ui& ui, Key& next) {
     Camera& camera = next.view.camera;
     Session& session = ui.session;
-    const std::optional<PictureSize> before = session.picture_size();
+    const std::optional<PictureSize> before = session.workspace.picture_size;
     if (is_active(ui) && before != next.size) {
-        session.enqueue([&session, to = next.size] { session.resize_pictures(to); });
+        session.queue.push([&session, to = next.size] { session.views.resize_pictures(to); });
     }
     if (camera.target) {
         if (before && before->height != next.size.height) camera = resized(camera, *before, next.size);
@@ -233,8 +233,8 @@ void Viewport::settle(Ui& ui, Key& next) {
         // Targets are measured in it.
         const double height = framed.moment ? 0 : framed.space.time_height;
         if (height > 0) next.view.time_height = height;
-        session.enqueue(
-            [&session, place = view_place_, camera, height] { session.settle_camera(place, camera, height); });
+        session.queue.push(
+            [&session, place = view_place_, camera, height] { session.views.settle_camera(place, camera, height); });
     } catch (const std::invalid_argument&) {
         // Nothing can be drawn; build says why.
     }
@@ -242,7 +242,7 @@ void Viewport::settle(Ui& ui, Key& next) {
 
 void Viewport::update_picture(Ui& ui, PictureSize size) {
     const Session& session = ui.session;
-    const FollowedChoice* choice = is_active(ui) && session.view().candidates ? session.choice() : nullptr;
+    const FollowedChoice* choice = is_active(ui) && session.workspace.view().candidates ? session.crowds.choice() : nullptr;
     Key next = wanted(ui, size, choice);
     settle(ui, next);
     if (key_ && *key_ == next && !flight_) return;
@@ -262,9 +262,9 @@ void Viewport::update_picture(Ui& ui, PictureSize size) {
 /// Lets the camera go to another step's pair, if it is to and the pair is not well seen beside the panels.
 void Viewport::follow_test(Ui& ui) {
     const Session& session = ui.session;
-    const bool put_back = std::exchange(times_put_back_, session.times_put_back()) != session.times_put_back();
-    if (!session.follow_test || !session.recorded()) return test_looked_for_.reset();
-    const std::pair test(*session.view().query, session.step());
+    const bool put_back = std::exchange(times_put_back_, session.counts.put_back) != session.counts.put_back;
+    if (!session.views.follow_test || !session.workspace.recorded()) return test_looked_for_.reset();
+    const std::pair test(*session.workspace.view().query, session.workspace.step());
     // The camera was put back too.
     if (put_back) test_looked_for_ = test;
     if (flight_ || test_looked_for_ == test) return;
@@ -273,7 +273,7 @@ void Viewport::follow_test(Ui& ui) {
     std::vector<Rect> panels;
     for (const Overlay& overlay : list_->overlays) panels.push_back(overlay.rect);
     if (!boxes || is_well_seen(*boxes, *list_, panels)) return;
-    ui.session.enqueue([&session = ui.session, boxes = *boxes, part = free_part(list_->size, panels)] {
+    ui.session.queue.push([&session = ui.session, boxes = *boxes, part = free_part(list_->size, panels)] {
         go_along_with(session, boxes, part);
     });
 }
@@ -283,7 +283,7 @@ void Viewport::update_highlights(const Ui& ui) {
     const std::vector<HighlightLine> shown = std::exchange(list_->highlights, {});
     if (is_active(ui)) {
         const float scale = metrics_of(list_->size, key_->scale).scale;
-        const FittedScene& fitted = ui.session.fitted();
+        const FittedScene& fitted = ui.session.workspace.fitted();
         if (drag_ == Drag::handle && moved_) {
             if (const auto held = placed_agent_of(fitted, {handle_drag_.agent, -1, 0})) {
                 const mobb::PlacedTree before(fitted.tree(held->clip), handle_drag_.start);
@@ -296,7 +296,7 @@ void Viewport::update_highlights(const Ui& ui) {
 }
 
 void Viewport::show(Ui& ui, ImVec2 corner) {
-    const Painter::Hand hand = !ui.session.attended() ? Painter::Hand::away
+    const Painter::Hand hand = !ui.session.options.attended ? Painter::Hand::away
                                : drag_ == Drag::none  ? Painter::Hand::rests
                                                       : Painter::Hand::drags;
     const Painter::Shown shown =
@@ -326,7 +326,7 @@ void Viewport::draw(Ui& ui, std::size_t place) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 room = ImGui::GetContentRegionAvail();
     const PictureSize size{static_cast<int>(room.x), static_cast<int>(room.y)};
-    if (ui.session.empty()) {
+    if (ui.session.workspace.empty()) {
         list_.reset();
         key_.reset();
         welcome(ui);
@@ -353,12 +353,12 @@ void Viewport::draw(Ui& ui, std::size_t place) {
     show(ui, corner);
     if (is_active(ui)) decorate(ui, {*list_, corner});
     if (is_active(ui) && ui.focus.opens_menu_of_picture()) {
-        over_nothing_ = ui.session.selection.kind == Selection::Kind::none;
+        over_nothing_ = ui.session.workspace.selection.kind == Selection::Kind::none;
         open_menu_at(ImGui::GetID("what is here"), place_of_selection(ui.session, {*list_, corner}));
     }
     context_menu(ui, "what is here",
                  [&] { return over_nothing_ ? picture_menu(ui.session) : selection_menu(ui.session); });
-    if (ui.session.view_count() > 1) name_trees(ui, corner);
+    if (ui.session.views.count() > 1) name_trees(ui, corner);
 }
 
 /// The kind of trees of a view in its lower right corner, which no overlay takes; a frame in the accent's colour around
@@ -384,8 +384,8 @@ void Viewport::name_trees(const Ui& ui, ImVec2 corner) const {
 void Viewport::move_camera(Ui& ui, const Camera& camera) {
     // The camera stands in a scene whose time is drawn so high.
     const std::optional<double> height = list_->moment ? std::nullopt : std::optional<double>(list_->space.time_height);
-    ui.session.enqueue([&session = ui.session, camera, height] {
-        session.change_view([&](ViewState& view) {
+    ui.session.queue.push([&session = ui.session, camera, height] {
+        session.workspace.change_view([&](ViewState& view) {
             view.camera = camera;
             if (height) view.time_height = *height;
         });
@@ -398,7 +398,7 @@ void Viewport::mouse(Ui& ui, const ShownPicture& picture) {
     const bool over = ImGui::IsItemHovered();
     const bool turned = over && ImGui::GetIO().MouseWheel != 0;
     if (!is_active(ui) && (turned || ImGui::IsItemActivated())) {
-        ui.session.enqueue([&session = ui.session, place = view_place_] { session.activate_view(place); });
+        ui.session.queue.push([&session = ui.session, place = view_place_] { session.views.activate(place); });
     }
     if (turned) wheel(ui, pixel);
     if (ImGui::IsItemActivated()) press(ui, picture, pixel);
@@ -428,15 +428,15 @@ void Viewport::wheel(Ui& ui, glm::vec2 pixel) {
 std::optional<Viewport::Handles> Viewport::handles(Ui& ui, const ShownPicture& picture) {
     const Session& session = ui.session;
     // They stand where a path begins, in space-time.
-    if (picture.list.moment || !session.selection.on_path() || session.crowd()) return std::nullopt;
+    if (picture.list.moment || !session.workspace.selection.on_path() || session.workspace.crowd()) return std::nullopt;
     // In a grid an agent is not where it is, and who is hidden is not to be seen.
-    if (is_in_grid(session.scene(), session.view()) || are_hidden(session, selected_agents(session))) {
+    if (is_in_grid(session.workspace.scene(), session.workspace.view()) || are_hidden(session.workspace, selected_agents(session.workspace))) {
         return std::nullopt;
     }
-    const auto who = placed_agent_of(session.fitted(), session.selection.path);
-    const bool in_view = index_in_view(session.fitted(), session.view(), session.selection.path).has_value();
+    const auto who = placed_agent_of(session.workspace.fitted(), session.workspace.selection.path);
+    const bool in_view = index_in_view(session.workspace.fitted(), session.workspace.view(), session.workspace.selection.path).has_value();
     if (!who || who->agent < 0 || !in_view) return std::nullopt;
-    const mobb::PlacedTree placed = session.fitted().placed(*who);
+    const mobb::PlacedTree placed = session.workspace.fitted().placed(*who);
     return Handles{*who, handle_places(ui, picture, placed.placed_clip())};
 }
 
@@ -485,9 +485,9 @@ void Viewport::drag(Ui& ui, glm::vec2 pixel) {
     if (!placement) return;
     const Camera camera = shown_camera();
     const double height = list_->space.time_height;
-    ui.session.enqueue([&session = ui.session, drag = handle_drag_, placement, camera, height] {
-        const std::string& name = session.scene().agents.at(static_cast<std::size_t>(drag.agent)).name;
-        session.edit({name_of_placing(name, drag.start, *placement).title, "drag"}, [&](Scene& scene) {
+    ui.session.queue.push([&session = ui.session, drag = handle_drag_, placement, camera, height] {
+        const std::string& name = session.workspace.scene().agents.at(static_cast<std::size_t>(drag.agent)).name;
+        session.workspace.edit({name_of_placing(name, drag.start, *placement).title, "drag"}, [&](Scene& scene) {
             place_agent(scene, drag.agent, *placement);
             scene.view.camera = camera;
             scene.view.time_height = height;
@@ -500,7 +500,7 @@ void Viewport::release(Ui& ui, glm::vec2 pixel) {
     const bool was_click = !moved_ && drag_ != Drag::pan && !ImGui::IsAnyMouseDown();
     const bool asked = !moved_ && asks_ && !ImGui::IsAnyMouseDown();
     drag_ = Drag::none;
-    ui.session.enqueue([&session = ui.session] { session.close_group(); });
+    ui.session.queue.push([&session = ui.session] { session.workspace.close_group(); });
     if (was_click && list_ && is_active(ui)) click(ui, pixel);
     if (asked && list_ && is_active(ui)) ask(ui, pixel);
 }
@@ -514,10 +514,10 @@ void Viewport::ask(Ui& ui, glm::vec2 pixel) {
     for (const Pick& hit : picks(*list_, pixel, ui.px(kClickReach))) {
         const Selection here = selection_of(session, hit.id);
         if (!nearest) nearest = here;
-        stays = stays || here == session.selection;
+        stays = stays || here == session.workspace.selection;
     }
     over_nothing_ = !nearest;
-    if (nearest && !stays) session.select(*nearest);
+    if (nearest && !stays) session.workspace.select(*nearest);
     ImGui::OpenPopup("what is here");
 }
 
@@ -525,8 +525,8 @@ void Viewport::ask(Ui& ui, glm::vec2 pixel) {
 ImVec2 Viewport::place_of_selection(const Session& session, const ShownPicture& picture) const {
     const glm::vec2 size(picture.list.size.width, picture.list.size.height);
     glm::vec2 at = 0.5f * size;
-    const bool is_something = session.selection.kind != Selection::Kind::none;
-    if (const std::optional<Bounds> box = is_something ? box_of(session, session.selection) : std::nullopt) {
+    const bool is_something = session.workspace.selection.kind != Selection::Kind::none;
+    if (const std::optional<Bounds> box = is_something ? box_of(session, session.workspace.selection) : std::nullopt) {
         const glm::dvec3 middle = box->middle();
         const auto pixel = picture.list.projection.project(picture.list.space.point(middle.x, middle.y, middle.z));
         if (pixel) at = glm::clamp(*pixel, glm::vec2(0), size);
@@ -553,11 +553,11 @@ void Viewport::click(Ui& ui, glm::vec2 pixel) {
     depth_ = again ? depth_ + 1 : 0;
     clicked_at_ = pixel;
     if (hits.empty()) {
-        session.select({});
+        session.workspace.select({});
         return;
     }
     const ObjectId& id = hits[depth_ % hits.size()].id;
-    session.select(selection_of(session, id));
+    session.workspace.select(selection_of(session, id));
     if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) invoke(session, "view.frame");
 }
 
@@ -565,8 +565,8 @@ void Viewport::click(Ui& ui, glm::vec2 pixel) {
 
 void Viewport::tooltip(Ui& ui) const {
     const Session& session = ui.session;
-    if (!place_ || session.hovered.kind == Selection::Kind::none) return;
-    const Described what = describe(session.fitted(), session.hovered);
+    if (!place_ || session.workspace.hovered.kind == Selection::Kind::none) return;
+    const Described what = describe(session.workspace.fitted(), session.workspace.hovered);
     ImGui::BeginTooltip();
     ImGui::TextUnformatted(what.name.c_str());
     ImGui::PushFont(ui.style.mono);
@@ -575,8 +575,8 @@ void Viewport::tooltip(Ui& ui) const {
         if (key == "samples" || key == "time" || key == "radius") ImGui::Text("%-8s%s", key.c_str(), value.c_str());
     }
     glm::dvec3 place = *place_;
-    if (const auto who = placed_agent_of(session.fitted(), session.hovered.path)) {
-        const mobb::Placement shown = shown_placement(session.fitted(), session.view(), *who);
+    if (const auto who = placed_agent_of(session.workspace.fitted(), session.workspace.hovered.path)) {
+        const mobb::Placement shown = shown_placement(session.workspace.fitted(), session.workspace.view(), *who);
         place -= glm::dvec3(shown.translate - who->placement.translate, 0);
     }
     const char* here = list_->moment ? "%-8s%.3f, %.3f m, %.3f m high" : "%-8s%.3f, %.3f m at %.3f s";

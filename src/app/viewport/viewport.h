@@ -37,7 +37,7 @@ class Viewport {
     };
     enum class Drag { none, orbit, pan, handle };
 
-    bool is_active(const Ui& ui) const { return view_place_ == ui.session.active_place(); }
+    bool is_active(const Ui& ui) const { return view_place_ == ui.session.views.active(); }
     void name_trees(const Ui& ui, ImVec2 corner) const;
     void update_picture(Ui& ui, PictureSize size);
     Key wanted(const Ui& ui, PictureSize size, const FollowedChoice* choice) const;

@@ -444,7 +444,7 @@ GlfwWindow::GlfwWindow(Session& session, std::optional<PictureSize> size)
 GlfwWindow::~GlfwWindow() = default;
 
 void GlfwWindow::run() {
-    while (!state_->session.closed()) {
+    while (!state_->session.files.closed()) {
         state_->wait(std::numeric_limits<double>::infinity());
         state_->draw();
     }
@@ -458,7 +458,7 @@ void GlfwWindow::frame() {
 }
 
 void GlfwWindow::run_for(double seconds) {
-    for (const double end = glfwGetTime() + seconds; glfwGetTime() < end && !state_->session.closed();) {
+    for (const double end = glfwGetTime() + seconds; glfwGetTime() < end && !state_->session.files.closed();) {
         state_->wait(end - glfwGetTime());
         state_->draw();
     }

@@ -250,22 +250,22 @@ struct Shell::State {
         if (focus.press(chord, repeated)) return Taken::opened;
         const Command* command = command_for(session, chord);
         if (!command || (repeated && !command->repeats)) return Taken::nobodys;
-        if (!works_under(session.dialog, *command)) return Taken::nobodys;
+        if (!works_under(session.dialogs.now, *command)) return Taken::nobodys;
         if (ImGui::GetIO().WantTextInput && edits_text(chord)) return Taken::nobodys;
         const bool busy = ImGui::IsAnyItemActive() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
         if (busy && !chord.ctrl && edits_text(chord)) return Taken::nobodys;
         // Each press is undone by itself, also of those that one frame takes in.
-        if (!ImGui::IsAnyItemActive()) session.close_group();
+        if (!ImGui::IsAnyItemActive()) session.workspace.close_group();
         if (command->enabled(session)) {
             invoke(session, command->id);
-        } else if (const std::string_view why = why_not(session, *command); !session.empty() && why != kNotNow) {
+        } else if (const std::string_view why = why_not(session, *command); !session.workspace.empty() && why != kNotNow) {
             std::string title(command->title);
             if (title.ends_with("...")) title.resize(title.size() - 3);
-            session.tell(MessageLevel::info, title.append(": ").append(why));
+            session.notifications.tell(MessageLevel::info, title.append(": ").append(why));
         }
         // No panel is being drawn: what comes next from the keyboard meets what this one has done.
-        session.run_queue();
-        const bool opened = session.dialog != Dialog::none || session.focus_move != FocusMove::none;
+        session.queue.run();
+        const bool opened = session.dialogs.now != Dialog::none || session.keys.move != FocusMove::none;
         return opened ? Taken::opened : Taken::command;
     }
 
@@ -284,17 +284,17 @@ struct Shell::State {
     }
 
     void drop(const Drop& dropped) {
-        session.enqueue([this, dropped] { session.drop(dropped.paths); });
-        session.run_queue();
+        session.queue.push([this, dropped] { session.files.drop(dropped.paths); });
+        session.queue.run();
     }
 
     /// A dialog has opened whose field does not have the keys yet: what is typed meanwhile is meant for it.
     bool waits_for_field() {
-        const Dialog open = session.dialog;
+        const Dialog open = session.dialogs.now;
         const bool has_field = open == Dialog::open || open == Dialog::add || open == Dialog::save_as ||
                                open == Dialog::export_picture || open == Dialog::export_file ||
                                open == Dialog::review || open == Dialog::palette || open == Dialog::help;
-        if (!has_field || !session.input.fresh)
+        if (!has_field || !session.dialogs.input.fresh)
             waited = 0;
         else if (++waited <= kFramesToFocus)
             return true;
@@ -306,7 +306,7 @@ struct Shell::State {
         if (waits_for_field()) return;
         input.feed(ImGui::GetIO(),
                    {[this](const Chord& chord, bool repeated) { return press(chord, repeated); },
-                    [this](const Drop& dropped) { drop(dropped); }, [this] { session.request_close(); }});
+                    [this](const Drop& dropped) { drop(dropped); }, [this] { session.files.request_close(); }});
         follow_drag();
     }
 
@@ -315,8 +315,8 @@ struct Shell::State {
         time = now;
         // Dear ImGui wants time to pass.
         ImGui::GetIO().DeltaTime = std::max(static_cast<float>(passed), 1e-5f);
-        if (std::exchange(was_playing, session.playing()) && session.playing()) {
-            session.advance(std::min(passed, kLongestStep));
+        if (std::exchange(was_playing, session.playback.playing()) && session.playback.playing()) {
+            session.playback.advance(std::min(passed, kLongestStep));
         }
     }
 
@@ -326,7 +326,7 @@ struct Shell::State {
     }
 
     void follow_look() {
-        const auto wanted = std::pair(session.view().theme, static_cast<float>(scale()));
+        const auto wanted = std::pair(session.workspace.view().theme, static_cast<float>(scale()));
         if (look_made_for == wanted) return;
         style = make_style(wanted.first, wanted.second);
         drawn->ui.upload(*ImGui::GetIO().Fonts);
@@ -337,11 +337,11 @@ struct Shell::State {
     double lay_out(double now) {
         marks.clear();
         Ui ui{session, style, marks, focus, field, drawn->painter, now, kNever};
-        if (session.attended()) ui.frame_seconds = frame_seconds;
+        if (session.options.attended) ui.frame_seconds = frame_seconds;
         focus.follow_commands();
         ImGui::NewFrame();
         focus.begin_frame();
-        viewports.resize(session.view_count());
+        viewports.resize(session.views.count());
         window_layout(ui, viewports, pictures);
         focus.end_frame(style);
         const ImGuiIO& io = ImGui::GetIO();
@@ -364,7 +364,7 @@ struct Shell::State {
     /// Whether another frame would show nothing new, but for what is being painted.
     bool only_paints(PictureSize wanted_size, double now) const {
         return fine_due(now).first <= 0 && now < laid_out_until && input.empty() && settling == 0 &&
-               wanted_size == size && !session.playing() && !session.job();
+               wanted_size == size && !session.playback.playing() && !session.jobs.job();
     }
 
     /// The last frame, once somebody looks at it.
@@ -469,9 +469,9 @@ double Shell::frame(PictureSize size, double now) {
         s.settling = kFramesToSettle;
     }
     s.follow_time(now);
-    const std::size_t jobs = s.session.job_count();
+    const std::size_t jobs = s.session.jobs.count();
     s.session.poll();
-    if (s.session.job_count() != jobs) s.settling = kFramesToSettle;
+    if (s.session.jobs.count() != jobs) s.settling = kFramesToSettle;
     s.feed();
     s.follow_look();
     const double began = s.clock();
@@ -479,12 +479,12 @@ double Shell::frame(PictureSize size, double now) {
     s.laid_out_in = s.clock() - began;
     s.size = size;
     s.laid_out_until = now + std::min(wanted, kSignFrame);
-    if (s.session.run_queue()) s.settling = kFramesToSettle;
-    if (!ImGui::IsAnyItemActive() && !s.input.any_button_down()) s.session.close_group();
+    if (s.session.queue.run()) s.settling = kFramesToSettle;
+    if (!ImGui::IsAnyItemActive() && !s.input.any_button_down()) s.session.workspace.close_group();
     s.cursor = ImGui::GetMouseCursor();
     if (s.settling > 0) --s.settling;
     s.settled = s.input.empty() && s.settling == 0 && wanted > 0;
-    return s.session.playing() || !s.settled ? 0 : std::min(wanted, s.fine_due(now).first);
+    return s.session.playback.playing() || !s.settled ? 0 : std::min(wanted, s.fine_due(now).first);
 }
 
 bool Shell::settled() const { return state_->settled; }
@@ -511,7 +511,7 @@ void Shell::present() {
 const Marks& Shell::marks() const { return state_->marks; }
 
 const DrawList* Shell::shown() const {
-    const std::size_t place = state_->session.active_place();
+    const std::size_t place = state_->session.views.active();
     return place < state_->viewports.size() ? state_->viewports[place].shown() : nullptr;
 }
 

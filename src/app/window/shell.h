@@ -2,7 +2,7 @@
 /// `render --ui` all run this.
 #pragma once
 
-#include <app/document/session.h>
+#include <app/session/session.h>
 #include <app/input/input.h>
 #include <app/ui/ui.h>
 #include <render/drawlist/draw_list.h>

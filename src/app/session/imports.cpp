@@ -1,5 +1,4 @@
-// The part of the session that imports clips anew.
-#include <app/document/session.h>
+#include <app/session/imports.h>
 #include <base/error.h>
 #include <base/text.h>
 
@@ -20,33 +19,28 @@ std::string without_file(const std::string& what, const std::filesystem::path& f
 
 }  // namespace
 
-void Session::open_import(int clip, const std::string& field) {
-    const SceneClip& opened = scene().clips.at(static_cast<std::size_t>(clip));
+void Imports::open(int clip, const std::string& field) {
+    const SceneClip& opened = workspace_.scene().clips.at(static_cast<std::size_t>(clip));
     if (!opened.source) {
         throw std::invalid_argument(in_quotes(opened.name) +
                                     " has its samples in the scene: there is nothing to import");
     }
-    open_dialog(Dialog::import_clip);
+    dialogs_.open(Dialog::import_clip);
     // What they say stands at the fields now.
-    std::erase_if(messages_,
-                  [](const Message& message) { return message.offer && message.offer->command == "clip.import"; });
-    importing = {.clip = clip, .field = field};
+    notifications_.dismiss_offers("clip.import");
+    dialogs_.now = {.clip = clip, .field = field};
     // What is wrong with one track of a crowd is wrong with all.
-    importing.whole_file = opened.options.id.has_value();
+    dialogs_.now.whole_file = opened.options.id.has_value();
     ask_for_offer();
 }
 
-bool Session::imports() const {
-    return std::ranges::any_of(jobs_, [](const Running& running) { return running.purpose == Purpose::imports; });
-}
-
-std::vector<std::pair<int, ImportOptions>> Session::options_wanted(const ImportChange& change) const {
+std::vector<std::pair<int, ImportOptions>> Imports::options_wanted(const ImportChange& change) const {
     std::vector<std::pair<int, ImportOptions>> out;
-    if (static_cast<std::size_t>(change.clip) >= scene().clips.size()) return out;
+    if (static_cast<std::size_t>(change.clip) >= workspace_.scene().clips.size()) return out;
     const ImportOption& option = *import_option(change.option);
     const bool all = change.whole_file && option.of_file;
-    for (const int index : all ? clips_of_same_source(scene(), change.clip) : std::vector<int>{change.clip}) {
-        const SceneClip& clip = scene().clips[static_cast<std::size_t>(index)];
+    for (const int index : all ? clips_of_same_source(workspace_.scene(), change.clip) : std::vector<int>{change.clip}) {
+        const SceneClip& clip = workspace_.scene().clips[static_cast<std::size_t>(index)];
         if (!clip.source) continue;
         ImportOptions options = clip.options;
         set_option(options, option, change.text);
@@ -55,70 +49,70 @@ std::vector<std::pair<int, ImportOptions>> Session::options_wanted(const ImportC
     return out;
 }
 
-void Session::set_import(int clip, bool whole_file, const std::string& option, const std::string& text) {
+void Imports::set(int clip, bool whole_file, const std::string& option, const std::string& text) {
     if (!import_option(option)) throw std::invalid_argument("there is no import option " + in_quotes(option));
-    const ImportChange change{clip, whole_file, option, text, history_.has_open_group()};
-    importing.refused.erase(option);
+    const ImportChange change{clip, whole_file, option, text, workspace_.history.has_open_group()};
+    dialogs_.now.refused.erase(option);
     try {
         options_wanted(change);
     } catch (const std::invalid_argument& error) {
-        if (dialog != Dialog::import_clip) throw;
-        return refuse_import(change, error.what());
+        if (dialogs_.now != Dialog::import_clip) throw;
+        return refuse(change, error.what());
     }
     // Of one that is dragged only the last value counts.
-    std::erase_if(import_changes_, [&](const ImportChange& other) {
+    std::erase_if(workspace_.import_changes, [&](const ImportChange& other) {
         return other.option == option && other.clip == clip && other.whole_file == whole_file;
     });
-    import_changes_.push_back(change);
-    import_next();
+    workspace_.import_changes.push_back(change);
+    next();
 }
 
-void Session::set_motion(int clip, bool whole_file, mobb::Motion motion) {
+void Imports::set_motion(int clip, bool whole_file, mobb::Motion motion) {
     const std::string to(name(motion));
-    const SceneClip& was = scene().clips.at(static_cast<std::size_t>(clip));
-    if (was.source) return set_import(clip, whole_file, "motion", to);
+    const SceneClip& was = workspace_.scene().clips.at(static_cast<std::size_t>(clip));
+    if (was.source) return set(clip, whole_file, "motion", to);
     if (was.clip->motion() == motion) return;
-    edit_with_fits(
+    edits_.edit(
         {.name = {"changing the motion of " + was.name + ": " + to, ""},
-         .change = [made = with_motion(scene(), clip, motion)](Scene& next) { replace_clips(next, {made}); }});
+         .change = [made = with_motion(workspace_.scene(), clip, motion)](Scene& next) { replace_clips(next, {made}); }});
 }
 
-void Session::import_next() {
-    if (imports() || import_changes_.empty()) return;
-    const ImportChange change = import_changes_.front();
-    import_changes_.pop_front();
-    start_import(change);
+void Imports::next() {
+    if (jobs_.any(JobPurpose::imports) || workspace_.import_changes.empty()) return;
+    const ImportChange change = workspace_.import_changes.front();
+    workspace_.import_changes.pop_front();
+    start(change);
 }
 
-void Session::start_import(const ImportChange& change) {
+void Imports::start(const ImportChange& change) {
     const auto wanted = options_wanted(change);
-    if (wanted.empty()) return import_next();
-    const SceneClip& clip = scene().clips[static_cast<std::size_t>(change.clip)];
+    if (wanted.empty()) return next();
+    const SceneClip& clip = workspace_.scene().clips[static_cast<std::size_t>(change.clip)];
     const std::string label = mobbscope::lower(import_option(change.option)->label);
     const EditName name{
         "changing the " + label + " of " + (wanted.size() > 1 ? counted(wanted.size(), "clip", "clips") : clip.name) +
             ": " + (change.text.empty() ? "as the file says" : change.text),
         "import." + change.option + " " + std::to_string(change.clip) + (change.whole_file ? " file" : "")};
-    const auto work = [this, change, wanted, name, path = source_path(scene(), clip), known = import_file_,
-                       in = document().fitted](JobControl&) -> Job::Finish {
+    const auto work = [this, change, wanted, name, path = source_path(workspace_.scene(), clip), known = workspace_.import_file,
+                       in = workspace_.document().fitted](JobControl&) -> Job::Finish {
         const auto refusal = [&](const std::string& why) -> Job::Finish {
-            return [this, change, why] { refuse_import(change, why); };
+            return [this, change, why] { refuse(change, why); };
         };
         try {
             const std::shared_ptr<const SourceFile> file = source_file(path, known);
             const auto made = std::make_shared<const std::vector<ReimportedClip>>(reimport(in->scene(), *file, wanted));
             return [this, file, made, name, change, wanted] {
-                import_file_ = file;
+                workspace_.import_file = file;
                 // Other options may have been changed or undone meanwhile.
-                if (options_wanted(change) != wanted) return start_import(change);
-                edit_with_fits({.name = name,
+                if (options_wanted(change) != wanted) return start(change);
+                edits_.edit({.name = name,
                                 .change = [made](Scene& scene) { replace_clips(scene, *made); },
-                                .purpose = Purpose::imports,
+                                .purpose = JobPurpose::imports,
                                 .then =
                                     [this, change] {
                                         // The camera stays, so what is ten times as large may be out of the picture.
                                         if (change.option != "unit") return;
-                                        tell(MessageLevel::info, "The clip has another size now",
+                                        notifications_.tell(MessageLevel::info, "The clip has another size now",
                                              MessageOffer{"view.frame_all", "", "Frame everything"});
                                     },
                                 .goes_on = change.goes_on});
@@ -129,51 +123,51 @@ void Session::start_import(const ImportChange& change) {
             return refusal(error.what());
         }
     };
-    start("Importing " + source_path(scene(), clip).filename().string(), work, Purpose::imports);
+    jobs_.start("Importing " + source_path(workspace_.scene(), clip).filename().string(), work, JobPurpose::imports);
 }
 
-void Session::refuse_import(const ImportChange& change, const std::string& why) {
-    if (dialog == Dialog::import_clip) {
-        importing.refused[change.option] = {change.text, why};
+void Imports::refuse(const ImportChange& change, const std::string& why) {
+    if (dialogs_.now == Dialog::import_clip) {
+        dialogs_.now.refused[change.option] = {change.text, why};
         return;
     }
-    tell(MessageLevel::error,
-         source_path(scene(), scene().clips.at(static_cast<std::size_t>(change.clip))).string() + ": " + why);
+    notifications_.tell(MessageLevel::error,
+         source_path(workspace_.scene(), workspace_.scene().clips.at(static_cast<std::size_t>(change.clip))).string() + ": " + why);
 }
 
-void Session::ask_for_offer() {
-    if (dialog != Dialog::import_clip || importing.clip >= static_cast<int>(scene().clips.size())) return;
-    const SceneClip& clip = scene().clips[static_cast<std::size_t>(importing.clip)];
+void Imports::ask_for_offer() {
+    if (dialogs_.now != Dialog::import_clip || dialogs_.now.clip >= static_cast<int>(workspace_.scene().clips.size())) return;
+    const SceneClip& clip = workspace_.scene().clips[static_cast<std::size_t>(dialogs_.now.clip)];
     const ImportOptions asked = offer_depends_on(clip.options);
-    if (!clip.source || (importing.asked && importing.offered_for == asked)) return;
-    importing.asked = true;
-    importing.offered_for = asked;
-    const auto work = [this, asked, index = importing.clip, path = source_path(scene(), clip),
-                       known = import_file_](JobControl&) -> Job::Finish {
+    if (!clip.source || (dialogs_.now.asked && dialogs_.now.offered_for == asked)) return;
+    dialogs_.now.asked = true;
+    dialogs_.now.offered_for = asked;
+    const auto work = [this, asked, index = dialogs_.now.clip, path = source_path(workspace_.scene(), clip),
+                       known = workspace_.import_file](JobControl&) -> Job::Finish {
         try {
             const std::shared_ptr<const SourceFile> file = source_file(path, known);
             const auto offer = std::make_shared<const ImportOffer>(file->parsed.offer(asked));
             return [this, file, offer, asked, index] {
-                import_file_ = file;
-                if (importing.clip != index || importing.offered_for != asked) return;
-                importing.offer = offer;
-                importing.unreadable.clear();
+                workspace_.import_file = file;
+                if (dialogs_.now.clip != index || dialogs_.now.offered_for != asked) return;
+                dialogs_.now.offer = offer;
+                dialogs_.now.unreadable.clear();
             };
         } catch (const std::exception& error) {
             return [this, index, why = std::string(error.what())] {
-                if (importing.clip == index) importing.unreadable = why;
+                if (dialogs_.now.clip == index) dialogs_.now.unreadable = why;
             };
         }
     };
-    start("Reading " + source_path(scene(), clip).filename().string(), work);
+    jobs_.start("Reading " + source_path(workspace_.scene(), clip).filename().string(), work);
 }
 
-void Session::tell_of_warnings(std::size_t from) {
+void Imports::tell_of_warnings(std::size_t from) {
     const SceneClip* of = nullptr;
     const ImportWarning* worst = nullptr;
     std::size_t clips = 0;
-    for (std::size_t i = from; i < scene().clips.size(); ++i) {
-        const SceneClip& clip = scene().clips[i];
+    for (std::size_t i = from; i < workspace_.scene().clips.size(); ++i) {
+        const SceneClip& clip = workspace_.scene().clips[i];
         bool warned = false;
         for (const ImportWarning& warning : clip.facts.warnings) {
             if (warning.option.empty()) continue;
@@ -191,7 +185,7 @@ void Session::tell_of_warnings(std::size_t from) {
         of->source
             ? MessageOffer{"clip.import", of->name + ' ' + worst->option, "Import options..."}
             : MessageOffer{"clip.motion", std::string(name(mobb::Motion::linear)) + ' ' + of->name, "Make it linear"};
-    tell(MessageLevel::warning, of->name + ": " + said(*worst) + others, offer);
+    notifications_.tell(MessageLevel::warning, of->name + ": " + said(*worst) + others, offer);
 }
 
 }  // namespace mobbscope::app
