@@ -144,7 +144,7 @@ std::vector<Case> cases() {
     exports("size", "640x360", [](CommandWorld& w) { EXPECT_EQ(w.drawn->size, (PictureSize{640, 360})); });
     look("picture.shape", "free", [](CommandWorld& w) { EXPECT_FALSE(w.session.settings.picture_export.keeps_shape); });
     exports("scale", "2", [](CommandWorld& w) {
-        EXPECT_NE(render_line(w.session, order_to_export(w.session), "p.png")->find(" --scale 2 "), std::string::npos);
+        EXPECT_NE(render_line(w.session.workspace, w.session.files, w.session.dialogs, order_to_export(w.session.settings, w.session.workspace, w.session.views), "p.png")->find(" --scale 2 "), std::string::npos);
     });
     exports("samples", "8", [](CommandWorld& w) { EXPECT_EQ(w.samples, 8); });
     exports("background", "transparent", [](CommandWorld& w) { EXPECT_EQ(w.drawn->background->a, 0); });
@@ -177,11 +177,11 @@ std::vector<Case> cases() {
     // Clips
     look("clip.import", "", [](CommandWorld& w) {
         EXPECT_EQ(w.session.dialogs.now, Dialog::import_clip);
-        EXPECT_EQ(w.session.imports.dialog.clip, 0);
+        EXPECT_EQ(w.session.imports.edited.clip, 0);
     });
     look("clip.import", "stand unit", [](CommandWorld& w) {
-        EXPECT_EQ(w.session.imports.dialog.clip, 1);
-        EXPECT_EQ(w.session.imports.dialog.field, "unit");
+        EXPECT_EQ(w.session.imports.edited.clip, 1);
+        EXPECT_EQ(w.session.imports.edited.field, "unit");
     });
     edit("clip.set", "unit cm", [](CommandWorld& w) {
         EXPECT_EQ(w.session.workspace.scene().clips[0].options.unit, "cm");

@@ -343,7 +343,7 @@ TEST(CommandTable, TheLineToCopyTellsThePicture) {
     EXPECT_EQ(session.dialogs.exporting.aside->file, aside);
     EXPECT_NE(copied.find(" --"), std::string::npos) << copied;
     run_command(session, "agent.nudge", "1 0");
-    EXPECT_EQ(render_line(session, order_of_viewport(session), "picture.png"), std::nullopt);
+    EXPECT_EQ(render_line(session.workspace, session.files, session.dialogs, order_of_viewport(session.workspace, session.views), "picture.png"), std::nullopt);
     run_command(session, "file.copy_command");
     EXPECT_NE(session.dialogs.exporting.aside->file, aside);
     std::filesystem::remove_all(aside.parent_path());

@@ -68,8 +68,8 @@ struct CrowdWindow {
     }
 
     DrawList list() const {
-        return build_draw_list(session.workspace.fitted(), session.workspace.view(), session.hooks.viewport_size(),
-                               session.hooks.viewport_scale());
+        return build_draw_list(session.workspace.fitted(), session.workspace.view(), session.views.picture->size,
+                               session.views.picture->scale);
     }
     /// Where in the picture somebody stands now: (0, 0) in its middle, 1 at its borders.
     glm::vec2 seen_at(std::size_t agent) const {

@@ -115,7 +115,7 @@ TEST_F(ExportTest, TheLineOfACasesSceneDrawsWhatTheCaseShows) {
     session.reviews.open(folder.file("cases"), folder.file("drawn"));
     session.reviews.open_case(0);
     window->settle();
-    ASSERT_EQ(session.reviews.open_case_name(), "one");
+    ASSERT_EQ(session.files.visited(), "one");
     ASSERT_EQ(session.workspace.document().fitted->options().tree, mobb::TreeKind::umobb);
     expect_the_line_does_the_same("run picture.size 640x360");
 }
@@ -211,7 +211,7 @@ TEST_F(ExportTest, BrowseAsksForTheFileAndLeadsBack) {
     run("click export.browse\nkey Ctrl+A\ntype there.png\nkey Enter\nexpect /dialog \"export_file\"");
     EXPECT_TRUE(session.dialogs.input.confirming);
     run("key Enter\nexpect /dialog \"export_picture\"");
-    EXPECT_EQ(export_file(session), folder.file("there.png"));
+    EXPECT_EQ(export_file(session.workspace, session.settings, session.dialogs), folder.file("there.png"));
     EXPECT_EQ(slurp(folder.file("there.png")), "precious") << "it was only chosen";
     run("key Enter\nexpect /dialog \"none\"");
     EXPECT_NE(slurp(folder.file("there.png")), "precious") << "who agreed there is not asked again";

@@ -135,8 +135,8 @@ TEST(ImportDialog, AWrongUnitIsMendedFromItsMessageByTwoClicks) {
     EXPECT_NE(all_messages(w.session).find("check unit"), std::string::npos) << all_messages(w.session);
     w.click("message.0.offer");
     EXPECT_EQ(w.session.dialogs.now, Dialog::import_clip);
-    EXPECT_EQ(w.session.imports.dialog.clip, 0);
-    EXPECT_EQ(w.session.imports.dialog.field, "unit");
+    EXPECT_EQ(w.session.imports.edited.clip, 0);
+    EXPECT_EQ(w.session.imports.edited.field, "unit");
     EXPECT_EQ(all_messages(w.session), "") << "it stands at the field now";
     EXPECT_TRUE(w.has("import.unit.warning"));
     const FittedScene* const before = w.session.workspace.document().fitted.get();
@@ -174,13 +174,13 @@ TEST(ImportDialog, WhatCannotBeImportedIsSaidAtItsFieldAndChangesNothing) {
     w.type("-5");
     w.key("Enter");
     EXPECT_TRUE(w.has("import.fps.error"));
-    EXPECT_EQ(w.session.imports.dialog.refused["fps"].why, "fps must be over 0 and at most 1000000");
+    EXPECT_EQ(w.session.imports.edited.refused["fps"].why, "fps must be over 0 and at most 1000000");
     // In range, but not in this file: the file must be asked.
     w.session.queue.push([&] { run_command(w.session, "clip.set", "trim 90 95"); });
     w.window.settle();
     EXPECT_TRUE(w.has("import.trim.error"));
-    EXPECT_NE(w.session.imports.dialog.refused["trim"].why.find("trim begins"), std::string::npos)
-        << w.session.imports.dialog.refused["trim"].why;
+    EXPECT_NE(w.session.imports.edited.refused["trim"].why.find("trim begins"), std::string::npos)
+        << w.session.imports.edited.refused["trim"].why;
     EXPECT_EQ(w.session.workspace.document().fitted.get(), before);
     EXPECT_EQ(all_messages(w.session), "");
     EXPECT_EQ(w.session.dialogs.now, Dialog::import_clip) << "Enter was the field's";
@@ -321,7 +321,7 @@ TEST(ImportDialog, TheFileIsReadOnceUntilItChanges) {
     EXPECT_EQ(w.clip().clip->dt(), 0.1);
     std::filesystem::last_write_time(file, written + std::chrono::seconds(2));
     run_command(w.session, "clip.set", "fps 20");
-    EXPECT_NE(w.session.imports.dialog.refused["fps"].why.find("BVH begins with HIERARCHY"), std::string::npos);
+    EXPECT_NE(w.session.imports.edited.refused["fps"].why.find("BVH begins with HIERARCHY"), std::string::npos);
     EXPECT_EQ(w.clip().clip->dt(), 0.1);
 }
 
@@ -331,9 +331,9 @@ TEST(ImportDialog, TheMomentOfTheSkeletonIsScrubbed) {
     run_command(w.session, "clip.import");
     w.window.settle();
     w.click("import.time");
-    EXPECT_NEAR(w.session.imports.dialog.time, 1, 0.05);
+    EXPECT_NEAR(w.session.imports.edited.time, 1, 0.05);
     w.click("import.radius_chart");
-    EXPECT_GT(w.session.imports.dialog.time, 1);
+    EXPECT_GT(w.session.imports.edited.time, 1);
     EXPECT_FALSE(w.session.workspace.modified());
 }
 
@@ -342,11 +342,11 @@ TEST(ImportDialog, ADoubleClickOnAClipOpensIt) {
     w.open("scene.json");
     w.click("clip.1", 2);
     EXPECT_EQ(w.session.dialogs.now, Dialog::import_clip);
-    EXPECT_EQ(w.session.imports.dialog.clip, 1);
+    EXPECT_EQ(w.session.imports.edited.clip, 1);
     // From one clip to the next.
     w.click("import.clip");
     w.click("import.clip.0");
-    EXPECT_EQ(w.session.imports.dialog.clip, 0);
+    EXPECT_EQ(w.session.imports.edited.clip, 0);
     EXPECT_TRUE(w.has("import.unit.reset"));
 }
 

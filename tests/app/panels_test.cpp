@@ -167,7 +167,7 @@ TEST(Panels, AMomentIsWalkedThroughAndHasNoHandles) {
     run_command(w.session, "time.at", "1.2");
     w.window.settle();
     w.change_view("moment");
-    const DrawList list = build_draw_list(w.session.workspace.fitted(), w.session.workspace.view(), w.session.hooks.viewport_size());
+    const DrawList list = build_draw_list(w.session.workspace.fitted(), w.session.workspace.view(), w.session.views.picture->size);
     ASSERT_FALSE(list.disks.empty());
     const DiskInstance& disk = list.disks.front();
     const auto pixel = list.projection.project(disk.base + glm::vec3(0, 0, 0.9f));
@@ -240,21 +240,21 @@ TEST(StillCamera, ItFramesOnCommandAndKeepsItsScaleWhenTheWindowIsResized) {
     const Camera home = w.session.workspace.view().camera;
     ASSERT_TRUE(home.target);
     const auto pixels = [&] {
-        const DrawList list = build_draw_list(w.session.workspace.fitted(), w.session.workspace.view(), w.session.hooks.viewport_size());
+        const DrawList list = build_draw_list(w.session.workspace.fitted(), w.session.workspace.view(), w.session.views.picture->size);
         return list.projection.pixels_per_metre(list.space.from_target(*w.session.workspace.view().camera.target));
     };
     const float scale = pixels();
-    const int height = w.session.hooks.viewport_size().height;
+    const int height = w.session.views.picture->size.height;
     w.window.resize({900, 800});
     w.window.settle();
-    ASSERT_NE(w.session.hooks.viewport_size().height, height);
+    ASSERT_NE(w.session.views.picture->size.height, height);
     EXPECT_EQ(w.session.workspace.view().camera.target, home.target);
     EXPECT_NEAR(pixels(), scale, 1e-3 * scale);
     w.session.edits.undo();
     w.session.edits.undo();
     w.window.settle();
     EXPECT_EQ(w.session.workspace.view().camera.target, opened.target);
-    EXPECT_NEAR(w.session.workspace.view().camera.distance * height, opened.distance * w.session.hooks.viewport_size().height,
+    EXPECT_NEAR(w.session.workspace.view().camera.distance * height, opened.distance * w.session.views.picture->size.height,
                 1e-6 * opened.distance * height)
         << "where undo leads, too";
 }
@@ -325,7 +325,7 @@ TEST(StillCamera, FollowingATestHasItBesideThePanelsAndDoesNotWander) {
             std::vector<Rect> panels;
             for (const Overlay& overlay : shown.overlays) panels.push_back(overlay.rect);
             ASSERT_FALSE(panels.empty());
-            EXPECT_TRUE(is_well_seen(*corners_of_test(w.session), shown, panels)) << "step " << step;
+            EXPECT_TRUE(is_well_seen(*corners_of_test(w.session.workspace), shown, panels)) << "step " << step;
         }
         EXPECT_GT(flights, 0);
         EXPECT_LT(3 * flights, steps) << "a camera that flies at every step shows nothing";
@@ -338,7 +338,7 @@ TEST(StillCamera, ABoxThatIsCutOffOrBelowAPanelIsNotWellSeen) {
     run_command(w.session, "step.to", "3");
     w.window.settle();
     const DrawList& shown = *w.window.shell().shown();
-    const TestCorners boxes = *corners_of_test(w.session);
+    const TestCorners boxes = *corners_of_test(w.session.workspace);
     const auto at = [&](const glm::dvec3& p) { return *shown.projection.project(shown.space.point(p.x, p.y, p.z)); };
     glm::vec2 low(1e6f);
     glm::vec2 high(-1e6f);

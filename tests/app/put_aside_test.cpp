@@ -57,7 +57,7 @@ struct AsideWorld {
         window.settle();
     }
     /// Pixels that a metre takes at the camera's target, up to a factor.
-    double pixels_a_metre() const { return session.hooks.viewport_size().height / session.workspace.view().camera.distance; }
+    double pixels_a_metre() const { return session.views.picture->size.height / session.workspace.view().camera.distance; }
 };
 
 constexpr PictureSize kSmaller{800, 560};
@@ -185,7 +185,7 @@ TEST(PutAside, JobsOfWhatIsPutAsideAreTakenInOnceItIsBack) {
     ASSERT_EQ(session.jobs.count(), 1u);
     session.reviews.open(folder.file("cases"), folder.file("drawn"));
     session.reviews.open_case(0);
-    while (session.reviews.open_case_name().empty()) session.poll();
+    while (session.files.visited().empty()) session.poll();
     EXPECT_EQ(session.jobs.count(), 0u) << "the case has none";
     run_command(session, "go.agent", "A");
     run_command(session, "agent.rename", "first");
@@ -203,16 +203,16 @@ TEST(PutAside, AFileThatCannotBeLoadedLeavesTheCaseOpen) {
     w.nudge();
     w.session.files.open({w.folder.write("broken.json", "{")});
     w.window.settle();
-    EXPECT_EQ(w.session.reviews.open_case_name(), "one");
+    EXPECT_EQ(w.session.files.visited(), "one");
     EXPECT_EQ(w.session.dialogs.now, Dialog::none) << "nobody is asked for nothing";
     EXPECT_TRUE(w.session.workspace.modified());
     w.session.files.open({w.folder.file("walk.csv")});
     EXPECT_EQ(w.session.dialogs.now, Dialog::unsaved) << "the case's scene is lost";
     w.session.files.answer_unsaved(Files::Unsaved::cancel);
-    EXPECT_EQ(w.session.reviews.open_case_name(), "one");
+    EXPECT_EQ(w.session.files.visited(), "one");
     w.session.files.open({w.folder.file("walk.csv")});
     w.session.files.answer_unsaved(Files::Unsaved::discard);
-    EXPECT_EQ(w.session.reviews.open_case_name(), "");
+    EXPECT_EQ(w.session.files.visited(), "");
     EXPECT_EQ(w.session.workspace.title(), "walk");
 }
 

@@ -797,7 +797,7 @@ TEST(Review, ACaseOpensAsASceneAndWhatWasOpenIsBack) {
     w.key("Enter");
     EXPECT_EQ(w.said(), "");
     EXPECT_FALSE(w.session.reviews.shown());
-    EXPECT_EQ(w.session.reviews.open_case_name(), "moved");
+    EXPECT_EQ(w.session.files.visited(), "moved");
     EXPECT_EQ(w.session.workspace.scene().agents[1].placement.translate.x, 1.3);
     EXPECT_EQ(w.session.workspace.view().camera.distance, 8) << "as the case sees it";
     w.click("review.back");

@@ -74,7 +74,7 @@ class Worked {
     }
 
     /// The document as text.
-    std::string now() const { return as_json(session.workspace.document(), viewport_size(session).height); }
+    std::string now() const { return as_json(session.workspace.document(), viewport_size(session.views).height); }
     const std::string& begun() const { return begun_; }
 
     Session session;
@@ -93,7 +93,7 @@ class Worked {
         settle();
         History history = session.workspace.history;
         while (history.can_undo()) history.undo();
-        begun_ = as_json(history.now(), viewport_size(session).height);
+        begun_ = as_json(history.now(), viewport_size(session.views).height);
     }
 
     void run(const std::string& line) {

@@ -16,14 +16,17 @@ std::vector<Command> help_commands() {
     const std::vector<Command> rows{
         Command("help.shortcuts", "Help",
                 "Says what can be done now, then lists all keys and what the mouse does; a search finds commands.",
-                &Session::open_help, {.shortcut = "F1", .enabled = always}),
+                &Dialogs::open_help, {.shortcut = "F1", .enabled = always}),
         Command("help.messages", "Messages", "Lists what was said: what went wrong, what to do, and what was done.",
-                &Session::open_messages, {.shortcut = "F8", .enabled = always}),
-        Command("help.clear_messages", "Clear messages", "Empties the list of messages.", &Session::clear_messages,
-                {.enabled = {[](const Session& session) { return !session.notifications.all().empty(); },
-                             [](const Session&) -> std::string_view { return "there are none"; }}}),
+                [](Dialogs& dialogs, Notifications& notifications) {
+                    dialogs.open(Dialog::messages);
+                    notifications.mark_read();
+                }, {.shortcut = "F8", .enabled = always}),
+        Command("help.clear_messages", "Clear messages", "Empties the list of messages.", &Notifications::clear,
+                {.enabled = {[](const Notifications& notifications) { return !notifications.all().empty(); },
+                             []() -> std::string_view { return "there are none"; }}}),
         Command("help.about", "About Mobbscope", "Says which version this is and what it shows.",
-                [](Session& session) { session.dialogs.open(Dialog::about); }, {.enabled = always}),
+                [](Dialogs& dialogs) { dialogs.open(Dialog::about); }, {.enabled = always}),
     };
     return in_menu("Help", rows);
 }
@@ -59,13 +62,13 @@ std::span<const Command> commands() {
     return table;
 }
 
-bool belongs_here(const Session& session, const Command& command) {
-    return is_everywhere(command) || is_of_review(command) == session.reviews.shown();
+bool belongs_here(const Reviews& reviews, const Command& command) {
+    return is_everywhere(command) || is_of_review(command) == reviews.shown();
 }
 
 std::string_view why_not(const Session& session, const Command& command) {
     if (command.enabled(session)) return "";
-    if (!belongs_here(session, command)) {
+    if (!belongs_here(session.reviews, command)) {
         return session.reviews.shown() ? "picture tests are shown: leave them first" : "no picture tests are shown";
     }
     if (session.reviews.shown()) return command.enabled.why_not(session);
@@ -73,8 +76,8 @@ std::string_view why_not(const Session& session, const Command& command) {
     return session.workspace.empty() ? "nothing is open" : command.enabled.why_not(session);
 }
 
-std::string_view why_no_step(const Session& session) {
-    return session.workspace.view().query ? "there is none from here" : "no query is shown";
+std::string_view why_no_step(const Workspace& workspace) {
+    return workspace.view().query ? "there is none from here" : "no query is shown";
 }
 
 const Command* find_command(std::string_view id) {
@@ -111,9 +114,9 @@ void ask_for_argument(Session& session, const Command& command) {
     session.dialogs.open(Dialog::palette, std::move(input));
 }
 
-const Command* command_for(const Session& session, const Chord& chord) {
+const Command* command_for(const Reviews& reviews, const Chord& chord) {
     for (const Command& command : commands()) {
-        if (!belongs_here(session, command)) continue;
+        if (!belongs_here(reviews, command)) continue;
         for (const std::string& name : words_of(command.shortcut)) {
             if (chord_from_name(name) == chord) return &command;
         }
@@ -132,21 +135,21 @@ std::string_view first_shortcut(const Command& command) {
 Command option_command(const ViewOption& option) {
     CommandTraits traits{.menu = option.menu, .shortcut = option.shortcut, .enabled = always};
     if (const auto value = option.toggle) {
-        const auto flip = [value](Session& session) {
-            session.workspace.change_view([&](ViewState& view) { view.*value = !(view.*value); });
+        const auto flip = [value](Workspace& workspace) {
+            workspace.change_view([&](ViewState& view) { view.*value = !(view.*value); });
         };
-        traits.checked = [value](const Session& session) { return session.workspace.view().*value; };
+        traits.checked = [value](const Workspace& workspace) { return workspace.view().*value; };
         return {option.command, option.title, option.doc, flip, traits};
     }
-    const auto choose = [&option](Session& session, const std::string& text) {
+    const auto choose = [&option](Workspace& workspace, const std::string& text) {
         const std::vector<std::string_view>& all = option.choices;
         // Without an argument the next one.
-        const auto now = std::ranges::find(all, option.text(session.workspace.view()));
+        const auto now = std::ranges::find(all, option.text(workspace.view()));
         const std::string wanted(text.empty() ? (now + 1 == all.end() ? all.front() : *(now + 1)) : text);
         if (std::ranges::find(all, wanted) == all.end()) {
             throw std::invalid_argument(refusal_of(option.refused_in_window, wanted) + ": give " + either(all));
         }
-        session.workspace.change_view([&](ViewState& view) { option.parse(wanted, view); });
+        workspace.change_view([&](ViewState& view) { option.parse(wanted, view); });
     };
     traits.argument = option.argument;
     traits.choices = [&option](const Session&) {
@@ -158,8 +161,8 @@ Command option_command(const ViewOption& option) {
             return std::string(option.choice_titles.at(static_cast<std::size_t>(at)));
         };
     }
-    traits.chosen = [&option](const Session& session, const std::string& text) {
-        return option.text(session.workspace.view()) == text;
+    traits.chosen = [&option](const Workspace& workspace, const std::string& text) {
+        return option.text(workspace.view()) == text;
     };
     return {option.command, option.title, option.doc, choose, traits};
 }

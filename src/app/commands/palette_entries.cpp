@@ -144,7 +144,7 @@ std::vector<PaletteEntry> palette_entries(const Session& session, const std::str
     const bool names = out.has_words();
     if (names && !session.reviews.shown()) add_node(out, session, text);
     for (const Command& command : commands()) {
-        if (belongs_here(session, command)) add_command(out, session, command);
+        if (belongs_here(session.reviews, command)) add_command(out, session, command);
     }
     if (names && session.reviews.shown()) add_cases(out, *session.reviews.review());
     if (names && !session.reviews.shown()) add_things(out, session);

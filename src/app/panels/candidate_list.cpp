@@ -42,19 +42,19 @@ void fate_line(Ui& ui, ImVec2 corner, CandidateOutcome outcome) {
 }
 
 /// "turn_left, 45": the move's name, and how far it was turned for.
-std::string move_name(const Session& session, const Candidate& candidate) {
-    const GraphMove& move = session.workspace.scene().graph->moves[static_cast<std::size_t>(candidate.move)];
-    std::string name = session.workspace.scene().clips[static_cast<std::size_t>(move.clip)].name;
+std::string move_name(const Workspace& workspace, const Candidate& candidate) {
+    const GraphMove& move = workspace.scene().graph->moves[static_cast<std::size_t>(candidate.move)];
+    std::string name = workspace.scene().clips[static_cast<std::size_t>(move.clip)].name;
     if (candidate.turn_deg == 0) return name;
     return name + formatted(", %+.0f\u00B0", candidate.turn_deg);
 }
 
-std::string remark_of(const Session& session, const Choice& choice, std::size_t index) {
+std::string remark_of(const Workspace& workspace, const Choice& choice, std::size_t index) {
     const Candidate& candidate = choice.candidates[index];
     const CandidateOutcome outcome = outcome_of(choice, index);
     if (outcome == CandidateOutcome::leaves_floor) return "off floor";
     if (outcome != CandidateOutcome::ruled_out) return std::string(outcome_words(outcome));
-    const std::string& other = session.workspace.crowd()->agents[static_cast<std::size_t>(candidate.blocker->agent)].name;
+    const std::string& other = workspace.crowd()->agents[static_cast<std::size_t>(candidate.blocker->agent)].name;
     return shortened(cleaned(other), 16) + (candidate.blocker->planned > 0 ? "'s plan" : "") +
            formatted(" at %.2f s", candidate.blocker->contact.time);
 }
@@ -83,14 +83,14 @@ int rank_of(CandidateOutcome outcome) {
 }
 
 /// Those that the list shows, in its order; candidates that are equal in it stay as they were asked.
-std::vector<ListedCandidate> listed(const Session& session, const Choice& choice) {
-    const CandidateList& list = session.crowds.list;
+std::vector<ListedCandidate> listed(const CrowdInspector& crowds, const Workspace& workspace, const Choice& choice) {
+    const CandidateList& list = crowds.list;
     std::vector<ListedCandidate> out;
     for (const std::size_t index : shown_candidates(choice)) {
         const Candidate& candidate = choice.candidates[index];
         const bool is_free = candidate.is_free() && outcome_of(choice, index) != CandidateOutcome::no_way_on;
         if (list.which != Which::all && is_free != (list.which == Which::free)) continue;
-        ListedCandidate row{index, move_name(session, candidate), remark_of(session, choice, index),
+        ListedCandidate row{index, move_name(workspace, candidate), remark_of(workspace, choice, index),
                             outcome_of(choice, index)};
         if (candidate.blocker) row.contact = candidate.blocker->contact.time;
         if (has_text(row, list.text)) out.push_back(std::move(row));
@@ -153,7 +153,7 @@ void candidate_row(Ui& ui, const Choice& choice, const ListedCandidate& candidat
                  to_im(readable(color, ui.style.palette))})) {
         invoke(session, "crowd.candidate", index);
     }
-    context_menu(ui, [&] { return candidate_menu(session, static_cast<int>(candidate.index)); });
+    context_menu(ui, [&] { return candidate_menu(session.crowds, session.workspace, static_cast<int>(candidate.index)); });
     fate_line(ui, corner, candidate.outcome);
     if (!ImGui::IsItemHovered()) return;
     ImGui::SetTooltip("%s", candidate_sentence(session.workspace.scene(), choice, candidate.index).c_str());
@@ -179,7 +179,7 @@ void last_choice(Ui& ui) {
     }
     words(ui.style.text, choice_sentence(session.workspace.scene(), *followed));
     list_head(ui);
-    const std::vector<ListedCandidate> all = listed(session, choice);
+    const std::vector<ListedCandidate> all = listed(session.crowds, session.workspace, choice);
     if (all.empty()) words(ui.style.quiet, "None of them is as asked for.");
     rows(ui, "##candidates", static_cast<int>(all.size()), kMostCandidateRows,
          [&](int i) { candidate_row(ui, choice, all[static_cast<std::size_t>(i)]); });

@@ -60,13 +60,13 @@ void plays(Ui& ui) {
 }
 
 /// When and how deep two overlap, and what a double click does.
-std::string conflict_words(const Session& session, const SceneConflict& conflict) {
+std::string conflict_words(const Workspace& workspace, const SceneConflict& conflict) {
     const auto& worst = conflict.facts.worst();
     std::string text =
         formatted("%.3f m deep, from %.2f to %.2f s", -conflict.facts.deepest.least_clearance, worst.t0, worst.t1);
     if (const std::size_t others = conflict.facts.intervals.size() - 1; others > 0)
         text += "; they meet " + (others == 1 ? "once" : counted(others, "time", "times")) + " more";
-    return text + ".\nDouble-click goes to " + (session.workspace.crowd() ? "the forced choice that made it" : "just before it");
+    return text + ".\nDouble-click goes to " + (workspace.crowd() ? "the forced choice that made it" : "just before it");
 }
 
 void conflicts(Ui& ui) {
@@ -91,7 +91,7 @@ void conflicts(Ui& ui) {
         }
         context_menu(ui, [&] { return conflict_menu(i); });
         if (!ImGui::IsItemHovered()) return;
-        ImGui::SetTooltip("%s", conflict_words(session, conflict).c_str());
+        ImGui::SetTooltip("%s", conflict_words(session.workspace, conflict).c_str());
         if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) invoke(session, "conflicts.go", std::to_string(i));
     });
     ImGui::BeginDisabled(session.workspace.conflict < 0);

@@ -51,8 +51,8 @@ struct ExportTarget {
     std::string says, why_not{};
 };
 
-ExportTarget target_of(const Session& session) {
-    ExportTarget out{export_file(session), false, ""};
+ExportTarget target_of(const Workspace& workspace, const Settings& settings, const Dialogs& dialogs) {
+    ExportTarget out{export_file(workspace, settings, dialogs), false, ""};
     const std::filesystem::path& file = out.file;
     const std::filesystem::path folder = file.parent_path().empty() ? "." : file.parent_path();
     std::error_code ignored;
@@ -142,7 +142,7 @@ void size_presets(Ui& ui) {
     const ExportOption& option = export_option("size");
     const std::string now = option.text(session.settings.picture_export);
     const bool is_preset = std::ranges::find(option.choices, now) != option.choices.end();
-    const PictureSize viewport = viewport_size(session);
+    const PictureSize viewport = viewport_size(session.views);
     form_label(ui, "Size", "In pixels");
     if (!begin_dropdown(ui, "export.size", is_preset ? size_label(now, viewport) : "Other", "Size")) return;
     for (const std::string& choice : option.choices) {
@@ -258,8 +258,7 @@ void settings_fields(Ui& ui, const PictureOrder& order, const std::string& why_n
     scale_field(ui, order);
     form_label(ui, "Samples", "Per pixel: more make smoother edges");
     choice_buttons(ui, "samples", [&](const std::string& count) {
-        const auto& why_no = session.hooks.why_no_samples;
-        return why_no ? why_no(parse_samples(count)) : "";
+        return session.picture_maker->why_no_samples(parse_samples(count));
     });
     form_label(ui, "Background", "Transparent: seen through where nothing is drawn");
     choice_buttons(ui, "background");
@@ -278,10 +277,9 @@ void make_preview(Session& session) {
     dialog.image.reset();
     dialog.why_not.clear();
     try {
-        if (!session.hooks.draw_coarse_picture) return;
         const int divisor = dialog.shown.divisor;
-        const DrawList list = draw_list_of(session, order_to_export(session));
-        dialog.image = std::make_shared<const Image>(shrunk(session.hooks.draw_coarse_picture(list, divisor), divisor));
+        const DrawList list = draw_list_of(session.workspace, order_to_export(session.settings, session.workspace, session.views));
+        dialog.image = std::make_shared<const Image>(shrunk(session.picture_maker->draw_coarse(list, divisor), divisor));
     } catch (const std::exception& error) {
         dialog.why_not = error.what();
     }
@@ -335,14 +333,14 @@ void draw_preview(Ui& ui, const PictureOrder& order, float height) {
 }
 
 /// What is exported, and as what.
-std::string exported_subject(const Session& session) {
-    std::string out = "What the window shows of " + session.workspace.title();
-    if (!session.reviews.open_case_name().empty()) out = "The scene of the case " + session.reviews.open_case_name();
-    if (session.views.count() < 2) return out;
-    const std::size_t place = session.views.active();
-    const std::string which = place == 0 ? "the left" : place + 1 == session.views.count() ? "the right" : "the middle";
+std::string exported_subject(const Workspace& workspace, const Files& files, const Views& views) {
+    std::string out = "What the window shows of " + workspace.title();
+    if (!files.visited().empty()) out = "The scene of the case " + files.visited();
+    if (views.count() < 2) return out;
+    const std::size_t place = views.active();
+    const std::string which = place == 0 ? "the left" : place + 1 == views.count() ? "the right" : "the middle";
     return out + ", " + which + " view alone (" +
-           std::string(mobb::info(session.workspace.document().fitted->options().tree).label) + ")";
+           std::string(mobb::info(workspace.document().fitted->options().tree).label) + ")";
 }
 
 // --- the command line
@@ -373,7 +371,7 @@ std::string in_rows(const std::string& line, std::size_t columns) {
 }
 
 void command_line(Ui& ui, const PictureOrder& order, const ExportTarget& target) {
-    const auto line = render_line(ui.session, order, target.file.string());
+    const auto line = render_line(ui.session.workspace, ui.session.files, ui.session.dialogs, order, target.file.string());
     const ImVec2 room = ImGui::GetContentRegionAvail();
     if (!line) {
         words(ui.style.quiet,
@@ -461,7 +459,7 @@ void export_dialog(Ui& ui) {
         return;
     }
     const bool keys_are_taken = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) || ImGui::GetIO().WantTextInput;
-    const PictureOrder order = order_to_export(session);
+    const PictureOrder order = order_to_export(session.settings, session.workspace, session.views);
     std::string why_no_size;
     try {
         check(order.options);
@@ -472,8 +470,8 @@ void export_dialog(Ui& ui) {
     text_line(ui.style.text, "Export picture", ui.style.title);
     ImGui::SameLine(0, ui.px(14));
     ImGui::AlignTextToFramePadding();
-    text_line(ui.style.quiet, fitted_text(exported_subject(session), ImGui::GetContentRegionAvail().x));
-    const ExportTarget target = target_of(session);
+    text_line(ui.style.quiet, fitted_text(exported_subject(session.workspace, session.files, session.views), ImGui::GetContentRegionAvail().x));
+    const ExportTarget target = target_of(session.workspace, session.settings, session.dialogs);
     const bool entered = file_field(ui, target);
     const float foot = ImGui::GetFrameHeight() + 3 * ImGui::GetStyle().ItemSpacing.y + ui.px(2);
     const float height = ImGui::GetContentRegionAvail().y - foot;

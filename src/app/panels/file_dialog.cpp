@@ -84,34 +84,34 @@ std::string date_text(const Session& session, std::time_t when) {
 }
 
 /// Where one was last; a scene that has a file is saved beside it.
-void begin(Session& session, const Purpose& purpose) {
-    std::filesystem::path folder = session.settings.folder;
-    if (purpose.writes() && session.workspace.file) folder = session.workspace.file->parent_path();
+void begin(Settings& settings, Workspace& workspace, Dialogs& dialogs, const Purpose& purpose) {
+    std::filesystem::path folder = settings.folder;
+    if (purpose.writes() && workspace.file) folder = workspace.file->parent_path();
     if (!folder.empty() && !is_folder(folder)) folder.clear();
-    const std::string open = session.workspace.scene().file.filename().string();
-    const bool to_export = session.dialogs.now == Dialog::export_file;
-    const std::filesystem::path exported = to_export ? export_file(session) : std::filesystem::path();
+    const std::string open = workspace.scene().file.filename().string();
+    const bool to_export = dialogs.now == Dialog::export_file;
+    const std::filesystem::path exported = to_export ? export_file(workspace, settings, dialogs) : std::filesystem::path();
     if (to_export && is_folder(exported.parent_path())) folder = exported.parent_path();
-    session.dialogs.browser.order_by(session.settings.file_order);
-    session.dialogs.browser.begin(folder, purpose.extensions, open);
-    const std::string stem = std::filesystem::path(session.workspace.title()).stem().string();
-    session.dialogs.input.set_text(to_export ? exported.filename().string() : purpose.writes() ? stem + purpose.extension : "");
+    dialogs.browser.order_by(settings.file_order);
+    dialogs.browser.begin(folder, purpose.extensions, open);
+    const std::string stem = std::filesystem::path(workspace.title()).stem().string();
+    dialogs.input.set_text(to_export ? exported.filename().string() : purpose.writes() ? stem + purpose.extension : "");
 }
 
 /// What was typed led elsewhere; the name of a file that is to be written stays.
-void keep_name(Session& session, const Purpose& purpose) {
-    const std::string& typed = session.dialogs.input.text;
-    session.dialogs.input.set_text(purpose.writes() ? typed.substr(typed.rfind('/') + 1) : "");
+void keep_name(Dialogs& dialogs, const Purpose& purpose) {
+    const std::string& typed = dialogs.input.text;
+    dialogs.input.set_text(purpose.writes() ? typed.substr(typed.rfind('/') + 1) : "");
 }
 
-void go_into(Session& session, const Purpose& purpose, const std::filesystem::path& folder) {
-    session.dialogs.browser.go(folder);
-    keep_name(session, purpose);
+void go_into(Dialogs& dialogs, const Purpose& purpose, const std::filesystem::path& folder) {
+    dialogs.browser.go(folder);
+    keep_name(dialogs, purpose);
 }
 
-void go_up(Session& session, const Purpose& purpose) {
-    session.dialogs.browser.go_up();
-    keep_name(session, purpose);
+void go_up(Dialogs& dialogs, const Purpose& purpose) {
+    dialogs.browser.go_up();
+    keep_name(dialogs, purpose);
 }
 
 /// Does the dialog's command with files; what goes wrong is said, and the dialog stays.
@@ -130,7 +130,7 @@ void take(Session& session, const Purpose& purpose, const std::vector<std::files
 void take_written(Session& session, const Purpose& purpose) {
     DialogInput& input = session.dialogs.input;
     std::filesystem::path path = typed_path(input.text, session.dialogs.browser.folder());
-    if (is_folder(path)) return go_into(session, purpose, path);
+    if (is_folder(path)) return go_into(session.dialogs, purpose, path);
     path = with_extension(path, purpose.extension);
     std::error_code ignored;
     const bool keeps_own = session.dialogs.now == Dialog::save_as && session.workspace.file &&
@@ -156,14 +156,14 @@ void take_written(Session& session, const Purpose& purpose) {
 /// What is chosen, which is what was typed where that is listed; a folder is gone into.
 void take_read(Session& session, const Purpose& purpose) {
     const std::vector<std::filesystem::path> chosen = session.dialogs.browser.chosen();
-    if (chosen.size() == 1 && is_folder(chosen.front())) return go_into(session, purpose, chosen.front());
+    if (chosen.size() == 1 && is_folder(chosen.front())) return go_into(session.dialogs, purpose, chosen.front());
     if (!chosen.empty()) return take(session, purpose, chosen);
     const std::string& typed = session.dialogs.input.text;
     const std::filesystem::path path = typed_path(typed, session.dialogs.browser.folder()).lexically_normal();
     if (typed.empty()) {
         session.dialogs.input.fresh = true;
     } else if (is_folder(path)) {
-        go_into(session, purpose, path);
+        go_into(session.dialogs, purpose, path);
     } else {
         take(session, purpose, {path});  // which says what is wrong with it
     }
@@ -183,9 +183,9 @@ void crumbs(Ui& ui, const Purpose& purpose) {
     Session& session = ui.session;
     const std::string prefix = purpose.prefix;
     const auto go = [&](const std::filesystem::path& folder) {
-        session.queue.push([&session, purpose, folder] { go_into(session, purpose, folder); });
+        session.queue.push([&session, purpose, folder] { go_into(session.dialogs, purpose, folder); });
     };
-    if (ImGui::ArrowButton("##up", ImGuiDir_Up)) session.queue.push([&session, purpose] { go_up(session, purpose); });
+    if (ImGui::ArrowButton("##up", ImGuiDir_Up)) session.queue.push([&session, purpose] { go_up(session.dialogs, purpose); });
     ui.mark(prefix + ".up");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("The folder above (Backspace, or Alt+Up)");
     const std::vector<std::filesystem::path> way = session.dialogs.browser.way();
@@ -222,11 +222,11 @@ struct FilePlace {
 };
 
 /// Where files often are.
-std::vector<FilePlace> places(const Session& session) {
+std::vector<FilePlace> places(const Workspace& workspace) {
     std::vector<FilePlace> out;
     const std::string home = expanded("~");
     out.push_back({"Home", home == "~" ? "/" : home});
-    if (session.workspace.file) out.push_back({"This scene's", typed_path(".", session.workspace.file->parent_path())});
+    if (workspace.file) out.push_back({"This scene's", typed_path(".", workspace.file->parent_path())});
     try {
         out.push_back({"Examples", demo_scene_file().parent_path().parent_path()});
     } catch (const MachineError&) {
@@ -235,9 +235,9 @@ std::vector<FilePlace> places(const Session& session) {
     return out;
 }
 
-std::vector<FilePlace> recent_folders(const Session& session) {
+std::vector<FilePlace> recent_folders(const Settings& settings) {
     std::vector<FilePlace> out;
-    for (const std::filesystem::path& file : session.settings.recent) {
+    for (const std::filesystem::path& file : settings.recent) {
         const std::filesystem::path folder = file.has_extension() ? file.parent_path() : file;
         const bool known = std::ranges::any_of(out, [&](const FilePlace& place) { return place.folder == folder; });
         if (!known) out.push_back({folder.filename().string(), folder});
@@ -254,7 +254,7 @@ void place_list(Ui& ui, const Purpose& purpose) {
             ImGui::PushID(static_cast<int>(i));
             ImGui::PushID(mark.c_str());
             if (ImGui::Selectable(fitted_text(place.name, ImGui::GetContentRegionAvail().x).c_str())) {
-                session.queue.push([&session, purpose, to = place.folder] { go_into(session, purpose, to); });
+                session.queue.push([&session, purpose, to = place.folder] { go_into(session.dialogs, purpose, to); });
             }
             ImGui::PopID();
             ImGui::PopID();
@@ -263,8 +263,8 @@ void place_list(Ui& ui, const Purpose& purpose) {
         }
     };
     text_line(ui.style.quiet, "PLACES", ui.style.caption);
-    list(places(session), ".place.");
-    const std::vector<FilePlace> recent = recent_folders(session);
+    list(places(session.workspace), ".place.");
+    const std::vector<FilePlace> recent = recent_folders(session.settings);
     if (recent.empty()) return;
     ImGui::Dummy({0, ui.px(6)});
     text_line(ui.style.quiet, "RECENT", ui.style.caption);
@@ -290,13 +290,13 @@ Columns columns_of(const Ui& ui, float width) {
 }
 
 /// Orders by a column, or the other way round if it is ordered by it already.
-void order_by(Session& session, const std::string& column) {
-    std::string& now = session.settings.file_order;
+void order_by(Settings& settings, Dialogs& dialogs, const std::string& column) {
+    std::string& now = settings.file_order;
     // Who orders by date or size looks for the latest or largest.
     const std::string first = column == "name" ? column : "-" + column;
     const std::string other = column == "name" ? "-" + column : column;
     now = now == first ? other : first;
-    session.dialogs.browser.order_by(now);
+    dialogs.browser.order_by(now);
 }
 
 /// The heads of the columns; a click orders by one, the next one the other way round.
@@ -309,7 +309,7 @@ void column_heads(Ui& ui, const Purpose& purpose, const Columns& columns) {
         const bool last_to_first = now == "-" + order;
         ImGui::SetCursorPos({at.x + from, at.y});
         const float height = ImGui::GetTextLineHeight() + ui.px(6);
-        if (ImGui::InvisibleButton(order.c_str(), {to - from, height})) order_by(session, order);
+        if (ImGui::InvisibleButton(order.c_str(), {to - from, height})) order_by(session.settings, session.dialogs, order);
         ui.mark(purpose.prefix + (".order." + order));
         const bool hovered = ImGui::IsItemHovered();
         if (hovered) ImGui::SetTooltip("Orders by it: Ctrl+1 the name, Ctrl+2 the size, Ctrl+3 the date");
@@ -373,7 +373,7 @@ bool clicked_entry(Session& session, const Purpose& purpose, std::size_t index) 
     if (purpose.writes()) {
         if (entry.folder && twice) {
             session.queue.push(
-                [&session, purpose, to = session.dialogs.browser.listed() / entry.name] { go_into(session, purpose, to); });
+                [&session, purpose, to = session.dialogs.browser.listed() / entry.name] { go_into(session.dialogs, purpose, to); });
         }
         // The name of a file that is there may be meant for the new one.
         if (!entry.folder) session.dialogs.input.set_text(entry.name);
@@ -383,8 +383,8 @@ bool clicked_entry(Session& session, const Purpose& purpose, std::size_t index) 
 }
 
 /// The keys that move through the list while the field has the others.
-bool keys_in_list(Session& session, const Purpose& purpose) {
-    FileBrowser& browser = session.dialogs.browser;
+bool keys_in_list(Dialogs& dialogs, Settings& settings, const Purpose& purpose) {
+    FileBrowser& browser = dialogs.browser;
     const ImGuiIO& io = ImGui::GetIO();
     if (browser.entries().empty() || io.KeyAlt) return false;
     int at = static_cast<int>(browser.cursor());
@@ -398,10 +398,10 @@ bool keys_in_list(Session& session, const Purpose& purpose) {
     constexpr std::array<std::pair<Key, const char*>, 3> kOrders{
         {{Key::n1, "name"}, {Key::n2, "size"}, {Key::n3, "date"}}};
     for (const auto& [key, column] : kOrders) {
-        if (io.KeyCtrl && pressed(key)) order_by(session, column);
+        if (io.KeyCtrl && pressed(key)) order_by(settings, dialogs, column);
     }
     if (several && io.KeyCtrl && pressed(ImGuiKey_Space)) browser.choose(browser.cursor(), Choose::toggle);
-    if (several && io.KeyCtrl && pressed(ImGuiKey_A) && session.dialogs.input.text.empty()) browser.choose_all();
+    if (several && io.KeyCtrl && pressed(ImGuiKey_A) && dialogs.input.text.empty()) browser.choose_all();
     return moved;
 }
 
@@ -445,7 +445,7 @@ const FileSummary* summary_at_cursor(Ui& ui) {
     const FileBrowser& browser = session.dialogs.browser;
     if (browser.entries().empty()) return nullptr;
     const std::filesystem::path file = browser.listed() / browser.entries()[browser.cursor()].name;
-    const FileSummary* summary = session.dialogs.preview.ask(file, ui.now, !session.options.attended, session.hooks.wake);
+    const FileSummary* summary = session.dialogs.preview.ask(file, ui.now, !session.options.attended, [&at = *session.desktop] { at.wake(); });
     if (!summary) ui.want_frame_in(session.dialogs.preview.ask_again_in(ui.now));
     return summary;
 }
@@ -507,7 +507,7 @@ void file_dialog(Ui& ui) {
     const auto enqueue = [&](void (*what)(Session&, const Purpose&)) {
         session.queue.push([&session, purpose, what] { what(session, purpose); });
     };
-    if (input.generation == 0) begin(session, purpose);
+    if (input.generation == 0) begin(session.settings, session.workspace, session.dialogs, purpose);
     begin_dialog(ui, "file", {kDialogWidth, kDialogHeight});
     dialog_title(ui, purpose.title);
     crumbs(ui, purpose);
@@ -524,7 +524,7 @@ void file_dialog(Ui& ui) {
     ui.mark(prefix + ".path");
     browser.follow(input.text, !purpose.writes());
     session.settings.folder = session.options.attended ? browser.way().back() : browser.folder();
-    const bool moved = keys_in_list(session, purpose);
+    const bool moved = keys_in_list(session.dialogs, session.settings, purpose);
     if (ImGui::GetIO().KeyCtrl && pressed(Key::h)) browser.show_hidden(!browser.shows_hidden());
 
     const float room = ImGui::GetContentRegionAvail().x;
@@ -589,7 +589,7 @@ void file_dialog(Ui& ui) {
     } else if (accepted) {
         enqueue(purpose.writes() ? take_written : take_read);
     } else if (up) {
-        enqueue(go_up);
+        session.queue.push([&session, purpose] { go_up(session.dialogs, purpose); });
     }
 }
 

@@ -67,7 +67,7 @@ bool choice_row(Ui& ui, const ImportField& field, const std::string& label, cons
 /// What the file has to choose from, searched by a few letters where it is much; a unit or a radius may be any number
 /// too.
 void offered_choices(Ui& ui, const ImportField& field) {
-    std::string& search = ui.session.imports.dialog.search;
+    std::string& search = ui.session.imports.edited.search;
     if (ImGui::IsWindowAppearing()) search.clear();
     const std::vector<OfferedChoice>& all = field.offer->choices;
     const bool is_unit = field.option.key == std::string_view("unit");
@@ -142,7 +142,7 @@ void number_option(Ui& ui, const ImportField& field) {
 }
 
 void trim_field(Ui& ui, const ImportField& field) {
-    const double seconds = ui.session.imports.dialog.offer ? ui.session.imports.dialog.offer->seconds : 0;
+    const double seconds = ui.session.imports.edited.offer ? ui.session.imports.edited.offer->seconds : 0;
     const auto [begin, end] = field.clip.options.trim.value_or(std::pair(0.0, seconds));
     const float spacing = ui.px(6);
     const float width = (ImGui::CalcItemWidth() - spacing) / 2;
@@ -184,8 +184,8 @@ void field_remarks(Ui& ui, const ImportField& field, float left) {
         line(ui.style.warning, "! " + said(warning));
         ui.mark(field.mark() + ".warning");
     }
-    const auto refused = ui.session.imports.dialog.refused.find(field.option.key);
-    if (refused != ui.session.imports.dialog.refused.end()) {
+    const auto refused = ui.session.imports.edited.refused.find(field.option.key);
+    if (refused != ui.session.imports.edited.refused.end()) {
         line(ui.style.error, "\u00D7 " + refused->second.text + ": " + refused->second.why);
         ui.mark(field.mark() + ".error");
     }
@@ -193,7 +193,7 @@ void field_remarks(Ui& ui, const ImportField& field, float left) {
 }
 
 void import_field(Ui& ui, const ImportField& field) {
-    ClipImport& now = ui.session.imports.dialog;
+    ClipImport& now = ui.session.imports.edited;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const bool asked_for = now.field == field.option.key;
     ImGui::PushID(field.option.key);
@@ -258,7 +258,7 @@ void whole_file(Ui& ui, int index) {
     const std::size_t clips = clips_of_same_source(ui.session.workspace.scene(), index).size();
     if (clips < 2) return;
     ImGui::Checkbox(("for all " + std::to_string(clips) + " clips of this file").c_str(),
-                    &ui.session.imports.dialog.whole_file);
+                    &ui.session.imports.edited.whole_file);
     ui.mark("import.whole_file");
     if (ImGui::IsItemHovered()) {
         ImGui::SetTooltip(
@@ -267,7 +267,7 @@ void whole_file(Ui& ui, int index) {
 }
 
 void fields(Ui& ui, const SceneClip& clip, int index) {
-    const ClipImport& now = ui.session.imports.dialog;
+    const ClipImport& now = ui.session.imports.edited;
     if (ui.session.workspace.scene().clips.size() > 1) clip_chooser(ui, index);
     whole_file(ui, index);
     if (!now.offer) {
@@ -300,7 +300,7 @@ std::string said_of(const SceneClip& clip) {
 
 void import_dialog(Ui& ui) {
     Session& session = ui.session;
-    const int index = session.imports.dialog.clip;
+    const int index = session.imports.edited.clip;
     const auto& clips = session.workspace.scene().clips;
     const bool is_there = index >= 0 && static_cast<std::size_t>(index) < clips.size();
     if (!is_there || !clips[static_cast<std::size_t>(index)].source) {

@@ -126,7 +126,7 @@ void path_from_above(Ui& ui, const mobb::Clip& clip, ImVec2 size) {
     std::vector<ImVec2> line;
     thinned(samples.size(), kMostPoints, [&](std::size_t i) { line.push_back(at(samples[i].x, samples[i].y)); });
     list.AddPolyline(line.data(), static_cast<int>(line.size()), ui.style.text, 0, ui.px(1.5f));
-    const mobb::Disk& now = samples[static_cast<std::size_t>(sample_at(clip, ui.session.imports.dialog.time))];
+    const mobb::Disk& now = samples[static_cast<std::size_t>(sample_at(clip, ui.session.imports.edited.time))];
     list.AddCircle(at(now.x, now.y), static_cast<float>(now.r * scale), ui.style.accent, 0, ui.px(2));
     list.AddCircleFilled(at(now.x, now.y), ui.px(3), ui.style.accent);
     const ImVec2 start = at(samples.front().x, samples.front().y);
@@ -185,7 +185,7 @@ void body(Ui& ui, const SceneClip& clip, ImVec2 size) {
                  to_im(with_alpha(ui.style.palette.text, 0.18f)), ui.px(1));
     const std::optional<glm::dvec2> heading = heading_of(clip.clip->samples());
     const glm::dvec2 ahead = heading.value_or(glm::dvec2(1, 0));
-    const auto positions = skeleton.at(sample_at(*clip.clip, ui.session.imports.dialog.time));
+    const auto positions = skeleton.at(sample_at(*clip.clip, ui.session.imports.edited.time));
     for (int view = 0; view < 2; ++view) {
         const glm::dvec2 across = view == 0 ? ahead : glm::dvec2(ahead.y, -ahead.x);
         const float middle = in.min.x + ruler + room * (static_cast<float>(view) + 0.5f);
@@ -211,7 +211,7 @@ void body(Ui& ui, const SceneClip& clip, ImVec2 size) {
 /// The clip's moment under the mouse, while a button holds it there.
 void scrub(Ui& ui, const ChartAxis& x, double duration) {
     if (!ImGui::IsItemActive()) return;
-    ui.session.imports.dialog.time = std::clamp(x.value(ImGui::GetIO().MousePos.x), 0.0, duration);
+    ui.session.imports.edited.time = std::clamp(x.value(ImGui::GetIO().MousePos.x), 0.0, duration);
 }
 
 void radius_over_time(Ui& ui, const mobb::Clip& clip, const PathFigures& figures, ImVec2 size) {
@@ -247,7 +247,7 @@ void radius_over_time(Ui& ui, const mobb::Clip& clip, const PathFigures& figures
         curve.push_back({x.pixel((static_cast<double>(i) + 0.5) * clip.dt()), y.pixel(samples[i].r)});
     });
     list.AddPolyline(curve.data(), static_cast<int>(curve.size()), ui.style.text, 0, ui.px(1.5f));
-    const float now = x.pixel(ui.session.imports.dialog.time);
+    const float now = x.pixel(ui.session.imports.edited.time);
     list.AddLine({now, in.min.y}, {now, in.max.y}, ui.style.accent, ui.px(1.5f));
     note(ui, {in.min.x + ui.px(10), in.min.y + ui.px(3)}, ui.style.quiet, "radius over time");
 }
@@ -255,7 +255,7 @@ void radius_over_time(Ui& ui, const mobb::Clip& clip, const PathFigures& figures
 /// The file's time with the part that is taken, and the moment that is shown: a bar to scrub on, and below it a handle
 /// at each end of the part.
 void time_bar(Ui& ui, const SceneClip& clip, double seconds) {
-    ClipImport& now = ui.session.imports.dialog;
+    ClipImport& now = ui.session.imports.edited;
     const auto trim = clip.options.trim;
     const double begin = trim ? trim->first : 0;
     const double end = trim ? std::min(trim->second, seconds) : seconds;
@@ -333,7 +333,7 @@ void figures_of_clip(Ui& ui, const mobb::Clip& clip, const PathFigures& figures)
 }  // namespace
 
 void import_preview(Ui& ui, const SceneClip& clip) {
-    ClipImport& now = ui.session.imports.dialog;
+    ClipImport& now = ui.session.imports.edited;
     const PathFigures figures = figures_of(*clip.clip);
     now.time = std::clamp(now.time, 0.0, clip.clip->duration());
     const ImVec2 room = ImGui::GetContentRegionAvail();

@@ -86,8 +86,8 @@ Wish buttons(Ui& ui, const Message& message, const std::string& mark) {
         }
         ImGui::SameLine();
     }
-    if (small_button(ui, "Copy", mark + ".copy", "Copy the text") && session.hooks.set_clipboard) {
-        session.hooks.set_clipboard(message.text);
+    if (small_button(ui, "Copy", mark + ".copy", "Copy the text")) {
+        session.desktop->set_clipboard(message.text);
     }
     ImGui::SameLine();
     return small_button(ui, "x", mark + ".dismiss", "Take it off the list") ? Wish::dismiss : Wish::nothing;
@@ -255,8 +255,8 @@ void message_list(Ui& ui) {
     const auto index = all.size() - 1 - static_cast<std::size_t>(input.picked);
     const Message* picked = all.empty() ? nullptr : &all[index];
     if (picked && pressed(ImGuiKey_Delete)) gone = index;
-    if (picked && ImGui::GetIO().KeyCtrl && pressed(ImGuiKey_C) && session.hooks.set_clipboard) {
-        session.hooks.set_clipboard(picked->text);
+    if (picked && ImGui::GetIO().KeyCtrl && pressed(ImGuiKey_C)) {
+        session.desktop->set_clipboard(picked->text);
     }
     if (marked_button(ui, "Close", "messages.close", true) || pressed(ImGuiKey_Enter)) {
         session.queue.push([&session] { session.dialogs.close(); });

@@ -51,19 +51,19 @@ void color_field(Ui& ui, const PlacedAgent& who, int index) {
 }
 
 /// The selected one, also by a node or a sample; none in a run, whose agents stand where they were simulated.
-std::optional<PlacedAgent> agent_to_place(const Session& session) {
-    if (session.workspace.crowd() || !session.workspace.selection.on_path()) return std::nullopt;
-    const auto who = placed_agent_of(session.workspace.fitted(), session.workspace.selection.path);
+std::optional<PlacedAgent> agent_to_place(const Workspace& workspace) {
+    if (workspace.crowd() || !workspace.selection.on_path()) return std::nullopt;
+    const auto who = placed_agent_of(workspace.fitted(), workspace.selection.path);
     return who && who->agent >= 0 ? who : std::nullopt;
 }
 
 }  // namespace
 
 float placement_height(const Ui& ui) {
-    if (!agent_to_place(ui.session)) return 0;
+    if (!agent_to_place(ui.session.workspace)) return 0;
     const float spacing = ui.px(5);
     const float around = 2 * ImGui::GetStyle().WindowPadding.y + ui.px(6) + spacing + ui.style.caption->FontSize;
-    if (is_folded(ui.session, "placement")) return around;
+    if (is_folded(ui.session.settings, "placement")) return around;
     const float fields = 6 * (ImGui::GetFrameHeight() + spacing);
     return around + spacing + fields + ImGui::GetTextLineHeight();
 }
@@ -77,7 +77,7 @@ void placement_panel(Ui& ui) {
     draw.AddRectFilled(corner, end, ui.style.border);
     draw.PopClipRect();
     // A list above may have selected something else in this frame.
-    const auto who = agent_to_place(session);
+    const auto who = agent_to_place(session.workspace);
     if (!who || !section(ui, "PLACEMENT", cleaned(who->name))) return;
     // Of this agent: what is half typed into a field is no other's.
     ImGui::PushID(who->agent);

@@ -42,8 +42,8 @@ void cell_menu(Ui& ui, const Recursion& recursion, const std::vector<PairCell>& 
         const ImVec2 mouse = ImGui::GetMousePosOnOpeningCurrentPopup();
         const auto under =
             std::find_if(cells.rbegin(), cells.rend(), [&](const PairCell& cell) { return contains(cell, at, mouse); });
-        if (under == cells.rend()) return test_menu(ui.session, ui.session.workspace.step());
-        return test_menu(ui.session, recursion.pairs[static_cast<std::size_t>(under->pair)].last);
+        if (under == cells.rend()) return test_menu(ui.session.workspace, ui.session.queries, ui.session.workspace.step());
+        return test_menu(ui.session.workspace, ui.session.queries, recursion.pairs[static_cast<std::size_t>(under->pair)].last);
     });
 }
 
@@ -252,7 +252,7 @@ void QueryPictures::strip(Ui& ui, float width, float height) {
         const auto index = static_cast<std::size_t>(inside / width * static_cast<float>(cells.size()));
         return cells[std::min<std::size_t>(index, cells.size() - 1)];
     };
-    context_menu(ui, [&] { return test_menu(ui.session, cell_at(ImGui::GetMousePosOnOpeningCurrentPopup().x).first); });
+    context_menu(ui, [&] { return test_menu(ui.session.workspace, ui.session.queries, cell_at(ImGui::GetMousePosOnOpeningCurrentPopup().x).first); });
     const int step = ui.session.workspace.step();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(at, {at.x + width, at.y + height}, ui.style.raised);

@@ -216,7 +216,7 @@ void review_list(Ui& ui) {
 }
 
 void review_way_back(Ui& ui) {
-    const std::string& name = ui.session.reviews.open_case_name();
+    const std::string& name = ui.session.files.visited();
     if (name.empty()) return;
     heading(ui, "PICTURE TEST");
     words(ui.style.text, name);

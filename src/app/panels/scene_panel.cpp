@@ -27,8 +27,8 @@ constexpr int kMostSceneRows = 9;
 
 /// Of which items the filter of the lists leaves some.
 template <class NameOf>
-std::vector<int> filtered(const Session& session, int count, const NameOf& name_of) {
-    const std::string wanted = lower(session.workspace.filter);
+std::vector<int> filtered(const Workspace& workspace, int count, const NameOf& name_of) {
+    const std::string wanted = lower(workspace.filter);
     std::vector<int> out;
     for (int i = 0; i < count; ++i) {
         if (wanted.empty() || lower(name_of(i)).find(wanted) != std::string::npos) out.push_back(i);
@@ -65,8 +65,8 @@ void row_keys(Ui& ui, const Selection& self) {
 }
 
 /// What stands beside an agent: how long its clip is; of a run which move it plays.
-std::string clip_remark(const Session& session, const SceneClip& clip) {
-    return session.workspace.crowd() ? fitted_text(clip.name, 90) : formatted("%.1f s", clip.clip->duration());
+std::string clip_remark(const Workspace& workspace, const SceneClip& clip) {
+    return workspace.crowd() ? fitted_text(clip.name, 90) : formatted("%.1f s", clip.clip->duration());
 }
 
 /// A row with the buttons of its agents; `about` draws what belongs to the row itself, which is the last item then.
@@ -117,7 +117,7 @@ void path_row(Ui& ui, const FittedScene& fitted, int index) {
     const bool clicked = agents_row(ui,
                                     {.mark = "agent." + std::to_string(index),
                                      .name = who.name,
-                                     .remark = clip_remark(session, clip),
+                                     .remark = clip_remark(session.workspace, clip),
                                      .selected = on_it(session.workspace.selection),
                                      .hovered = on_it(session.workspace.hovered),
                                      .indent = ui.px(18)},
@@ -158,7 +158,7 @@ void agents(Ui& ui) {
     // Of a run its people; what they play before and after now is theirs.
     const auto count =
         static_cast<int>(session.workspace.crowd() ? session.workspace.crowd()->agents.size() : fitted.placed_agents().size());
-    const std::vector<int> shown = filtered(session, count, [&](int i) -> const std::string& {
+    const std::vector<int> shown = filtered(session.workspace, count, [&](int i) -> const std::string& {
         return fitted.placed_agents()[static_cast<std::size_t>(i)].name;
     });
     const bool in_grid = is_in_grid(fitted.scene(), session.workspace.view());
@@ -224,8 +224,8 @@ struct ClipLine {
 };
 
 /// The lines that the filter leaves; a group that is folded has its heading alone.
-std::vector<ClipLine> clip_lines(const Session& session, const std::vector<int>& shown) {
-    const std::vector<ClipGroup>& groups = session.workspace.clip_groups();
+std::vector<ClipLine> clip_lines(const Workspace& workspace, const std::vector<int>& shown) {
+    const std::vector<ClipGroup>& groups = workspace.clip_groups();
     std::vector<ClipLine> out;
     if (groups.empty()) {
         for (const int clip : shown) out.push_back({-1, clip});
@@ -237,7 +237,7 @@ std::vector<ClipLine> clip_lines(const Session& session, const std::vector<int>&
         std::ranges::set_intersection(group.clips, shown, std::back_inserter(in_group));
         if (in_group.empty()) continue;
         out.push_back({g, -1});
-        if (session.workspace.folded_groups.contains(group.title)) continue;
+        if (workspace.folded_groups.contains(group.title)) continue;
         for (const int clip : in_group) out.push_back({g, clip});
     }
     return out;
@@ -250,7 +250,7 @@ void group_row(Ui& ui, int index) {
     const bool folded = session.workspace.folded_groups.contains(group.title);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const auto about = [&] {
-        if (!listed.who.empty()) context_menu(ui, [&] { return shown_menu(session, listed); });
+        if (!listed.who.empty()) context_menu(ui, [&] { return shown_menu(session.workspace, listed); });
         if (ImGui::IsItemHovered())
             ImGui::SetTooltip("%s\nClick to %s", group.title.c_str(), folded ? "unfold" : "fold");
         const float side = ui.px(3.5f);
@@ -279,11 +279,11 @@ void group_row(Ui& ui, int index) {
 void clips(Ui& ui) {
     Session& session = ui.session;
     const auto& all = session.workspace.scene().clips;
-    const std::vector<int> shown = filtered(session, static_cast<int>(all.size()), [&](int i) -> const std::string& {
+    const std::vector<int> shown = filtered(session.workspace, static_cast<int>(all.size()), [&](int i) -> const std::string& {
         return all[static_cast<std::size_t>(i)].name;
     });
     if (!section(ui, "CLIPS", count_text(shown.size(), all.size()))) return;
-    const std::vector<ClipLine> lines = clip_lines(session, shown);
+    const std::vector<ClipLine> lines = clip_lines(session.workspace, shown);
     rows(ui, "##clips", static_cast<int>(lines.size()), kMostSceneRows, [&](int i) {
         const ClipLine& line = lines[static_cast<std::size_t>(i)];
         line.clip < 0 ? group_row(ui, line.group) : clip_row(ui, line.clip, line.group < 0 ? 0 : ui.px(12));

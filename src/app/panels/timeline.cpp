@@ -83,8 +83,8 @@ void play_bars(Ui& ui, ImVec2 corner, ImVec2 size, const ChartAxis& time) {
 }
 
 /// Who is hidden has no bar.
-std::vector<DrawnAgent> shown_paths(const Session& session) {
-    std::vector<DrawnAgent> out = drawn_agents(session.workspace.fitted(), session.workspace.view());
+std::vector<DrawnAgent> shown_paths(const Workspace& workspace) {
+    std::vector<DrawnAgent> out = drawn_agents(workspace.fitted(), workspace.view());
     std::erase_if(out, [](const DrawnAgent& agent) { return agent.hidden; });
     return out;
 }
@@ -121,7 +121,7 @@ void time_bars(Ui& ui, float width, float height) {
     if (session.workspace.crowd()) {
         play_bars(ui, corner, {width, height}, axis);
     } else {
-        paths = shown_paths(session);
+        paths = shown_paths(session.workspace);
     }
     // Of a crowd the bars melt together; they still say when somebody is there.
     const float each = height / static_cast<float>(std::max<std::size_t>(paths.size(), 1));
@@ -162,7 +162,7 @@ void time_row(Ui& ui, bool tall) {
     const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x - clear - ui.px(8));
     const float below = ui.px(24);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const std::size_t lanes = session.workspace.crowd() ? 1 : shown_paths(session).size();
+    const std::size_t lanes = session.workspace.crowd() ? 1 : shown_paths(session.workspace).size();
     const auto paths = static_cast<float>(lanes);
     const float most =
         std::clamp(paths * ui.px(kMostBar), clear, std::max(clear, ImGui::GetContentRegionAvail().y - below));

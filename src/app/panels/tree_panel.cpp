@@ -161,21 +161,21 @@ void shown_levels(Ui& ui, int depth) {
 }
 
 /// The clip of the document that one plays: of a run that of the play, which is drawn as one that runs on.
-int clip_of(const Session& session, const PlacedAgent& who) {
-    if (!session.workspace.crowd()) return who.clip;
-    const Agent& agent = session.workspace.fitted().scene().agents[static_cast<std::size_t>(who.agent)];
-    const CrowdAgent& person = session.workspace.crowd()->agents[static_cast<std::size_t>(agent.run_agent)];
+int clip_of(const Workspace& workspace, const PlacedAgent& who) {
+    if (!workspace.crowd()) return who.clip;
+    const Agent& agent = workspace.fitted().scene().agents[static_cast<std::size_t>(who.agent)];
+    const CrowdAgent& person = workspace.crowd()->agents[static_cast<std::size_t>(agent.run_agent)];
     const int move = person.plays[static_cast<std::size_t>(agent.play)].move;
-    return session.workspace.scene().graph->moves[static_cast<std::size_t>(move)].clip;
+    return workspace.scene().graph->moves[static_cast<std::size_t>(move)].clip;
 }
 
 /// The tree that the bars are about: of what is selected, else the first that is seen.
-int clip_in_focus(const Session& session) {
-    if (session.workspace.selection.kind == Selection::Kind::clip) return session.workspace.selection.index;
-    if (session.workspace.selection.on_path()) {
-        if (const auto who = placed_agent_of(session.workspace.fitted(), session.workspace.selection.path)) return clip_of(session, *who);
+int clip_in_focus(const Workspace& workspace) {
+    if (workspace.selection.kind == Selection::Kind::clip) return workspace.selection.index;
+    if (workspace.selection.on_path()) {
+        if (const auto who = placed_agent_of(workspace.fitted(), workspace.selection.path)) return clip_of(workspace, *who);
     }
-    return clip_of(session, session.workspace.fitted().placed_agents().front());
+    return clip_of(workspace, workspace.fitted().placed_agents().front());
 }
 
 /// Volume of each level as a bar, and how much of it the disks fill.
@@ -259,7 +259,7 @@ void fit_fields(Ui& ui) {
           "0: all; 1 is the paper's \"1 level\" tree");
     ImGui::EndDisabled();
     time_scale(ui);
-    shown_levels(ui, session.workspace.fitted().tree(clip_in_focus(session)).depth());
+    shown_levels(ui, session.workspace.fitted().tree(clip_in_focus(session.workspace)).depth());
     choose(ui, "Colour by", "view.color_by", session.workspace.view().color_by, "What the boxes' colours mean");
 }
 
@@ -270,7 +270,7 @@ void tree_panel(Ui& ui) {
     if (session.workspace.empty()) return;
     ImGui::PushID("tree");
     if (section(ui, "TREE")) fit_fields(ui);
-    level_bars(ui, clip_in_focus(session));
+    level_bars(ui, clip_in_focus(session.workspace));
     ImGui::PopID();
 }
 

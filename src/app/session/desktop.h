@@ -4,6 +4,7 @@
 #include <render/drawlist/draw_list.h>
 #include <render/image/image.h>
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -18,23 +19,26 @@ class Desktop {
     virtual void wake() {}
     // Texts are UTF-8.
     virtual void set_clipboard(const std::string&) {}
-    virtual std::string clipboard() { return ""; }
+    /// None where there is no clipboard.
+    virtual std::optional<std::string> clipboard() { return std::nullopt; }
     /// Throws MachineError, or std::invalid_argument where there is none.
     virtual void set_clipboard_picture(std::string_view /*png*/) { throw std::invalid_argument(std::string(why_no_clipboard_picture())); }
     /// Empty: pictures can be copied.
-    virtual std::string_view why_no_clipboard_picture() { return "there is no clipboard for pictures"; }
+    virtual std::string_view why_no_clipboard_picture() { return "there is no clipboard without a display"; }
 };
 
-/// Draws pictures that are to be kept.
+/// Draws pictures that are to be kept. Throws std::invalid_argument where there is no window.
 class PictureMaker {
   public:
     virtual ~PictureMaker() = default;
     /// As Renderer::draw.
-    virtual Image draw_picture(const DrawList& list, int samples) = 0;
+    virtual Image draw(const DrawList&, int /*samples*/) {
+        throw std::invalid_argument("there is no window to take a picture of");
+    }
     /// As Renderer::draw_coarse.
-    virtual Image draw_coarse_picture(const DrawList& list, int divisor) = 0;
+    virtual Image draw_coarse(const DrawList& list, int /*divisor*/) { return draw(list, 1); }
     /// Why there cannot be so many samples a pixel; empty: there can.
-    virtual std::string why_no_samples(int samples) = 0;
+    virtual std::string why_no_samples(int /*samples*/) { return ""; }
 };
 
 }  // namespace mobbscope::app

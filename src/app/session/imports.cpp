@@ -28,9 +28,9 @@ void Imports::open(int clip, const std::string& field) {
     dialogs_.open(Dialog::import_clip);
     // What they say stands at the fields now.
     notifications_.dismiss_offers("clip.import");
-    dialogs_.now = {.clip = clip, .field = field};
+    edited = {.clip = clip, .field = field};
     // What is wrong with one track of a crowd is wrong with all.
-    dialogs_.now.whole_file = opened.options.id.has_value();
+    edited.whole_file = opened.options.id.has_value();
     ask_for_offer();
 }
 
@@ -52,7 +52,7 @@ std::vector<std::pair<int, ImportOptions>> Imports::options_wanted(const ImportC
 void Imports::set(int clip, bool whole_file, const std::string& option, const std::string& text) {
     if (!import_option(option)) throw std::invalid_argument("there is no import option " + in_quotes(option));
     const ImportChange change{clip, whole_file, option, text, workspace_.history.has_open_group()};
-    dialogs_.now.refused.erase(option);
+    edited.refused.erase(option);
     try {
         options_wanted(change);
     } catch (const std::invalid_argument& error) {
@@ -128,7 +128,7 @@ void Imports::start(const ImportChange& change) {
 
 void Imports::refuse(const ImportChange& change, const std::string& why) {
     if (dialogs_.now == Dialog::import_clip) {
-        dialogs_.now.refused[change.option] = {change.text, why};
+        edited.refused[change.option] = {change.text, why};
         return;
     }
     notifications_.tell(MessageLevel::error,
@@ -136,26 +136,26 @@ void Imports::refuse(const ImportChange& change, const std::string& why) {
 }
 
 void Imports::ask_for_offer() {
-    if (dialogs_.now != Dialog::import_clip || dialogs_.now.clip >= static_cast<int>(workspace_.scene().clips.size())) return;
-    const SceneClip& clip = workspace_.scene().clips[static_cast<std::size_t>(dialogs_.now.clip)];
+    if (dialogs_.now != Dialog::import_clip || edited.clip >= static_cast<int>(workspace_.scene().clips.size())) return;
+    const SceneClip& clip = workspace_.scene().clips[static_cast<std::size_t>(edited.clip)];
     const ImportOptions asked = offer_depends_on(clip.options);
-    if (!clip.source || (dialogs_.now.asked && dialogs_.now.offered_for == asked)) return;
-    dialogs_.now.asked = true;
-    dialogs_.now.offered_for = asked;
-    const auto work = [this, asked, index = dialogs_.now.clip, path = source_path(workspace_.scene(), clip),
+    if (!clip.source || (edited.asked && edited.offered_for == asked)) return;
+    edited.asked = true;
+    edited.offered_for = asked;
+    const auto work = [this, asked, index = edited.clip, path = source_path(workspace_.scene(), clip),
                        known = workspace_.import_file](JobControl&) -> Job::Finish {
         try {
             const std::shared_ptr<const SourceFile> file = source_file(path, known);
             const auto offer = std::make_shared<const ImportOffer>(file->parsed.offer(asked));
             return [this, file, offer, asked, index] {
                 workspace_.import_file = file;
-                if (dialogs_.now.clip != index || dialogs_.now.offered_for != asked) return;
-                dialogs_.now.offer = offer;
-                dialogs_.now.unreadable.clear();
+                if (edited.clip != index || edited.offered_for != asked) return;
+                edited.offer = offer;
+                edited.unreadable.clear();
             };
         } catch (const std::exception& error) {
             return [this, index, why = std::string(error.what())] {
-                if (dialogs_.now.clip == index) dialogs_.now.unreadable = why;
+                if (edited.clip == index) edited.unreadable = why;
             };
         }
     };

@@ -16,7 +16,7 @@ class Imports {
     Imports(Workspace& workspace, Jobs& jobs, Edits& edits, Dialogs& dialogs, Notifications& notifications)
         : workspace_(workspace), jobs_(jobs), edits_(edits), dialogs_(dialogs), notifications_(notifications) {}
 
-    ClipImport dialog;  ///< in Dialog::import_clip
+    ClipImport edited;  ///< in Dialog::import_clip
     /// Opens the dialog for a clip with a source; `field`: the option that it is about, empty: none.
     void open(int clip, const std::string& field = "");
     /// Gives an import option of a clip, or of all clips of its file, another value; an empty text leaves it to the

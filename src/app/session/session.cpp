@@ -1,5 +1,6 @@
 #include <app/session/session.h>
 
+#include <algorithm>
 #include <exception>
 
 namespace mobbscope::app {
@@ -7,10 +8,11 @@ namespace mobbscope::app {
 namespace {
 
 Desktop no_desktop;
+PictureMaker no_picture_maker;
 
 }  // namespace
 
-bool CommandQueue::run(Notifications& notifications) {
+bool CommandQueue::run() {
     const bool had_any = !queue_.empty();
     while (!queue_.empty()) {
         const std::function<void()> next = std::move(queue_.front());
@@ -18,15 +20,19 @@ bool CommandQueue::run(Notifications& notifications) {
         try {
             next();
         } catch (const std::exception& error) {
-            notifications.tell(MessageLevel::error, error.what());
+            notifications_.tell(MessageLevel::error, error.what());
         }
     }
     return had_any;
 }
 
 Session::Session(bool attended, Settings settings_)
-    : options{.attended = attended}, settings(std::move(settings_)), desktop(&no_desktop) {
+    : options{.attended = attended}, settings(std::move(settings_)), desktop(&no_desktop), picture_maker(&no_picture_maker) {
     jobs.after_each = [this] { imports.next(); };
+}
+
+double Session::ui_scale() const {
+    return std::clamp(settings.ui_scale > 0 ? settings.ui_scale : window_scale, kLeastUiScale, kMostUiScale);
 }
 
 void Session::poll() {

@@ -20,13 +20,16 @@ namespace mobbscope::app {
 /// What is done between frames: panels may keep references into the document while they are drawn.
 class CommandQueue {
   public:
+    explicit CommandQueue(Notifications& notifications) : notifications_(notifications) {}
+
     /// Does `something` once the frame is drawn. What it throws becomes a message.
     void push(std::function<void()> something) { queue_.push_back(std::move(something)); }
     /// Does what was enqueued, in order, and what that enqueues; whether there was anything. Not while panels are
     /// drawn.
-    bool run(Notifications& notifications);
+    bool run();
 
   private:
+    Notifications& notifications_;
     std::deque<std::function<void()>> queue_;
 };
 
@@ -39,6 +42,10 @@ struct Keys {
     FocusMove move = FocusMove::none;  ///< asked for, and done in the next frame
 };
 
+/// Of text and panels.
+inline constexpr double kLeastUiScale = 0.5;
+inline constexpr double kMostUiScale = 4;
+
 class Session {
   public:
     explicit Session(bool attended, Settings settings = {});
@@ -47,17 +54,17 @@ class Session {
 
     SessionOptions options;
     Settings settings;
-    Desktop* desktop;                      ///< never null
-    PictureMaker* picture_maker = nullptr;  ///< null without a window
-    double window_scale = 1;               ///< of the monitor, for text and panels; the settings may say another
+    Desktop* desktop;             ///< never null
+    PictureMaker* picture_maker;  ///< likewise
+    double window_scale = 1;      ///< of text and panels where the settings say none
     Screen* screen = nullptr;              ///< shown in place of the scene; null: the scene is shown
     Counts counts;
 
-    Workspace workspace{settings, counts};
+    Workspace workspace{settings};
     Views views{workspace};
     QueryInspector queries{workspace};
     Notifications notifications;
-    CommandQueue queue;
+    CommandQueue queue{notifications};
     Keys keys;
     Dialogs dialogs;
     Jobs jobs{workspace, notifications, counts, options, desktop};
@@ -69,12 +76,15 @@ class Session {
     Files files{{workspace, jobs, edits, imports, dialogs, notifications, playback, settings, counts, options, screen}};
     Reviews reviews{files, jobs, playback, notifications, options, desktop, screen};
 
-    /// All parts, for what takes some of them (Action).
-    auto parts() {
-        return std::tie(options, settings, workspace, views, queries, notifications, queue, keys, dialogs, jobs, playback,
-                        edits, imports, crowds, excerpts, files, reviews);
+    /// All parts, for what takes some of them (OfParts).
+    template <class AnySession>
+    static auto parts(AnySession& s) {
+        return std::tie(s.options, s.settings, s.workspace, s.views, s.queries, s.notifications, s.queue, s.keys,
+                        s.dialogs, s.jobs, s.playback, s.edits, s.imports, s.crowds, s.excerpts, s.files, s.reviews);
     }
 
+    /// Of text and panels, kLeastUiScale..kMostUiScale.
+    double ui_scale() const;
     /// What the window shows, for its title.
     std::string shown_title() const { return screen ? screen->title() : workspace.title(); }
     /// Whether it has changes that are not saved.
@@ -82,8 +92,6 @@ class Session {
 
     /// Takes in what was done beside the window. Call it before each frame.
     void poll();
-    /// Does what was enqueued (CommandQueue::run).
-    bool run_queue() { return queue.run(notifications); }
     /// Ends all work beside the window: nothing calls Desktop::wake any more, unless other work is begun.
     void end_work();
 

@@ -95,14 +95,14 @@ void heading(Ui& ui, const char* text, const std::string& right) {
     ImGui::PopFont();
 }
 
-bool is_folded(const Session& session, const std::string& title) {
-    const auto known = session.settings.folded.find(title);
-    return known != session.settings.folded.end() && known->second;
+bool is_folded(const Settings& settings, const std::string& title) {
+    const auto known = settings.folded.find(title);
+    return known != settings.folded.end() && known->second;
 }
 
 bool section(Ui& ui, const std::string& title, const std::string& right) {
     const std::string id = lower(title);
-    const bool open = !is_folded(ui.session, id);
+    const bool open = !is_folded(ui.session.settings, id);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     heading(ui, title.c_str(), right);
     const ImVec2 below = ImGui::GetCursorScreenPos();
@@ -189,7 +189,7 @@ void number(Ui& ui, const std::string& shown, double value, const char* unit, Im
     if (!ImGui::IsItemHovered()) return;
     const std::string digits = formatted("%.17g", value);
     ImGui::SetTooltip("%s %s\nClick to copy", digits.c_str(), unit);
-    if (ImGui::IsItemClicked() && ui.session.hooks.set_clipboard) ui.session.hooks.set_clipboard(digits);
+    if (ImGui::IsItemClicked()) ui.session.desktop->set_clipboard(digits);
 }
 
 void number_row(Ui& ui, const char* label, const std::string& shown, double value, const char* unit) {
@@ -449,7 +449,7 @@ std::optional<double> number_keys(Ui& ui, const NumberField& field) {
     }
     if (value == field.now) return std::nullopt;
     // However often a key is pressed, the number is changed once.
-    ui.session.queue.push([&session = ui.session] { session.reopen_group(); });
+    ui.session.queue.push([&session = ui.session] { session.workspace.history.reopen_group(); });
     return value;
 }
 

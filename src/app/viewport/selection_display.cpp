@@ -13,16 +13,16 @@ using Role = HighlightLine::Role;
 
 constexpr double kNearConflict = 2;  // seconds around a conflict in which its other one is pointed out
 
-bool is_hidden(const Session& session, const PlacedAgent& who) {
-    if (who.agent < 0 && !session.workspace.scene().agents.empty()) return false;
-    return are_hidden(session.workspace, {name_in_view(session.workspace.fitted().scene(), who)});
+bool is_hidden(const Workspace& workspace, const PlacedAgent& who) {
+    if (who.agent < 0 && !workspace.scene().agents.empty()) return false;
+    return are_hidden(workspace, {name_in_view(workspace.fitted().scene(), who)});
 }
 
 void add_highlight_of(DrawList& list, const Session& session, const Selection& what, Role role, float scale) {
     if (!what.on_path() || !index_in_view(session.workspace.fitted(), session.workspace.view(), what.path)) return;
     const FittedScene& fitted = session.workspace.fitted();
     const auto who = placed_agent_of(fitted, what.path);
-    if (!who || is_hidden(session, *who)) return;
+    if (!who || is_hidden(session.workspace, *who)) return;
     DrawnAgent drawn = drawn_agent_of(fitted, *who);
     drawn.placed = {fitted.tree(who->clip), shown_placement(fitted, session.workspace.view(), *who)};
     add_highlight(list, drawn, what.part(), role, scale);

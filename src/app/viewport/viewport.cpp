@@ -117,9 +117,9 @@ std::optional<OverlayClick> overlay_click(const DrawList& list, glm::vec2 pixel)
     return OverlayClick{*overlay->more, "view.whole_legend", "Show all rows, or six"};
 }
 
-Selection selection_of(const Session& session, const ObjectId& id) {
+Selection selection_of(const Workspace& workspace, const ObjectId& id) {
     return {id.kind == ObjectId::Kind::box ? Selection::Kind::node : Selection::Kind::sample,
-            agent_in_view(session.workspace.fitted(), session.workspace.view(), id.agent), id.index};
+            agent_in_view(workspace.fitted(), workspace.view(), id.agent), id.index};
 }
 
 /// Nothing is open: what to do.
@@ -149,11 +149,11 @@ void welcome(Ui& ui) {
 }
 
 /// The selected agent, where it changes the picture.
-std::string standing_out(const Session& session) {
-    if (session.workspace.view().query || !session.workspace.selection.on_path() || names_fit(agent_count(session.workspace))) {
+std::string standing_out(const Workspace& workspace) {
+    if (workspace.view().query || !workspace.selection.on_path() || names_fit(agent_count(workspace))) {
         return "";
     }
-    const AgentNames selected = selected_agents(session.workspace);
+    const AgentNames selected = selected_agents(workspace);
     return selected.empty() ? "" : selected.front();
 }
 
@@ -210,7 +210,7 @@ Viewport::Key Viewport::wanted(const Ui& ui, PictureSize size, const FollowedCho
             size,
             words,
             choice ? std::pair(choice->agent, choice->play) : std::pair(-1, -1),
-            is_active(ui) ? standing_out(ui.session) : ""};
+            is_active(ui) ? standing_out(ui.session.workspace) : ""};
 }
 
 /// Gives the view a camera that stands.
@@ -269,12 +269,12 @@ void Viewport::follow_test(Ui& ui) {
     if (put_back) test_looked_for_ = test;
     if (flight_ || test_looked_for_ == test) return;
     test_looked_for_ = test;
-    const std::optional<TestCorners> boxes = corners_of_test(session);
+    const std::optional<TestCorners> boxes = corners_of_test(session.workspace);
     std::vector<Rect> panels;
     for (const Overlay& overlay : list_->overlays) panels.push_back(overlay.rect);
     if (!boxes || is_well_seen(*boxes, *list_, panels)) return;
     ui.session.queue.push([&session = ui.session, boxes = *boxes, part = free_part(list_->size, panels)] {
-        go_along_with(session, boxes, part);
+        go_along_with(session.views, session.workspace, boxes, part);
     });
 }
 
@@ -335,8 +335,7 @@ void Viewport::draw(Ui& ui, std::size_t place) {
     if (size.width < kMinSide || size.height < kMinSide) return;
     update_picture(ui, size);
     if (is_active(ui)) {
-        ui.session.hooks.viewport_size = [size] { return size; };
-        ui.session.hooks.viewport_scale = [scale = key_->scale] { return scale; };
+        ui.session.views.picture = {size, key_->scale};
     }
     if (!list_) {
         ImGui::TextWrapped("%s", why_not_.c_str());
@@ -512,7 +511,7 @@ void Viewport::ask(Ui& ui, glm::vec2 pixel) {
     std::optional<Selection> nearest;
     bool stays = false;
     for (const Pick& hit : picks(*list_, pixel, ui.px(kClickReach))) {
-        const Selection here = selection_of(session, hit.id);
+        const Selection here = selection_of(session.workspace, hit.id);
         if (!nearest) nearest = here;
         stays = stays || here == session.workspace.selection;
     }
@@ -526,7 +525,7 @@ ImVec2 Viewport::place_of_selection(const Session& session, const ShownPicture& 
     const glm::vec2 size(picture.list.size.width, picture.list.size.height);
     glm::vec2 at = 0.5f * size;
     const bool is_something = session.workspace.selection.kind != Selection::Kind::none;
-    if (const std::optional<Bounds> box = is_something ? box_of(session, session.workspace.selection) : std::nullopt) {
+    if (const std::optional<Bounds> box = is_something ? box_of(session.workspace, session.workspace.selection) : std::nullopt) {
         const glm::dvec3 middle = box->middle();
         const auto pixel = picture.list.projection.project(picture.list.space.point(middle.x, middle.y, middle.z));
         if (pixel) at = glm::clamp(*pixel, glm::vec2(0), size);
@@ -541,7 +540,7 @@ void Viewport::hover(Ui& ui, glm::vec2 pixel) {
     if (hits.empty()) return;
     const ObjectId& id = hits.front().id;
     place_ = hits.front().place;
-    ui.hovered = selection_of(session, id);
+    ui.hovered = selection_of(session.workspace, id);
 }
 
 /// The first click takes what is in front, one more at the same place what lies behind it; on nothing, nothing.
@@ -557,7 +556,7 @@ void Viewport::click(Ui& ui, glm::vec2 pixel) {
         return;
     }
     const ObjectId& id = hits[depth_ % hits.size()].id;
-    session.workspace.select(selection_of(session, id));
+    session.workspace.select(selection_of(session.workspace, id));
     if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) invoke(session, "view.frame");
 }
 

@@ -202,24 +202,39 @@ class TexturePainter final : public Painter {
 
 }  // namespace
 
-struct Shell::State {
+struct Shell::State final : PictureMaker {
     State(std::unique_ptr<GlContext> context, Session& of, double wanted_scale, Clock measures)
         : session(of),
           clock(std::move(measures)),
           imgui(make_imgui()),
           renderer(std::move(context)),
           drawn(std::make_unique<Drawn>(renderer, clock)),
-          own_scale(wanted_scale) {
+          maker_before(of.picture_maker) {
+        session.window_scale = wanted_scale;
         ImGuiIO& io = ImGui::GetIO();
         io.UserData = this;
         io.ClipboardUserData = this;
         io.SetClipboardTextFn = [](void* self, const char* text) { static_cast<State*>(self)->copy(text); };
         io.GetClipboardTextFn = [](void* self) { return static_cast<State*>(self)->paste(); };
     }
-    ~State() {
+    ~State() override {
         ImGui::SetCurrentContext(imgui.get());
         // The names would be deleted in whichever context is current; see Renderer.
         if (!renderer.context().try_make_current()) static_cast<void>(drawn.release());
+    }
+
+    Image draw(const DrawList& list, int samples) override {
+        renderer.check_samples(samples);
+        return renderer.draw(list, samples);
+    }
+    Image draw_coarse(const DrawList& list, int divisor) override { return renderer.draw_coarse(list, divisor); }
+    std::string why_no_samples(int samples) override {
+        try {
+            renderer.check_samples(samples);
+            return "";
+        } catch (const MachineError& error) {
+            return error.what();
+        }
     }
 
     /// What is made in the context.
@@ -232,10 +247,10 @@ struct Shell::State {
 
     void copy(const char* text) {
         clipboard = text;
-        if (session.hooks.set_clipboard) session.hooks.set_clipboard(clipboard);
+        session.desktop->set_clipboard(clipboard);
     }
     const char* paste() {
-        if (session.hooks.clipboard) clipboard = session.hooks.clipboard();
+        if (std::optional<std::string> there = session.desktop->clipboard()) clipboard = std::move(*there);
         return clipboard.c_str();
     }
 
@@ -248,7 +263,7 @@ struct Shell::State {
             return chord.key == Key::escape ? Taken::opened : Taken::nobodys;
         }
         if (focus.press(chord, repeated)) return Taken::opened;
-        const Command* command = command_for(session, chord);
+        const Command* command = command_for(session.reviews, chord);
         if (!command || (repeated && !command->repeats)) return Taken::nobodys;
         if (!works_under(session.dialogs.now, *command)) return Taken::nobodys;
         if (ImGui::GetIO().WantTextInput && edits_text(chord)) return Taken::nobodys;
@@ -320,13 +335,8 @@ struct Shell::State {
         }
     }
 
-    double scale() const {
-        return std::clamp(session.settings.ui_scale > 0 ? session.settings.ui_scale : own_scale, kLeastUiScale,
-                          kMostUiScale);
-    }
-
     void follow_look() {
-        const auto wanted = std::pair(session.workspace.view().theme, static_cast<float>(scale()));
+        const auto wanted = std::pair(session.workspace.view().theme, static_cast<float>(session.ui_scale()));
         if (look_made_for == wanted) return;
         style = make_style(wanted.first, wanted.second);
         drawn->ui.upload(*ImGui::GetIO().Fonts);
@@ -368,7 +378,7 @@ struct Shell::State {
     }
 
     /// The last frame, once somebody looks at it.
-    void draw() {
+    void draw_frame() {
         ImGui::SetCurrentContext(imgui.get());
         renderer.context().make_current();
         if (!std::exchange(undrawn, false)) return;
@@ -410,7 +420,7 @@ struct Shell::State {
     Marks marks;
     Style style{};
     std::optional<std::pair<Theme, float>> look_made_for;
-    double own_scale;
+    PictureMaker* maker_before;
     std::optional<double> time;
     std::string clipboard;
     int settling = kFramesToSettle;
@@ -426,32 +436,13 @@ double Shell::steady_seconds() {
 
 Shell::Shell(std::unique_ptr<GlContext> context, Session& session, double scale, Clock clock)
     : state_(std::make_unique<State>(std::move(context), session, scale, std::move(clock))) {
-    session.hooks.draw_picture = [this](const DrawList& list, int samples) {
-        state_->renderer.check_samples(samples);
-        return state_->renderer.draw(list, samples);
-    };
-    session.hooks.draw_coarse_picture = [this](const DrawList& list, int divisor) {
-        return state_->renderer.draw_coarse(list, divisor);
-    };
-    session.hooks.why_no_samples = [this](int samples) -> std::string {
-        try {
-            state_->renderer.check_samples(samples);
-            return "";
-        } catch (const MachineError& error) {
-            return error.what();
-        }
-    };
-    session.hooks.ui_scale = [this] { return state_->scale(); };
+    session.picture_maker = state_.get();
 }
 
 Shell::~Shell() {
-    Hooks& hooks = state_->session.hooks;
-    hooks.draw_picture = nullptr;
-    hooks.draw_coarse_picture = nullptr;
-    hooks.why_no_samples = nullptr;
-    hooks.ui_scale = nullptr;
-    hooks.viewport_size = nullptr;
-    hooks.viewport_scale = nullptr;
+    Session& session = state_->session;
+    if (session.picture_maker == state_.get()) session.picture_maker = state_->maker_before;
+    session.views.picture.reset();
 }
 
 void Shell::feed(const InputEvent& event) { state_->input.push(event); }
@@ -495,7 +486,7 @@ Shell::Painted Shell::painted() const { return state_->drawn->painter.painted();
 
 Image Shell::read_back() {
     State& s = *state_;
-    s.draw();
+    s.draw_frame();
     Image image = s.drawn->target->read();
     s.renderer.context().check("reading the window");
     return image;
@@ -503,7 +494,7 @@ Image Shell::read_back() {
 
 void Shell::present() {
     State& s = *state_;
-    s.draw();
+    s.draw_frame();
     s.drawn->target->present();
     s.renderer.context().check("showing the window");
 }
@@ -525,7 +516,7 @@ Image Shell::viewport_picture() {
     return state_->renderer.draw(picture);
 }
 
-void Shell::set_scale(double scale) { state_->own_scale = scale; }
+void Shell::set_scale(double scale) { state_->session.window_scale = scale; }
 
 ImGuiMouseCursor Shell::cursor() const { return state_->cursor; }
 
