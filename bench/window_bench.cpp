@@ -263,7 +263,7 @@ std::vector<Looked> all_looked_at() {
         {"following", [] { return bench::run(100, 60); },
          [](Session& s) {
              run_command(s, "time.at", "30");
-             run_command(s, "crowd.follow", s.crowd()->agents.front().name);
+             run_command(s, "crowd.follow", s.workspace.crowd()->agents.front().name);
          },
          Key::period, Key::comma},
     };

@@ -94,7 +94,7 @@ void show_window(const Named& named, const WindowArguments& arguments) {
     if (!kept.empty()) session.notifications.tell_of_window(app::MessageLevel::warning, kept);
     if (arguments.files.empty() && !session.reviews.shown() && session.files.has_last()) {
         session.notifications.tell(app::MessageLevel::info, "Last time: " + session.files.last_title(),
-                     app::MessageOffer{"file.reopen_last", "", "Reopen last session"});
+                                   app::MessageOffer{"file.reopen_last", "", "Reopen last session"});
     }
     window.run();
     session.files.note_session();

@@ -82,7 +82,8 @@ DrawList scene_without_text(const app::Session& session, PictureSize size) {
         nothing.palette = palette_for(view.theme, options);
         return nothing;
     }
-    return build_draw_list(session.workspace.fitted(), view, options, view.candidates ? session.crowds.choice() : nullptr);
+    return build_draw_list(session.workspace.fitted(), view, options,
+                           view.candidates ? session.crowds.choice() : nullptr);
 }
 
 }  // namespace

@@ -196,7 +196,7 @@ TEST_F(AnswersTest, ASignOfWorkComesAfterAWhileAndGoesWithTheFinePicture) {
 TEST_F(AnswersTest, WhereNobodyLooksEveryPictureIsFine) {
     Session alone(false);
     Shell window(GlContext::open(Backend::automatic), alone, 1, [this] { return measured += part; });
-    alone.open_demo();
+    alone.files.open_demo();
     for (int i = 0; i < 5; ++i) {
         window.frame(kWindow, 0.01 * i);
         window.read_back();

@@ -26,21 +26,23 @@ using testing::CrossingFolder;
 struct CommandWorld {
     CrossingFolder folder;
     Session session{false};
-    std::string clipboard;
-    std::optional<DrawList> drawn;  ///< the last picture that was asked for
-    int samples = 0;
-    std::size_t copied_bytes = 0;  ///< of a picture
+    testing::TestDesktop desktop;
+    struct Maker : PictureMaker {
+        std::optional<DrawList> drawn;  ///< the last picture that was asked for
+        int samples = 0;
 
-    CommandWorld() {
-        session.hooks.set_clipboard = [this](const std::string& text) { clipboard = text; };
-        session.hooks.draw_picture = [this](const DrawList& list, int wanted) {
+        Image draw(const DrawList& list, int wanted) override {
             drawn = list;
             samples = wanted;
             return Image(list.size.width, list.size.height);
-        };
-        session.hooks.set_clipboard_picture = [this](std::string_view png) { copied_bytes = png.size(); };
-        session.hooks.why_no_clipboard_picture = [] { return std::string_view(); };
-        session.hooks.viewport_size = [] { return PictureSize{800, 600}; };
+        }
+    } maker;
+
+    CommandWorld() {
+        desktop.has_picture_clipboard = true;
+        session.desktop = &desktop;
+        session.picture_maker = &maker;
+        session.views.picture = {{800, 600}, 0};
         session.settings.recent = {folder.file("walk.csv")};
         session.settings.last.files = {folder.file("walk.csv"), folder.file("stand.csv")};
         session.files.open({folder.scene});
@@ -125,13 +127,14 @@ std::vector<Case> cases() {
     look("file.export_picture", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::export_picture); });
     add({"file.export_picture", "@p.png", {{"picture.size", "640x360"}}, [](CommandWorld& w) {
              ASSERT_TRUE(std::filesystem::exists(w.folder.file("p.png")));
-             EXPECT_EQ(w.drawn->size, (PictureSize{800, 600})) << "the viewport's, whatever the dialog says";
+             EXPECT_EQ(w.maker.drawn->size, (PictureSize{800, 600})) << "the viewport's, whatever the dialog says";
          }});
     look("file.copy_picture", "", [](CommandWorld& w) {
-        EXPECT_EQ(w.drawn->size, (PictureSize{800, 600}));
-        EXPECT_GT(w.copied_bytes, 100u);
+        EXPECT_EQ(w.maker.drawn->size, (PictureSize{800, 600}));
+        EXPECT_GT(w.desktop.picture_bytes, 100u);
     });
-    look("picture.file", "@here.png", [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.exporting.file, w.path("here.png")); });
+    look("picture.file", "@here.png",
+         [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.exporting.file, w.path("here.png")); });
     look("picture.browse", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::export_file); });
     const auto exports = [&](const std::string& option, const std::string& text,
                              std::function<void(CommandWorld&)> check) {
@@ -141,35 +144,38 @@ std::vector<Case> cases() {
                  check(w);
              }});
     };
-    exports("size", "640x360", [](CommandWorld& w) { EXPECT_EQ(w.drawn->size, (PictureSize{640, 360})); });
+    exports("size", "640x360", [](CommandWorld& w) { EXPECT_EQ(w.maker.drawn->size, (PictureSize{640, 360})); });
     look("picture.shape", "free", [](CommandWorld& w) { EXPECT_FALSE(w.session.settings.picture_export.keeps_shape); });
     exports("scale", "2", [](CommandWorld& w) {
-        EXPECT_NE(render_line(w.session.workspace, w.session.files, w.session.dialogs, order_to_export(w.session.settings, w.session.workspace, w.session.views), "p.png")->find(" --scale 2 "), std::string::npos);
+        EXPECT_NE(render_line(w.session.workspace, w.session.files, w.session.dialogs,
+                              order_to_export(w.session.settings, w.session.workspace, w.session.views), "p.png")
+                      ->find(" --scale 2 "),
+                  std::string::npos);
     });
-    exports("samples", "8", [](CommandWorld& w) { EXPECT_EQ(w.samples, 8); });
-    exports("background", "transparent", [](CommandWorld& w) { EXPECT_EQ(w.drawn->background->a, 0); });
+    exports("samples", "8", [](CommandWorld& w) { EXPECT_EQ(w.maker.samples, 8); });
+    exports("background", "transparent", [](CommandWorld& w) { EXPECT_EQ(w.maker.drawn->background->a, 0); });
     exports("theme", "light", [](CommandWorld& w) {
-        EXPECT_FALSE(w.drawn->palette.dark);
+        EXPECT_FALSE(w.maker.drawn->palette.dark);
         EXPECT_EQ(w.view().theme, Theme::dark) << "of the picture alone";
     });
     exports("without", "legend boxes", [](CommandWorld& w) {
-        EXPECT_TRUE(w.drawn->boxes.empty());
+        EXPECT_TRUE(w.maker.drawn->boxes.empty());
         EXPECT_TRUE(w.view().boxes);
     });
     add({"picture.write", "@p.png", {{"picture.size", "640x360"}}, [](CommandWorld& w) {
              EXPECT_TRUE(std::filesystem::exists(w.folder.file("p.png")));
-             EXPECT_EQ(w.drawn->size, (PictureSize{640, 360}));
+             EXPECT_EQ(w.maker.drawn->size, (PictureSize{640, 360}));
          }});
     add({"picture.copy", "", {{"picture.size", "640x360"}}, [](CommandWorld& w) {
-             EXPECT_EQ(w.drawn->size, (PictureSize{640, 360}));
-             EXPECT_GT(w.copied_bytes, 100u);
+             EXPECT_EQ(w.maker.drawn->size, (PictureSize{640, 360}));
+             EXPECT_GT(w.desktop.picture_bytes, 100u);
          }});
     add({"picture.copy_command", "", {{"picture.size", "640x360"}, {"picture.without", "legend"}}, [](CommandWorld& w) {
-             EXPECT_EQ(w.clipboard, "mobbscope render " + w.path("scene.json") + " --no-legend --size 640x360 -o " +
+             EXPECT_EQ(w.desktop.text, "mobbscope render " + w.path("scene.json") + " --no-legend --size 640x360 -o " +
                                         w.path("scene.png"));
          }});
     look("file.copy_command", "", [](CommandWorld& w) {
-        EXPECT_EQ(w.clipboard, "mobbscope render " + w.path("scene.json") + " --size 800x600 -o picture.png");
+        EXPECT_EQ(w.desktop.text, "mobbscope render " + w.path("scene.json") + " --size 800x600 -o picture.png");
     });
     look("file.review", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::review); });
     look("file.quit", "", [](CommandWorld& w) { EXPECT_TRUE(w.session.files.closed()); });
@@ -216,8 +222,8 @@ std::vector<Case> cases() {
              EXPECT_NE(testing::refusal(w.session, "edit.go_to", "4"), "");
          }});
     add({"edit.copy_figures", "", {{"go.node", "B 1"}}, [](CommandWorld& w) {
-             EXPECT_TRUE(w.clipboard.starts_with("B 1.0\n")) << w.clipboard;
-             EXPECT_NE(w.clipboard.find("\nsamples\t0..29 (30)\n"), std::string::npos) << w.clipboard;
+             EXPECT_TRUE(w.desktop.text.starts_with("B 1.0\n")) << w.desktop.text;
+             EXPECT_NE(w.desktop.text.find("\nsamples\t0..29 (30)\n"), std::string::npos) << w.desktop.text;
          }});
     edit("agent.add", "stand", [](CommandWorld& w) {
         ASSERT_EQ(w.session.workspace.scene().agents.size(), 4u);
@@ -369,13 +375,13 @@ std::vector<Case> cases() {
              EXPECT_EQ(w.session.views.active(), 0u);
          }});
     add({"file.copy_command", "", {{"view.split", ""}, {"view.other", ""}}, [](CommandWorld& w) {
-             EXPECT_NE(w.clipboard.find(" --tree umobb --leaf 4 --levels 0 --axes endpoints --time-scale 1 "),
+             EXPECT_NE(w.desktop.text.find(" --tree umobb --leaf 4 --levels 0 --axes endpoints --time-scale 1 "),
                        std::string::npos)
-                 << "the file has another fit: " << w.clipboard;
+                 << "the file has another fit: " << w.desktop.text;
              run_command(w.session, "view.other");
              run_command(w.session, "view.split");
              run_command(w.session, "file.copy_command");
-             EXPECT_EQ(w.clipboard.find("--tree"), std::string::npos) << w.clipboard;
+             EXPECT_EQ(w.desktop.text.find("--tree"), std::string::npos) << w.desktop.text;
          }});
     add({"view.link_cameras", "", {{"view.split", ""}}, [](CommandWorld& w) {
              run_command(w.session, "view.top");
@@ -396,10 +402,10 @@ std::vector<Case> cases() {
              run_command(w.session, "file.save");
              run_command(w.session, "agents.hide", "A");
              run_command(w.session, "file.copy_command");
-             EXPECT_NE(w.clipboard.find(" --hide A B"), std::string::npos) << w.clipboard;
+             EXPECT_NE(w.desktop.text.find(" --hide A B"), std::string::npos) << w.desktop.text;
              run_command(w.session, "agent.show_all");
              run_command(w.session, "file.copy_command");
-             EXPECT_NE(w.clipboard.find(" --hide none"), std::string::npos) << w.clipboard;
+             EXPECT_NE(w.desktop.text.find(" --hide none"), std::string::npos) << w.desktop.text;
          }});
     add({"agent.solo", "", {kSelectB}, [](CommandWorld& w) {
              EXPECT_EQ(w.view().hidden, (std::vector<std::string>{"A", "C"}));
@@ -421,8 +427,9 @@ std::vector<Case> cases() {
         EXPECT_EQ(w.view().arrange, Arrange::none);
     });
     add({"view.projection", "", {{"go.sample", "A 7"}}, [](CommandWorld& w) {
-             const mobb::Node& leaf =
-                 w.session.workspace.fitted().tree(0).nodes()[static_cast<std::size_t>(w.view().projection.value().node)];
+             const mobb::Node& leaf = w.session.workspace.fitted()
+                                          .tree(0)
+                                          .nodes()[static_cast<std::size_t>(w.view().projection.value().node)];
              EXPECT_TRUE(leaf.is_leaf() && leaf.first <= 7 && 7 < leaf.end());
              EXPECT_EQ(w.view().projection->agent, 0);
              EXPECT_EQ(w.view().projection->sample, 7);
@@ -501,11 +508,13 @@ std::vector<Case> cases() {
         EXPECT_EQ(w.session.workspace.scene().fit.tree, mobb::TreeKind::umobb);
         EXPECT_EQ(w.session.workspace.fitted().tree(0).options().tree, mobb::TreeKind::umobb);
     });
-    edit("tree.axes", "covariance",
-         [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.fitted().tree(0).options().axes, mobb::Axes::covariance); });
+    edit("tree.axes", "covariance", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.workspace.fitted().tree(0).options().axes, mobb::Axes::covariance);
+    });
     edit("tree.leaf", "7", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.fitted().tree(0).options().leaf, 7); });
     edit("tree.levels", "2", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.fitted().tree(0).depth(), 2); });
-    edit("tree.time_scale", "2.5", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.fitted().tree(0).time_scale(), 2.5); });
+    edit("tree.time_scale", "2.5",
+         [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.fitted().tree(0).time_scale(), 2.5); });
 
     // Query
     look("query.select", "2", [](CommandWorld& w) {
@@ -570,11 +579,11 @@ std::vector<Case> cases() {
          }});
     look("query.copy_command", "2", [](CommandWorld& w) {
         EXPECT_EQ(w.view().query, 2);
-        EXPECT_NE(w.clipboard.find(" --query 2 "), std::string::npos) << w.clipboard;
+        EXPECT_NE(w.desktop.text.find(" --query 2 "), std::string::npos) << w.desktop.text;
     });
     look("query.copy_answer", "0", [](CommandWorld& w) {
         EXPECT_EQ(w.view().query, 0);
-        EXPECT_TRUE(w.clipboard.starts_with("They collide at ")) << w.clipboard;
+        EXPECT_TRUE(w.desktop.text.starts_with("They collide at ")) << w.desktop.text;
     });
     add({"step.next_of_node", "", {kFirstQuery, kFirstStep, {"go.node", "A 0"}}, [](CommandWorld& w) {
              const mobb::Trace& trace = w.session.workspace.recorded()->trace;
@@ -591,14 +600,17 @@ std::vector<Case> cases() {
         EXPECT_EQ(w.view().query, 0) << "without a query in view the first is shown";
         EXPECT_EQ(w.session.workspace.step(), 0);
     });
-    add({"step.back", "", {kFirstQuery, {"step.to", "5"}}, [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.step(), 4); }});
+    add({"step.back", "", {kFirstQuery, {"step.to", "5"}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.session.workspace.step(), 4);
+         }});
     in_query("step.back", "", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.step(), 0); });
     in_query("step.forward", "", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.step(), 1); });
     add({"step.forward", "", {kFirstQuery}, [](CommandWorld& w) {
              EXPECT_EQ(w.session.workspace.step(), w.session.workspace.recorded()->trace.size() - 1);
          }});
-    in_query("step.last", "",
-             [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.step(), w.session.workspace.recorded()->trace.size() - 1); });
+    in_query("step.last", "", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.workspace.step(), w.session.workspace.recorded()->trace.size() - 1);
+    });
     in_query("step.to", "3", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.step(), 3); });
     add({"step.next_separated", "", {{"query.select", "1"}, kFirstStep}, [](CommandWorld& w) {
              EXPECT_EQ(outcome_now(w), mobb::Outcome::separated);

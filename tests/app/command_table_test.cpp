@@ -53,8 +53,8 @@ TEST(CommandTable, EveryChordIsReadAndCallsOneCommand) {
     Session scene(false);
     Session cases(false);
     folder.write("a.case.json", "{}");
-    cases.case_drawer.program = "/bin/false";
-    cases.review(folder.scene.parent_path());
+    cases.reviews.case_drawer.program = "/bin/false";
+    cases.reviews.open(folder.scene.parent_path());
     std::size_t count = 0;
     for (const Session* session : {&scene, &cases}) {
         std::set<std::string> chords;
@@ -202,7 +202,7 @@ TEST(CommandTable, ChoicesCanAllBeChosen) {
         EXPECT_FALSE(choices.empty());
         for (const std::string& choice : choices) {
             Session other(false);
-            other.open({folder.scene});
+            other.files.open({folder.scene});
             run_command(other, "go.agent", "A");
             EXPECT_NO_THROW(run_command(other, command.id, choice)) << choice;
             EXPECT_EQ(all_messages(other), "");
@@ -267,9 +267,10 @@ TEST(CommandTable, TimeStepsStayWithinTheSpan) {
 
 TEST(CommandTable, TheLineToCopyTellsThePicture) {
     CrossingFolder folder;
+    testing::TestDesktop desktop;
+    const std::string& copied = desktop.text;
     Session session(false);
-    std::string copied;
-    session.hooks.set_clipboard = [&](const std::string& text) { copied = text; };
+    session.desktop = &desktop;
     const std::filesystem::path odd = folder.write("o'dd name.json", mobbscope::testing::slurp(folder.scene));
     session.files.open({odd});
     const auto options = [&] {
@@ -279,13 +280,11 @@ TEST(CommandTable, TheLineToCopyTellsThePicture) {
     };
     EXPECT_EQ(options(), "");
     EXPECT_NE(copied.find(" --size 1280x720 -o"), std::string::npos) << "the scale that suits the size is not said";
-    session.hooks.ui_scale = [] { return 2.0; };
-    session.hooks.viewport_size = [] { return PictureSize{640, 360}; };
-    double scale = 0;
-    session.hooks.viewport_scale = [&] { return scale; };
+    session.window_scale = 2;
+    session.views.picture = {{640, 360}, 0};
     EXPECT_EQ(options(), "");
     EXPECT_NE(copied.find(" --size 640x360 -o"), std::string::npos) << copied;
-    scale = 1.75;
+    session.views.picture->scale = 1.75;
     EXPECT_EQ(options(), "");
     EXPECT_NE(copied.find(" --size 640x360 --scale 1.75 -o"), std::string::npos) << "the viewport's, not the panels'";
     EXPECT_NE(copied.find("o'\\''dd name.json'"), std::string::npos) << copied;
@@ -343,7 +342,9 @@ TEST(CommandTable, TheLineToCopyTellsThePicture) {
     EXPECT_EQ(session.dialogs.exporting.aside->file, aside);
     EXPECT_NE(copied.find(" --"), std::string::npos) << copied;
     run_command(session, "agent.nudge", "1 0");
-    EXPECT_EQ(render_line(session.workspace, session.files, session.dialogs, order_of_viewport(session.workspace, session.views), "picture.png"), std::nullopt);
+    EXPECT_EQ(render_line(session.workspace, session.files, session.dialogs,
+                          order_of_viewport(session.workspace, session.views), "picture.png"),
+              std::nullopt);
     run_command(session, "file.copy_command");
     EXPECT_NE(session.dialogs.exporting.aside->file, aside);
     std::filesystem::remove_all(aside.parent_path());

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -46,6 +47,21 @@ class CrossingFolder {
 
   private:
     mobbscope::testing::TempFolder folder_;
+};
+
+/// A desktop that keeps what is copied.
+struct TestDesktop : Desktop {
+    std::string text;              ///< that was copied last
+    std::size_t picture_bytes = 0;  ///< ... of a picture
+    bool has_picture_clipboard = false;
+    std::atomic<int> wakes = 0;
+
+    void wake() override { ++wakes; }
+    void set_clipboard(const std::string& copied) override { text = copied; }
+    void set_clipboard_picture(std::string_view png) override { picture_bytes = png.size(); }
+    std::string_view why_no_clipboard_picture() override {
+        return has_picture_clipboard ? "" : Desktop::why_no_clipboard_picture();
+    }
 };
 
 /// The texts of all messages, and what else is easily asked of a session.

@@ -30,7 +30,8 @@ class CrowdTest : public ::testing::Test {
     void SetUp() override {
         file = folder.write("run.json", testing::crowded_run());
         session.files.open({file});
-        ASSERT_TRUE(session.workspace.crowd()) << (session.notifications.all().empty() ? "" : session.notifications.all().front().text);
+        ASSERT_TRUE(session.workspace.crowd())
+            << (session.notifications.all().empty() ? "" : session.notifications.all().front().text);
     }
     void run(std::string_view id, const std::string& argument = "") { run_command(session, id, argument); }
 
@@ -243,7 +244,8 @@ TEST_F(CrowdTest, ConflictsAreCountedAsTheCommandCountsThem) {
     }
     double seconds = 0;
     for (const PeopleConflict& conflict : other) seconds += conflict.seconds();
-    EXPECT_EQ(session.crowds.conflict_summary(), conflict_count(other.size(), session.workspace.crowd()->agents.size(), seconds));
+    EXPECT_EQ(session.crowds.conflict_summary(),
+              conflict_count(other.size(), session.workspace.crowd()->agents.size(), seconds));
 }
 
 /// One walks 4 m in steps of 1 m and 0.5 s, twice; another stands for 0.3 s where the first runs on from 3 m to 4 m.

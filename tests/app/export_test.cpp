@@ -41,14 +41,15 @@ class ExportTest : public ::testing::Test {
         } catch (const MachineError& error) {
             GTEST_SKIP() << error.what();
         }
-        session.hooks.set_clipboard = [this](const std::string& text) { copied = text; };
+        session.desktop = &desktop;
         session.files.open({folder.scene});
         window->settle();
         run("run picture.file " + file.string());
     }
 
     void TearDown() override {
-        if (session.dialogs.exporting.aside) std::filesystem::remove_all(session.dialogs.exporting.aside->file.parent_path());
+        if (session.dialogs.exporting.aside)
+            std::filesystem::remove_all(session.dialogs.exporting.aside->file.parent_path());
     }
 
     std::string run(const std::string& script) {
@@ -75,7 +76,8 @@ class ExportTest : public ::testing::Test {
     std::filesystem::path file = folder.file("a picture's.png");
     Session session{false};
     std::unique_ptr<HeadlessWindow> window;
-    std::string copied;
+    testing::TestDesktop desktop;
+    const std::string& copied = desktop.text;
 };
 
 TEST_F(ExportTest, TheCommandLineDrawsTheSameBytes) {

@@ -439,7 +439,8 @@ TEST(Keyboard, LettersInAMenuAreTheBeginningOfAName) {
 
 TEST(Keyboard, WhatIsDoneByEnterGivesTheKeysToThePicture) {
     KeyboardWindow w;
-    for (int i = 0; i < 100 && w.session.keys.focus != "query.0"; ++i) w.key(w.session.keys.focus == "query.0" ? "Down" : "Tab");
+    for (int i = 0; i < 100 && w.session.keys.focus != "query.0"; ++i)
+        w.key(w.session.keys.focus == "query.0" ? "Down" : "Tab");
     ASSERT_EQ(w.session.keys.focus, "query.0");
     w.key("Enter");
     EXPECT_EQ(w.session.workspace.view().query, 0);

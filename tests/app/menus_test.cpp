@@ -24,11 +24,11 @@ struct MenuWindow {
     testing::CrossingFolder folder;
     Session session;
     HeadlessWindow window;
-    std::string clipboard;
+    testing::TestDesktop desktop;
 
     explicit MenuWindow(PictureSize size = {1280, 900}, double scale = 1, bool attended = false)
         : session(attended), window(GlContext::open(Backend::automatic), session, size, scale) {
-        session.hooks.set_clipboard = [this](const std::string& text) { clipboard = text; };
+        session.desktop = &desktop;
         session.files.open({folder.scene});
         while (session.jobs.job()) session.poll();
         window.settle();
@@ -61,7 +61,7 @@ TEST(Menus, ARightClickSelectsWhatIsThereAndSaysWhatCanBeDoneWithIt) {
     const Selection selected = w.session.workspace.selection;
     w.run("click context.edit.copy_figures");
     EXPECT_FALSE(w.has_menu());
-    EXPECT_NE(w.clipboard.find("samples\t"), std::string::npos) << w.clipboard;
+    EXPECT_NE(w.desktop.text.find("samples\t"), std::string::npos) << w.desktop.text;
     EXPECT_EQ(w.session.workspace.selection, selected);
     w.run("click " + w.place_of_box() + " right\nclick context.go.agent");
     EXPECT_EQ(w.session.workspace.selection.kind, Selection::Kind::path);
@@ -115,7 +115,7 @@ TEST(Menus, RowsTestsAndTimesHaveMenus) {
     EXPECT_EQ(w.session.workspace.scene().agents.back().name, "stand");
     w.run("click query.1 right\nclick context.query.select\nexpect /view/query 1");
     w.run("click query.0 right\nclick context.query.copy_answer\nexpect /view/query 0");
-    EXPECT_NE(w.clipboard, "");
+    EXPECT_NE(w.desktop.text, "");
     w.run("run step.first\nclick query.icicle right");
     EXPECT_EQ(w.session.workspace.step(), 0) << "a right click goes nowhere by itself";
     w.run("click context.step.to");

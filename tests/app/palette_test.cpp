@@ -67,7 +67,7 @@ TEST(Fuzzy, StartsOfWordsAndRunsCountMore) {
 TEST(PaletteEntries, WithoutTextAreAllCommandsThatCanBeDoneFirst) {
     const PaletteWindow p;
     const auto entries = palette_entries(p.session, "");
-    const auto belongs = [&](const Command& command) { return belongs_here(p.session.reviews, command); };
+    const auto belongs = [&](const Command& command) { return belongs_here(p.session, command); };
     ASSERT_EQ(static_cast<std::ptrdiff_t>(entries.size()), std::ranges::count_if(commands(), belongs));
     EXPECT_EQ(entries.front().command->id, "file.open");
     const auto first_not =

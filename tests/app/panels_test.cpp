@@ -126,7 +126,8 @@ TEST(Panels, OverlaysFoldByAClick) {
         w.click(mark);
         EXPECT_TRUE(overlay(kind).folded) << mark;
     }
-    EXPECT_TRUE(w.session.workspace.view().fold_caption && w.session.workspace.view().fold_legend && w.session.workspace.view().fold_inset);
+    EXPECT_TRUE(w.session.workspace.view().fold_caption && w.session.workspace.view().fold_legend &&
+                w.session.workspace.view().fold_inset);
     for (const auto& [mark, kind] : panels) {
         w.click(mark);
         EXPECT_FALSE(overlay(kind).folded) << mark;
@@ -167,7 +168,8 @@ TEST(Panels, AMomentIsWalkedThroughAndHasNoHandles) {
     run_command(w.session, "time.at", "1.2");
     w.window.settle();
     w.change_view("moment");
-    const DrawList list = build_draw_list(w.session.workspace.fitted(), w.session.workspace.view(), w.session.views.picture->size);
+    const DrawList list =
+        build_draw_list(w.session.workspace.fitted(), w.session.workspace.view(), w.session.views.picture->size);
     ASSERT_FALSE(list.disks.empty());
     const DiskInstance& disk = list.disks.front();
     const auto pixel = list.projection.project(disk.base + glm::vec3(0, 0, 0.9f));
@@ -240,7 +242,8 @@ TEST(StillCamera, ItFramesOnCommandAndKeepsItsScaleWhenTheWindowIsResized) {
     const Camera home = w.session.workspace.view().camera;
     ASSERT_TRUE(home.target);
     const auto pixels = [&] {
-        const DrawList list = build_draw_list(w.session.workspace.fitted(), w.session.workspace.view(), w.session.views.picture->size);
+        const DrawList list =
+            build_draw_list(w.session.workspace.fitted(), w.session.workspace.view(), w.session.views.picture->size);
         return list.projection.pixels_per_metre(list.space.from_target(*w.session.workspace.view().camera.target));
     };
     const float scale = pixels();
@@ -254,8 +257,8 @@ TEST(StillCamera, ItFramesOnCommandAndKeepsItsScaleWhenTheWindowIsResized) {
     w.session.edits.undo();
     w.window.settle();
     EXPECT_EQ(w.session.workspace.view().camera.target, opened.target);
-    EXPECT_NEAR(w.session.workspace.view().camera.distance * height, opened.distance * w.session.views.picture->size.height,
-                1e-6 * opened.distance * height)
+    EXPECT_NEAR(w.session.workspace.view().camera.distance * height,
+                opened.distance * w.session.views.picture->size.height, 1e-6 * opened.distance * height)
         << "where undo leads, too";
 }
 
@@ -615,10 +618,10 @@ TEST(Panels, MessagesGoBehindTheBellWhereTheyAreRead) {
     EXPECT_EQ(w.session.dialogs.now, Dialog::messages);
     EXPECT_EQ(w.session.notifications.unread(), 0u);
     w.change_view("message_list");
-    std::string copied;
-    w.session.hooks.set_clipboard = [&](const std::string& text) { copied = text; };
+    testing::TestDesktop desktop;
+    w.session.desktop = &desktop;
     w.click("messages.0.copy");
-    EXPECT_EQ(copied, "This went wrong") << "the latest stands first";
+    EXPECT_EQ(desktop.text, "This went wrong") << "the latest stands first";
     w.click("messages.0.dismiss");
     ASSERT_EQ(all_messages(w.session), "Saved it\n");
     w.key("Delete");
@@ -635,7 +638,8 @@ TEST(Panels, MessagesCoverNeitherLegendNorCaption) {
         run_command(w.session, "step.last");
         const std::string path = "/home/somebody/" + std::string(40, 'x') + "/a/long/way/" + std::string(40, 'y');
         for (int i = 0; i < 3; ++i) {
-            w.session.notifications.tell(MessageLevel::error, "Saved " + path + '/' + std::to_string(i) + "/crossing.json");
+            w.session.notifications.tell(MessageLevel::error,
+                                         "Saved " + path + '/' + std::to_string(i) + "/crossing.json");
         }
         w.window.run_for(0.2);
         const Rect viewport = w.window.shell().marks().all().at("viewport");
@@ -677,7 +681,8 @@ TEST(Panels, EscapePutsErrorsAwayBeforeItLeavesTheQuery) {
 
 TEST(Panels, WhatAMessageOffersIsAButton) {
     Window w;
-    w.session.notifications.tell(MessageLevel::warning, "The unit was guessed", MessageOffer{"view.top", "", "Look from above"});
+    w.session.notifications.tell(MessageLevel::warning, "The unit was guessed",
+                                 MessageOffer{"view.top", "", "Look from above"});
     w.window.run_for(0.2);
     w.change_view("offer");
     w.click("message.0.offer");

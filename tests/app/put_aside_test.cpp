@@ -57,7 +57,9 @@ struct AsideWorld {
         window.settle();
     }
     /// Pixels that a metre takes at the camera's target, up to a factor.
-    double pixels_a_metre() const { return session.views.picture->size.height / session.workspace.view().camera.distance; }
+    double pixels_a_metre() const {
+        return session.views.picture->size.height / session.workspace.view().camera.distance;
+    }
 };
 
 constexpr PictureSize kSmaller{800, 560};
@@ -385,7 +387,9 @@ TEST(Steps, ADragOverThemIsOneMove) {
     SteppedWorld w;
     w.run("step.to", "1");
     for (const int event : {2, 4, 3, 5}) {
-        w.session.workspace.change_view([&](ViewState& view) { view.step = {Step::Unit::event, static_cast<double>(event)}; });
+        w.session.workspace.change_view([&](ViewState& view) {
+            view.step = {Step::Unit::event, static_cast<double>(event)};
+        });
     }
     w.session.workspace.close_group();
     w.run("step.before");
@@ -447,7 +451,8 @@ TEST(Steps, TheCameraThatFollowsTheTestAddsNoStates) {
 /// What the history lists, the newest last.
 std::vector<std::string> titles(const Session& session) {
     std::vector<std::string> out;
-    for (std::size_t i = 1; i < session.workspace.history.count(); ++i) out.push_back(session.workspace.history.title(i));
+    for (std::size_t i = 1; i < session.workspace.history.count(); ++i)
+        out.push_back(session.workspace.history.title(i));
     return out;
 }
 

@@ -32,7 +32,7 @@ class RandomScript {
     }
 
     /// What is done next in a window that shows `marks`; some things take several lines.
-    std::string next(const QueryInspector& queries, const Workspace& workspace, const Marks& marks) {
+    std::string next(const Session& session, const Marks& marks) {
         switch (random_.integer(0, 15)) {
             case 0:
             case 1:

@@ -50,7 +50,7 @@ struct ReviewWorld {
     TempFolder folder;
     ThreeCases files{folder.path()};
     Session session;
-    std::string clipboard;
+    testing::TestDesktop desktop;
     std::unique_ptr<HeadlessWindow> window;
 
     /// `attended`: runs go on beside the window.
@@ -59,7 +59,7 @@ struct ReviewWorld {
         session.settings.ui_scale = 1;
         window =
             std::make_unique<HeadlessWindow>(GlContext::open(Backend::automatic), session, PictureSize{1024, 700}, 1);
-        session.hooks.set_clipboard = [this](const std::string& text) { clipboard = text; };
+        session.desktop = &desktop;
     }
     /// Opens a scene of the person's own, and leaves a change in it that is not saved.
     fs::path edit_own_scene() {
@@ -350,7 +350,7 @@ TEST(Review, NamesMayBeginAsOptionsDo) {
     EXPECT_EQ(outcome_name(w.one("same")), "passed");
     w.show("-moved");
     run_command(w.session, "review.copy_command");
-    EXPECT_EQ(w.clipboard, "mobbscope test -- " + w.files.cases().string() + " -moved");
+    EXPECT_EQ(w.desktop.text, "mobbscope test -- " + w.files.cases().string() + " -moved");
 }
 
 TEST(Review, WhatDoesNotGoWellIsAWarning) {
@@ -479,8 +479,6 @@ TEST(Review, AllWorkEndsWithTheWindow) {
     ReviewWorld w(true);
     const HeldDrawer drawer(w.files);
     w.session.reviews.case_drawer.program = drawer.program();
-    std::atomic<int> wakes = 0;
-    w.session.hooks.wake = [&] { ++wakes; };
     w.open();
     // Who looks into a file is about to wake the window, and does so for a while.
     std::latch wakes_now(1);
@@ -502,11 +500,11 @@ TEST(Review, AllWorkEndsWithTheWindow) {
     EXPECT_FALSE(ended) << "the window may go, and somebody still wakes it";
     woke.count_down();
     window.join();
-    const int before = wakes;
+    const int before = w.desktop.wakes;
     EXPECT_FALSE(w.review().drawing());
     for (int i = 0; i < 500 && Job::any_left(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     EXPECT_FALSE(Job::any_left()) << "somebody still holds one";
-    EXPECT_EQ(wakes, before);
+    EXPECT_EQ(w.desktop.wakes, before);
 }
 
 TEST(Review, ARunIsShownAndStoppedWhereTheSceneIsShownToo) {
@@ -519,7 +517,8 @@ TEST(Review, ARunIsShownAndStoppedWhereTheSceneIsShownToo) {
     ASSERT_FALSE(w.session.reviews.shown());
     ASSERT_TRUE(w.review().drawing());
     ASSERT_EQ(w.session.notifications.all().size(), 1u);
-    EXPECT_EQ(w.session.notifications.all().front().offer->command, "review.back") << "who left by mistake sees the way back";
+    EXPECT_EQ(w.session.notifications.all().front().offer->command, "review.back")
+        << "who left by mistake sees the way back";
     w.click("job.0.cancel");
     EXPECT_FALSE(w.review().drawing());
     EXPECT_FALSE(w.window->shell().marks().all().contains("job.0"));
@@ -921,7 +920,7 @@ TEST(Review, EveryCommandIsTried) {
     run_command(w.session, "review.mark");
     EXPECT_TRUE(w.one("missing").marked);
     run_command(w.session, "review.copy_command");
-    EXPECT_EQ(w.clipboard, "mobbscope test " + w.files.cases().string() + " missing");
+    EXPECT_EQ(w.desktop.text, "mobbscope test " + w.files.cases().string() + " missing");
     run_command(w.session, "review.draw_all");
     EXPECT_EQ(w.review().summary().bad(), 2);
     run_command(w.session, "review.side");

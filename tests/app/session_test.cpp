@@ -171,8 +171,9 @@ TEST(Undo, ForgetsTheOldestOfWhatTakesTooMuchMemory) {
         Scene scene = session.workspace.scene();
         scene.fit.leaf = leaf;
         const mobb::FitOptions fit = scene.fit;
-        return Document{std::make_shared<const FittedScene>(std::move(scene), fit, session.workspace.document().fitted.get()),
-                        session.workspace.view()};
+        return Document{
+            std::make_shared<const FittedScene>(std::move(scene), fit, session.workspace.document().fitted.get()),
+            session.workspace.view()};
     };
     const Document start = session.workspace.document();
     const std::size_t each = fitted_with(20).fitted->bytes_beyond(*start.fitted);
@@ -203,7 +204,8 @@ TEST(Undo, OneDragOfAFitOptionIsOneEdit) {
 TEST(Undo, AFailedEditChangesNothing) {
     Edited e;
     const auto before = e.session.workspace.document().fitted;
-    EXPECT_THROW(e.session.edits.refit({"leaf", ""}, [](mobb::FitOptions& fit) { fit.leaf = 0; }), std::invalid_argument);
+    EXPECT_THROW(e.session.edits.refit({"leaf", ""}, [](mobb::FitOptions& fit) { fit.leaf = 0; }),
+                 std::invalid_argument);
     EXPECT_EQ(e.session.workspace.document().fitted, before);
     EXPECT_TRUE(e.session.workspace.history.can_undo());
 }
@@ -324,16 +326,16 @@ TEST(Opening, TheLastSessionIsOpenedAgainAsItWasSeen) {
         kept = session.settings;
     }
     Session next(true, kept);
-    ASSERT_TRUE(next.has_last());
-    EXPECT_EQ(next.last_title(), "scene.json");
+    ASSERT_TRUE(next.files.has_last());
+    EXPECT_EQ(next.files.last_title(), "scene.json");
     run_command(next, "file.reopen_last");
-    while (next.job()) next.poll();
-    EXPECT_EQ(next.title(), "scene.json");
-    EXPECT_EQ(next.view().query, 1);
-    EXPECT_EQ(next.view().camera.preset, CameraPreset::top);
-    EXPECT_EQ(next.scene().view, ViewState{}) << "the file says nothing of it";
+    while (next.jobs.job()) next.poll();
+    EXPECT_EQ(next.workspace.title(), "scene.json");
+    EXPECT_EQ(next.workspace.view().query, 1);
+    EXPECT_EQ(next.workspace.view().camera.preset, CameraPreset::top);
+    EXPECT_EQ(next.workspace.scene().view, ViewState{}) << "the file says nothing of it";
     std::filesystem::remove(folder.scene);
-    EXPECT_FALSE(Session(true, kept).has_last()) << "what is gone is not offered";
+    EXPECT_FALSE(Session(true, kept).files.has_last()) << "what is gone is not offered";
 }
 
 TEST(Opening, TheThemeOfThePersonIsThatOfScenesThatSayNone) {
@@ -346,8 +348,8 @@ TEST(Opening, TheThemeOfThePersonIsThatOfScenesThatSayNone) {
     while (session.jobs.job()) session.poll();
     EXPECT_EQ(session.workspace.view().theme, Theme::light);
     Session script(false, session.settings);
-    script.open({folder.scene});
-    EXPECT_EQ(script.view().theme, Theme::dark) << "scripts find the same everywhere";
+    script.files.open({folder.scene});
+    EXPECT_EQ(script.workspace.view().theme, Theme::dark) << "scripts find the same everywhere";
 }
 
 TEST(Opening, WhatIsDroppedOnSomethingAsks) {
@@ -384,11 +386,11 @@ TEST(Saving, ElsewhereKeepsTheSourcesAndReadsBackEqual) {
     EXPECT_FALSE(e.session.workspace.modified());
     EXPECT_EQ(e.session.workspace.file, there);
     Session other(false);
-    other.open({there});
+    other.files.open({there});
     EXPECT_EQ(all_messages(other), "");
-    EXPECT_EQ(to_json(other.scene(), true), to_json(e.session.workspace.scene(), true));
-    EXPECT_EQ(other.view(), e.session.workspace.view());
-    EXPECT_EQ(other.scene().clips[0].source, "../../walk.csv");
+    EXPECT_EQ(to_json(other.workspace.scene(), true), to_json(e.session.workspace.scene(), true));
+    EXPECT_EQ(other.workspace.view(), e.session.workspace.view());
+    EXPECT_EQ(other.workspace.scene().clips[0].source, "../../walk.csv");
     // And back up again.
     e.session.files.save_as(e.folder.file("again.json"));
     EXPECT_EQ(e.session.workspace.scene().clips[0].source, "walk.csv");
@@ -409,7 +411,7 @@ TEST(Saving, WhatCannotBeWrittenStaysUnsaved) {
     EXPECT_TRUE(e.session.workspace.modified());
     EXPECT_EQ(e.session.workspace.file, e.folder.scene);
     Session empty(false);
-    EXPECT_THROW(empty.save_as(e.folder.file("x.json")), InputError);
+    EXPECT_THROW(empty.files.save_as(e.folder.file("x.json")), InputError);
 }
 
 TEST(Saving, UndoneChangesAreNoChanges) {
@@ -618,21 +620,21 @@ TEST(Excerpts, OfAnAgentAgainstItselfHaveItTwice) {
 TEST(Jobs, ACancelledFitLeavesTheDocument) {
     CrossingFolder folder;
     Session opened(true);
-    opened.patience = {};
-    opened.open({long_walk(folder)});
-    while (opened.job()) opened.poll();
-    const auto before = opened.document().fitted;
+    opened.options.patience = {};
+    opened.files.open({long_walk(folder)});
+    while (opened.jobs.job()) opened.poll();
+    const auto before = opened.workspace.document().fitted;
     run_command(opened, "tree.axes", "minarea");
-    ASSERT_TRUE(opened.job()) << "a window does not wait for it";
-    EXPECT_EQ(opened.job()->title(), "Fitting trees");
-    opened.cancel_job(0);
-    EXPECT_FALSE(opened.job());
-    EXPECT_EQ(opened.document().fitted, before);
+    ASSERT_TRUE(opened.jobs.job()) << "a window does not wait for it";
+    EXPECT_EQ(opened.jobs.job()->title(), "Fitting trees");
+    opened.jobs.cancel(0);
+    EXPECT_FALSE(opened.jobs.job());
+    EXPECT_EQ(opened.workspace.document().fitted, before);
     EXPECT_NE(all_messages(opened).find("Cancelled"), std::string::npos);
     run_command(opened, "tree.leaf", "5");
-    while (opened.job()) opened.poll();
-    EXPECT_EQ(opened.scene().fit.leaf, 5);
-    EXPECT_EQ(opened.scene().fit.axes, mobb::Axes::endpoints);
+    while (opened.jobs.job()) opened.poll();
+    EXPECT_EQ(opened.workspace.scene().fit.leaf, 5);
+    EXPECT_EQ(opened.workspace.scene().fit.axes, mobb::Axes::endpoints);
 }
 
 /// A long walk against itself as an excerpt, with a fit under way.

@@ -96,7 +96,8 @@ TEST_F(ShownAgentsTest, ClipsAreGroupedByFolderAndRig) {
     ASSERT_EQ(all_messages(session), "");
     ASSERT_EQ(session.workspace.clip_groups().size(), 2u);
     EXPECT_EQ(session.workspace.clip_groups()[0].clips, (std::vector<int>{0, 1}));
-    EXPECT_EQ(session.workspace.clip_groups()[0].title.rfind("clips: ", 0), 0u) << session.workspace.clip_groups()[0].title;
+    EXPECT_EQ(session.workspace.clip_groups()[0].title.rfind("clips: ", 0), 0u)
+        << session.workspace.clip_groups()[0].title;
     EXPECT_EQ(session.workspace.view().arrange, Arrange::grid);
     run_command(session, "agents.solo", "group:" + session.workspace.clip_groups()[0].title);
     EXPECT_EQ(hidden(), AgentNames{session.workspace.scene().clips[2].name});

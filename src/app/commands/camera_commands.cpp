@@ -71,11 +71,10 @@ Camera framing_box(const Camera& camera, const PictureFrame& picture, const Boun
 
 }  // namespace
 
-PictureSize viewport_size(const Views& views) {
-    return views.picture ? views.picture->size : kWithoutWindow;
-}
+PictureSize viewport_size(const Views& views) { return views.picture ? views.picture->size : kWithoutWindow; }
 
-void move_camera(Views& views, Workspace& workspace, const std::function<Camera(const Camera&, const PictureFrame&)>& move) {
+void move_camera(Views& views, Workspace& workspace,
+                 const std::function<Camera(const Camera&, const PictureFrame&)>& move) {
     const PictureFrame picture = present_picture(views, workspace);
     const Camera moved = move(picture.camera, picture);
     workspace.change_view([&](ViewState& view) {
@@ -200,8 +199,7 @@ void frame_box(Views& views, Workspace& workspace, const Bounds& box) {
 void go_along_with(Views& views, Workspace& workspace, const TestCorners& boxes, const Rect& part) {
     const PictureFrame picture = present_picture(views, workspace);
     const double chosen = workspace.view().time_height;
-    views.settle_camera(views.active(), framing_in(boxes, picture, part),
-                          chosen > 0 ? 0 : picture.space.time_height);
+    views.settle_camera(views.active(), framing_in(boxes, picture, part), chosen > 0 ? 0 : picture.space.time_height);
 }
 
 bool follows(const Workspace& workspace) { return !workspace.view().follow.empty(); }

@@ -19,7 +19,8 @@ PictureSize viewport_size(const Views& views);
 
 /// Looks from elsewhere: `move` turns the present explicit camera, and what it shows, into another. Time keeps the
 /// height that it has now, as the camera's target is measured in it. Requires a scene.
-void move_camera(Views& views, Workspace& workspace, const std::function<Camera(const Camera&, const PictureFrame&)>& move);
+void move_camera(Views& views, Workspace& workspace,
+                 const std::function<Camera(const Camera&, const PictureFrame&)>& move);
 
 /// What `selected` covers of what the present picture shows, in (x, y, t), or in the picture of a moment (x, y,
 /// height). None if it is not in the picture.

@@ -40,7 +40,9 @@ int clip_to_move(const Dialogs& dialogs, const Imports& imports, const Workspace
     return workspace.scene().clips.size() == 1 ? 0 : -1;
 }
 
-bool can_move(const Workspace& workspace) { return has_scene(workspace) && !workspace.crowd() && !workspace.scene().graph; }
+bool can_move(const Workspace& workspace) {
+    return has_scene(workspace) && !workspace.crowd() && !workspace.scene().graph;
+}
 
 std::string_view why_not_move(const Workspace& workspace) {
     return workspace.crowd() ? "a run is not edited" : "the motion graph was cut out of these clips";
@@ -53,7 +55,8 @@ void set_motion(Dialogs& dialogs, Imports& imports, Workspace& workspace, const 
     const auto motion = mobb::motion_from_name(both.substr(0, end));
     if (!motion) throw std::invalid_argument("motion is held or linear, not " + in_quotes(both.substr(0, end)));
     const std::string_view named = trimmed(both.substr(end));
-    const int clip = named.empty() ? clip_to_move(dialogs, imports, workspace) : index_of_name(clip_names(workspace), named, "clip");
+    const int clip =
+        named.empty() ? clip_to_move(dialogs, imports, workspace) : index_of_name(clip_names(workspace), named, "clip");
     if (clip < 0) throw std::invalid_argument("select the clip, or an agent that plays it");
     imports.set_motion(clip, dialogs.now == Dialog::import_clip && imports.edited.whole_file, *motion);
 }
@@ -96,8 +99,9 @@ void set(Imports& imports, Dialogs& dialogs, Workspace& workspace, const std::st
     std::vector<std::string> keys;
     for (const ImportOption& option : kImportOptions) keys.emplace_back(option.key);
     const int option = index_of_name(keys, both.substr(0, end), "import option");
-    imports.set(clip_to_import(dialogs, imports, workspace), dialogs.now == Dialog::import_clip && imports.edited.whole_file,
-                       keys[static_cast<std::size_t>(option)], std::string(trimmed(both.substr(end))));
+    imports.set(clip_to_import(dialogs, imports, workspace),
+                dialogs.now == Dialog::import_clip && imports.edited.whole_file, keys[static_cast<std::size_t>(option)],
+                std::string(trimmed(both.substr(end))));
 }
 
 }  // namespace
@@ -117,11 +121,10 @@ std::vector<Command> clip_commands() {
                 {.argument = "MOTION [CLIP]",
                  .enabled = {can_move, why_not_move},
                  .choices =
-                     [] {
-                         return std::vector<std::string>(mobb::motion_names().begin(), mobb::motion_names().end());
-                     },
+                     [] { return std::vector<std::string>(mobb::motion_names().begin(), mobb::motion_names().end()); },
                  .chosen =
-                     [](const Dialogs& dialogs, const Imports& imports, const Workspace& workspace, const std::string& motion) {
+                     [](const Dialogs& dialogs, const Imports& imports, const Workspace& workspace,
+                        const std::string& motion) {
                          const int clip = clip_to_move(dialogs, imports, workspace);
                          return clip >= 0 && name(workspace.fitted().tree(clip).clip().motion()) == motion;
                      }}),

@@ -2,8 +2,8 @@
 /// table.
 #pragma once
 
-#include <app/session/session.h>
 #include <app/input/key.h>
+#include <app/session/session.h>
 #include <scene/view_options.h>
 
 #include <functional>
@@ -42,8 +42,8 @@ class OfParts {
   public:
     OfParts() = default;
     template <class Function>
-        requires(!std::is_same_v<std::remove_cvref_t<Function>, OfParts>)
-    OfParts(Function function) : OfParts(std::in_place, std::function(std::move(function))) {}
+    requires(!std::is_same_v<std::remove_cvref_t<Function>, OfParts>) OfParts(Function function)
+        : OfParts(std::in_place, std::function(std::move(function))) {}
 
     /// A function of one part.
     template <class Returned, class Part>
@@ -97,7 +97,7 @@ struct CommandTraits {
     bool repeats = false;         ///< while its key is held
     std::string_view argument{};  ///< what it takes: "FILE", "N"; in brackets if it can do without; empty: nothing
     Condition enabled = has_scene;
-    OfParts<bool, const Session> checked{};                 ///< of a toggle: whether it is on
+    OfParts<bool, const Session> checked{};                      ///< of a toggle: whether it is on
     OfParts<std::vector<std::string>, const Session> choices{};  ///< arguments to choose from
     /// What menus call a choice. Null: as it is given.
     std::function<std::string(const std::string& choice)> choice_title{};
@@ -146,10 +146,10 @@ void invoke(Session& session, std::string_view id, const std::string& argument =
 void ask_for_argument(Session& session, const Command& command);
 
 /// The command that a chord calls where the session is: with the scene or with picture tests; null if none.
-const Command* command_for(const Reviews& reviews, const Chord& chord);
+const Command* command_for(const Session& session, const Chord& chord);
 
 /// Whether a command is about what is shown, the scene or picture tests: menus have no others.
-bool belongs_here(const Reviews& reviews, const Command& command);
+bool belongs_here(const Session& session, const Command& command);
 
 /// What menus call a choice of a command.
 std::string title_of_choice(const Command& command, const std::string& choice);

@@ -21,7 +21,8 @@ std::vector<Command> help_commands() {
                 [](Dialogs& dialogs, Notifications& notifications) {
                     dialogs.open(Dialog::messages);
                     notifications.mark_read();
-                }, {.shortcut = "F8", .enabled = always}),
+                },
+                {.shortcut = "F8", .enabled = always}),
         Command("help.clear_messages", "Clear messages", "Empties the list of messages.", &Notifications::clear,
                 {.enabled = {[](const Notifications& notifications) { return !notifications.all().empty(); },
                              []() -> std::string_view { return "there are none"; }}}),
@@ -62,13 +63,13 @@ std::span<const Command> commands() {
     return table;
 }
 
-bool belongs_here(const Reviews& reviews, const Command& command) {
-    return is_everywhere(command) || is_of_review(command) == reviews.shown();
+bool belongs_here(const Session& session, const Command& command) {
+    return is_everywhere(command) || is_of_review(command) == session.reviews.shown();
 }
 
 std::string_view why_not(const Session& session, const Command& command) {
     if (command.enabled(session)) return "";
-    if (!belongs_here(session.reviews, command)) {
+    if (!belongs_here(session, command)) {
         return session.reviews.shown() ? "picture tests are shown: leave them first" : "no picture tests are shown";
     }
     if (session.reviews.shown()) return command.enabled.why_not(session);
@@ -114,9 +115,9 @@ void ask_for_argument(Session& session, const Command& command) {
     session.dialogs.open(Dialog::palette, std::move(input));
 }
 
-const Command* command_for(const Reviews& reviews, const Chord& chord) {
+const Command* command_for(const Session& session, const Chord& chord) {
     for (const Command& command : commands()) {
-        if (!belongs_here(reviews, command)) continue;
+        if (!belongs_here(session, command)) continue;
         for (const std::string& name : words_of(command.shortcut)) {
             if (chord_from_name(name) == chord) return &command;
         }

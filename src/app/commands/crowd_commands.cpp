@@ -127,11 +127,14 @@ void open_candidate(CrowdInspector& crowds, Excerpts& excerpts, const std::strin
 
 // --- conflicts
 
-bool can_find(const Workspace& workspace, const Jobs& jobs) { return !workspace.empty() && !jobs.job() && can_conflict(workspace); }
+bool can_find(const Workspace& workspace, const Jobs& jobs) {
+    return !workspace.empty() && !jobs.job() && can_conflict(workspace);
+}
 bool has_conflicts(const CrowdInspector& crowds) { return crowds.conflicts() && !crowds.conflicts()->empty(); }
 
 void to_conflict(Session& session, int index) {
-    const ConflictPlace place = conflict_place(session.workspace, (*session.crowds.conflicts())[static_cast<std::size_t>(index)]);
+    const ConflictPlace place =
+        conflict_place(session.workspace, (*session.crowds.conflicts())[static_cast<std::size_t>(index)]);
     session.playback.stop();
     session.workspace.conflict = index;
     session.workspace.change_view([&](ViewState& view) {
@@ -142,7 +145,8 @@ void to_conflict(Session& session, int index) {
 }
 
 void go_conflict(Session& session, const std::string& text) {
-    to_conflict(session, whole_number_in(text, "the conflict", 0, static_cast<int>(session.crowds.conflicts()->size()) - 1));
+    to_conflict(session,
+                whole_number_in(text, "the conflict", 0, static_cast<int>(session.crowds.conflicts()->size()) - 1));
 }
 
 template <int direction>
@@ -225,7 +229,9 @@ std::vector<Command> crowd_commands() {
                 "Opens what the selected agent and another walk now as a scene with the query between them.", open_pair,
                 {.argument = "AGENT",
                  .enabled =
-                     [](const Workspace& workspace) { return workspace.is_crowd() && current_path(workspace).has_value(); }}),
+                     [](const Workspace& workspace) {
+                         return workspace.is_crowd() && current_path(workspace).has_value();
+                     }}),
         Command("conflicts.find", "Find conflicts",
                 "Looks for all pairs of people who collide, through the trees, and lists the deepest overlap first.",
                 &CrowdInspector::find_conflicts, {.enabled = can_find}),

@@ -45,7 +45,7 @@ void add(Workspace& workspace, const std::string& name) {
         aside(workspace.fitted(), *workspace.scene().clips[static_cast<std::size_t>(clip)].clip);
     int agent = 0;
     workspace.edit({"adding an agent that plays " + name, ""},
-                 [&](Scene& scene) { agent = add_agent(scene, clip, placement); });
+                   [&](Scene& scene) { agent = add_agent(scene, clip, placement); });
     select_agent(workspace, agent);
 }
 
@@ -67,7 +67,9 @@ void remove(Workspace& workspace) {
     workspace.select({});
 }
 
-void rename(Edits& edits, Workspace& workspace, const std::string& name) { edits.rename_agent(selected_agent(workspace), name); }
+void rename(Edits& edits, Workspace& workspace, const std::string& name) {
+    edits.rename_agent(selected_agent(workspace), name);
+}
 
 const mobb::Placement& selected_placement(const Workspace& workspace) {
     return workspace.fitted().placed_agents()[static_cast<std::size_t>(selected_agent(workspace))].placement;
@@ -149,10 +151,11 @@ std::vector<Command> edit_commands() {
         Command("edit.go_to", "To a state of the history",
                 "Goes to a state of what was done, by its number from 0, the oldest.", go_to_state,
                 {.menu = kNoMenu, .argument = "N"}),
-        Command("edit.copy_figures", "Copy figures", "Copies what is selected with all its numbers, a line each.",
-                copy_figures,
-                {.enabled = {[](const Workspace& workspace) { return workspace.selection.kind != Selection::Kind::none; },
-                             []() -> std::string_view { return "nothing is selected"; }}}),
+        Command(
+            "edit.copy_figures", "Copy figures", "Copies what is selected with all its numbers, a line each.",
+            copy_figures,
+            {.enabled = {[](const Workspace& workspace) { return workspace.selection.kind != Selection::Kind::none; },
+                         []() -> std::string_view { return "nothing is selected"; }}}),
         Command("agent.make", "Make these agents",
                 "Makes an agent of every clip that is shown, where it is: agents can be placed and asked.",
                 [](Workspace& workspace) {
@@ -190,12 +193,14 @@ std::vector<Command> edit_commands() {
             {.menu = kNoMenu,
              .argument = "DEG",
              .enabled = {has_selected_agent, why_nothing_to_place},
-             .present = [](const Workspace& workspace) { return short_double(selected_placement(workspace).rotate_deg); }}),
-        Command("agent.start", "Start agent at", "Lets the selected agent begin at a moment, in seconds.", start,
-                {.menu = kNoMenu,
-                 .argument = "S",
-                 .enabled = {has_selected_agent, why_nothing_to_place},
-                 .present = [](const Workspace& workspace) { return short_double(selected_placement(workspace).start); }}),
+             .present =
+                 [](const Workspace& workspace) { return short_double(selected_placement(workspace).rotate_deg); }}),
+        Command(
+            "agent.start", "Start agent at", "Lets the selected agent begin at a moment, in seconds.", start,
+            {.menu = kNoMenu,
+             .argument = "S",
+             .enabled = {has_selected_agent, why_nothing_to_place},
+             .present = [](const Workspace& workspace) { return short_double(selected_placement(workspace).start); }}),
         Command("agent.nudge", "Move agent by", "Moves the selected agent on the floor by metres.", nudge,
                 {.menu = kNoMenu, .argument = "DX DY", .enabled = {has_selected_agent, why_nothing_to_place}}),
         Command("agent.shift_start", "Shift agent in time by",

@@ -33,8 +33,8 @@ void open_export_dialog(Dialogs& dialogs, Workspace& workspace, Settings& settin
 
 void write_and_tell(Session& session, const PictureOrder& order, const std::filesystem::path& file) {
     const std::size_t bytes = write_picture(session, order, file);
-    session.notifications.tell(MessageLevel::info,
-                 "Wrote " + file.string() + " (" + size_text(order.options.size) + ", " + bytes_text(bytes) + ")");
+    session.notifications.tell(MessageLevel::info, "Wrote " + file.string() + " (" + size_text(order.options.size) +
+                                                       ", " + bytes_text(bytes) + ")");
 }
 
 void copy_picture_of(Session& session, const PictureOrder& order) {
@@ -50,16 +50,16 @@ void copy_line_of(Session& session, const PictureOrder& order, const std::string
     session.desktop->set_clipboard(line);
     std::string said = shown ? "Copied the command line" : "Copied: " + line;
     if (!has_file) {
-        said += ". No file holds the scene as it is: it was written to " + session.dialogs.exporting.aside->file.string();
+        said +=
+            ". No file holds the scene as it is: it was written to " + session.dialogs.exporting.aside->file.string();
     }
     session.notifications.tell(MessageLevel::info, said);
 }
 
-const Condition kHasPictureClipboard{
-    [](const Workspace& workspace, Desktop& desktop) {
-        return has_scene(workspace) && desktop.why_no_clipboard_picture().empty();
-    },
-    [](Desktop& desktop) { return desktop.why_no_clipboard_picture(); }};
+const Condition kHasPictureClipboard{[](const Workspace& workspace, Desktop& desktop) {
+                                         return has_scene(workspace) && desktop.why_no_clipboard_picture().empty();
+                                     },
+                                     [](Desktop& desktop) { return desktop.why_no_clipboard_picture(); }};
 
 Command command_of(const ExportOption& option) {
     static std::vector<std::string> ids = [] {
@@ -103,7 +103,9 @@ std::vector<Command> export_commands() {
                 {.enabled = kHasPictureClipboard}),
         Command("file.copy_command", "Copy as command",
                 "Copies the command line that draws this picture again without a window.",
-                [](Session& session) { copy_line_of(session, order_of_viewport(session.workspace, session.views), "picture.png", false); },
+                [](Session& session) {
+                    copy_line_of(session, order_of_viewport(session.workspace, session.views), "picture.png", false);
+                },
                 {.shortcut = "Ctrl+Shift+C"}),
         Command("picture.file", "Picture file", "Says where the export dialog writes to.",
                 [](Dialogs& dialogs, Workspace& workspace, const std::string& file) {
@@ -123,17 +125,21 @@ std::vector<Command> export_commands() {
                 "Writes the picture as the export dialog says, to its file or another one.",
                 [](Session& session, const std::string& file) {
                     write_and_tell(session, order_to_export(session.settings, session.workspace, session.views),
-                                   file.empty() ? export_file(session.workspace, session.settings, session.dialogs) : std::filesystem::path(file));
+                                   file.empty() ? export_file(session.workspace, session.settings, session.dialogs)
+                                                : std::filesystem::path(file));
                 },
                 {.menu = kNoMenu, .argument = "[FILE.png]"}),
         Command("picture.copy", "Copy picture as in the dialog", "Copies the picture as the export dialog says.",
-                [](Session& session) { copy_picture_of(session, order_to_export(session.settings, session.workspace, session.views)); },
+                [](Session& session) {
+                    copy_picture_of(session, order_to_export(session.settings, session.workspace, session.views));
+                },
                 {.menu = kNoMenu, .enabled = kHasPictureClipboard}),
         Command("picture.copy_command", "Copy command line of the dialog",
                 "Copies the command line that writes the same file as the export dialog; a scene that no file holds is "
                 "written to a temporary one.",
                 [](Session& session) {
-                    copy_line_of(session, order_to_export(session.settings, session.workspace, session.views), export_file(session.workspace, session.settings, session.dialogs).string(), true);
+                    copy_line_of(session, order_to_export(session.settings, session.workspace, session.views),
+                                 export_file(session.workspace, session.settings, session.dialogs).string(), true);
                 },
                 {.menu = kNoMenu}),
     };

@@ -52,11 +52,10 @@ std::vector<Command> file_commands() {
         Command("file.recent", "Open recent", "Opens a file that was open before.",
                 [](Files& files, const std::string& file) { files.open({file}); },
                 {.argument = "FILE", .enabled = always, .choices = recent_names}),
-        Command(
-            "file.reopen_last", "Reopen last session",
-            "Opens what was open when the window was closed last, as it was seen.", &Files::reopen_last,
-            {.enabled = {&Files::has_last,
-                         []() -> std::string_view { return "there is none, or its files are gone"; }}}),
+        Command("file.reopen_last", "Reopen last session",
+                "Opens what was open when the window was closed last, as it was seen.", &Files::reopen_last,
+                {.enabled = {&Files::has_last,
+                             []() -> std::string_view { return "there is none, or its files are gone"; }}}),
         Command("file.demo", "Open the demo",
                 "Opens the scene that comes with the program: two walkers whose paths cross, but not in time.",
                 &Files::open_demo, {.enabled = always}),
@@ -67,7 +66,9 @@ std::vector<Command> file_commands() {
             review_folder, {.argument = "[FOLDER]", .enabled = always}),
         Command("file.reload", "Reload",
                 "Reads what is open again from its files, when another program has changed them.",
-                [](Files& files, Workspace& workspace) { files.open(std::vector<std::filesystem::path>(workspace.opened)); },
+                [](Files& files, Workspace& workspace) {
+                    files.open(std::vector<std::filesystem::path>(workspace.opened));
+                },
                 {.shortcut = "F5", .enabled = [](const Workspace& workspace) { return !workspace.opened.empty(); }}),
         Command("file.save", "Save", "Writes the scene and how it is seen to its file.", &Files::save,
                 {.shortcut = "Ctrl+S"}),

@@ -58,7 +58,9 @@ void go_to(Workspace& workspace, const Selection& selected) {
     workspace.select(selected);
 }
 
-void go_to_node(Workspace& workspace, int node) { go_to(workspace, {Selection::Kind::node, workspace.selection.path, node}); }
+void go_to_node(Workspace& workspace, int node) {
+    go_to(workspace, {Selection::Kind::node, workspace.selection.path, node});
+}
 
 void go_agent(Session& session, const std::string& name) {
     go_to(session.workspace, {Selection::Kind::path, path_named(session, name), -1});
@@ -147,8 +149,7 @@ void go_contact(Workspace& workspace) {
 std::vector<Command> go_commands() {
     const std::vector<Command> rows{
         Command("go.palette", "Search...", "Finds commands, agents, clips, queries and nodes by a few letters.",
-                [](Dialogs& dialogs) { dialogs.open(Dialog::palette); },
-                {.shortcut = "Ctrl+P", .enabled = always}),
+                [](Dialogs& dialogs) { dialogs.open(Dialog::palette); }, {.shortcut = "Ctrl+P", .enabled = always}),
         Command("go.agent", "Agent", "Selects an agent.", go_agent,
                 {.argument = "NAME", .choices = [](const Session& session) { return NamedPaths(session).names; }}),
         Command("go.clip", "Clip", "Selects a clip.", go_clip, {.argument = "NAME", .choices = clip_names}),

@@ -109,7 +109,8 @@ void add_node(Collector& out, const Session& session, const std::string& text) {
 }
 
 void add_things(Collector& out, const Session& session) {
-    for (const std::string& name : path_names(session.workspace)) out.add("go.agent", name, name, "Agent", {{name}, {"agent"}});
+    for (const std::string& name : path_names(session.workspace))
+        out.add("go.agent", name, name, "Agent", {{name}, {"agent"}});
     for (const SceneClip& clip : session.workspace.scene().clips) {
         out.add("go.clip", clip.name, clip.name, "Clip", {{clip.name}, {"clip"}});
     }
@@ -144,7 +145,7 @@ std::vector<PaletteEntry> palette_entries(const Session& session, const std::str
     const bool names = out.has_words();
     if (names && !session.reviews.shown()) add_node(out, session, text);
     for (const Command& command : commands()) {
-        if (belongs_here(session.reviews, command)) add_command(out, session, command);
+        if (belongs_here(session, command)) add_command(out, session, command);
     }
     if (names && session.reviews.shown()) add_cases(out, *session.reviews.review());
     if (names && !session.reviews.shown()) add_things(out, session);

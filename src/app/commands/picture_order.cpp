@@ -235,7 +235,8 @@ std::filesystem::path export_file(const Workspace& workspace, const Settings& se
     return with_extension(typed.find('/') == std::string::npos ? folder / typed : typed_path(typed, {}), ".png");
 }
 
-std::optional<std::string> render_line(const Workspace& workspace, const Files& files, const Dialogs& dialogs, const PictureOrder& order, const std::string& output) {
+std::optional<std::string> render_line(const Workspace& workspace, const Files& files, const Dialogs& dialogs,
+                                       const PictureOrder& order, const std::string& output) {
     const FittedScene& fitted = *workspace.document().fitted;
     if (is_in_its_file(workspace, files)) {
         // Of an unchanged scene, its `view` is the one in the file.
@@ -253,10 +254,13 @@ std::optional<std::string> render_line(const Workspace& workspace, const Files& 
     return render_line_of({aside->file, workspace.scene(), aside->view}, fit, order, output);
 }
 
-std::string render_line_with_scene(Workspace& workspace, Files& files, Dialogs& dialogs, const PictureOrder& order, const std::string& output) {
+std::string render_line_with_scene(Workspace& workspace, Files& files, Dialogs& dialogs, const PictureOrder& order,
+                                   const std::string& output) {
     if (auto line = render_line(workspace, files, dialogs, order, output)) return *line;
-    dialogs.exporting.aside = {workspace.document().fitted, order.view, write_scene_aside(files, workspace, order.view)};
-    return *render_line(workspace, files, dialogs, order, output);  // as no option differs from a scene that was just written
+    dialogs.exporting.aside = {workspace.document().fitted, order.view,
+                               write_scene_aside(files, workspace, order.view)};
+    return *render_line(workspace, files, dialogs, order,
+                        output);  // as no option differs from a scene that was just written
 }
 
 }  // namespace mobbscope::app

@@ -44,10 +44,12 @@ std::filesystem::path export_file(const Workspace& workspace, const Settings& se
 
 /// "mobbscope render ..." that draws the picture into `output`, quoted for a shell. None if no file holds the scene as
 /// it is: neither that which was opened nor the one that was written aside last.
-std::optional<std::string> render_line(const Workspace& workspace, const Files& files, const Dialogs& dialogs, const PictureOrder& order, const std::string& output);
+std::optional<std::string> render_line(const Workspace& workspace, const Files& files, const Dialogs& dialogs,
+                                       const PictureOrder& order, const std::string& output);
 
 /// The same; where no file holds the scene it is written to a new one among the temporary files, and the session
 /// remembers that. Throws MachineError if that cannot be written, InputError where nothing may be (may_write).
-std::string render_line_with_scene(Workspace& workspace, Files& files, Dialogs& dialogs, const PictureOrder& order, const std::string& output);
+std::string render_line_with_scene(Workspace& workspace, Files& files, Dialogs& dialogs, const PictureOrder& order,
+                                   const std::string& output);
 
 }  // namespace mobbscope::app

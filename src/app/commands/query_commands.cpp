@@ -20,7 +20,9 @@ bool has_queries(const Workspace& workspace) { return !workspace.fitted().querie
 std::string_view why_no_query(const Workspace& workspace) {
     return workspace.crowd() ? "a run is asked for its conflicts" : "there is no query";
 }
-bool may_capture(const Workspace& workspace, const Jobs& jobs) { return has_queries(workspace) && !jobs.job() && !workspace.in_excerpt(); }
+bool may_capture(const Workspace& workspace, const Jobs& jobs) {
+    return has_queries(workspace) && !jobs.job() && !workspace.in_excerpt();
+}
 bool in_query(const Workspace& workspace) { return workspace.view().query.has_value(); }
 int query_total(const Workspace& workspace) { return static_cast<int>(workspace.fitted().queries().size()); }
 
@@ -35,7 +37,9 @@ void leave(Workspace& workspace) {
 
 void next(QueryInspector& queries, Workspace& workspace) { queries.show(workspace.view().query.value_or(-1) + 1); }
 
-void previous(QueryInspector& queries, Workspace& workspace) { queries.show(workspace.view().query.value_or(query_total(workspace)) - 1); }
+void previous(QueryInspector& queries, Workspace& workspace) {
+    queries.show(workspace.view().query.value_or(query_total(workspace)) - 1);
+}
 
 // --- what is asked
 
@@ -197,7 +201,8 @@ void to_step_before(QueryInspector& queries, Workspace& workspace) {
 }
 
 /// To the next event that ended so; says so if there is none.
-void to_next(Workspace& workspace, QueryInspector& queries, Notifications& notifications, Outcome outcome, const char* what) {
+void to_next(Workspace& workspace, QueryInspector& queries, Notifications& notifications, Outcome outcome,
+             const char* what) {
     const int from = in_query(workspace) ? workspace.step() : -1;
     entered(workspace, queries, kFirst);
     const mobb::Trace& trace = workspace.recorded()->trace;
@@ -245,23 +250,27 @@ std::vector<Command> query_commands() {
     const std::vector<Command> rows{
         Command("query.select", "Show query", "Shows a query, by its number from 0, with its answer.", select,
                 {.menu = kNoMenu, .argument = "N", .enabled = has_queries}),
-        Command(
-            "query.next", "Next query", "Shows the next query with its answer.", next,
-            {.shortcut = "PageDown",
-             .repeats = true,
-             .enabled =
-                 [](const Workspace& workspace) { return workspace.view().query.value_or(-1) + 1 < query_total(workspace); }}),
+        Command("query.next", "Next query", "Shows the next query with its answer.", next,
+                {.shortcut = "PageDown",
+                 .repeats = true,
+                 .enabled =
+                     [](const Workspace& workspace) {
+                         return workspace.view().query.value_or(-1) + 1 < query_total(workspace);
+                     }}),
         Command("query.previous", "Previous query", "Shows the previous query with its answer.", previous,
                 {.shortcut = "PageUp",
                  .repeats = true,
                  .enabled =
-                     [](const Workspace& workspace) { return workspace.view().query.value_or(query_total(workspace)) > 0; }}),
+                     [](const Workspace& workspace) {
+                         return workspace.view().query.value_or(query_total(workspace)) > 0;
+                     }}),
         Command("query.none", "Close the query", "Leaves the query in view for the levels of all trees.", leave,
                 {.shortcut = "Q", .enabled = {in_query, why_no_step}}),
         Command("query.add", "Ask against", "Asks whether the selected agent collides with another.", add_against,
                 {.argument = "AGENT", .enabled = {has_selected_of_several, why_no_agent}, .choices = others}),
         Command("query.remove", "Remove the query", "Asks the selected query, or that in view, no more.", remove_edited,
-                {.enabled = [](const Workspace& workspace) { return edited_query(workspace) && query_total(workspace) > 1; }}),
+                {.enabled =
+                     [](const Workspace& workspace) { return edited_query(workspace) && query_total(workspace) > 1; }}),
         Command(
             "query.capture", "Open as a capture",
             "Opens the two of a query as a scene of their own, their samples inside and the answer expected; saved, "
@@ -296,33 +305,42 @@ std::vector<Command> query_commands() {
                  .present = [](const Workspace& workspace) { return std::to_string(workspace.step()); }}),
         Command("step.next_separated", "Next separation",
                 "Shows the next test that found two boxes separated in space.",
-                [](Workspace& workspace, QueryInspector& queries, Notifications& notifications) { to_next(workspace, queries, notifications, Outcome::separated, "found boxes separated in space"); },
+                [](Workspace& workspace, QueryInspector& queries, Notifications& notifications) {
+                    to_next(workspace, queries, notifications, Outcome::separated, "found boxes separated in space");
+                },
                 {.shortcut = "S", .enabled = {has_queries, why_no_step}}),
         Command("step.next_overlap", "Next overlap",
                 "Shows the next test that found an overlap, so that the search went on below.",
-                [](Workspace& workspace, QueryInspector& queries, Notifications& notifications) { to_next(workspace, queries, notifications, Outcome::overlap, "found an overlap"); },
+                [](Workspace& workspace, QueryInspector& queries, Notifications& notifications) {
+                    to_next(workspace, queries, notifications, Outcome::overlap, "found an overlap");
+                },
                 {.shortcut = "O", .enabled = {has_queries, why_no_step}}),
         Command("step.next_hit", "Next hit", "Shows the test that found samples which collide.",
-                [](Workspace& workspace, QueryInspector& queries, Notifications& notifications) { to_next(workspace, queries, notifications, Outcome::hit, "found a hit"); },
+                [](Workspace& workspace, QueryInspector& queries, Notifications& notifications) {
+                    to_next(workspace, queries, notifications, Outcome::hit, "found a hit");
+                },
                 {.shortcut = "H", .enabled = {has_queries, why_no_step}}),
         Command("step.next_of_node", "Next test of the selected node",
                 "Shows the next test of the selected node, and behind the last one the first.", to_next_of_node,
                 {.enabled = {[](const Workspace& workspace) { return side_of_node(workspace).has_value(); },
                              [](const Workspace& workspace) -> std::string_view {
-                                 return workspace.view().query ? "no node of the query is selected" : "no query is shown";
+                                 return workspace.view().query ? "no node of the query is selected"
+                                                               : "no query is shown";
                              }}}),
-        Command("step.over", "Step over", "Shows the next test that is not about parts of the present two nodes.",
-                [](Workspace& workspace) { to_event(workspace, *event_after_pair(workspace)); },
-                {.shortcut = "Down",
-                 .repeats = true,
-                 .enabled = {[](const Workspace& workspace) { return in_query(workspace) && event_after_pair(workspace); },
-                             why_no_step}}),
-        Command("step.out", "Step out", "Shows the test that led to the present one.",
-                [](Workspace& workspace) { to_event(workspace, parent_event(workspace)); },
-                {.shortcut = "Up",
-                 .repeats = true,
-                 .enabled = {[](const Workspace& workspace) { return in_query(workspace) && parent_event(workspace) >= 0; },
-                             why_no_step}}),
+        Command(
+            "step.over", "Step over", "Shows the next test that is not about parts of the present two nodes.",
+            [](Workspace& workspace) { to_event(workspace, *event_after_pair(workspace)); },
+            {.shortcut = "Down",
+             .repeats = true,
+             .enabled = {[](const Workspace& workspace) { return in_query(workspace) && event_after_pair(workspace); },
+                         why_no_step}}),
+        Command(
+            "step.out", "Step out", "Shows the test that led to the present one.",
+            [](Workspace& workspace) { to_event(workspace, parent_event(workspace)); },
+            {.shortcut = "Up",
+             .repeats = true,
+             .enabled = {[](const Workspace& workspace) { return in_query(workspace) && parent_event(workspace) >= 0; },
+                         why_no_step}}),
         Command("step.percent", "Go to a percentage of the steps",
                 "Shows the test at a percentage of the way, 0 to 100.", percent,
                 {.menu = kNoMenu, .argument = "P", .enabled = {in_query, why_no_step}}),

@@ -23,7 +23,7 @@ void leave_or_put_away(Notifications& notifications, Reviews& reviews) {
     reviews.leave();
     if (reviews.shown()) return;
     notifications.tell(MessageLevel::info, "The picture tests are left, not closed",
-                 MessageOffer{"review.back", "", "Back to them"});
+                       MessageOffer{"review.back", "", "Back to them"});
 }
 
 /// The rule of all that needs picture tests; that they are shown is everybody's rule.
@@ -37,8 +37,7 @@ Condition when(const std::function<bool(const Review&)>& holds, const OfParts<st
 OfParts<bool, const Session> so(const std::function<bool(const Review&)>& holds) {
     return [holds](const Reviews& reviews) { return reviews.review() && holds(*reviews.review()); };
 }
-OfParts<bool, const Session> so(
-    const std::function<bool(const Review&, const std::string&)>& holds) {
+OfParts<bool, const Session> so(const std::function<bool(const Review&, const std::string&)>& holds) {
     return [holds](const Reviews& reviews, const std::string& choice) {
         return reviews.review() && holds(*reviews.review(), choice);
     };
@@ -109,15 +108,14 @@ std::vector<Command> case_commands() {
                 {.shortcut = "L", .enabled = has_review, .checked = so([](const Review& review) {
                                                              return review.look.failed_only;
                                                          })}),
-        Command(
-            "review.order", "Order of the list", "Sorts the list by name, by difference or by outcome.", order_cases,
-            {.argument = "ORDER",
-             .enabled = has_review,
-             .choices =
-                 [] { return std::vector<std::string>(kReviewOrders.begin(), kReviewOrders.end()); },
-             .chosen = so([](const Review& review, const std::string& name) {
-                 return kReviewOrders[static_cast<std::size_t>(review.look.order)] == name;
-             })}),
+        Command("review.order", "Order of the list", "Sorts the list by name, by difference or by outcome.",
+                order_cases,
+                {.argument = "ORDER",
+                 .enabled = has_review,
+                 .choices = [] { return std::vector<std::string>(kReviewOrders.begin(), kReviewOrders.end()); },
+                 .chosen = so([](const Review& review, const std::string& name) {
+                     return kReviewOrders[static_cast<std::size_t>(review.look.order)] == name;
+                 })}),
     };
 }
 
@@ -252,7 +250,8 @@ std::vector<Command> zoom_commands() {
 }
 
 void accept_cases(Session& session, const std::vector<std::size_t>& indices) {
-    for (const ReviewNews& news : session.reviews.review()->accept(indices)) session.notifications.tell(news.level, news.text);
+    for (const ReviewNews& news : session.reviews.review()->accept(indices))
+        session.notifications.tell(news.level, news.text);
     session.poll();
 }
 
@@ -274,12 +273,11 @@ std::string_view why_no_redo(const Reviews& reviews) {
 
 std::vector<Command> golden_commands() {
     return {
-        Command(
-            "review.accept", "Accept", "Makes the picture the case's golden.",
-            [](Session& session) { accept_cases(session, {session.reviews.review()->current()}); },
-            {.shortcut = "A",
-             .enabled = when([](const Review& review) { return review.why_not_accept(review.current()).empty(); },
-                             []() -> std::string_view { return "this case has nothing to accept"; })}),
+        Command("review.accept", "Accept", "Makes the picture the case's golden.",
+                [](Session& session) { accept_cases(session, {session.reviews.review()->current()}); },
+                {.shortcut = "A",
+                 .enabled = when([](const Review& review) { return review.why_not_accept(review.current()).empty(); },
+                                 []() -> std::string_view { return "this case has nothing to accept"; })}),
         Command("review.mark", "Mark", "Marks a case, to accept it with others; without a name the one that is shown.",
                 toggle_mark,
                 {.shortcut = "M", .argument = "[CASE]", .enabled = has_review, .checked = so([](const Review& review) {
@@ -297,15 +295,18 @@ std::vector<Command> golden_commands() {
                 "Makes goldens of the pictures of all failing cases that were looked at.",
                 [](Session& session) { accept_cases(session, session.reviews.review()->viewed()); },
                 {.shortcut = "Ctrl+Shift+A",
-                 .enabled = when(
-                     [](const Review& review) { return !review.viewed().empty(); },
-                     []() -> std::string_view { return "none that could be accepted was looked at"; })}),
+                 .enabled = when([](const Review& review) { return !review.viewed().empty(); },
+                                 []() -> std::string_view { return "none that could be accepted was looked at"; })}),
         Command("review.undo", "Undo", "Gives back the goldens that were there before.",
-                [](Notifications& notifications, Reviews& reviews) { tell_instead(notifications, reviews.review()->undo()); },
+                [](Notifications& notifications, Reviews& reviews) {
+                    tell_instead(notifications, reviews.review()->undo());
+                },
                 {.shortcut = "Ctrl+Z",
                  .enabled = when([](const Review& review) { return review.can_undo(); }, why_no_undo)}),
         Command("review.redo", "Redo", "Takes again the goldens that were given back.",
-                [](Notifications& notifications, Reviews& reviews) { tell_instead(notifications, reviews.review()->redo()); },
+                [](Notifications& notifications, Reviews& reviews) {
+                    tell_instead(notifications, reviews.review()->redo());
+                },
                 {.shortcut = "Ctrl+Y Ctrl+Shift+Z",
                  .enabled = when([](const Review& review) { return review.can_redo(); }, why_no_redo)}),
     };
@@ -357,11 +358,10 @@ std::vector<Command> run_commands() {
 std::vector<Command> review_commands() {
     std::vector<Command> rows = in_menu(
         "Review", joined({case_commands(), mode_commands(), zoom_commands(), golden_commands(), run_commands()}));
-    rows.push_back(
-        Command("review.back", "Back to the picture tests", "Shows the picture tests again.", &Reviews::back,
-                {.menu = "File", .shortcut = "Ctrl+R", .enabled = {has_review, []() -> std::string_view {
-                                                                       return "no picture tests were shown";
-                                                                   }}}));
+    rows.push_back(Command("review.back", "Back to the picture tests", "Shows the picture tests again.", &Reviews::back,
+                           {.menu = "File", .shortcut = "Ctrl+R", .enabled = {has_review, []() -> std::string_view {
+                                                                                  return "no picture tests were shown";
+                                                                              }}}));
     return rows;
 }
 

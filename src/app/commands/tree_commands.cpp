@@ -70,19 +70,21 @@ std::vector<Command> tree_commands() {
                  .choices = [] { return as_strings(mobb::axes_names()); },
                  .chosen = [](const Workspace& workspace,
                               const std::string& axes) { return name(workspace.fitted().options().axes) == axes; }}),
-        Command("tree.leaf", "Samples in a leaf...",
-                "Makes a node of at most N samples a leaf; 10 is the usual number.", set_leaf,
-                {.argument = "N",
-                 .present = [](const Workspace& workspace) { return std::to_string(workspace.fitted().options().leaf); }}),
+        Command(
+            "tree.leaf", "Samples in a leaf...", "Makes a node of at most N samples a leaf; 10 is the usual number.",
+            set_leaf,
+            {.argument = "N",
+             .present = [](const Workspace& workspace) { return std::to_string(workspace.fitted().options().leaf); }}),
         Command("tree.levels", "Levels of the trees...",
                 "Ends the trees after N levels; 0 lets them go down to their leaves.", set_tree_levels,
                 {.argument = "N",
-                 .present = [](const Workspace& workspace) { return std::to_string(workspace.fitted().options().levels); }}),
-        Command(
-            "tree.time_scale", "Time scale...", "Mixes time with space in free boxes at so many metres per second.",
-            set_time_scale,
-            {.argument = "W",
-             .present = [](const Workspace& workspace) { return short_double(workspace.fitted().options().time_scale); }}),
+                 .present =
+                     [](const Workspace& workspace) { return std::to_string(workspace.fitted().options().levels); }}),
+        Command("tree.time_scale", "Time scale...", "Mixes time with space in free boxes at so many metres per second.",
+                set_time_scale,
+                {.argument = "W",
+                 .present =
+                     [](const Workspace& workspace) { return short_double(workspace.fitted().options().time_scale); }}),
     };
     return in_menu("Tree", rows);
 }

@@ -187,7 +187,9 @@ void coarser(Workspace& workspace) {
     show_levels(workspace, {levels.first - by, levels.last - by, false});
 }
 
-void set_shown_levels(Workspace& workspace, const std::string& levels) { show_levels(workspace, parse_level_range(levels)); }
+void set_shown_levels(Workspace& workspace, const std::string& levels) {
+    show_levels(workspace, parse_level_range(levels));
+}
 
 void set_time_height(Workspace& workspace, const std::string& metres) {
     const double height = metres == "auto" ? 0 : number_in(metres, "the height of a second", 1e-6, 1e6);
@@ -277,14 +279,14 @@ std::vector<Command> direction_commands() {
         see_from(CameraPreset::front, "view.front", "View from the front", "3",
                  "Looks along y: x to the right, time upwards."),
         see_from(CameraPreset::side, "view.side", "View from the side", "4", "Looks along x: y across, time upwards."),
-        Command("view.perspective", "Perspective",
-                "Draws what is farther smaller; without it, equal lengths stay equal.",
-                [](Workspace& workspace) {
-                    workspace.change_view([](ViewState& view) { view.camera.perspective = !view.camera.perspective; });
-                },
-                {.shortcut = "5",
-                 .enabled = may_have_perspective,
-                 .checked = [](const Workspace& workspace) { return orientation(workspace.view().camera).perspective; }}),
+        Command(
+            "view.perspective", "Perspective", "Draws what is farther smaller; without it, equal lengths stay equal.",
+            [](Workspace& workspace) {
+                workspace.change_view([](ViewState& view) { view.camera.perspective = !view.camera.perspective; });
+            },
+            {.shortcut = "5",
+             .enabled = may_have_perspective,
+             .checked = [](const Workspace& workspace) { return orientation(workspace.view().camera).perspective; }}),
         Command(
             "view.frame", "Frame the selection",
             "Brings what is selected into the middle, as large as it fits; without a selection the pair under test, "
@@ -303,16 +305,21 @@ std::vector<Command> direction_commands() {
 
 std::vector<Command> movement_commands() {
     const std::vector<Command> rows{
-        Command(
-            "view.zoom", "Zoom by", "Goes nearer by a factor; below 1 farther.",
-            [](Views& views, Workspace& workspace, const std::string& text) { zoom(views, workspace, number_in(text, "the factor", 1e-3, 1e3)); },
-            {.menu = kNoMenu, .argument = "FACTOR"}),
-        Command("view.zoom_in", "Zoom in", "Goes nearer.", [](Views& views, Workspace& workspace) { zoom(views, workspace, kKeyZoom); },
+        Command("view.zoom", "Zoom by", "Goes nearer by a factor; below 1 farther.",
+                [](Views& views, Workspace& workspace, const std::string& text) {
+                    zoom(views, workspace, number_in(text, "the factor", 1e-3, 1e3));
+                },
+                {.menu = kNoMenu, .argument = "FACTOR"}),
+        Command("view.zoom_in", "Zoom in", "Goes nearer.",
+                [](Views& views, Workspace& workspace) { zoom(views, workspace, kKeyZoom); },
                 {.shortcut = "=", .repeats = true}),
         Command("view.zoom_out", "Zoom out", "Goes farther away.",
-                [](Views& views, Workspace& workspace) { zoom(views, workspace, 1 / kKeyZoom); }, {.shortcut = "-", .repeats = true}),
+                [](Views& views, Workspace& workspace) { zoom(views, workspace, 1 / kKeyZoom); },
+                {.shortcut = "-", .repeats = true}),
         Command("view.orbit", "Turn by", "Turns the scene by degrees to the right and downwards.",
-                [](Views& views, Workspace& workspace, const std::string& text) { orbit(views, workspace, two_numbers(text, "the angles")); },
+                [](Views& views, Workspace& workspace, const std::string& text) {
+                    orbit(views, workspace, two_numbers(text, "the angles"));
+                },
                 {.menu = kNoMenu, .argument = "DX DY"}),
         orbit_step({-1, 0}, "view.orbit_left", "Turn to the left", "Alt+Left",
                    "Turns the scene to the left by 5 degrees."),
@@ -348,12 +355,14 @@ std::vector<Command> picture_commands() {
                 "Of a split view: commands and panels are about the next part from now on.",
                 [](Views& views) { views.activate((views.active() + 1) % views.count()); },
                 {.shortcut = "F6", .enabled = is_split}),
-        Command(
-            "view.link_cameras", "Link cameras",
-            "Of a split view: moving the camera of one part moves that of the other.",
-            [](Views& views, Workspace& workspace) { views.link_cameras(!workspace.document().linked_cameras); },
-            {.enabled = is_split,
-             .checked = [](const Views& views, const Workspace& workspace) { return is_split(views) && workspace.document().linked_cameras; }}),
+        Command("view.link_cameras", "Link cameras",
+                "Of a split view: moving the camera of one part moves that of the other.",
+                [](Views& views, Workspace& workspace) { views.link_cameras(!workspace.document().linked_cameras); },
+                {.enabled = is_split,
+                 .checked =
+                     [](const Views& views, const Workspace& workspace) {
+                         return is_split(views) && workspace.document().linked_cameras;
+                     }}),
     };
     return in_menu("View", rows);
 }
@@ -384,12 +393,14 @@ std::vector<Command> level_commands() {
             "view.leaves", "Leaves", "Shows the leaves of the trees, whatever their level; leaves the query in view.",
             [](Workspace& workspace) { set_shown_levels(workspace, "leaves"); },
             {.shortcut = "E",
-             .checked = [](const Workspace& workspace) { return !workspace.view().query && workspace.view().levels.leaves; }}),
-        Command("view.time_height", "Height of a second",
-                "Draws a second so many metres high; auto makes the scene about as tall as wide.", set_time_height,
-                {.menu = kNoMenu,
-                 .argument = "M|auto",
-                 .present = [](const Workspace& workspace) { return view_option("time_height").text(workspace.view()); }}),
+             .checked =
+                 [](const Workspace& workspace) { return !workspace.view().query && workspace.view().levels.leaves; }}),
+        Command(
+            "view.time_height", "Height of a second",
+            "Draws a second so many metres high; auto makes the scene about as tall as wide.", set_time_height,
+            {.menu = kNoMenu,
+             .argument = "M|auto",
+             .present = [](const Workspace& workspace) { return view_option("time_height").text(workspace.view()); }}),
     };
     return in_menu("View/Levels", rows);
 }
@@ -401,8 +412,9 @@ std::vector<Command> window_commands() {
             "Shows how far the selected sample's disk reaches along the axes of its leaf's box, instead of all else.",
             toggle_projection,
             {.menu = "View/Show",
-             .enabled = {[](const Workspace& workspace) { return workspace.view().projection || selected_disk(workspace); },
-                         [] { return std::string_view("no sample in the picture is selected"); }},
+             .enabled = {
+                 [](const Workspace& workspace) { return workspace.view().projection || selected_disk(workspace); },
+                 [] { return std::string_view("no sample in the picture is selected"); }},
              .checked = [](const Workspace& workspace) { return workspace.view().projection.has_value(); }}),
         option_command(view_option("theme")),
         Command("window.scale", "Scale of text and panels", "Makes text and panels so many times as large, 0.5 to 4.",
@@ -440,7 +452,8 @@ std::vector<Command> time_commands() {
                 playback.stop();
                 workspace.change_view([](ViewState& view) { view.time.reset(); });
             },
-            {.enabled = [](const Workspace& workspace) { return workspace.view().time.has_value() && !workspace.crowd(); }}),
+            {.enabled =
+                 [](const Workspace& workspace) { return workspace.view().time.has_value() && !workspace.crowd(); }}),
         Command("time.play", "Play", "Lets the time cursor run, or stops it.", play,
                 {.shortcut = "Space", .checked = [](const Playback& playback) { return playback.playing(); }}),
         Command("time.start", "To the first moment", "Puts the time cursor where the first path begins.",
@@ -448,15 +461,18 @@ std::vector<Command> time_commands() {
         Command("time.end", "To the last moment", "Puts the time cursor where the last path ends.",
                 [](Workspace& workspace) { set_time(workspace, workspace.time_span().t1); }),
         Command("time.forward", "A sample on", "Moves the time cursor on by a sample.",
-                [](Workspace& workspace, Playback& playback) { step_time(workspace, playback, 1); }, {.shortcut = ".", .repeats = true}),
+                [](Workspace& workspace, Playback& playback) { step_time(workspace, playback, 1); },
+                {.shortcut = ".", .repeats = true}),
         Command("time.back", "A sample back", "Moves the time cursor back by a sample.",
-                [](Workspace& workspace, Playback& playback) { step_time(workspace, playback, -1); }, {.shortcut = ",", .repeats = true}),
-        Command(
-            "time.speed", "Speed of playing", "Plays so many seconds of the scene in a second, 0.01 to 100.",
-            [](Playback& playback, const std::string& text) { playback.speed = number_in(text, "the speed", 0.01, 100); },
-            {.argument = "X",
-             .enabled = always,
-             .present = [](const Playback& playback) { return short_double(playback.speed); }}),
+                [](Workspace& workspace, Playback& playback) { step_time(workspace, playback, -1); },
+                {.shortcut = ",", .repeats = true}),
+        Command("time.speed", "Speed of playing", "Plays so many seconds of the scene in a second, 0.01 to 100.",
+                [](Playback& playback, const std::string& text) {
+                    playback.speed = number_in(text, "the speed", 0.01, 100);
+                },
+                {.argument = "X",
+                 .enabled = always,
+                 .present = [](const Playback& playback) { return short_double(playback.speed); }}),
     };
     return in_menu("View/Time", rows);
 }

@@ -33,7 +33,9 @@ bool shows_bare_clips(const Workspace& workspace) {
     return !workspace.empty() && !workspace.crowd() && workspace.scene().agents.empty();
 }
 
-bool has_true_agent(const Workspace& workspace) { return has_selected_agent(workspace) && !shows_bare_clips(workspace); }
+bool has_true_agent(const Workspace& workspace) {
+    return has_selected_agent(workspace) && !shows_bare_clips(workspace);
+}
 
 bool has_selected_of_several(const Workspace& workspace) {
     return has_true_agent(workspace) && workspace.fitted().placed_agents().size() > 1;
@@ -56,7 +58,8 @@ std::string selected_agent_name(const Workspace& workspace) {
     return placed_agent_of(workspace.fitted(), workspace.selection.path)->name;
 }
 
-void edit_selected_agent(Workspace& workspace, const EditName& name, const std::function<void(Scene&, int agent)>& change) {
+void edit_selected_agent(Workspace& workspace, const EditName& name,
+                         const std::function<void(Scene&, int agent)>& change) {
     const int agent = selected_agent(workspace);
     workspace.edit(name, [&](Scene& scene) {
         add_agents_for_clips(scene);

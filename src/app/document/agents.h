@@ -36,7 +36,8 @@ int selected_agent(const Workspace& workspace);
 std::string selected_agent_name(const Workspace& workspace);
 
 /// Edits it, after clips became agents where there are none.
-void edit_selected_agent(Workspace& workspace, const EditName& name, const std::function<void(Scene&, int agent)>& change);
+void edit_selected_agent(Workspace& workspace, const EditName& name,
+                         const std::function<void(Scene&, int agent)>& change);
 
 std::vector<std::string> clip_names(const Workspace& workspace);
 

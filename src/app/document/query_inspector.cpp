@@ -14,7 +14,8 @@ void QueryInspector::show(int query, std::optional<Step> step) {
 
 std::optional<Step> QueryInspector::step_before() const {
     if (!workspace_.view().query) return std::nullopt;
-    const auto looked_at = workspace_.document().steps.find(step_key(*workspace_.document().fitted, *workspace_.view().query));
+    const auto looked_at =
+        workspace_.document().steps.find(step_key(*workspace_.document().fitted, *workspace_.view().query));
     return looked_at == workspace_.document().steps.end() ? std::nullopt : looked_at->second.before;
 }
 
@@ -22,7 +23,8 @@ std::shared_ptr<const QueryFindings> QueryInspector::findings() const {
     const RecordedQuery* query = workspace_.recorded();
     if (!query) return nullptr;
     Workspace::Derived& d = workspace_.derived();
-    if (!d.findings) d.findings = std::make_shared<const QueryFindings>(find_out(workspace_.fitted(), workspace_.view(), *query));
+    if (!d.findings)
+        d.findings = std::make_shared<const QueryFindings>(find_out(workspace_.fitted(), workspace_.view(), *query));
     return d.findings;
 }
 

@@ -204,8 +204,6 @@ void Workspace::close_group() {
     stepping_ = false;
 }
 
-void Workspace::select(const Selection& selected) {
-    selection = exists(fitted(), selected) ? selected : Selection{};
-}
+void Workspace::select(const Selection& selected) { selection = exists(fitted(), selected) ? selected : Selection{}; }
 
 }  // namespace mobbscope::app

@@ -63,10 +63,10 @@ class Workspace {
     explicit Workspace(Settings& settings);
 
     History history;
-    std::shared_ptr<const FittedScene> saved;         ///< as the file has it
-    std::optional<std::filesystem::path> file;        ///< where Save writes; none: Save asks
+    std::shared_ptr<const FittedScene> saved;                  ///< as the file has it
+    std::optional<std::filesystem::path> file;                 ///< where Save writes; none: Save asks
     std::optional<std::filesystem::file_time_type> file_time;  ///< of it, when it was opened or saved
-    std::vector<std::filesystem::path> opened;        ///< what it is made of; empty for the demo, and at first
+    std::vector<std::filesystem::path> opened;                 ///< what it is made of; empty for the demo, and at first
 
     Selection selection;  ///< always of something that exists
     Selection hovered;    ///< under the mouse in any panel
@@ -93,8 +93,8 @@ class Workspace {
     std::optional<FoundConflicts> found;  ///< none: nobody has looked yet
     int conflict = -1;                    ///< that was gone to last; -1: none
 
-    std::vector<RunningJob> jobs;             ///< the oldest first
-    std::deque<ImportChange> import_changes;  ///< not begun yet
+    std::vector<RunningJob> jobs;                   ///< the oldest first
+    std::deque<ImportChange> import_changes;        ///< not begun yet
     std::shared_ptr<const SourceFile> import_file;  ///< that was read last
 
     // What it is now.
@@ -157,8 +157,8 @@ class Workspace {
         std::map<std::size_t, Answer> answers{};
         std::map<int, std::vector<mobb::LevelFigures>> figures{};
         std::optional<std::vector<ClipGroup>> groups{};
-        std::unique_ptr<MoveSet> moves{};     ///< of a run
-        std::pair<int, int> chosen{-1, -1};   ///< agent and play of `choice`
+        std::unique_ptr<MoveSet> moves{};    ///< of a run
+        std::pair<int, int> chosen{-1, -1};  ///< agent and play of `choice`
         std::optional<FollowedChoice> choice{};
     };
     Derived& derived() const;

@@ -153,7 +153,8 @@ void candidate_row(Ui& ui, const Choice& choice, const ListedCandidate& candidat
                  to_im(readable(color, ui.style.palette))})) {
         invoke(session, "crowd.candidate", index);
     }
-    context_menu(ui, [&] { return candidate_menu(session.crowds, session.workspace, static_cast<int>(candidate.index)); });
+    context_menu(ui,
+                 [&] { return candidate_menu(session.crowds, session.workspace, static_cast<int>(candidate.index)); });
     fate_line(ui, corner, candidate.outcome);
     if (!ImGui::IsItemHovered()) return;
     ImGui::SetTooltip("%s", candidate_sentence(session.workspace.scene(), choice, candidate.index).c_str());

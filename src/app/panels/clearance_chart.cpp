@@ -102,8 +102,9 @@ void QueryPictures::clearance(Ui& ui, const QueryFindings& findings, float heigh
     const mobb::Interval time = ui.session.workspace.time_span();
     const float right = at.x + static_cast<float>(width);
     Chart chart{at, {right, at.y + height - label}, time, {time.t0, time.t1, at.x, right}};
-    const std::vector<ClearanceColumn>& columns = clearance_.of(
-        ui.session.queries.findings(), width, 0, [&] { return columns_of(clearance, chart.time.t0, chart.time.t1, width); });
+    const std::vector<ClearanceColumn>& columns = clearance_.of(ui.session.queries.findings(), width, 0, [&] {
+        return columns_of(clearance, chart.time.t0, chart.time.t1, width);
+    });
     double most = 0;
     for (const ClearanceColumn& column : columns) {
         if (column.any) most = std::max(most, column.most);

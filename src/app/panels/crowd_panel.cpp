@@ -51,8 +51,9 @@ void plays(Ui& ui) {
         const ImU32 color = play.kind == PlayKind::forced    ? to_im(readable(palette.hit, palette))
                             : play.kind == PlayKind::pivoted ? to_im(readable(palette.overlap, palette))
                                                              : 0;
-        if (row(ui, {"play." + std::to_string(i), session.workspace.scene().clips[static_cast<std::size_t>(move.clip)].name,
-                     kind + at_time(play.placement.start), static_cast<std::size_t>(i) == now, false, 0, color})) {
+        if (row(ui,
+                {"play." + std::to_string(i), session.workspace.scene().clips[static_cast<std::size_t>(move.clip)].name,
+                 kind + at_time(play.placement.start), static_cast<std::size_t>(i) == now, false, 0, color})) {
             invoke(session, "crowd.play", std::to_string(i));
         }
         context_menu(ui, [&] { return play_menu(i); });
@@ -66,7 +67,8 @@ std::string conflict_words(const Workspace& workspace, const SceneConflict& conf
         formatted("%.3f m deep, from %.2f to %.2f s", -conflict.facts.deepest.least_clearance, worst.t0, worst.t1);
     if (const std::size_t others = conflict.facts.intervals.size() - 1; others > 0)
         text += "; they meet " + (others == 1 ? "once" : counted(others, "time", "times")) + " more";
-    return text + ".\nDouble-click goes to " + (workspace.crowd() ? "the forced choice that made it" : "just before it");
+    return text + ".\nDouble-click goes to " +
+           (workspace.crowd() ? "the forced choice that made it" : "just before it");
 }
 
 void conflicts(Ui& ui) {
@@ -84,9 +86,10 @@ void conflicts(Ui& ui) {
     words(ui.style.quiet, session.crowds.conflict_summary() + ", the deepest first");
     rows(ui, "##conflicts", static_cast<int>(found->size()), kMostCrowdRows, [&](int i) {
         const SceneConflict& conflict = (*found)[static_cast<std::size_t>(i)];
-        if (row(ui, {"conflict." + std::to_string(i), conflict.a.name + " and " + conflict.b.name,
-                     formatted("%.2f s  %.2f m", conflict.begin(), -conflict.facts.deepest.least_clearance),
-                     session.workspace.conflict == i, false, 0, to_im(readable(ui.style.palette.hit, ui.style.palette))})) {
+        if (row(ui,
+                {"conflict." + std::to_string(i), conflict.a.name + " and " + conflict.b.name,
+                 formatted("%.2f s  %.2f m", conflict.begin(), -conflict.facts.deepest.least_clearance),
+                 session.workspace.conflict == i, false, 0, to_im(readable(ui.style.palette.hit, ui.style.palette))})) {
             session.workspace.conflict = i;
         }
         context_menu(ui, [&] { return conflict_menu(i); });
@@ -107,9 +110,10 @@ void crowd_panel(Ui& ui) {
     const Session& session = ui.session;
     if (section(ui, "CROWD", std::to_string(people_in(session.workspace)) + " agents")) {
         if (session.workspace.crowd()) {
-            words(ui.style.quiet,
-                  formatted("%.2f of %.4g s on %.4g x %.4g m", run_time(session.workspace.scene(), session.workspace.view()),
-                            session.workspace.crowd()->seconds, session.workspace.crowd()->area.x, session.workspace.crowd()->area.y));
+            words(ui.style.quiet, formatted("%.2f of %.4g s on %.4g x %.4g m",
+                                            run_time(session.workspace.scene(), session.workspace.view()),
+                                            session.workspace.crowd()->seconds, session.workspace.crowd()->area.x,
+                                            session.workspace.crowd()->area.y));
         }
         following(ui);
     }

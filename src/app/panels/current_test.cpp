@@ -19,8 +19,9 @@ namespace {
 void node_line(Ui& ui, const QueryFindings& findings, std::size_t side, int node) {
     const DrawnAgent& agent = findings.sides[side];
     const mobb::Node& n = agent.placed.node(node);
-    const Selection selection{Selection::Kind::node,
-                              agent_in_view(ui.session.workspace.fitted(), ui.session.workspace.view(), static_cast<int>(side)), node};
+    const Selection selection{
+        Selection::Kind::node,
+        agent_in_view(ui.session.workspace.fitted(), ui.session.workspace.view(), static_cast<int>(side)), node};
     const std::string samples = std::to_string(n.first) + " .. " + std::to_string(n.end() - 1);
     ImGui::PushID(static_cast<int>(side));
     const float left = ImGui::GetCursorPosX();

@@ -45,7 +45,8 @@ void dropped(Ui& ui) {
     Session& session = ui.session;
     const std::vector<std::filesystem::path>& files = session.dialogs.input.files;
     begin_dialog(ui, "dropped", {480, 150 + 22 * static_cast<float>(std::min(files.size(), kMostNames + 1))});
-    dialog_title(ui, session.files.may_add() ? "Add to this scene, or open instead?" : "Open in place of what is open?");
+    dialog_title(ui,
+                 session.files.may_add() ? "Add to this scene, or open instead?" : "Open in place of what is open?");
     for (std::size_t i = 0; i < std::min(files.size(), kMostNames); ++i) {
         ImGui::TextUnformatted(fitted_text(own_name(files[i]), ImGui::GetContentRegionAvail().x).c_str());
     }
@@ -80,8 +81,9 @@ void dialogs(Ui& ui) {
     Session& session = ui.session;
     // Of lists and fields in a dialog Escape closes these first.
     const bool in_popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
-    const bool escape_is_taken = (session.dialogs.now == Dialog::export_picture && in_popup) ||
-                                 (session.dialogs.now == Dialog::import_clip && (in_popup || ImGui::GetIO().WantTextInput));
+    const bool escape_is_taken =
+        (session.dialogs.now == Dialog::export_picture && in_popup) ||
+        (session.dialogs.now == Dialog::import_clip && (in_popup || ImGui::GetIO().WantTextInput));
     switch (session.dialogs.now) {
         case Dialog::none:
             return;

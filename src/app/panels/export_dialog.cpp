@@ -278,8 +278,10 @@ void make_preview(Session& session) {
     dialog.why_not.clear();
     try {
         const int divisor = dialog.shown.divisor;
-        const DrawList list = draw_list_of(session.workspace, order_to_export(session.settings, session.workspace, session.views));
-        dialog.image = std::make_shared<const Image>(shrunk(session.picture_maker->draw_coarse(list, divisor), divisor));
+        const DrawList list =
+            draw_list_of(session.workspace, order_to_export(session.settings, session.workspace, session.views));
+        dialog.image =
+            std::make_shared<const Image>(shrunk(session.picture_maker->draw_coarse(list, divisor), divisor));
     } catch (const std::exception& error) {
         dialog.why_not = error.what();
     }
@@ -371,7 +373,8 @@ std::string in_rows(const std::string& line, std::size_t columns) {
 }
 
 void command_line(Ui& ui, const PictureOrder& order, const ExportTarget& target) {
-    const auto line = render_line(ui.session.workspace, ui.session.files, ui.session.dialogs, order, target.file.string());
+    const auto line =
+        render_line(ui.session.workspace, ui.session.files, ui.session.dialogs, order, target.file.string());
     const ImVec2 room = ImGui::GetContentRegionAvail();
     if (!line) {
         words(ui.style.quiet,
@@ -470,7 +473,8 @@ void export_dialog(Ui& ui) {
     text_line(ui.style.text, "Export picture", ui.style.title);
     ImGui::SameLine(0, ui.px(14));
     ImGui::AlignTextToFramePadding();
-    text_line(ui.style.quiet, fitted_text(exported_subject(session.workspace, session.files, session.views), ImGui::GetContentRegionAvail().x));
+    text_line(ui.style.quiet, fitted_text(exported_subject(session.workspace, session.files, session.views),
+                                          ImGui::GetContentRegionAvail().x));
     const ExportTarget target = target_of(session.workspace, session.settings, session.dialogs);
     const bool entered = file_field(ui, target);
     const float foot = ImGui::GetFrameHeight() + 3 * ImGui::GetStyle().ItemSpacing.y + ui.px(2);

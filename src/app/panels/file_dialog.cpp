@@ -90,7 +90,8 @@ void begin(Settings& settings, Workspace& workspace, Dialogs& dialogs, const Pur
     if (!folder.empty() && !is_folder(folder)) folder.clear();
     const std::string open = workspace.scene().file.filename().string();
     const bool to_export = dialogs.now == Dialog::export_file;
-    const std::filesystem::path exported = to_export ? export_file(workspace, settings, dialogs) : std::filesystem::path();
+    const std::filesystem::path exported =
+        to_export ? export_file(workspace, settings, dialogs) : std::filesystem::path();
     if (to_export && is_folder(exported.parent_path())) folder = exported.parent_path();
     dialogs.browser.order_by(settings.file_order);
     dialogs.browser.begin(folder, purpose.extensions, open);
@@ -185,7 +186,8 @@ void crumbs(Ui& ui, const Purpose& purpose) {
     const auto go = [&](const std::filesystem::path& folder) {
         session.queue.push([&session, purpose, folder] { go_into(session.dialogs, purpose, folder); });
     };
-    if (ImGui::ArrowButton("##up", ImGuiDir_Up)) session.queue.push([&session, purpose] { go_up(session.dialogs, purpose); });
+    if (ImGui::ArrowButton("##up", ImGuiDir_Up))
+        session.queue.push([&session, purpose] { go_up(session.dialogs, purpose); });
     ui.mark(prefix + ".up");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("The folder above (Backspace, or Alt+Up)");
     const std::vector<std::filesystem::path> way = session.dialogs.browser.way();
@@ -309,7 +311,8 @@ void column_heads(Ui& ui, const Purpose& purpose, const Columns& columns) {
         const bool last_to_first = now == "-" + order;
         ImGui::SetCursorPos({at.x + from, at.y});
         const float height = ImGui::GetTextLineHeight() + ui.px(6);
-        if (ImGui::InvisibleButton(order.c_str(), {to - from, height})) order_by(session.settings, session.dialogs, order);
+        if (ImGui::InvisibleButton(order.c_str(), {to - from, height}))
+            order_by(session.settings, session.dialogs, order);
         ui.mark(purpose.prefix + (".order." + order));
         const bool hovered = ImGui::IsItemHovered();
         if (hovered) ImGui::SetTooltip("Orders by it: Ctrl+1 the name, Ctrl+2 the size, Ctrl+3 the date");
@@ -367,13 +370,14 @@ bool clicked_entry(Session& session, const Purpose& purpose, std::size_t index) 
     const FileEntry& entry = session.dialogs.browser.entries()[index];
     session.dialogs.input.fresh = true;  // keys go on in the field
     session.dialogs.browser.choose(index, io.KeyShift && !purpose.writes()  ? Choose::range
-                                  : io.KeyCtrl && !purpose.writes() ? Choose::toggle
-                                                                    : Choose::only);
+                                          : io.KeyCtrl && !purpose.writes() ? Choose::toggle
+                                                                            : Choose::only);
     const bool twice = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
     if (purpose.writes()) {
         if (entry.folder && twice) {
-            session.queue.push(
-                [&session, purpose, to = session.dialogs.browser.listed() / entry.name] { go_into(session.dialogs, purpose, to); });
+            session.queue.push([&session, purpose, to = session.dialogs.browser.listed() / entry.name] {
+                go_into(session.dialogs, purpose, to);
+            });
         }
         // The name of a file that is there may be meant for the new one.
         if (!entry.folder) session.dialogs.input.set_text(entry.name);
@@ -416,9 +420,9 @@ bool listing(Ui& ui, const Purpose& purpose, bool moved) {
     if (!browser.error().empty()) {
         words(ui.style.error, browser.error());
     } else if (browser.entries().empty()) {
-        words(ui.style.quiet, purpose.writes()             ? "No such file is here yet."
+        words(ui.style.quiet, purpose.writes()                     ? "No such file is here yet."
                               : session.dialogs.input.text.empty() ? "There is nothing here that can be opened."
-                                                           : "No name here holds what is typed.");
+                                                                   : "No name here holds what is typed.");
     }
     std::optional<std::size_t> clicked;
     ImGuiListClipper clipper;
@@ -445,7 +449,8 @@ const FileSummary* summary_at_cursor(Ui& ui) {
     const FileBrowser& browser = session.dialogs.browser;
     if (browser.entries().empty()) return nullptr;
     const std::filesystem::path file = browser.listed() / browser.entries()[browser.cursor()].name;
-    const FileSummary* summary = session.dialogs.preview.ask(file, ui.now, !session.options.attended, [&at = *session.desktop] { at.wake(); });
+    const FileSummary* summary =
+        session.dialogs.preview.ask(file, ui.now, !session.options.attended, [&at = *session.desktop] { at.wake(); });
     if (!summary) ui.want_frame_in(session.dialogs.preview.ask_again_in(ui.now));
     return summary;
 }

@@ -71,7 +71,7 @@ std::vector<Line> all_lines(const Session& session) {
     for (const auto& [keys, what] : kMouse) out.push_back({Line::Kind::keys, keys, what, "", nullptr});
     std::string_view menu;
     for (const Command& command : commands()) {
-        if (command.shortcut.empty() || !belongs_here(session.reviews, command)) continue;
+        if (command.shortcut.empty() || !belongs_here(session, command)) continue;
         const std::string_view of = command.menu.substr(0, command.menu.find('/'));
         if (of != menu) add_heading(out, of);
         menu = of;

@@ -23,7 +23,7 @@ void items(Ui& ui, const std::string& menu) {
     std::string_view group;
     std::vector<std::string_view> submenus;
     for (const Command& command : commands()) {
-        if (!belongs_here(ui.session.reviews, command)) continue;
+        if (!belongs_here(ui.session, command)) continue;
         if (command.menu == menu) {
             if (!group.empty() && group != group_of(command)) ImGui::Separator();
             group = group_of(command);
@@ -91,7 +91,8 @@ float file_title(Ui& ui, float left, float right) {
     ImGui::InvisibleButton("##title", {width + dot, ImGui::GetFrameHeight()});
     ui.mark_only("menu.title");
     if (ImGui::IsItemHovered()) {
-        const std::string file = session.workspace.file && !session.reviews.shown() ? session.workspace.file->string() : title;
+        const std::string file =
+            session.workspace.file && !session.reviews.shown() ? session.workspace.file->string() : title;
         ImGui::SetTooltip("%s%s", file.c_str(), modified ? "\nnot saved" : "");
     }
     draw.PushClipRect({x, 0}, {x + width, 2 * middle}, true);
@@ -107,7 +108,7 @@ void menu_bar(Ui& ui) {
     std::vector<std::string> menus;
     for (const Command& command : commands()) {
         const std::string menu(command.menu.substr(0, command.menu.find('/')));
-        if (!belongs_here(ui.session.reviews, command)) continue;
+        if (!belongs_here(ui.session, command)) continue;
         if (!menu.empty() && std::find(menus.begin(), menus.end(), menu) == menus.end()) menus.push_back(menu);
     }
     for (const std::string& menu : menus) {

@@ -199,9 +199,9 @@ float message_bell(Ui& ui) {
     const bool hovered = ImGui::IsItemHovered();
     if (hovered) {
         const std::string key(first_shortcut(*find_command("help.messages")));
-        const std::string text = unread > 0                   ? counted(unread, "unread message", "unread messages")
+        const std::string text = unread > 0 ? counted(unread, "unread message", "unread messages")
                                  : session.notifications.all().empty() ? std::string("No messages")
-                                                              : std::string("Messages");
+                                                                       : std::string("Messages");
         ImGui::SetTooltip("%s (%s)", text.c_str(), key.c_str());
     }
     const bool error = std::ranges::any_of(session.notifications.all(), [](const Message& message) {

@@ -45,8 +45,9 @@ void color_field(Ui& ui, const PlacedAgent& who, int index) {
     const auto byte = [](float c) { return static_cast<std::uint8_t>(std::lround(255 * c)); };
     const Color wanted{byte(rgb[0]), byte(rgb[1]), byte(rgb[2])};
     ui.session.queue.push([&session = ui.session, who, wanted] {
-        session.workspace.edit({"colouring " + who.name + ": " + to_string(wanted), "color"},
-                     [&](Scene& scene) { scene.agents.at(static_cast<std::size_t>(who.agent)).color = wanted; });
+        session.workspace.edit({"colouring " + who.name + ": " + to_string(wanted), "color"}, [&](Scene& scene) {
+            scene.agents.at(static_cast<std::size_t>(who.agent)).color = wanted;
+        });
     });
 }
 
@@ -117,7 +118,7 @@ void placement_panel(Ui& ui) {
     if (changed) {
         session.queue.push([&session, who = *who, placement] {
             session.workspace.edit(name_of_placing(who.name, who.placement, placement),
-                         [&](Scene& scene) { place_agent(scene, who.agent, placement); });
+                                   [&](Scene& scene) { place_agent(scene, who.agent, placement); });
         });
     }
     if (small_button(ui, "Duplicate", "agent.duplicate")) invoke(session, "agent.duplicate");

@@ -42,8 +42,10 @@ void cell_menu(Ui& ui, const Recursion& recursion, const std::vector<PairCell>& 
         const ImVec2 mouse = ImGui::GetMousePosOnOpeningCurrentPopup();
         const auto under =
             std::find_if(cells.rbegin(), cells.rend(), [&](const PairCell& cell) { return contains(cell, at, mouse); });
-        if (under == cells.rend()) return test_menu(ui.session.workspace, ui.session.queries, ui.session.workspace.step());
-        return test_menu(ui.session.workspace, ui.session.queries, recursion.pairs[static_cast<std::size_t>(under->pair)].last);
+        if (under == cells.rend())
+            return test_menu(ui.session.workspace, ui.session.queries, ui.session.workspace.step());
+        return test_menu(ui.session.workspace, ui.session.queries,
+                         recursion.pairs[static_cast<std::size_t>(under->pair)].last);
     });
 }
 
@@ -145,8 +147,9 @@ void QueryPictures::square(Ui& ui, const QueryFindings& findings) {
     const bool hovered = ImGui::IsItemHovered();
     const bool clicked = ImGui::IsItemClicked();
 
-    const std::vector<PairCell>& cells = square_.of(
-        ui.session.queries.findings(), size, size, [&] { return square_cells(recursion, square.a, square.b, size, size); });
+    const std::vector<PairCell>& cells = square_.of(ui.session.queries.findings(), size, size, [&] {
+        return square_cells(recursion, square.a, square.b, size, size);
+    });
     cell_menu(ui, recursion, cells, square.min);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(square.min, square.max, ui.style.raised);
@@ -252,7 +255,10 @@ void QueryPictures::strip(Ui& ui, float width, float height) {
         const auto index = static_cast<std::size_t>(inside / width * static_cast<float>(cells.size()));
         return cells[std::min<std::size_t>(index, cells.size() - 1)];
     };
-    context_menu(ui, [&] { return test_menu(ui.session.workspace, ui.session.queries, cell_at(ImGui::GetMousePosOnOpeningCurrentPopup().x).first); });
+    context_menu(ui, [&] {
+        return test_menu(ui.session.workspace, ui.session.queries,
+                         cell_at(ImGui::GetMousePosOnOpeningCurrentPopup().x).first);
+    });
     const int step = ui.session.workspace.step();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(at, {at.x + width, at.y + height}, ui.style.raised);

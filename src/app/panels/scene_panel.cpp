@@ -156,8 +156,8 @@ void agents(Ui& ui) {
     const FittedScene& fitted = session.workspace.fitted();
     const bool has_agents = !fitted.scene().agents.empty();
     // Of a run its people; what they play before and after now is theirs.
-    const auto count =
-        static_cast<int>(session.workspace.crowd() ? session.workspace.crowd()->agents.size() : fitted.placed_agents().size());
+    const auto count = static_cast<int>(session.workspace.crowd() ? session.workspace.crowd()->agents.size()
+                                                                  : fitted.placed_agents().size());
     const std::vector<int> shown = filtered(session.workspace, count, [&](int i) -> const std::string& {
         return fitted.placed_agents()[static_cast<std::size_t>(i)].name;
     });
@@ -279,9 +279,9 @@ void group_row(Ui& ui, int index) {
 void clips(Ui& ui) {
     Session& session = ui.session;
     const auto& all = session.workspace.scene().clips;
-    const std::vector<int> shown = filtered(session.workspace, static_cast<int>(all.size()), [&](int i) -> const std::string& {
-        return all[static_cast<std::size_t>(i)].name;
-    });
+    const std::vector<int> shown =
+        filtered(session.workspace, static_cast<int>(all.size()),
+                 [&](int i) -> const std::string& { return all[static_cast<std::size_t>(i)].name; });
     if (!section(ui, "CLIPS", count_text(shown.size(), all.size()))) return;
     const std::vector<ClipLine> lines = clip_lines(session.workspace, shown);
     rows(ui, "##clips", static_cast<int>(lines.size()), kMostSceneRows, [&](int i) {
@@ -308,7 +308,8 @@ void queries(Ui& ui) {
         const Palette& palette = ui.style.palette;
         const std::string found = hit ? formatted("hit %.2f s", answer.contact->time) : "miss";
         if (row(ui, {"query." + std::to_string(i), query.a.name + " against " + query.b.name,
-                     (unexpected ? "! " : "") + found, session.workspace.view().query == i, session.workspace.hovered == self, 0,
+                     (unexpected ? "! " : "") + found, session.workspace.view().query == i,
+                     session.workspace.hovered == self, 0,
                      to_im(readable(hit ? palette.hit : palette.separated, palette))})) {
             invoke(session, session.workspace.view().query == i ? "query.none" : "query.select",
                    session.workspace.view().query == i ? "" : std::to_string(i));
@@ -342,7 +343,8 @@ void selection_panel(Ui& ui) {
     const Session& session = ui.session;
     if (session.workspace.empty()) return;
     if (!section(ui, "SELECTION")) return;
-    if (session.workspace.selection.kind == Selection::Kind::none || session.workspace.selection.kind == Selection::Kind::query) {
+    if (session.workspace.selection.kind == Selection::Kind::none ||
+        session.workspace.selection.kind == Selection::Kind::query) {
         words(ui.style.quiet,
               "Click a disk, a box or a name; click again for what lies behind.\n\nDrag to turn the view, Shift-drag "
               "to move it, "

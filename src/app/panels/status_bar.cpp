@@ -111,7 +111,8 @@ float job_part(Ui& ui, const std::vector<const Job*>& work, float right) {
     ImGui::Dummy({width, line});
     ui.mark("job.0.bar");
     ImGui::SetCursorPos({right - button, y});
-    if (small_button(ui, "Cancel", "job.0.cancel")) session.queue.push([&session] { cancel_first(session.jobs, session.reviews); });
+    if (small_button(ui, "Cancel", "job.0.cancel"))
+        session.queue.push([&session] { cancel_first(session.jobs, session.reviews); });
     return left;
 }
 

@@ -134,8 +134,8 @@ void shown_levels(Ui& ui, int depth) {
     for (int level = 0; level < depth; ++level) {
         const ImVec2 min{corner.x + cell * static_cast<float>(level) + 1, corner.y + 1};
         const ImVec2 max{corner.x + cell * static_cast<float>(level + 1) - 1, corner.y + size.y - 1};
-        const bool lit = !shown.leaves && !ui.session.workspace.view().query && level >= std::min(shown.first, depth - 1) &&
-                         level <= shown.last;
+        const bool lit = !shown.leaves && !ui.session.workspace.view().query &&
+                         level >= std::min(shown.first, depth - 1) && level <= shown.last;
         if (lit || level == over)
             draw.AddRectFilled(min, max, lit ? to_im(with_alpha(ui.style.palette.accent, 0.45f)) : ui.style.raised,
                                ui.px(3));
@@ -173,7 +173,8 @@ int clip_of(const Workspace& workspace, const PlacedAgent& who) {
 int clip_in_focus(const Workspace& workspace) {
     if (workspace.selection.kind == Selection::Kind::clip) return workspace.selection.index;
     if (workspace.selection.on_path()) {
-        if (const auto who = placed_agent_of(workspace.fitted(), workspace.selection.path)) return clip_of(workspace, *who);
+        if (const auto who = placed_agent_of(workspace.fitted(), workspace.selection.path))
+            return clip_of(workspace, *who);
     }
     return clip_of(workspace, workspace.fitted().placed_agents().front());
 }

@@ -19,8 +19,8 @@ const FollowedChoice* CrowdInspector::choice() const {
     const auto run_agent = run_agent_by_name(*workspace_.crowd(), workspace_.view().follow);
     if (!run_agent) return nullptr;
     const double time = run_time(workspace_.scene(), workspace_.view());
-    const std::pair made{*run_agent,
-                         last_chosen(workspace_.crowd()->agents[static_cast<std::size_t>(*run_agent)], time).value_or(-1)};
+    const std::pair made{
+        *run_agent, last_chosen(workspace_.crowd()->agents[static_cast<std::size_t>(*run_agent)], time).value_or(-1)};
     Workspace::Derived& d = workspace_.derived();
     if (!d.moves) d.moves = std::make_unique<MoveSet>(*workspace_.document().fitted);
     if (d.chosen != made) {

@@ -22,7 +22,9 @@ class Desktop {
     /// None where there is no clipboard.
     virtual std::optional<std::string> clipboard() { return std::nullopt; }
     /// Throws MachineError, or std::invalid_argument where there is none.
-    virtual void set_clipboard_picture(std::string_view /*png*/) { throw std::invalid_argument(std::string(why_no_clipboard_picture())); }
+    virtual void set_clipboard_picture(std::string_view /*png*/) {
+        throw std::invalid_argument(std::string(why_no_clipboard_picture()));
+    }
     /// Empty: pictures can be copied.
     virtual std::string_view why_no_clipboard_picture() { return "there is no clipboard without a display"; }
 };

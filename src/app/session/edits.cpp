@@ -35,10 +35,10 @@ void Edits::edit(const FitEdit& wanted, const FittedScene* fitted_beside) {
 void Edits::rename_agent(int agent, const std::string& name) {
     std::string before;
     Document next = with_scene(workspace_.document(), workspace_.changed_scene([&](Scene& scene) {
-                                   add_agents_for_clips(scene);
-                                   before = scene.agents.at(static_cast<std::size_t>(agent)).name;
-                                   mobbscope::rename_agent(scene, agent, name);
-                               }));
+        add_agents_for_clips(scene);
+        before = scene.agents.at(static_cast<std::size_t>(agent)).name;
+        mobbscope::rename_agent(scene, agent, name);
+    }));
     for (SceneView& other : next.beside) rename_in_view(other.view, before, name);
     if (workspace_.alone) {
         std::ranges::replace(workspace_.alone->hidden, before, name);

@@ -14,10 +14,10 @@ namespace mobbscope::app {
 /// An edit that may make fits.
 struct FitEdit {
     EditName name;
-    std::function<void(Scene&)> change;          ///< holds by value what it needs
-    JobPurpose purpose = JobPurpose::other;      ///< of the job
-    std::function<void()> then{};                ///< once the document has changed; may be empty
-    bool goes_on = false;                        ///< with the last edit, if that has the same group
+    std::function<void(Scene&)> change;      ///< holds by value what it needs
+    JobPurpose purpose = JobPurpose::other;  ///< of the job
+    std::function<void()> then{};            ///< once the document has changed; may be empty
+    bool goes_on = false;                    ///< with the last edit, if that has the same group
 };
 
 class Edits {

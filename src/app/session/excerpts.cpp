@@ -55,7 +55,7 @@ void Excerpts::open_candidate(int candidate) {
         a.placement = asked.joint->placement;
     }
     Side b{workspace_.crowd()->agents[static_cast<std::size_t>(blocker.agent)].name, clip_of(blocker.move),
-                  blocker.placement};
+           blocker.placement};
     if (blocker.is_joint) b.clip = joint_to(b.clip, blocker.clip);
     open(std::move(a), std::move(b));
 }

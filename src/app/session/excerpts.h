@@ -1,4 +1,5 @@
-/// Two paths of what is drawn as a scene of their own, with the query between them. Undo leads back, and so does `leave`.
+/// Two paths of what is drawn as a scene of their own, with the query between them. Undo leads back, and so does
+/// `leave`.
 #pragma once
 
 #include <app/session/crowd_inspector.h>

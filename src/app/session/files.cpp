@@ -81,7 +81,7 @@ void Files::replace(Document document, const std::vector<std::filesystem::path>&
 }
 
 void Files::load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files,
-                   const std::optional<ViewState>& view) {
+                 const std::optional<ViewState>& view) {
     const auto begin = [this, title, load_all, files, view] {
         // What is opened last is meant.
         parts_.jobs.drop(JobPurpose::opens);
@@ -132,7 +132,8 @@ void Files::remember(const std::vector<std::filesystem::path>& files) {
     std::filesystem::path folder = std::filesystem::is_directory(first, error) ? first : first.parent_path();
     if (folder.empty()) folder = ".";
     // Scripts and pictures find the same wherever they run.
-    parts_.settings.folder = parts_.options.attended ? std::filesystem::absolute(folder, error).lexically_normal() : folder;
+    parts_.settings.folder =
+        parts_.options.attended ? std::filesystem::absolute(folder, error).lexically_normal() : folder;
 }
 
 bool Files::opened_by_person() const {
@@ -154,7 +155,8 @@ void Files::drop(const std::vector<std::filesystem::path>& files) {
 
 void Files::note_session() {
     if (parts_.workspace.opened.empty()) return;
-    parts_.settings.last = {{}, parts_.workspace.in_excerpt() ? parts_.workspace.document().excerpt_of->view : parts_.workspace.view()};
+    parts_.settings.last = {
+        {}, parts_.workspace.in_excerpt() ? parts_.workspace.document().excerpt_of->view : parts_.workspace.view()};
     for (const std::filesystem::path& file : parts_.workspace.opened) {
         std::error_code error;
         parts_.settings.last.files.push_back(std::filesystem::absolute(file, error).lexically_normal());
@@ -188,20 +190,24 @@ void Files::add(const std::vector<std::filesystem::path>& files) {
     if (complain_of_missing(files)) return;
     if (!may_add()) {
         throw InputError(parts_.workspace.crowd() ? "a run stands alone: open the files by themselves"
-                                 : "picture tests are shown: leave them first, or open the files");
+                                                  : "picture tests are shown: leave them first, or open the files");
     }
     parts_.jobs.start("Adding files", [this, files](JobControl& control) -> Job::Finish {
         const auto read = std::make_shared<const Scene>(load_files(files, {}, progress_of(control)));
         return [this, read, files] {
             remember(files);
             parts_.edits.edit({.name = {"adding " + title_of_files(files), ""},
-                            .change =
-                                [read](Scene& scene) {
-                                    const bool was_one = scene.clips.size() == 1;
-                                    merge(scene, *read);
-                                    if (was_one) lay_out_clips(scene);
-                                },
-                            .then = [this, read] { parts_.imports.tell_of_warnings(parts_.workspace.scene().clips.size() - read->clips.size()); }});
+                               .change =
+                                   [read](Scene& scene) {
+                                       const bool was_one = scene.clips.size() == 1;
+                                       merge(scene, *read);
+                                       if (was_one) lay_out_clips(scene);
+                                   },
+                               .then =
+                                   [this, read] {
+                                       parts_.imports.tell_of_warnings(parts_.workspace.scene().clips.size() -
+                                                                       read->clips.size());
+                                   }});
         };
     });
 }
@@ -230,7 +236,8 @@ void Files::save_as(const std::filesystem::path& file) {
     if (parts_.workspace.in_excerpt() && parts_.workspace.file && same_file(file, *parts_.workspace.file)) {
         throw InputError(file.string(), "", "this is what the two were taken from; save them under another name");
     }
-    if (parts_.workspace.file && same_file(file, *parts_.workspace.file) && std::exchange(parts_.workspace.file_time, time_of(file)) != time_of(file)) {
+    if (parts_.workspace.file && same_file(file, *parts_.workspace.file) &&
+        std::exchange(parts_.workspace.file_time, time_of(file)) != time_of(file)) {
         throw InputError(file.string(), "",
                          "another program has written it since it was opened: save under another name, or once more "
                          "to overwrite it");
@@ -262,7 +269,8 @@ void Files::save_as(const std::filesystem::path& file) {
     remember({file});
     parts_.notifications.tell(MessageLevel::info, "Saved " + file.string());
     tell_of_lost_sources();
-    if (parts_.dialogs.now == Dialog::save_as || parts_.dialogs.now == Dialog::unsaved) parts_.dialogs.now = Dialog::none;
+    if (parts_.dialogs.now == Dialog::save_as || parts_.dialogs.now == Dialog::unsaved)
+        parts_.dialogs.now = Dialog::none;
     if (const auto then = parts_.dialogs.take_waiting()) then();
 }
 
@@ -270,8 +278,9 @@ void Files::tell_of_lost_sources() {
     for (const SceneClip& clip : parts_.workspace.scene().clips) {
         std::error_code ignored;
         if (!clip.source || std::filesystem::exists(source_path(parts_.workspace.scene(), clip), ignored)) continue;
-        parts_.notifications.tell(MessageLevel::warning, "The scene refers to " + source_path(parts_.workspace.scene(), clip).string() +
-                                        ", which is not there any more: put it back before the scene is opened again");
+        parts_.notifications.tell(MessageLevel::warning,
+                                  "The scene refers to " + source_path(parts_.workspace.scene(), clip).string() +
+                                      ", which is not there any more: put it back before the scene is opened again");
         return;
     }
 }

@@ -39,7 +39,8 @@ std::vector<std::pair<int, ImportOptions>> Imports::options_wanted(const ImportC
     if (static_cast<std::size_t>(change.clip) >= workspace_.scene().clips.size()) return out;
     const ImportOption& option = *import_option(change.option);
     const bool all = change.whole_file && option.of_file;
-    for (const int index : all ? clips_of_same_source(workspace_.scene(), change.clip) : std::vector<int>{change.clip}) {
+    for (const int index :
+         all ? clips_of_same_source(workspace_.scene(), change.clip) : std::vector<int>{change.clip}) {
         const SceneClip& clip = workspace_.scene().clips[static_cast<std::size_t>(index)];
         if (!clip.source) continue;
         ImportOptions options = clip.options;
@@ -72,9 +73,10 @@ void Imports::set_motion(int clip, bool whole_file, mobb::Motion motion) {
     const SceneClip& was = workspace_.scene().clips.at(static_cast<std::size_t>(clip));
     if (was.source) return set(clip, whole_file, "motion", to);
     if (was.clip->motion() == motion) return;
-    edits_.edit(
-        {.name = {"changing the motion of " + was.name + ": " + to, ""},
-         .change = [made = with_motion(workspace_.scene(), clip, motion)](Scene& next) { replace_clips(next, {made}); }});
+    edits_.edit({.name = {"changing the motion of " + was.name + ": " + to, ""},
+                 .change = [made = with_motion(workspace_.scene(), clip, motion)](Scene& next) {
+                     replace_clips(next, {made});
+                 }});
 }
 
 void Imports::next() {
@@ -93,8 +95,8 @@ void Imports::start(const ImportChange& change) {
         "changing the " + label + " of " + (wanted.size() > 1 ? counted(wanted.size(), "clip", "clips") : clip.name) +
             ": " + (change.text.empty() ? "as the file says" : change.text),
         "import." + change.option + " " + std::to_string(change.clip) + (change.whole_file ? " file" : "")};
-    const auto work = [this, change, wanted, name, path = source_path(workspace_.scene(), clip), known = workspace_.import_file,
-                       in = workspace_.document().fitted](JobControl&) -> Job::Finish {
+    const auto work = [this, change, wanted, name, path = source_path(workspace_.scene(), clip),
+                       known = workspace_.import_file, in = workspace_.document().fitted](JobControl&) -> Job::Finish {
         const auto refusal = [&](const std::string& why) -> Job::Finish {
             return [this, change, why] { refuse(change, why); };
         };
@@ -106,16 +108,16 @@ void Imports::start(const ImportChange& change) {
                 // Other options may have been changed or undone meanwhile.
                 if (options_wanted(change) != wanted) return start(change);
                 edits_.edit({.name = name,
-                                .change = [made](Scene& scene) { replace_clips(scene, *made); },
-                                .purpose = JobPurpose::imports,
-                                .then =
-                                    [this, change] {
-                                        // The camera stays, so what is ten times as large may be out of the picture.
-                                        if (change.option != "unit") return;
-                                        notifications_.tell(MessageLevel::info, "The clip has another size now",
-                                             MessageOffer{"view.frame_all", "", "Frame everything"});
-                                    },
-                                .goes_on = change.goes_on});
+                             .change = [made](Scene& scene) { replace_clips(scene, *made); },
+                             .purpose = JobPurpose::imports,
+                             .then =
+                                 [this, change] {
+                                     // The camera stays, so what is ten times as large may be out of the picture.
+                                     if (change.option != "unit") return;
+                                     notifications_.tell(MessageLevel::info, "The clip has another size now",
+                                                         MessageOffer{"view.frame_all", "", "Frame everything"});
+                                 },
+                             .goes_on = change.goes_on});
             };
         } catch (const InputError& error) {
             return refusal(without_file(error.what(), path));
@@ -131,8 +133,10 @@ void Imports::refuse(const ImportChange& change, const std::string& why) {
         edited.refused[change.option] = {change.text, why};
         return;
     }
-    notifications_.tell(MessageLevel::error,
-         source_path(workspace_.scene(), workspace_.scene().clips.at(static_cast<std::size_t>(change.clip))).string() + ": " + why);
+    notifications_.tell(
+        MessageLevel::error,
+        source_path(workspace_.scene(), workspace_.scene().clips.at(static_cast<std::size_t>(change.clip))).string() +
+            ": " + why);
 }
 
 void Imports::ask_for_offer() {

@@ -13,7 +13,8 @@ void Jobs::require_none() const {
 }
 
 void Jobs::start(std::string title, Job::Work work, JobPurpose purpose) {
-    workspace_.jobs.push_back({std::make_unique<Job>(std::move(title), std::move(work), [&at = *desktop_] { at.wake(); }), purpose});
+    workspace_.jobs.push_back(
+        {std::make_unique<Job>(std::move(title), std::move(work), [&at = *desktop_] { at.wake(); }), purpose});
     if (options_.attended && options_.patience.count() == 0) return;
     workspace_.jobs.back().job->wait(options_.attended ? options_.patience : std::chrono::hours(24));
     poll();
@@ -28,7 +29,8 @@ void Jobs::cancel(std::size_t index) {
 
 void Jobs::poll() {
     for (;;) {
-        const auto done = std::find_if(workspace_.jobs.begin(), workspace_.jobs.end(), [](const RunningJob& r) { return r.job->done(); });
+        const auto done = std::find_if(workspace_.jobs.begin(), workspace_.jobs.end(),
+                                       [](const RunningJob& r) { return r.job->done(); });
         if (done == workspace_.jobs.end()) return;
         // What it hands over may start the next one.
         const std::unique_ptr<Job> job = std::move(done->job);

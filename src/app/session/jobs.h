@@ -1,5 +1,5 @@
-/// The work that is under way for the workspace. Edits go on meanwhile: what a job has made is put into the document as that
-/// is when the job ends. Only excerpts are neither opened nor left.
+/// The work that is under way for the workspace. Edits go on meanwhile: what a job has made is put into the document as
+/// that is when the job ends. Only excerpts are neither opened nor left.
 #pragma once
 
 #include <app/document/workspace.h>

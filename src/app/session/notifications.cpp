@@ -57,7 +57,8 @@ void Notifications::mark_read() {
 }
 
 void Notifications::dismiss_offers(std::string_view command) {
-    std::erase_if(messages_, [&](const Message& message) { return message.offer && message.offer->command == command; });
+    std::erase_if(messages_,
+                  [&](const Message& message) { return message.offer && message.offer->command == command; });
 }
 
 void Notifications::withdraw_offers() {

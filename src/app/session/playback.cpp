@@ -24,7 +24,8 @@ void Playback::advance(double seconds) {
     double time = workspace_.view().time.value_or(span.t0) + seconds * speed;
     if (time >= span.t1 || time < span.t0) time = span.t0;
     if (time == workspace_.view().time) return;
-    if (!std::exchange(has_played_, true)) return workspace_.change_view([&](ViewState& v) { v.time = time; }, kPlaying);
+    if (!std::exchange(has_played_, true))
+        return workspace_.change_view([&](ViewState& v) { v.time = time; }, kPlaying);
     // A drag meanwhile stays one state, and so does the play.
     workspace_.amend([&](Document& next) { next.view.time = time; });
 }

@@ -6,9 +6,10 @@
 namespace mobbscope::app {
 
 void Reviews::open(const ReviewFolder& found) {
-    const auto opened = std::make_shared<Review>(
-        found, Review::Surroundings{options_.attended, [&at = *desktop_] { at.wake(); }, [this](const auto& file) { files_.check_may_write(file); },
-                                    case_drawer, options_.may_write});
+    const auto opened =
+        std::make_shared<Review>(found, Review::Surroundings{options_.attended, [&at = *desktop_] { at.wake(); },
+                                                             [this](const auto& file) { files_.check_may_write(file); },
+                                                             case_drawer, options_.may_write});
     files_.come_back([this, opened] {
         playback_.stop();
         if (review_) opened->begin_as(*review_);

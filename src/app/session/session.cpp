@@ -27,7 +27,10 @@ bool CommandQueue::run() {
 }
 
 Session::Session(bool attended, Settings settings_)
-    : options{.attended = attended}, settings(std::move(settings_)), desktop(&no_desktop), picture_maker(&no_picture_maker) {
+    : options{.attended = attended},
+      settings(std::move(settings_)),
+      desktop(&no_desktop),
+      picture_maker(&no_picture_maker) {
     jobs.after_each = [this] { imports.next(); };
 }
 
@@ -48,8 +51,8 @@ void Session::end_work() {
 }
 
 Session::BeforeDrag Session::before_drag() const {
-    return {workspace.history,      settings,
-            counts.arrivals,        workspace.picture_size,
+    return {workspace.history,       settings,
+            counts.arrivals,         workspace.picture_size,
             workspace.cameras_aside, reviews.shown() ? std::optional(reviews.review()->look) : std::nullopt};
 }
 

@@ -1,4 +1,5 @@
-/// The program behind the window, in parts with one job each. Panels show them, commands change them; they know neither.
+/// The program behind the window, in parts with one job each. Panels show them, commands change them; they know
+/// neither.
 #pragma once
 
 #include <app/document/query_inspector.h>
@@ -57,7 +58,7 @@ class Session {
     Desktop* desktop;             ///< never null
     PictureMaker* picture_maker;  ///< likewise
     double window_scale = 1;      ///< of text and panels where the settings say none
-    Screen* screen = nullptr;              ///< shown in place of the scene; null: the scene is shown
+    Screen* screen = nullptr;     ///< shown in place of the scene; null: the scene is shown
     Counts counts;
 
     Workspace workspace{settings};

@@ -130,7 +130,8 @@ bool begin_menu(Ui& ui, const std::string& title, const std::string& mark, bool 
 void command_item(Ui& ui, const MenuEntry& entry, const std::string& mark) {
     Session& session = ui.session;
     const Command& command = command_named(entry.id);
-    const std::string title = entry.title.empty() ? title_of(session.files, session.workspace, session.reviews, command) : entry.title;
+    const std::string title =
+        entry.title.empty() ? title_of(session.files, session.workspace, session.reviews, command) : entry.title;
     if (command.choices && entry.argument.empty()) return choices_item(ui, command, title, mark);
     // With an argument its own key would do something else, and what is on is not said.
     const std::string shortcut(!entry.like.empty()      ? first_shortcut(command_named(entry.like))

@@ -85,7 +85,8 @@ std::vector<MenuEntry> node_menu(const Session& session) {
     std::vector<MenuEntry> menu = entries_of(kNode);
     const auto who = placed_agent_of(session.workspace.fitted(), session.workspace.selection.path);
     if (who) {
-        const std::string level = std::to_string(session.workspace.fitted().tree(who->clip).level(session.workspace.selection.index));
+        const std::string level =
+            std::to_string(session.workspace.fitted().tree(who->clip).level(session.workspace.selection.index));
         menu.push_back({"view.level", level, "Show level " + level + " alone"});
     }
     append_agent(menu, session);
@@ -95,7 +96,8 @@ std::vector<MenuEntry> node_menu(const Session& session) {
 std::vector<MenuEntry> sample_menu(const Session& session) {
     std::vector<MenuEntry> menu = entries_of(kSample);
     if (const auto who = placed_agent_of(session.workspace.fitted(), session.workspace.selection.path)) {
-        const double time = session.workspace.fitted().placed(*who).placed_clip().time(session.workspace.selection.index);
+        const double time =
+            session.workspace.fitted().placed(*who).placed_clip().time(session.workspace.selection.index);
         menu.push_back({"time.at", short_double(time), formatted("Time cursor to %.3f s", time)});
     }
     append_agent(menu, session);

@@ -364,15 +364,16 @@ std::optional<double> typed_number(Ui& ui, const NumberField& field, std::string
     const std::optional<double> value = parse_double(text);
     const std::string unit = field.unit.empty() ? "" : (field.unit == "\u00B0" ? "" : " ") + field.unit;
     if (!value || !std::isfinite(*value)) {
-        ui.session.notifications.tell(MessageLevel::warning, in_quotes(text) + " is no number; " + field.what + " stays " +
-                                                   number_text(field, field.now) + unit);
+        ui.session.notifications.tell(MessageLevel::warning, in_quotes(text) + " is no number; " + field.what +
+                                                                 " stays " + number_text(field, field.now) + unit);
         return std::nullopt;
     }
     const double within = whole_or_not(field, *value);
     if (*value < field.least || *value > field.most) {
         const bool low = *value < field.least;
         ui.session.notifications.tell(MessageLevel::info, field.what + (low ? " is at least " : " is at most ") +
-                                                number_text(field, low ? field.least : field.most) + unit);
+                                                              number_text(field, low ? field.least : field.most) +
+                                                              unit);
     }
     return within;
 }
@@ -442,8 +443,8 @@ std::optional<double> number_keys(Ui& ui, const NumberField& field) {
         const double next = whole_or_not(field, stepped(field, value, chord.key == Key::up ? steps : -steps));
         if (next == value) {
             const bool low = chord.key == Key::down;
-            ui.session.notifications.tell(MessageLevel::info,
-                            field.what + (low ? " is at least " : " is at most ") + number_text(field, next));
+            ui.session.notifications.tell(
+                MessageLevel::info, field.what + (low ? " is at least " : " is at most ") + number_text(field, next));
         }
         value = next;
     }

@@ -37,7 +37,9 @@ void add_candidate(DrawList& list, const Session& session, float scale) {
 
 void add_other_of_conflict(DrawList& list, const Session& session, float scale) {
     const std::vector<SceneConflict>* found = session.crowds.conflicts();
-    if (!found || session.workspace.conflict < 0 || session.workspace.view().follow.empty() || !session.workspace.view().time) return;
+    if (!found || session.workspace.conflict < 0 || session.workspace.view().follow.empty() ||
+        !session.workspace.view().time)
+        return;
     const SceneConflict& conflict = (*found)[static_cast<std::size_t>(session.workspace.conflict)];
     const ConflictPlace place = conflict_place(session.workspace, conflict);
     const double time = *session.workspace.view().time;

@@ -183,8 +183,9 @@ Camera Viewport::shown_camera() const { return list_ ? list_->camera : key_->vie
 
 /// The camera has jumped, by a command or by undo: it flies there instead, if somebody is looking.
 void Viewport::take_off(Ui& ui, const Key& next) {
-    const bool jumped = key_ && list_ && ui.session.options.attended && drag_ == Drag::none && key_->fitted == next.fitted &&
-                        key_->size == next.size && !(key_->view.camera == next.view.camera);
+    const bool jumped = key_ && list_ && ui.session.options.attended && drag_ == Drag::none &&
+                        key_->fitted == next.fitted && key_->size == next.size &&
+                        !(key_->view.camera == next.view.camera);
     if (!jumped) {
         if (!key_ || key_->fitted != next.fitted || key_->size != next.size) flight_.reset();
         return;
@@ -242,7 +243,8 @@ void Viewport::settle(Ui& ui, Key& next) {
 
 void Viewport::update_picture(Ui& ui, PictureSize size) {
     const Session& session = ui.session;
-    const FollowedChoice* choice = is_active(ui) && session.workspace.view().candidates ? session.crowds.choice() : nullptr;
+    const FollowedChoice* choice =
+        is_active(ui) && session.workspace.view().candidates ? session.crowds.choice() : nullptr;
     Key next = wanted(ui, size, choice);
     settle(ui, next);
     if (key_ && *key_ == next && !flight_) return;
@@ -297,8 +299,8 @@ void Viewport::update_highlights(const Ui& ui) {
 
 void Viewport::show(Ui& ui, ImVec2 corner) {
     const Painter::Hand hand = !ui.session.options.attended ? Painter::Hand::away
-                               : drag_ == Drag::none  ? Painter::Hand::rests
-                                                      : Painter::Hand::drags;
+                               : drag_ == Drag::none        ? Painter::Hand::rests
+                                                            : Painter::Hand::drags;
     const Painter::Shown shown =
         ui.painter.picture(view_place_, std::exchange(unpainted_, Changed::nothing), hand, ui.now);
     const ImVec2 end{corner.x + static_cast<float>(list_->size.width),
@@ -429,11 +431,14 @@ std::optional<Viewport::Handles> Viewport::handles(Ui& ui, const ShownPicture& p
     // They stand where a path begins, in space-time.
     if (picture.list.moment || !session.workspace.selection.on_path() || session.workspace.crowd()) return std::nullopt;
     // In a grid an agent is not where it is, and who is hidden is not to be seen.
-    if (is_in_grid(session.workspace.scene(), session.workspace.view()) || are_hidden(session.workspace, selected_agents(session.workspace))) {
+    if (is_in_grid(session.workspace.scene(), session.workspace.view()) ||
+        are_hidden(session.workspace, selected_agents(session.workspace))) {
         return std::nullopt;
     }
     const auto who = placed_agent_of(session.workspace.fitted(), session.workspace.selection.path);
-    const bool in_view = index_in_view(session.workspace.fitted(), session.workspace.view(), session.workspace.selection.path).has_value();
+    const bool in_view =
+        index_in_view(session.workspace.fitted(), session.workspace.view(), session.workspace.selection.path)
+            .has_value();
     if (!who || who->agent < 0 || !in_view) return std::nullopt;
     const mobb::PlacedTree placed = session.workspace.fitted().placed(*who);
     return Handles{*who, handle_places(ui, picture, placed.placed_clip())};
@@ -525,7 +530,8 @@ ImVec2 Viewport::place_of_selection(const Session& session, const ShownPicture& 
     const glm::vec2 size(picture.list.size.width, picture.list.size.height);
     glm::vec2 at = 0.5f * size;
     const bool is_something = session.workspace.selection.kind != Selection::Kind::none;
-    if (const std::optional<Bounds> box = is_something ? box_of(session.workspace, session.workspace.selection) : std::nullopt) {
+    if (const std::optional<Bounds> box =
+            is_something ? box_of(session.workspace, session.workspace.selection) : std::nullopt) {
         const glm::dvec3 middle = box->middle();
         const auto pixel = picture.list.projection.project(picture.list.space.point(middle.x, middle.y, middle.z));
         if (pixel) at = glm::clamp(*pixel, glm::vec2(0), size);

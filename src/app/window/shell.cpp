@@ -263,7 +263,7 @@ struct Shell::State final : PictureMaker {
             return chord.key == Key::escape ? Taken::opened : Taken::nobodys;
         }
         if (focus.press(chord, repeated)) return Taken::opened;
-        const Command* command = command_for(session.reviews, chord);
+        const Command* command = command_for(session, chord);
         if (!command || (repeated && !command->repeats)) return Taken::nobodys;
         if (!works_under(session.dialogs.now, *command)) return Taken::nobodys;
         if (ImGui::GetIO().WantTextInput && edits_text(chord)) return Taken::nobodys;
@@ -273,7 +273,8 @@ struct Shell::State final : PictureMaker {
         if (!ImGui::IsAnyItemActive()) session.workspace.close_group();
         if (command->enabled(session)) {
             invoke(session, command->id);
-        } else if (const std::string_view why = why_not(session, *command); !session.workspace.empty() && why != kNotNow) {
+        } else if (const std::string_view why = why_not(session, *command);
+                   !session.workspace.empty() && why != kNotNow) {
             std::string title(command->title);
             if (title.ends_with("...")) title.resize(title.size() - 3);
             session.notifications.tell(MessageLevel::info, title.append(": ").append(why));

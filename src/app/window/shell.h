@@ -2,8 +2,8 @@
 /// `render --ui` all run this.
 #pragma once
 
-#include <app/session/session.h>
 #include <app/input/input.h>
+#include <app/session/session.h>
 #include <app/ui/ui.h>
 #include <render/drawlist/draw_list.h>
 #include <render/gl/gl_context.h>
