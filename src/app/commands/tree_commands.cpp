@@ -1,6 +1,7 @@
 #include <app/commands/arguments.h>
 #include <app/commands/command.h>
 #include <base/text.h>
+#include <scene/scene_json.h>
 
 #include <limits>
 #include <optional>
@@ -29,7 +30,7 @@ Option named(std::string_view what, const std::string& text, std::optional<Optio
 
 void set_kind(Edits& edits, const std::string& text) {
     fit(edits, "changing the kind of trees", text, &mobb::FitOptions::tree,
-        named("the trees", text, mobb::tree_kind_from_name, mobb::tree_kind_names()));
+        named("the trees", text, find_tree_kind, mobb::tree_kind_names()));
 }
 
 void set_axes(Edits& edits, const std::string& text) {

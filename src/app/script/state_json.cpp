@@ -3,6 +3,7 @@
 #include <explain/query_sentence.h>
 #include <render/drawlist/font.h>
 #include <render/pictures/candidates.h>
+#include <scene/scene_json.h>
 #include <scene/view_options.h>
 
 #include <nlohmann/json.hpp>
@@ -335,6 +336,7 @@ ScriptExpectation parse_expectation(std::string_view text) {
     }
     const bool other = text.starts_with("!= ");
     const Json wanted = parse_value(other ? text.substr(3) : text);
+    if (wanted.is_string() && name.ends_with("/tree")) find_tree_kind(wanted.get<std::string>());
     return [=](const Session& session) -> std::optional<std::string> {
         const Json is = value_at(session, pointer);
         if (agree(is, wanted) != other) return std::nullopt;
