@@ -6,8 +6,10 @@
 #include <base/file.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::app {
@@ -75,55 +77,34 @@ void dropped(Ui& ui) {
     end_dialog();
 }
 
+constexpr std::array<std::pair<Dialog, void (*)(Ui&)>, 14> kDrawn{{{Dialog::open, file_dialog},
+                                                                   {Dialog::add, file_dialog},
+                                                                   {Dialog::save_as, file_dialog},
+                                                                   {Dialog::export_file, file_dialog},
+                                                                   {Dialog::folder, file_dialog},
+                                                                   {Dialog::export_picture, export_dialog},
+                                                                   {Dialog::unsaved, unsaved},
+                                                                   {Dialog::palette, palette},
+                                                                   {Dialog::help, help_sheet},
+                                                                   {Dialog::about, about},
+                                                                   {Dialog::dropped, dropped},
+                                                                   {Dialog::messages, message_list},
+                                                                   {Dialog::import_clip, import_dialog},
+                                                                   {Dialog::history, history_list}}};
+
 }  // namespace
 
 void dialogs(Ui& ui) {
     Session& session = ui.session;
+    const Dialog now = session.dialogs.now;
+    if (now == Dialog::none) return;
     // Of lists and fields in a dialog Escape closes these first.
-    const bool in_popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
-    const bool escape_is_taken =
-        (session.dialogs.now == Dialog::export_picture && in_popup) ||
-        (session.dialogs.now == Dialog::import_clip && (in_popup || ImGui::GetIO().WantTextInput));
-    switch (session.dialogs.now) {
-        case Dialog::none:
-            return;
-        case Dialog::open:
-        case Dialog::add:
-        case Dialog::save_as:
-        case Dialog::export_file:
-        case Dialog::review:
-            file_dialog(ui);
-            break;
-        case Dialog::export_picture:
-            export_dialog(ui);
-            break;
-        case Dialog::unsaved:
-            unsaved(ui);
-            break;
-        case Dialog::palette:
-            palette(ui);
-            break;
-        case Dialog::help:
-            help_sheet(ui);
-            break;
-        case Dialog::about:
-            about(ui);
-            break;
-        case Dialog::dropped:
-            dropped(ui);
-            break;
-        case Dialog::messages:
-            message_list(ui);
-            break;
-        case Dialog::import_clip:
-            import_dialog(ui);
-            break;
-        case Dialog::history:
-            history_list(ui);
-            break;
-    }
+    const BeforeEscape before = row_of(now).before_escape;
+    const bool in_popup = before != BeforeEscape::nothing && ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+    const bool in_text = before == BeforeEscape::popup_or_text && ImGui::GetIO().WantTextInput;
+    std::ranges::find(kDrawn, now, &std::pair<Dialog, void (*)(Ui&)>::first)->second(ui);
     // A field in it that is typed into is left first.
-    const bool typing = ui.field.typing || escape_is_taken;
+    const bool typing = ui.field.typing || in_popup || in_text;
     if (pressed(ImGuiKey_Escape) && !typing) session.queue.push([&session] { session.dialogs.close(); });
 }
 

@@ -122,7 +122,7 @@ void argument(Ui& ui, const Command& command) {
 }  // namespace
 
 void palette(Ui& ui) {
-    const Command* command = find_command(ui.session.dialogs.input.command);
+    const Command* command = find_command(ui.session.dialogs.input.command, commands(ui.session));
     // A number needs no list.
     const bool has_list = !command || command->choices;
     begin_dialog(ui, "palette", {560, has_list ? 420.0f : 130.0f}, 0.25f);

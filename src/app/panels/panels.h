@@ -5,9 +5,6 @@
 #include <app/ui/ui.h>
 #include <app/viewport/viewport.h>
 
-#include <glm/vec2.hpp>
-
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -24,11 +21,6 @@ void crowd_panel(Ui& ui);                           ///< who is followed, its la
 void last_choice(Ui& ui);                           ///< of who is followed in a run, with its candidates
 void selection_panel(Ui& ui);                       ///< all numbers of what is selected
 void timeline(Ui& ui, QueryPictures& pictures);     ///< two clocks: time and step
-// Picture tests, which take the place of the scene's panels.
-void review_list(Ui& ui);                                           ///< the cases and what came of them
-std::optional<glm::ivec2> review_pictures(Ui& ui);                  ///< returns the pixel under the mouse
-void review_facts(Ui& ui, const std::optional<glm::ivec2>& pixel);  ///< what differs, files, what can be done
-void review_way_back(Ui& ui);                                       ///< over the scene of a case
 
 void dialogs(Ui& ui);                  ///< open, save, palette, help, unsaved changes, messages
 void messages(Ui& ui);                 ///< those over the picture
