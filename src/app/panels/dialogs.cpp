@@ -92,7 +92,7 @@ void dialogs(Ui& ui) {
         case Dialog::save_as:
         case Dialog::export_file:
         case Dialog::review:
-            file_dialog(ui);
+            file_dialog(ui, ui.session.dialogs, ui.session.settings);
             break;
         case Dialog::export_picture:
             export_dialog(ui);
@@ -101,7 +101,7 @@ void dialogs(Ui& ui) {
             unsaved(ui);
             break;
         case Dialog::palette:
-            palette(ui);
+            palette(ui, ui.session.dialogs);
             break;
         case Dialog::help:
             help_sheet(ui);
@@ -113,10 +113,10 @@ void dialogs(Ui& ui) {
             dropped(ui);
             break;
         case Dialog::messages:
-            message_list(ui);
+            message_list(ui, ui.session.dialogs, ui.session.notifications);
             break;
         case Dialog::import_clip:
-            import_dialog(ui);
+            import_dialog(ui, ui.session.imports);
             break;
         case Dialog::history:
             history_list(ui);

@@ -180,17 +180,15 @@ std::filesystem::path folder_of_clips(const FileBrowser& browser) {
 // --- what stands above the list
 
 /// The way to the folder, each step a button.
-void crumbs(Ui& ui, const Purpose& purpose) {
-    Session& session = ui.session;
+void crumbs(Ui& ui, Dialogs& dialogs, const Purpose& purpose) {
     const std::string prefix = purpose.prefix;
     const auto go = [&](const std::filesystem::path& folder) {
-        session.queue.push([&session, purpose, folder] { go_into(session.dialogs, purpose, folder); });
+        ui.later([&dialogs, purpose, folder] { go_into(dialogs, purpose, folder); });
     };
-    if (ImGui::ArrowButton("##up", ImGuiDir_Up))
-        session.queue.push([&session, purpose] { go_up(session.dialogs, purpose); });
+    if (ImGui::ArrowButton("##up", ImGuiDir_Up)) ui.later([&dialogs, purpose] { go_up(dialogs, purpose); });
     ui.mark(prefix + ".up");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("The folder above (Backspace, or Alt+Up)");
-    const std::vector<std::filesystem::path> way = session.dialogs.browser.way();
+    const std::vector<std::filesystem::path> way = dialogs.browser.way();
     const std::size_t first = way.size() > kMostCrumbs ? way.size() - kMostCrumbs : 0;
     const float room = ImGui::GetContentRegionMax().x / static_cast<float>(kMostCrumbs + 1);
     ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0, 0, 0, 0));
@@ -248,15 +246,14 @@ std::vector<FilePlace> recent_folders(const Settings& settings) {
     return out;
 }
 
-void place_list(Ui& ui, const Purpose& purpose) {
-    Session& session = ui.session;
+void place_list(Ui& ui, Settings& settings, const Purpose& purpose) {
     const auto list = [&](const std::vector<FilePlace>& all, const std::string& mark) {
         for (std::size_t i = 0; i < all.size(); ++i) {
             const FilePlace& place = all[i];
             ImGui::PushID(static_cast<int>(i));
             ImGui::PushID(mark.c_str());
             if (ImGui::Selectable(fitted_text(place.name, ImGui::GetContentRegionAvail().x).c_str())) {
-                session.queue.push([&session, purpose, to = place.folder] { go_into(session.dialogs, purpose, to); });
+                ui.later([purpose, to = place.folder](Dialogs& dialogs) { go_into(dialogs, purpose, to); });
             }
             ImGui::PopID();
             ImGui::PopID();
@@ -265,8 +262,8 @@ void place_list(Ui& ui, const Purpose& purpose) {
         }
     };
     text_line(ui.style.quiet, "PLACES", ui.style.caption);
-    list(places(session.workspace), ".place.");
-    const std::vector<FilePlace> recent = recent_folders(session.settings);
+    list(places(ui.workspace), ".place.");
+    const std::vector<FilePlace> recent = recent_folders(settings);
     if (recent.empty()) return;
     ImGui::Dummy({0, ui.px(6)});
     text_line(ui.style.quiet, "RECENT", ui.style.caption);
@@ -302,17 +299,15 @@ void order_by(Settings& settings, Dialogs& dialogs, const std::string& column) {
 }
 
 /// The heads of the columns; a click orders by one, the next one the other way round.
-void column_heads(Ui& ui, const Purpose& purpose, const Columns& columns) {
-    Session& session = ui.session;
-    const std::string& now = session.settings.file_order;
+void column_heads(Ui& ui, Settings& settings, Dialogs& dialogs, const Purpose& purpose, const Columns& columns) {
+    const std::string& now = settings.file_order;
     const ImVec2 at = ImGui::GetCursorPos();
     const auto head = [&](const char* label, const std::string& order, float from, float to) {
         const bool first_to_last = now == order;
         const bool last_to_first = now == "-" + order;
         ImGui::SetCursorPos({at.x + from, at.y});
         const float height = ImGui::GetTextLineHeight() + ui.px(6);
-        if (ImGui::InvisibleButton(order.c_str(), {to - from, height}))
-            order_by(session.settings, session.dialogs, order);
+        if (ImGui::InvisibleButton(order.c_str(), {to - from, height})) order_by(settings, dialogs, order);
         ui.mark(purpose.prefix + (".order." + order));
         const bool hovered = ImGui::IsItemHovered();
         if (hovered) ImGui::SetTooltip("Orders by it: Ctrl+1 the name, Ctrl+2 the size, Ctrl+3 the date");
@@ -338,8 +333,8 @@ void column_heads(Ui& ui, const Purpose& purpose, const Columns& columns) {
 }
 
 /// One line of the list; returns whether it was clicked.
-bool file_row(Ui& ui, const FileEntry& entry, std::size_t index, const Columns& columns) {
-    const FileBrowser& browser = ui.session.dialogs.browser;
+bool file_row(Ui& ui, Dialogs& dialogs, const FileEntry& entry, std::size_t index, const Columns& columns) {
+    const FileBrowser& browser = dialogs.browser;
     const float height = ImGui::GetTextLineHeight() + ui.px(6);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::PushID(static_cast<int>(index));
@@ -410,19 +405,18 @@ bool keys_in_list(Dialogs& dialogs, Settings& settings, const Purpose& purpose) 
 }
 
 /// Whether an entry was taken by a double click.
-bool listing(Ui& ui, const Purpose& purpose, bool moved) {
-    Session& session = ui.session;
-    const FileBrowser& browser = session.dialogs.browser;
+bool listing(Ui& ui, Dialogs& dialogs, Settings& settings, const Purpose& purpose, bool moved) {
+    const FileBrowser& browser = dialogs.browser;
     const Columns columns = columns_of(ui, ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize);
-    column_heads(ui, purpose, columns);
+    column_heads(ui, settings, dialogs, purpose, columns);
     ImGui::BeginChild("entries", {0, 0}, false);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     if (!browser.error().empty()) {
         words(ui.style.error, browser.error());
     } else if (browser.entries().empty()) {
-        words(ui.style.quiet, purpose.writes()                     ? "No such file is here yet."
-                              : session.dialogs.input.text.empty() ? "There is nothing here that can be opened."
-                                                                   : "No name here holds what is typed.");
+        words(ui.style.quiet, purpose.writes()             ? "No such file is here yet."
+                              : dialogs.input.text.empty() ? "There is nothing here that can be opened."
+                                                           : "No name here holds what is typed.");
     }
     std::optional<std::size_t> clicked;
     ImGuiListClipper clipper;
@@ -432,35 +426,34 @@ bool listing(Ui& ui, const Purpose& purpose, bool moved) {
     while (clipper.Step()) {
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
             const auto index = static_cast<std::size_t>(i);
-            if (file_row(ui, browser.entries()[index], index, columns)) clicked = index;
+            if (file_row(ui, dialogs, browser.entries()[index], index, columns)) clicked = index;
             ui.mark_only(std::string(purpose.prefix) + ".entry." + browser.entries()[index].name);
             if (moved && i == cursor) ImGui::SetScrollHereY();
         }
     }
     ImGui::PopStyleVar();
     ImGui::EndChild();
-    return clicked && clicked_entry(session, purpose, *clicked);
+    return clicked && clicked_entry(ui.session, purpose, *clicked);
 }
 
 // --- what a file holds
 
-const FileSummary* summary_at_cursor(Ui& ui) {
-    Session& session = ui.session;
-    const FileBrowser& browser = session.dialogs.browser;
+const FileSummary* summary_at_cursor(Ui& ui, Dialogs& dialogs) {
+    const FileBrowser& browser = dialogs.browser;
     if (browser.entries().empty()) return nullptr;
     const std::filesystem::path file = browser.listed() / browser.entries()[browser.cursor()].name;
     const FileSummary* summary =
-        session.dialogs.preview.ask(file, ui.now, !session.options.attended, [&at = *session.desktop] { at.wake(); });
-    if (!summary) ui.want_frame_in(session.dialogs.preview.ask_again_in(ui.now));
+        dialogs.preview.ask(file, ui.now, !ui.session.options.attended, [&at = *ui.session.desktop] { at.wake(); });
+    if (!summary) ui.want_frame_in(dialogs.preview.ask_again_in(ui.now));
     return summary;
 }
 
-void preview(Ui& ui) {
-    const FileBrowser& browser = ui.session.dialogs.browser;
+void preview(Ui& ui, Dialogs& dialogs) {
+    const FileBrowser& browser = dialogs.browser;
     if (browser.entries().empty()) return;
     const FileEntry& entry = browser.entries()[browser.cursor()];
     ImGui::TextUnformatted(fitted_text(entry.name, ImGui::GetContentRegionAvail().x).c_str());
-    const FileSummary* summary = summary_at_cursor(ui);
+    const FileSummary* summary = summary_at_cursor(ui, dialogs);
     if (!summary) return text_line(ui.style.quiet, "Reading\u2026");
     words(summary->readable ? ui.style.quiet : ui.style.error, summary->title);
     ImGui::Dummy({0, ui.px(4)});
@@ -486,10 +479,10 @@ void preview(Ui& ui) {
 }
 
 /// In a line, where there is no room beside the list.
-std::string in_a_line(Ui& ui, bool has_preview) {
-    const FileBrowser& browser = ui.session.dialogs.browser;
+std::string in_a_line(Ui& ui, Dialogs& dialogs, bool has_preview) {
+    const FileBrowser& browser = dialogs.browser;
     if (browser.chosen_count() > 1) return counted(browser.chosen_count(), "entry", "entries") + " chosen";
-    const FileSummary* summary = has_preview ? nullptr : summary_at_cursor(ui);
+    const FileSummary* summary = has_preview ? nullptr : summary_at_cursor(ui, dialogs);
     return summary ? summary->title : "";
 }
 
@@ -503,19 +496,18 @@ bool flowing_button(Ui& ui, const char* label, const std::string& mark, const ch
 
 }  // namespace
 
-void file_dialog(Ui& ui) {
-    Session& session = ui.session;
-    DialogInput& input = session.dialogs.input;
-    FileBrowser& browser = session.dialogs.browser;
-    const Purpose purpose = purpose_of(session.dialogs.now);
+void file_dialog(Ui& ui, Dialogs& dialogs, Settings& settings) {
+    DialogInput& input = dialogs.input;
+    FileBrowser& browser = dialogs.browser;
+    const Purpose purpose = purpose_of(dialogs.now);
     const std::string prefix = purpose.prefix;
     const auto enqueue = [&](void (*what)(Session&, const Purpose&)) {
-        session.queue.push([&session, purpose, what] { what(session, purpose); });
+        ui.later([purpose, what](Session& session) { what(session, purpose); });
     };
-    if (input.generation == 0) begin(session.settings, session.workspace, session.dialogs, purpose);
+    if (input.generation == 0) begin(settings, ui.workspace, dialogs, purpose);
     begin_dialog(ui, "file", {kDialogWidth, kDialogHeight});
     dialog_title(ui, purpose.title);
-    crumbs(ui, purpose);
+    crumbs(ui, dialogs, purpose);
 
     // Backspace leads up where there is nothing to delete.
     const bool up =
@@ -528,40 +520,40 @@ void file_dialog(Ui& ui) {
                                    : text_field(ui, "A part of a name, or a path; Tab completes it", complete);
     ui.mark(prefix + ".path");
     browser.follow(input.text, !purpose.writes());
-    session.settings.folder = session.options.attended ? browser.way().back() : browser.folder();
-    const bool moved = keys_in_list(session.dialogs, session.settings, purpose);
+    settings.folder = ui.session.options.attended ? browser.way().back() : browser.folder();
+    const bool moved = keys_in_list(dialogs, settings, purpose);
     if (ImGui::GetIO().KeyCtrl && pressed(Key::h)) browser.show_hidden(!browser.shows_hidden());
 
     const float room = ImGui::GetContentRegionAvail().x;
     const bool has_places = room >= ui.px(kPlacesWidth + kLeastList);
     const float preview_room = room - (has_places ? ui.px(kPlacesWidth) : 0);
     const bool has_preview =
-        !purpose.writes() && session.dialogs.now != Dialog::review && preview_room >= ui.px(kPreviewWidth + kLeastList);
+        !purpose.writes() && dialogs.now != Dialog::review && preview_room >= ui.px(kPreviewWidth + kLeastList);
     const bool one_line = room >= ui.px(600);
     const float foot = (one_line ? 1.0f : 2.0f) * ImGui::GetFrameHeightWithSpacing() + ui.px(4);
     if (has_places) {
         ImGui::BeginChild("places", {ui.px(kPlacesWidth) - ui.px(12), -foot}, false);
-        place_list(ui, purpose);
+        place_list(ui, settings, purpose);
         ImGui::EndChild();
         ImGui::SameLine(0, ui.px(12));
     }
     ImGui::BeginChild("files", {has_preview ? -ui.px(kPreviewWidth) : 0, -foot}, false);
-    bool accepted = listing(ui, purpose, moved) || events.entered;
+    bool accepted = listing(ui, dialogs, settings, purpose, moved) || events.entered;
     ImGui::EndChild();
     if (has_preview) {
         ImGui::SameLine(0, ui.px(12));
         ImGui::BeginChild("preview", {0, -foot}, false);
-        preview(ui);
+        preview(ui, dialogs);
         ImGui::EndChild();
     }
 
-    const bool of_folder = session.dialogs.now == Dialog::review;
+    const bool of_folder = dialogs.now == Dialog::review;
     const bool agreed =
         marked_button(ui, input.confirming ? "Overwrite" : purpose.button, (prefix + ".ok").c_str(), true);
     accepted |= agreed && !of_folder;
     ImGui::SameLine();
     if (marked_button(ui, "Cancel", (prefix + ".cancel").c_str())) {
-        session.queue.push([&session] { session.dialogs.close(); });
+        ui.later(&Dialogs::close);
     }
     bool as_clips = agreed && of_folder;
     if (!purpose.writes() && !of_folder) {
@@ -581,7 +573,7 @@ void file_dialog(Ui& ui) {
     const std::string line = input.confirming   ? "This file exists. Enter overwrites it."
                              : purpose.writes() ? ""
                              : of_folder        ? "Enter goes into a folder; the button takes it."
-                                                : in_a_line(ui, has_preview);
+                                                : in_a_line(ui, dialogs, has_preview);
     if (!line.empty()) {
         if (one_line) ImGui::SameLine();
         ImGui::AlignTextToFramePadding();
@@ -590,11 +582,11 @@ void file_dialog(Ui& ui) {
     }
     end_dialog();
     if (as_clips) {
-        session.queue.push([&session, purpose] { take(session, purpose, {folder_of_clips(session.dialogs.browser)}); });
+        ui.later([purpose](Session& session) { take(session, purpose, {folder_of_clips(session.dialogs.browser)}); });
     } else if (accepted) {
         enqueue(purpose.writes() ? take_written : take_read);
     } else if (up) {
-        session.queue.push([&session, purpose] { go_up(session.dialogs, purpose); });
+        ui.later([&dialogs, purpose] { go_up(dialogs, purpose); });
     }
 }
 

@@ -79,7 +79,6 @@ void cancel_first(Jobs& jobs, Reviews& reviews) {
 
 /// The work under way from `right` to the left; returns where it begins.
 float job_part(Ui& ui, const std::vector<const Job*>& work, float right) {
-    Session& session = ui.session;
     const Job& job = *work.front();
     ui.want_frame_in(kProgressFrame);
     std::string title = job.title();
@@ -112,7 +111,7 @@ float job_part(Ui& ui, const std::vector<const Job*>& work, float right) {
     ui.mark("job.0.bar");
     ImGui::SetCursorPos({right - button, y});
     if (small_button(ui, "Cancel", "job.0.cancel"))
-        session.queue.push([&session] { cancel_first(session.jobs, session.reviews); });
+        ui.later([](Jobs& jobs, Reviews& reviews) { cancel_first(jobs, reviews); });
     return left;
 }
 
@@ -120,7 +119,7 @@ float job_part(Ui& ui, const std::vector<const Job*>& work, float right) {
 
 float status_height(const Ui& ui) { return std::floor(ui.style.caption->FontSize + ui.px(6)); }
 
-void status_bar(Ui& ui, ImVec2 size) {
+void status_bar(Ui& ui, Jobs& jobs, QueryInspector& queries, ImVec2 size) {
     ImGui::SetCursorScreenPos({0, ImGui::GetIO().DisplaySize.y - size.y});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::BeginChild("status", size, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
@@ -142,15 +141,15 @@ void status_bar(Ui& ui, ImVec2 size) {
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("What the last frame took");
     }
     ImGui::SetCursorPosY(y);
-    const std::vector<const Job*> work = work_under_way(ui.session.jobs, ui.session.reviews);
+    const std::vector<const Job*> work = work_under_way(jobs, ui.session.reviews);
     if (!work.empty()) right = job_part(ui, work, right) - pad;
     // What there is least room for is what is under the mouse: its tooltip says it too.
-    const std::string all = fitted_text(counts(ui.session.reviews, ui.session.workspace), std::max(right - pad, 0.0f));
+    const std::string all = fitted_text(counts(ui.session.reviews, ui.workspace), std::max(right - pad, 0.0f));
     ImGui::SetCursorPos({pad, y});
     ImGui::TextUnformatted(all.c_str());
     ui.mark("status.counts");
     const float left = pad + ImGui::CalcTextSize(all.c_str()).x + 2 * pad;
-    const std::string facts = hover_facts(ui.session.workspace, ui.session.reviews, ui.session.queries);
+    const std::string facts = hover_facts(ui.workspace, ui.session.reviews, queries);
     if (!facts.empty() && right - left > ui.px(40)) {
         ImGui::SetCursorPos({left, y});
         text_line(ui.style.text, fitted_text(facts, right - left));

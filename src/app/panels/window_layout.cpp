@@ -96,13 +96,13 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
 
     const bool reviewing = ui.session.reviews.shown();
     // The placement stands below the lists: they stay where they are when somebody is selected.
-    const float placement = reviewing ? 0 : std::min(placement_height(ui), 0.5f * room.y);
+    const float placement = reviewing ? 0 : std::min(placement_height(ui, ui.session.settings), 0.5f * room.y);
     ImGui::BeginGroup();
     panel(ui, reviewing ? "cases" : "left", {left, room.y - placement}, [&] {
         if (reviewing) return review_list(ui);
         review_way_back(ui);
-        scene_panel(ui);
-        tree_panel(ui);
+        scene_panel(ui, ui.session.queries);
+        tree_panel(ui, ui.session.jobs, ui.session.queries);
     });
     if (placement > 0) panel(ui, "placement", {left, placement}, [&] { placement_panel(ui); });
     ImGui::EndGroup();
@@ -122,7 +122,8 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
         draw_views(ui, viewports);
         ImGui::EndChild();
         settings.bottom_height -= splitter(ui, "splitter.bottom", {middle, bar}, false) / ui.style.scale;
-        panel(ui, "timeline", {middle, bottom}, [&] { timeline(ui, pictures); });
+        panel(ui, "timeline", {middle, bottom},
+              [&] { timeline(ui, ui.session.playback, ui.session.queries, pictures); });
     }
     ImGui::EndGroup();
     spacing();
@@ -131,14 +132,14 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     panel(ui, reviewing ? "facts" : "right", {right, room.y}, [&] {
         if (reviewing) return review_facts(ui, pixel);
         if (ui.session.workspace.is_crowd() && !ui.session.workspace.view().query) {
-            crowd_panel(ui);
+            crowd_panel(ui, ui.session.crowds);
         } else {
-            query_panel(ui, pictures);
+            query_panel(ui, ui.session.queries, pictures);
         }
         selection_panel(ui);
     });
     ui.session.workspace.hovered = ui.hovered;
-    status_bar(ui, {io.DisplaySize.x, status});
+    status_bar(ui, ui.session.jobs, ui.session.queries, {io.DisplaySize.x, status});
     ImGui::PopStyleVar();
     ImGui::End();
 
@@ -149,7 +150,7 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     ui.focus.panel("dialog");
     dialogs(ui);
     ui.focus.panel("messages");
-    messages(ui);
+    messages(ui, ui.session.notifications, ui.session.dialogs);
 }
 
 }  // namespace mobbscope::app

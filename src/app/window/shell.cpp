@@ -347,7 +347,7 @@ struct Shell::State final : PictureMaker {
 
     double lay_out(double now) {
         marks.clear();
-        Ui ui{session, style, marks, focus, field, drawn->painter, now, kNever};
+        Ui ui{session, session.workspace, style, marks, focus, field, drawn->painter, now, kNever};
         if (session.options.attended) ui.frame_seconds = frame_seconds;
         focus.follow_commands();
         ImGui::NewFrame();
