@@ -1,4 +1,3 @@
-#include <app/commands/camera_commands.h>
 #include <app/commands/command.h>
 #include <app/document/described.h>
 #include <app/document/edit_names.h>
@@ -215,12 +214,10 @@ Viewport::Key Viewport::wanted(const Ui& ui, PictureSize size, const FollowedCho
 }
 
 /// Gives the view a camera that stands.
-void Viewport::settle(Ui& ui, Key& next) {
+void Viewport::stand(Ui& ui, Key& next) {
     Camera& camera = next.view.camera;
     const std::optional<PictureSize> before = ui.workspace.picture_size;
-    if (is_active(ui) && before != next.size) {
-        ui.later([to = next.size](Views& views) { views.resize_pictures(to); });
-    }
+    if (is_active(ui) && before != next.size) laid_out_.size = next.size;
     if (camera.target) {
         if (before && before->height != next.size.height) camera = resized(camera, *before, next.size);
         return;
@@ -233,7 +230,7 @@ void Viewport::settle(Ui& ui, Key& next) {
         // Targets are measured in it.
         const double height = framed.moment ? 0 : framed.space.time_height;
         if (height > 0) next.view.time_height = height;
-        ui.later([place = view_place_, camera, height](Views& views) { views.settle_camera(place, camera, height); });
+        laid_out_.framed = std::pair(camera, height);
     } catch (const std::invalid_argument&) {
         // Nothing can be drawn; build says why.
     }
@@ -243,7 +240,7 @@ void Viewport::update_picture(Ui& ui, PictureSize size) {
     const FollowedChoice* choice =
         is_active(ui) && ui.workspace.view().candidates ? ui.session.crowds.choice() : nullptr;
     Key next = wanted(ui, size, choice);
-    settle(ui, next);
+    stand(ui, next);
     if (key_ && *key_ == next && !flight_) return;
     if (!(key_ && *key_ == next)) take_off(ui, next);
     key_ = next;
@@ -271,9 +268,15 @@ void Viewport::follow_test(Ui& ui) {
     std::vector<Rect> panels;
     for (const Overlay& overlay : list_->overlays) panels.push_back(overlay.rect);
     if (!boxes || is_well_seen(*boxes, *list_, panels)) return;
-    ui.later([boxes = *boxes, part = free_part(list_->size, panels)](Views& views, Workspace& workspace) {
-        go_along_with(views, workspace, boxes, part);
-    });
+    laid_out_.to_see = std::pair(*boxes, free_part(list_->size, panels));
+}
+
+bool Viewport::settle(Views& views, Workspace& workspace) {
+    const LaidOut laid_out = std::exchange(laid_out_, {});
+    if (laid_out.size) views.resize_pictures(*laid_out.size);
+    if (laid_out.framed) views.settle_camera(view_place_, laid_out.framed->first, laid_out.framed->second);
+    if (laid_out.to_see) go_along_with(views, workspace, laid_out.to_see->first, laid_out.to_see->second);
+    return laid_out.size || laid_out.framed || laid_out.to_see;
 }
 
 /// Sets what is pointed out in the list, which is not built anew for that.
@@ -332,9 +335,7 @@ void Viewport::draw(Ui& ui, std::size_t place) {
     }
     if (size.width < kMinSide || size.height < kMinSide) return;
     update_picture(ui, size);
-    if (is_active(ui)) {
-        ui.session.views.picture = {size, key_->scale};
-    }
+    if (is_active(ui)) ui.session.views.picture = {size, key_->scale};
     if (!list_) {
         ImGui::TextWrapped("%s", why_not_.c_str());
         return;
