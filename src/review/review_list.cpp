@@ -155,7 +155,7 @@ void case_row(Ui& ui, const Review& review, std::size_t index, float height) {
     ImGui::PopID();
     if (!clicked) return;
     const bool marks = over_box || ImGui::GetIO().KeyCtrl;
-    invoke(ui.session, marks ? "review.mark" : "review.show", one.file.name);
+    ui.invoke(marks ? "review.mark" : "review.show", one.file.name);
 }
 
 /// How far a run is stands in the status bar.
@@ -169,7 +169,7 @@ void run_row(Ui& ui, const Review& review) {
 
 void order_and_filter(Ui& ui, const Review& review) {
     bool failed_only = review.look.failed_only;
-    if (ImGui::Checkbox("Only failing", &failed_only)) invoke(ui.session, "review.failed_only");
+    if (ImGui::Checkbox("Only failing", &failed_only)) ui.invoke("review.failed_only");
     ui.mark("review.failed_only");
     const std::string now(kReviewOrders[static_cast<std::size_t>(review.look.order)]);
     flow(ui.px(112));
@@ -177,7 +177,7 @@ void order_and_filter(Ui& ui, const Review& review) {
     if (!begin_dropdown(ui, "review.order", "by " + now, "Order")) return;
     for (const std::string_view order : kReviewOrders) {
         const std::string name(order);
-        if (ImGui::Selectable(("by " + name).c_str(), name == now)) invoke(ui.session, "review.order", name);
+        if (ImGui::Selectable(("by " + name).c_str(), name == now)) ui.invoke("review.order", name);
         ui.mark("review.order." + name);
     }
     ImGui::EndCombo();

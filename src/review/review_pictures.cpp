@@ -243,7 +243,7 @@ void draw_view(Ui& ui, const ReviewLook& look, const PictureView& view, const Pi
 /// Changes how the pictures are looked at once the frame is drawn.
 template <class Change>
 void change_look(Ui& ui, const Change& change) {
-    ui.session.queue.push([&screen = ui.session.the<ReviewScreen>(), change] { change(screen.review()->look); });
+    ui.later([change](ReviewScreen& screen) { change(screen.review()->look); });
 }
 
 /// The pixel under the mouse stays where it is.

@@ -174,7 +174,7 @@ std::vector<Case> cases() {
          }});
     add({"picture.copy_command", "", {{"picture.size", "640x360"}, {"picture.without", "legend"}}, [](CommandWorld& w) {
              EXPECT_EQ(w.desktop.text, "mobbscope render " + w.path("scene.json") + " --no-legend --size 640x360 -o " +
-                                        w.path("scene.png"));
+                                           w.path("scene.png"));
          }});
     look("file.copy_command", "", [](CommandWorld& w) {
         EXPECT_EQ(w.desktop.text, "mobbscope render " + w.path("scene.json") + " --size 800x600 -o picture.png");

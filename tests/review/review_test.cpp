@@ -444,8 +444,8 @@ TEST(Review, ARunEndsWithIt) {
     const TempFolder folder;
     const ThreeCases files(folder.path());
     const HeldDrawer drawer(files);
-    auto review = std::make_unique<Review>(
-        find_review(files.cases()), ReviewSurroundings{.attended = true, .drawer = {drawer.program(), "auto"}});
+    auto review = std::make_unique<Review>(find_review(files.cases()),
+                                           ReviewSurroundings{.attended = true, .drawer = {drawer.program(), "auto"}});
     review->draw_all();
     const pid_t child = drawer.pid();
     ASSERT_EQ(::kill(child, 0), 0);
@@ -819,7 +819,8 @@ TEST(Review, ACaseOpensAsASceneAndWhatWasOpenIsBack) {
 TEST(Review, TheScenesCommandsAreNotForPictureTests) {
     ReviewWorld w;
     w.open();
-    EXPECT_EQ(why_not(w.session, command_named("view.top", commands(w.session))), "picture tests are shown: leave them first");
+    EXPECT_EQ(why_not(w.session, command_named("view.top", commands(w.session))),
+              "picture tests are shown: leave them first");
     run_command(w.session, "review.leave");
     EXPECT_EQ(why_not(w.session, command_named("review.accept", commands(w.session))), "no picture tests are shown");
 }

@@ -118,13 +118,13 @@ void choice_button(Ui& ui, const std::string& label, const char* id, const std::
     flow(button_width(label.c_str()));
     ImGui::PushStyleColor(ImGuiCol_Text, on ? ui.style.text : ui.style.quiet);
     ImGui::PushStyleColor(ImGuiCol_Button, on ? ui.style.raised : IM_COL32_BLACK_TRANS);
-    if (small_button(ui, label.c_str(), id + ('.' + argument))) invoke(ui.session, id, argument);
+    if (small_button(ui, label.c_str(), id + ('.' + argument))) ui.invoke(id, argument);
     ImGui::PopStyleColor(2);
 }
 
 /// The text to look for, which of them, and the order.
-void list_head(Ui& ui) {
-    CandidateList& list = ui.session.crowds.list;
+void list_head(Ui& ui, CrowdInspector& crowds) {
+    CandidateList& list = crowds.list;
     ImGui::SetNextItemWidth(-1);
     ImGui::InputTextWithHint("##filter", "Filter", &list.text);
     ui.mark("candidates.filter");
@@ -143,48 +143,45 @@ void list_head(Ui& ui) {
     ImGui::PopStyleVar(2);
 }
 
-void candidate_row(Ui& ui, const Choice& choice, const ListedCandidate& candidate) {
-    Session& session = ui.session;
+void candidate_row(Ui& ui, CrowdInspector& crowds, const Choice& choice, const ListedCandidate& candidate) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const Rgba color = outcome_style_of(candidate.outcome, ui.style.palette).color;
     const std::string index = std::to_string(candidate.index);
-    const bool pointed_out = session.crowds.candidate() == static_cast<int>(candidate.index);
+    const bool pointed_out = crowds.candidate() == static_cast<int>(candidate.index);
     if (row(ui, {"candidate." + index, candidate.name, candidate.remark, pointed_out, false, ui.px(26),
                  to_im(readable(color, ui.style.palette))})) {
-        invoke(session, "crowd.candidate", index);
+        ui.invoke("crowd.candidate", index);
     }
-    context_menu(ui,
-                 [&] { return candidate_menu(session.crowds, session.workspace, static_cast<int>(candidate.index)); });
+    context_menu(ui, [&] { return candidate_menu(crowds, ui.workspace, static_cast<int>(candidate.index)); });
     fate_line(ui, corner, candidate.outcome);
     if (!ImGui::IsItemHovered()) return;
-    ImGui::SetTooltip("%s", candidate_sentence(session.workspace.scene(), choice, candidate.index).c_str());
+    ImGui::SetTooltip("%s", candidate_sentence(ui.workspace.scene(), choice, candidate.index).c_str());
     if (candidate.outcome == CandidateOutcome::ruled_out && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-        invoke(session, "crowd.open_candidate", index);
+        ui.invoke("crowd.open_candidate", index);
     }
 }
 
 }  // namespace
 
-void last_choice(Ui& ui) {
-    Session& session = ui.session;
-    const FollowedChoice* followed = session.crowds.choice();
+void last_choice(Ui& ui, CrowdInspector& crowds) {
+    const FollowedChoice* followed = crowds.choice();
     if (!followed) {
-        if (!session.workspace.view().follow.empty()) words(ui.style.quiet, "No choice yet at this time.");
+        if (!ui.workspace.view().follow.empty()) words(ui.style.quiet, "No choice yet at this time.");
         return;
     }
     const Choice& choice = followed->choice;
     if (!section(ui, "LAST CHOICE", formatted("%.2f s", choice.time))) return;
     if (!followed->comes_out) {
-        words(ui.style.warning, "! " + edited_run_warning(session.workspace.scene(), *followed));
+        words(ui.style.warning, "! " + edited_run_warning(ui.workspace.scene(), *followed));
         ui.mark_only("choice.edited");
     }
-    words(ui.style.text, choice_sentence(session.workspace.scene(), *followed));
-    list_head(ui);
-    const std::vector<ListedCandidate> all = listed(session.crowds, session.workspace, choice);
+    words(ui.style.text, choice_sentence(ui.workspace.scene(), *followed));
+    list_head(ui, crowds);
+    const std::vector<ListedCandidate> all = listed(crowds, ui.workspace, choice);
     if (all.empty()) words(ui.style.quiet, "None of them is as asked for.");
     rows(ui, "##candidates", static_cast<int>(all.size()), kMostCandidateRows,
-         [&](int i) { candidate_row(ui, choice, all[static_cast<std::size_t>(i)]); });
-    const int pointed_out = session.crowds.candidate();
+         [&](int i) { candidate_row(ui, crowds, choice, all[static_cast<std::size_t>(i)]); });
+    const int pointed_out = crowds.candidate();
     const bool opens = pointed_out >= 0 && choice.candidates[static_cast<std::size_t>(pointed_out)].blocker;
     ImGui::BeginDisabled(!opens);
     command_button(ui, "open as a scene", "crowd.open_candidate", "crowd.open_candidate");

@@ -77,20 +77,24 @@ void dropped(Ui& ui) {
     end_dialog();
 }
 
-constexpr std::array<std::pair<Dialog, void (*)(Ui&)>, 14> kDrawn{{{Dialog::open, file_dialog},
-                                                                   {Dialog::add, file_dialog},
-                                                                   {Dialog::save_as, file_dialog},
-                                                                   {Dialog::export_file, file_dialog},
-                                                                   {Dialog::folder, file_dialog},
-                                                                   {Dialog::export_picture, export_dialog},
-                                                                   {Dialog::unsaved, unsaved},
-                                                                   {Dialog::palette, palette},
-                                                                   {Dialog::help, help_sheet},
-                                                                   {Dialog::about, about},
-                                                                   {Dialog::dropped, dropped},
-                                                                   {Dialog::messages, message_list},
-                                                                   {Dialog::import_clip, import_dialog},
-                                                                   {Dialog::history, history_list}}};
+void ask_for_file(Ui& ui) { file_dialog(ui, ui.session.dialogs, ui.session.settings); }
+
+using Draw = void (*)(Ui&);
+constexpr std::array<std::pair<Dialog, Draw>, 14> kDrawn{
+    {{Dialog::open, ask_for_file},
+     {Dialog::add, ask_for_file},
+     {Dialog::save_as, ask_for_file},
+     {Dialog::export_file, ask_for_file},
+     {Dialog::folder, ask_for_file},
+     {Dialog::export_picture, export_dialog},
+     {Dialog::unsaved, unsaved},
+     {Dialog::palette, [](Ui& ui) { palette(ui, ui.session.dialogs); }},
+     {Dialog::help, help_sheet},
+     {Dialog::about, about},
+     {Dialog::dropped, dropped},
+     {Dialog::messages, [](Ui& ui) { message_list(ui, ui.session.dialogs, ui.session.notifications); }},
+     {Dialog::import_clip, [](Ui& ui) { import_dialog(ui, ui.session.imports); }},
+     {Dialog::history, history_list}}};
 
 }  // namespace
 
@@ -102,7 +106,7 @@ void dialogs(Ui& ui) {
     const BeforeEscape before = row_of(now).before_escape;
     const bool in_popup = before != BeforeEscape::nothing && ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
     const bool in_text = before == BeforeEscape::popup_or_text && ImGui::GetIO().WantTextInput;
-    std::ranges::find(kDrawn, now, &std::pair<Dialog, void (*)(Ui&)>::first)->second(ui);
+    std::ranges::find(kDrawn, now, &std::pair<Dialog, Draw>::first)->second(ui);
     // A field in it that is typed into is left first.
     const bool typing = ui.field.typing || in_popup || in_text;
     if (pressed(ImGuiKey_Escape) && !typing) session.queue.push([&session] { session.dialogs.close(); });

@@ -152,17 +152,15 @@ std::filesystem::path folder_of_clips(const FileBrowser& browser) {
 // --- what stands above the list
 
 /// The way to the folder, each step a button.
-void crumbs(Ui& ui, const FileQuestion& question) {
-    Session& session = ui.session;
+void crumbs(Ui& ui, Dialogs& dialogs, const FileQuestion& question) {
     const std::string prefix = question.prefix;
     const auto go = [&](const std::filesystem::path& folder) {
-        session.queue.push([&session, question, folder] { go_into(session.dialogs, question, folder); });
+        ui.later([&dialogs, question, folder] { go_into(dialogs, question, folder); });
     };
-    if (ImGui::ArrowButton("##up", ImGuiDir_Up))
-        session.queue.push([&session, question] { go_up(session.dialogs, question); });
+    if (ImGui::ArrowButton("##up", ImGuiDir_Up)) ui.later([&dialogs, question] { go_up(dialogs, question); });
     ui.mark(prefix + ".up");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("The folder above (Backspace, or Alt+Up)");
-    const std::vector<std::filesystem::path> way = session.dialogs.browser.way();
+    const std::vector<std::filesystem::path> way = dialogs.browser.way();
     const std::size_t first = way.size() > kMostCrumbs ? way.size() - kMostCrumbs : 0;
     const float room = ImGui::GetContentRegionMax().x / static_cast<float>(kMostCrumbs + 1);
     ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0, 0, 0, 0));
@@ -220,15 +218,14 @@ std::vector<FilePlace> recent_folders(const Settings& settings) {
     return out;
 }
 
-void place_list(Ui& ui, const FileQuestion& question) {
-    Session& session = ui.session;
+void place_list(Ui& ui, Settings& settings, const FileQuestion& question) {
     const auto list = [&](const std::vector<FilePlace>& all, const std::string& mark) {
         for (std::size_t i = 0; i < all.size(); ++i) {
             const FilePlace& place = all[i];
             ImGui::PushID(static_cast<int>(i));
             ImGui::PushID(mark.c_str());
             if (ImGui::Selectable(fitted_text(place.name, ImGui::GetContentRegionAvail().x).c_str())) {
-                session.queue.push([&session, question, to = place.folder] { go_into(session.dialogs, question, to); });
+                ui.later([question, to = place.folder](Dialogs& dialogs) { go_into(dialogs, question, to); });
             }
             ImGui::PopID();
             ImGui::PopID();
@@ -237,8 +234,8 @@ void place_list(Ui& ui, const FileQuestion& question) {
         }
     };
     text_line(ui.style.quiet, "PLACES", ui.style.caption);
-    list(places(session.workspace), ".place.");
-    const std::vector<FilePlace> recent = recent_folders(session.settings);
+    list(places(ui.workspace), ".place.");
+    const std::vector<FilePlace> recent = recent_folders(settings);
     if (recent.empty()) return;
     ImGui::Dummy({0, ui.px(6)});
     text_line(ui.style.quiet, "RECENT", ui.style.caption);
@@ -274,17 +271,15 @@ void order_by(Settings& settings, Dialogs& dialogs, const std::string& column) {
 }
 
 /// The heads of the columns; a click orders by one, the next one the other way round.
-void column_heads(Ui& ui, const FileQuestion& question, const Columns& columns) {
-    Session& session = ui.session;
-    const std::string& now = session.settings.file_order;
+void column_heads(Ui& ui, Settings& settings, Dialogs& dialogs, const FileQuestion& question, const Columns& columns) {
+    const std::string& now = settings.file_order;
     const ImVec2 at = ImGui::GetCursorPos();
     const auto head = [&](const char* label, const std::string& order, float from, float to) {
         const bool first_to_last = now == order;
         const bool last_to_first = now == "-" + order;
         ImGui::SetCursorPos({at.x + from, at.y});
         const float height = ImGui::GetTextLineHeight() + ui.px(6);
-        if (ImGui::InvisibleButton(order.c_str(), {to - from, height}))
-            order_by(session.settings, session.dialogs, order);
+        if (ImGui::InvisibleButton(order.c_str(), {to - from, height})) order_by(settings, dialogs, order);
         ui.mark(question.prefix + (".order." + order));
         const bool hovered = ImGui::IsItemHovered();
         if (hovered) ImGui::SetTooltip("Orders by it: Ctrl+1 the name, Ctrl+2 the size, Ctrl+3 the date");
@@ -310,8 +305,8 @@ void column_heads(Ui& ui, const FileQuestion& question, const Columns& columns) 
 }
 
 /// One line of the list; returns whether it was clicked.
-bool file_row(Ui& ui, const FileEntry& entry, std::size_t index, const Columns& columns) {
-    const FileBrowser& browser = ui.session.dialogs.browser;
+bool file_row(Ui& ui, Dialogs& dialogs, const FileEntry& entry, std::size_t index, const Columns& columns) {
+    const FileBrowser& browser = dialogs.browser;
     const float height = ImGui::GetTextLineHeight() + ui.px(6);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::PushID(static_cast<int>(index));
@@ -382,19 +377,18 @@ bool keys_in_list(Dialogs& dialogs, Settings& settings, const FileQuestion& ques
 }
 
 /// Whether an entry was taken by a double click.
-bool listing(Ui& ui, const FileQuestion& question, bool moved) {
-    Session& session = ui.session;
-    const FileBrowser& browser = session.dialogs.browser;
+bool listing(Ui& ui, Dialogs& dialogs, Settings& settings, const FileQuestion& question, bool moved) {
+    const FileBrowser& browser = dialogs.browser;
     const Columns columns = columns_of(ui, ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize);
-    column_heads(ui, question, columns);
+    column_heads(ui, settings, dialogs, question, columns);
     ImGui::BeginChild("entries", {0, 0}, false);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     if (!browser.error().empty()) {
         words(ui.style.error, browser.error());
     } else if (browser.entries().empty()) {
-        words(ui.style.quiet, question.writes()                    ? "No such file is here yet."
-                              : session.dialogs.input.text.empty() ? "There is nothing here that can be opened."
-                                                                   : "No name here holds what is typed.");
+        words(ui.style.quiet, question.writes()            ? "No such file is here yet."
+                              : dialogs.input.text.empty() ? "There is nothing here that can be opened."
+                                                           : "No name here holds what is typed.");
     }
     std::optional<std::size_t> clicked;
     ImGuiListClipper clipper;
@@ -404,35 +398,34 @@ bool listing(Ui& ui, const FileQuestion& question, bool moved) {
     while (clipper.Step()) {
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
             const auto index = static_cast<std::size_t>(i);
-            if (file_row(ui, browser.entries()[index], index, columns)) clicked = index;
+            if (file_row(ui, dialogs, browser.entries()[index], index, columns)) clicked = index;
             ui.mark_only(std::string(question.prefix) + ".entry." + browser.entries()[index].name);
             if (moved && i == cursor) ImGui::SetScrollHereY();
         }
     }
     ImGui::PopStyleVar();
     ImGui::EndChild();
-    return clicked && clicked_entry(session, question, *clicked);
+    return clicked && clicked_entry(ui.session, question, *clicked);
 }
 
 // --- what a file holds
 
-const FileSummary* summary_at_cursor(Ui& ui) {
-    Session& session = ui.session;
-    const FileBrowser& browser = session.dialogs.browser;
+const FileSummary* summary_at_cursor(Ui& ui, Dialogs& dialogs) {
+    const FileBrowser& browser = dialogs.browser;
     if (browser.entries().empty()) return nullptr;
     const std::filesystem::path file = browser.listed() / browser.entries()[browser.cursor()].name;
     const FileSummary* summary =
-        session.dialogs.preview.ask(file, ui.now, !session.options.attended, [&at = *session.desktop] { at.wake(); });
-    if (!summary) ui.want_frame_in(session.dialogs.preview.ask_again_in(ui.now));
+        dialogs.preview.ask(file, ui.now, !ui.session.options.attended, [&at = *ui.session.desktop] { at.wake(); });
+    if (!summary) ui.want_frame_in(dialogs.preview.ask_again_in(ui.now));
     return summary;
 }
 
-void preview(Ui& ui) {
-    const FileBrowser& browser = ui.session.dialogs.browser;
+void preview(Ui& ui, Dialogs& dialogs) {
+    const FileBrowser& browser = dialogs.browser;
     if (browser.entries().empty()) return;
     const FileEntry& entry = browser.entries()[browser.cursor()];
     ImGui::TextUnformatted(fitted_text(entry.name, ImGui::GetContentRegionAvail().x).c_str());
-    const FileSummary* summary = summary_at_cursor(ui);
+    const FileSummary* summary = summary_at_cursor(ui, dialogs);
     if (!summary) return text_line(ui.style.quiet, "Reading\u2026");
     words(summary->readable ? ui.style.quiet : ui.style.error, summary->title);
     ImGui::Dummy({0, ui.px(4)});
@@ -458,10 +451,10 @@ void preview(Ui& ui) {
 }
 
 /// In a line, where there is no room beside the list.
-std::string in_a_line(Ui& ui, bool has_preview) {
-    const FileBrowser& browser = ui.session.dialogs.browser;
+std::string in_a_line(Ui& ui, Dialogs& dialogs, bool has_preview) {
+    const FileBrowser& browser = dialogs.browser;
     if (browser.chosen_count() > 1) return counted(browser.chosen_count(), "entry", "entries") + " chosen";
-    const FileSummary* summary = has_preview ? nullptr : summary_at_cursor(ui);
+    const FileSummary* summary = has_preview ? nullptr : summary_at_cursor(ui, dialogs);
     return summary ? summary->title : "";
 }
 
@@ -475,19 +468,18 @@ bool flowing_button(Ui& ui, const char* label, const std::string& mark, const ch
 
 }  // namespace
 
-void file_dialog(Ui& ui) {
-    Session& session = ui.session;
-    DialogInput& input = session.dialogs.input;
-    FileBrowser& browser = session.dialogs.browser;
-    const FileQuestion& question = *session.dialogs.question(session.dialogs.now);
+void file_dialog(Ui& ui, Dialogs& dialogs, Settings& settings) {
+    DialogInput& input = dialogs.input;
+    FileBrowser& browser = dialogs.browser;
+    const FileQuestion& question = *dialogs.question(dialogs.now);
     const std::string prefix = question.prefix;
     const auto enqueue = [&](void (*what)(Session&, const FileQuestion&)) {
-        session.queue.push([&session, question, what] { what(session, question); });
+        ui.later([question, what](Session& session) { what(session, question); });
     };
-    if (input.generation == 0) begin(session.settings, session.workspace, session.dialogs, question);
+    if (input.generation == 0) begin(settings, ui.workspace, dialogs, question);
     begin_dialog(ui, "file", {kDialogWidth, kDialogHeight});
     dialog_title(ui, question.title);
-    crumbs(ui, question);
+    crumbs(ui, dialogs, question);
 
     // Backspace leads up where there is nothing to delete.
     const bool up =
@@ -500,8 +492,8 @@ void file_dialog(Ui& ui) {
                                    : text_field(ui, "A part of a name, or a path; Tab completes it", complete);
     ui.mark(prefix + ".path");
     browser.follow(input.text, !question.writes());
-    session.settings.folder = session.options.attended ? browser.way().back() : browser.folder();
-    const bool moved = keys_in_list(session.dialogs, session.settings, question);
+    settings.folder = ui.session.options.attended ? browser.way().back() : browser.folder();
+    const bool moved = keys_in_list(dialogs, settings, question);
     if (ImGui::GetIO().KeyCtrl && pressed(Key::h)) browser.show_hidden(!browser.shows_hidden());
 
     const float room = ImGui::GetContentRegionAvail().x;
@@ -513,17 +505,17 @@ void file_dialog(Ui& ui) {
     const float foot = (one_line ? 1.0f : 2.0f) * ImGui::GetFrameHeightWithSpacing() + ui.px(4);
     if (has_places) {
         ImGui::BeginChild("places", {ui.px(kPlacesWidth) - ui.px(12), -foot}, false);
-        place_list(ui, question);
+        place_list(ui, settings, question);
         ImGui::EndChild();
         ImGui::SameLine(0, ui.px(12));
     }
     ImGui::BeginChild("files", {has_preview ? -ui.px(kPreviewWidth) : 0, -foot}, false);
-    bool accepted = listing(ui, question, moved) || events.entered;
+    bool accepted = listing(ui, dialogs, settings, question, moved) || events.entered;
     ImGui::EndChild();
     if (has_preview) {
         ImGui::SameLine(0, ui.px(12));
         ImGui::BeginChild("preview", {0, -foot}, false);
-        preview(ui);
+        preview(ui, dialogs);
         ImGui::EndChild();
     }
 
@@ -532,7 +524,7 @@ void file_dialog(Ui& ui) {
     accepted |= agreed && !question.of_folder;
     ImGui::SameLine();
     if (marked_button(ui, "Cancel", (prefix + ".cancel").c_str())) {
-        session.queue.push([&session] { session.dialogs.close(); });
+        ui.later(&Dialogs::close);
     }
     bool as_clips = agreed && question.of_folder;
     if (!question.writes() && !question.of_folder) {
@@ -552,7 +544,7 @@ void file_dialog(Ui& ui) {
     const std::string line = input.confirming     ? "This file exists. Enter overwrites it."
                              : question.writes()  ? ""
                              : question.of_folder ? "Enter goes into a folder; the button takes it."
-                                                  : in_a_line(ui, has_preview);
+                                                  : in_a_line(ui, dialogs, has_preview);
     if (!line.empty()) {
         if (one_line) ImGui::SameLine();
         ImGui::AlignTextToFramePadding();
@@ -561,12 +553,11 @@ void file_dialog(Ui& ui) {
     }
     end_dialog();
     if (as_clips) {
-        session.queue.push(
-            [&session, question] { take(session, question, {folder_of_clips(session.dialogs.browser)}); });
+        ui.later([question](Session& session) { take(session, question, {folder_of_clips(session.dialogs.browser)}); });
     } else if (accepted) {
         enqueue(question.writes() ? take_written : take_read);
     } else if (up) {
-        session.queue.push([&session, question] { go_up(session.dialogs, question); });
+        ui.later([&dialogs, question] { go_up(dialogs, question); });
     }
 }
 

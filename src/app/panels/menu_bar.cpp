@@ -116,7 +116,7 @@ void menu_bar(Ui& ui) {
         ImGui::EndMenu();
     }
     const float left = ImGui::GetCursorPosX();
-    const float right = file_title(ui, left, message_bell(ui));
+    const float right = file_title(ui, left, message_bell(ui, ui.session.notifications));
     search(ui, left, right);
     ImGui::EndMainMenuBar();
 }

@@ -75,7 +75,6 @@ void cancel_first(Session& session) {
 
 /// The work under way from `right` to the left; returns where it begins.
 float job_part(Ui& ui, const std::vector<const Job*>& work, float right) {
-    Session& session = ui.session;
     const Job& job = *work.front();
     ui.want_frame_in(kProgressFrame);
     std::string title = job.title();
@@ -107,7 +106,7 @@ float job_part(Ui& ui, const std::vector<const Job*>& work, float right) {
     ImGui::Dummy({width, line});
     ui.mark("job.0.bar");
     ImGui::SetCursorPos({right - button, y});
-    if (small_button(ui, "Cancel", "job.0.cancel")) session.queue.push([&session] { cancel_first(session); });
+    if (small_button(ui, "Cancel", "job.0.cancel")) ui.later(cancel_first);
     return left;
 }
 
@@ -115,7 +114,7 @@ float job_part(Ui& ui, const std::vector<const Job*>& work, float right) {
 
 float status_height(const Ui& ui) { return std::floor(ui.style.caption->FontSize + ui.px(6)); }
 
-void status_bar(Ui& ui, ImVec2 size) {
+void status_bar(Ui& ui, QueryInspector& queries, ImVec2 size) {
     ImGui::SetCursorScreenPos({0, ImGui::GetIO().DisplaySize.y - size.y});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::BeginChild("status", size, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
@@ -141,13 +140,12 @@ void status_bar(Ui& ui, ImVec2 size) {
     if (!work.empty()) right = job_part(ui, work, right) - pad;
     // What there is least room for is what is under the mouse: its tooltip says it too.
     const Screen* screen = ui.session.screen;
-    const std::string all =
-        fitted_text(screen ? screen->counts() : counts(ui.session.workspace), std::max(right - pad, 0.0f));
+    const std::string all = fitted_text(screen ? screen->counts() : counts(ui.workspace), std::max(right - pad, 0.0f));
     ImGui::SetCursorPos({pad, y});
     ImGui::TextUnformatted(all.c_str());
     ui.mark("status.counts");
     const float left = pad + ImGui::CalcTextSize(all.c_str()).x + 2 * pad;
-    const std::string facts = screen ? "" : hover_facts(ui.session.workspace, ui.session.queries);
+    const std::string facts = screen ? "" : hover_facts(ui.workspace, queries);
     if (!facts.empty() && right - left > ui.px(40)) {
         ImGui::SetCursorPos({left, y});
         text_line(ui.style.text, fitted_text(facts, right - left));

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <string>
-#include <string_view>
 #include <utility>
 
 namespace mobbscope::app {
@@ -31,7 +30,7 @@ float splitter(Ui& ui, const char* name, ImVec2 size, bool upright) {
 /// A newly opened scene's begins at its top; an excerpt has panels of its own, so that those of the whole stay where
 /// they were scrolled to.
 template <class Draw>
-void panel(Ui& ui, std::string_view name, ImVec2 size, const Draw& draw) {
+void panel(Ui& ui, const std::string& name, ImVec2 size, const Draw& draw) {
     const Session& session = ui.session;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), ui.px(5)});
     ImGui::BeginChild((session.workspace.in_excerpt() ? name + " of excerpt" : name).c_str(), size, false,
@@ -98,13 +97,13 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     Screen* screen = ui.session.screen;
     const auto panels = screen ? screen->panels() : std::array<ScreenPanel, 3>();
     // The placement stands below the lists: they stay where they are when somebody is selected.
-    const float placement = screen ? 0 : std::min(placement_height(ui), 0.5f * room.y);
+    const float placement = screen ? 0 : std::min(placement_height(ui, ui.session.settings), 0.5f * room.y);
     ImGui::BeginGroup();
     panel(ui, screen ? panels[0].name : "left", {left, room.y - placement}, [&] {
         if (screen) return panels[0].draw(ui);
         for (const auto& each : ui.session.screens) each->draw_above_scene(ui);
-        scene_panel(ui);
-        tree_panel(ui);
+        scene_panel(ui, ui.session.queries);
+        tree_panel(ui, ui.session.jobs, ui.session.queries);
     });
     if (placement > 0) panel(ui, "placement", {left, placement}, [&] { placement_panel(ui); });
     ImGui::EndGroup();
@@ -123,7 +122,8 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
         draw_views(ui, viewports);
         ImGui::EndChild();
         settings.bottom_height -= splitter(ui, "splitter.bottom", {middle, bar}, false) / ui.style.scale;
-        panel(ui, "timeline", {middle, bottom}, [&] { timeline(ui, pictures); });
+        panel(ui, "timeline", {middle, bottom},
+              [&] { timeline(ui, ui.session.playback, ui.session.queries, pictures); });
     }
     ImGui::EndGroup();
     spacing();
@@ -132,14 +132,14 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     panel(ui, screen ? panels[2].name : "right", {right, room.y}, [&] {
         if (screen) return panels[2].draw(ui);
         if (ui.session.workspace.is_crowd() && !ui.session.workspace.view().query) {
-            crowd_panel(ui);
+            crowd_panel(ui, ui.session.crowds);
         } else {
-            query_panel(ui, pictures);
+            query_panel(ui, ui.session.queries, pictures);
         }
         selection_panel(ui);
     });
     ui.session.workspace.hovered = ui.hovered;
-    status_bar(ui, {io.DisplaySize.x, status});
+    status_bar(ui, ui.session.queries, {io.DisplaySize.x, status});
     ImGui::PopStyleVar();
     ImGui::End();
 
@@ -150,7 +150,7 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     ui.focus.panel("dialog");
     dialogs(ui);
     ui.focus.panel("messages");
-    messages(ui);
+    messages(ui, ui.session.notifications, ui.session.dialogs);
 }
 
 }  // namespace mobbscope::app

@@ -94,7 +94,7 @@ bool marked_button(Ui& ui, const char* label, const char* mark, bool is_default)
 
 void close_button(Ui& ui, const char* mark) {
     if (marked_button(ui, "Close", mark, true) || pressed(ImGuiKey_Enter)) {
-        ui.session.queue.push([&session = ui.session] { session.dialogs.close(); });
+        ui.later(&Dialogs::close);
     }
 }
 

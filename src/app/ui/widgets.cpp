@@ -263,7 +263,7 @@ void command_button(Ui& ui, const char* label, const char* id, const std::string
     }
     if (!pressed) return;
     ui.focus.done_with(mark);
-    invoke(ui.session, id);
+    ui.invoke(id);
 }
 
 bool small_button(Ui& ui, const char* label, const std::string& mark, const char* help) {
@@ -450,7 +450,7 @@ std::optional<double> number_keys(Ui& ui, const NumberField& field) {
     }
     if (value == field.now) return std::nullopt;
     // However often a key is pressed, the number is changed once.
-    ui.session.queue.push([&session = ui.session] { session.workspace.history.reopen_group(); });
+    ui.later([](Workspace& workspace) { workspace.history.reopen_group(); });
     return value;
 }
 

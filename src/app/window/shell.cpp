@@ -343,7 +343,7 @@ struct Shell::State final : PictureMaker {
 
     double lay_out(double now) {
         marks.clear();
-        Ui ui{session, style, marks, focus, field, drawn->painter, now, kNever};
+        Ui ui{session, session.workspace, style, marks, focus, field, drawn->painter, now, kNever};
         if (session.options.attended) ui.frame_seconds = frame_seconds;
         focus.follow_commands();
         ImGui::NewFrame();
@@ -467,7 +467,9 @@ double Shell::frame(PictureSize size, double now) {
     s.laid_out_in = s.clock() - began;
     s.size = size;
     s.laid_out_until = now + std::min(wanted, kSignFrame);
-    if (s.session.queue.run()) s.settling = kFramesToSettle;
+    bool changed = false;
+    for (Viewport& viewport : s.viewports) changed |= viewport.settle(s.session.views, s.session.workspace);
+    if (s.session.queue.run() || changed) s.settling = kFramesToSettle;
     if (!ImGui::IsAnyItemActive() && !s.input.any_button_down()) s.session.workspace.close_group();
     s.cursor = ImGui::GetMouseCursor();
     if (s.settling > 0) --s.settling;
