@@ -1,6 +1,6 @@
 // Picture tests in the window: what is listed and shown, goldens that are taken and given back, and the way to a case's
 // scene and back. The cases are drawn by the real program.
-#include <app/commands/command.h>
+#include <app/commands/situations.h>
 #include <app/script/state_json.h>
 #include <app/window/headless_window.h>
 #include <render/gl/gl_context.h>
@@ -9,6 +9,7 @@
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 
+#include "app/crossing_folder.h"
 #include "review/three_cases.h"
 
 #include <gtest/gtest.h>
@@ -34,6 +35,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -436,7 +438,7 @@ TEST(Review, WhatIsBeingDrawnIsNotTakenBack) {
     EXPECT_EQ(files.bytes("moved.png"), picture);
     EXPECT_EQ(outcome_name(review.cases()[moved]), "different");
     review.run.draw({review.index_of("same")});
-    EXPECT_TRUE(review.can_redo()) << "another case is being drawn";
+    EXPECT_TRUE(review.goldens.can_redo()) << "another case is being drawn";
     finished(review);
 }
 
@@ -446,7 +448,7 @@ TEST(Review, ARunEndsWithIt) {
     const HeldDrawer drawer(files);
     auto review = std::make_unique<Review>(find_review(files.cases()),
                                            ReviewSurroundings{.attended = true, .drawer = {drawer.program(), "auto"}});
-    review->draw_all();
+    review->run.draw_all();
     const pid_t child = drawer.pid();
     ASSERT_EQ(::kill(child, 0), 0);
     review.reset();
@@ -469,7 +471,7 @@ TEST(Review, NobodyIsWokenOnceItHasEnded) {
     auto review = std::make_unique<Review>(
         find_review(files.cases()),
         ReviewSurroundings{.attended = true, .wake = wake, .drawer = {files.file("crash.sh"), "auto"}});
-    review->draw_all();
+    review->run.draw_all();
     while (!wakes) std::this_thread::yield();
     review.reset();
     gone = true;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace mobbscope::app {
@@ -30,7 +31,8 @@ float splitter(Ui& ui, const char* name, ImVec2 size, bool upright) {
 /// A newly opened scene's begins at its top; an excerpt has panels of its own, so that those of the whole stay where
 /// they were scrolled to.
 template <class Draw>
-void panel(Ui& ui, const std::string& name, ImVec2 size, const Draw& draw) {
+void panel(Ui& ui, std::string_view called, ImVec2 size, const Draw& draw) {
+    const std::string name(called);
     const Session& session = ui.session;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), ui.px(5)});
     ImGui::BeginChild((session.workspace.in_excerpt() ? name + " of excerpt" : name).c_str(), size, false,
