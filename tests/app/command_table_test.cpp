@@ -266,10 +266,10 @@ TEST(CommandTable, TimeStepsStayWithinTheSpan) {
     Session session(false);
     session.files.open({folder.scene});
     run_command(session, "time.back");
-    EXPECT_EQ(session.workspace.view().time, session.workspace.time_span().t0);
+    EXPECT_EQ(session.workspace.view().time, time_span(session.workspace).t0);
     run_command(session, "time.end");
     run_command(session, "time.forward");
-    EXPECT_EQ(session.workspace.view().time, session.workspace.time_span().t1);
+    EXPECT_EQ(session.workspace.view().time, time_span(session.workspace).t1);
 }
 
 TEST(CommandTable, TheLineToCopyTellsThePicture) {

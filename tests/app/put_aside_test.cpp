@@ -103,22 +103,22 @@ TEST(PutAside, AResizeKeepsTheScaleOfWhatIsOpenBesideACase) {
 
 TEST(PutAside, EachOpeningHasANumberAndComingBackFindsIt) {
     AsideWorld w;
-    const int file = w.session.workspace.opening();
+    const int file = w.session.workspace.document().opening;
     const auto& agents = w.session.workspace.fitted().placed_agents();
     w.session.excerpts.open(agents[0], agents[1]);
-    const int excerpt = w.session.workspace.opening();
+    const int excerpt = w.session.workspace.document().opening;
     EXPECT_NE(excerpt, file) << "the first file is not the first excerpt";
     w.session.edits.undo();
-    EXPECT_EQ(w.session.workspace.opening(), file);
+    EXPECT_EQ(w.session.workspace.document().opening, file);
     w.session.edits.redo();
-    EXPECT_EQ(w.session.workspace.opening(), excerpt);
+    EXPECT_EQ(w.session.workspace.document().opening, excerpt);
     w.session.excerpts.leave();
-    EXPECT_EQ(w.session.workspace.opening(), file);
+    EXPECT_EQ(w.session.workspace.document().opening, file);
     w.open_case();
-    EXPECT_NE(w.session.workspace.opening(), file);
-    EXPECT_NE(w.session.workspace.opening(), excerpt);
+    EXPECT_NE(w.session.workspace.document().opening, file);
+    EXPECT_NE(w.session.workspace.document().opening, excerpt);
     w.leave();
-    EXPECT_EQ(w.session.workspace.opening(), file);
+    EXPECT_EQ(w.session.workspace.document().opening, file);
 }
 
 TEST(PutAside, UndoWithinAnExcerptThatWasSavedCancelsNothing) {

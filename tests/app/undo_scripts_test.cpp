@@ -87,8 +87,8 @@ class Worked {
 
     /// Another file was opened: what was done before is no past of it.
     void follow_opening() {
-        if (session.workspace.in_excerpt() || session.workspace.opening() == opening_) return;
-        opening_ = session.workspace.opening();
+        if (session.workspace.in_excerpt() || session.workspace.document().opening == opening_) return;
+        opening_ = session.workspace.document().opening;
         // In a window where the camera has something to frame the scene in.
         window.resize(kMost);
         settle();

@@ -823,6 +823,10 @@ TEST(Review, TheScenesCommandsAreNotForPictureTests) {
     w.open();
     EXPECT_EQ(why_not(w.session, command_named("view.top", commands(w.session))),
               "picture tests are shown: leave them first");
+    EXPECT_EQ(&present_situation(w.session), &w.reviews.situation());
+    for (const std::string_view id : w.reviews.situation().commands) {
+        EXPECT_NE(find_command(id, commands(w.session)), nullptr) << id;
+    }
     run_command(w.session, "review.leave");
     EXPECT_EQ(why_not(w.session, command_named("review.accept", commands(w.session))), "no picture tests are shown");
 }

@@ -71,7 +71,7 @@ std::span<const Situation> situations() {
           "query.none", "crowd.back"}},
         {"You look at a crowd",
          "Follow somebody, and see at each choice which moves could be taken and who ruled out the others.",
-         [](const Workspace& workspace) { return workspace.is_crowd(); },
+         [](const Workspace& workspace) { return is_crowd(workspace); },
          {"crowd.follow", "crowd.next_choice", "crowd.previous_choice", "crowd.stop", "time.play", "view.moment",
           "conflicts.find", "conflicts.next", "crowd.candidates", "view.frame"}},
         {"An agent is selected",

@@ -247,7 +247,7 @@ double sample_time(const Workspace& workspace) {
 
 /// To the next multiple of a sample after (before) the present time, counted from the first moment.
 void step_time(Workspace& workspace, Playback& playback, int direction) {
-    const mobb::Interval span = workspace.time_span();
+    const mobb::Interval span = time_span(workspace);
     const double dt = sample_time(workspace);
     const double at = (workspace.view().time.value_or(span.t0) - span.t0) / dt;
     const double next = direction > 0 ? std::floor(at + kHair) + 1 : std::ceil(at - kHair) - 1;
@@ -461,9 +461,9 @@ std::vector<Command> time_commands() {
         Command("time.play", "Play", "Lets the time cursor run, or stops it.", play,
                 {.shortcut = "Space", .checked = [](const Playback& playback) { return playback.playing(); }}),
         Command("time.start", "To the first moment", "Puts the time cursor where the first path begins.",
-                [](Workspace& workspace) { set_time(workspace, workspace.time_span().t0); }),
+                [](Workspace& workspace) { set_time(workspace, time_span(workspace).t0); }),
         Command("time.end", "To the last moment", "Puts the time cursor where the last path ends.",
-                [](Workspace& workspace) { set_time(workspace, workspace.time_span().t1); }),
+                [](Workspace& workspace) { set_time(workspace, time_span(workspace).t1); }),
         Command("time.forward", "A sample on", "Moves the time cursor on by a sample.",
                 [](Workspace& workspace, Playback& playback) { step_time(workspace, playback, 1); },
                 {.shortcut = ".", .repeats = true}),

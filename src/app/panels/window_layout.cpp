@@ -38,7 +38,8 @@ void panel(Ui& ui, std::string_view called, ImVec2 size, const Draw& draw) {
     ImGui::BeginChild((session.workspace.in_excerpt() ? name + " of excerpt" : name).c_str(), size, false,
                       ImGuiWindowFlags_AlwaysUseWindowPadding);
     int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("opening"));
-    if (std::exchange(shown, session.workspace.opening()) != session.workspace.opening()) ImGui::SetScrollY(0);
+    if (std::exchange(shown, session.workspace.document().opening) != session.workspace.document().opening)
+        ImGui::SetScrollY(0);
     ui.focus.panel(name);
     draw();
     ImGui::EndChild();
@@ -133,7 +134,7 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     spacing();
     panel(ui, screen ? panels[2].name : "right", {right, room.y}, [&] {
         if (screen) return panels[2].draw(ui);
-        if (ui.session.workspace.is_crowd() && !ui.session.workspace.view().query) {
+        if (is_crowd(ui.session.workspace) && !ui.session.workspace.view().query) {
             crowd_panel(ui, ui.session.crowds);
         } else {
             query_panel(ui, ui.session.queries, pictures);

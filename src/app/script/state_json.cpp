@@ -105,7 +105,7 @@ Json query_json(const Workspace& workspace) {
 }
 
 Json crowd_json(const Workspace& workspace, const CrowdInspector& crowds) {
-    if (!workspace.is_crowd()) return nullptr;
+    if (!is_crowd(workspace)) return nullptr;
     Json json{{"following", text_or_null(workspace.view().follow)}, {"choice", nullptr}, {"conflicts", nullptr}};
     if (const FollowedChoice* followed = crowds.choice()) {
         const Choice& choice = followed->choice;

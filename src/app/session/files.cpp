@@ -71,7 +71,6 @@ void Files::replace(Document document, const std::vector<std::filesystem::path>&
     const std::optional<Theme>& theme = parts_.settings.theme;
     if (parts_.options.attended && theme && document.view.theme == Theme{}) document.view.theme = *theme;
     next.history.reset(std::move(document));
-    next.point_into_present();
     next.changed();
     // No case of picture tests is open any more; who opens one says so afterwards.
     aside_.reset();
@@ -325,7 +324,6 @@ void Files::come_back(const std::function<void()>& then) {
         }
         parts_.workspace = std::move(before);
         parts_.workspace.hovered = {};
-        parts_.workspace.point_into_present();
         ++parts_.counts.put_back;
         parts_.workspace.changed();
         then();

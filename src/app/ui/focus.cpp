@@ -571,7 +571,7 @@ void Focus::end_frame(const Style& style) {
     }
     follow_popups();
     follow_dialog();
-    if (std::exchange(opening_, session_.workspace.opening()) != session_.workspace.opening()) {
+    if (std::exchange(opening_, session_.workspace.document().opening) != session_.workspace.document().opening) {
         close_popups_from(0);
         at_ = {""};
         left_.clear();

@@ -73,7 +73,7 @@ void append_agent(std::vector<MenuEntry>& menu, const Session& session) {
         const std::string& name = name_in_view(session.workspace.fitted().scene(), *who);
         append(menu, shown_menu(session.workspace, {text_of_agent(name), {name}}));
     }
-    if (session.workspace.is_crowd()) append(menu, entries_of(kInCrowd));
+    if (is_crowd(session.workspace)) append(menu, entries_of(kInCrowd));
     if (shows_bare_clips(session.workspace)) {
         append(menu, {{"agent.make"}});
     } else if (!session.workspace.crowd()) {
