@@ -263,15 +263,9 @@ std::vector<Command> zoom_commands() {
     };
 }
 
-void accept_cases(ReviewScreen& screen, Notifications& notifications, const std::vector<std::size_t>& indices) {
-    for (const ReviewNews& news : screen.review()->goldens.accept(indices)) notifications.tell(news.level, news.text);
+void accept_cases(ReviewScreen& screen, const std::vector<std::size_t>& indices) {
+    for (const ReviewNews& news : screen.review()->goldens.accept(indices)) screen.tell(news);
     screen.poll();
-}
-
-/// What was said of the same before is not true any more.
-void tell_instead(Notifications& notifications, const ReviewNews& news) {
-    notifications.take_down(news.instead_of);
-    notifications.tell(news.level, news.text);
 }
 
 constexpr std::string_view kItsCasesWait = "its cases are being drawn: wait, or stop the run";
@@ -287,9 +281,7 @@ std::string_view why_no_redo(const ReviewScreen& screen) {
 std::vector<Command> golden_commands() {
     return {
         Command("review.accept", "Accept", "Makes the picture the case's golden.",
-                [](ReviewScreen& screen, Notifications& notifications) {
-                    accept_cases(screen, notifications, {screen.review()->current()});
-                },
+                [](ReviewScreen& screen) { accept_cases(screen, {screen.review()->current()}); },
                 {.shortcut = "A",
                  .enabled = when([](const Review& review) { return review.why_not_accept(review.current()).empty(); },
                                  []() -> std::string_view { return "this case has nothing to accept"; })}),
@@ -302,31 +294,23 @@ std::vector<Command> golden_commands() {
                 "Marks every case that did not pass and has a picture to accept; takes other marks away.", mark_failing,
                 {.shortcut = "Ctrl+A", .enabled = has_review}),
         Command("review.accept_marked", "Accept marked cases", "Makes the pictures of all marked cases their goldens.",
-                [](ReviewScreen& screen, Notifications& notifications) {
-                    accept_cases(screen, notifications, screen.review()->marked());
-                },
+                [](ReviewScreen& screen) { accept_cases(screen, screen.review()->marked()); },
                 {.shortcut = "Shift+A",
                  .enabled = when([](const Review& review) { return !review.marked().empty(); },
                                  []() -> std::string_view { return "no case is marked"; })}),
         Command("review.accept_viewed", "Accept all that were viewed",
                 "Makes goldens of the pictures of all failing cases that were looked at.",
-                [](ReviewScreen& screen, Notifications& notifications) {
-                    accept_cases(screen, notifications, screen.review()->viewed());
-                },
+                [](ReviewScreen& screen) { accept_cases(screen, screen.review()->viewed()); },
                 {.shortcut = "Ctrl+Shift+A",
                  .enabled = when([](const Review& review) { return !review.viewed().empty(); },
                                  []() -> std::string_view { return "none that could be accepted was looked at"; })}),
         Command("review.undo", "Undo", "Gives back the goldens that were there before.",
-                [](Notifications& notifications, ReviewScreen& screen) {
-                    tell_instead(notifications, screen.review()->goldens.undo());
-                },
+                [](ReviewScreen& screen) { screen.tell(screen.review()->goldens.undo()); },
                 {.shortcut = "Ctrl+Z",
                  .enabled = when([](const Review& review) { return review.goldens.can_undo(); }, why_no_undo),
                  .title_end = [](const ReviewScreen& screen) { return ' ' + screen.review()->goldens.undo_title(); }}),
         Command("review.redo", "Redo", "Takes again the goldens that were given back.",
-                [](Notifications& notifications, ReviewScreen& screen) {
-                    tell_instead(notifications, screen.review()->goldens.redo());
-                },
+                [](ReviewScreen& screen) { screen.tell(screen.review()->goldens.redo()); },
                 {.shortcut = "Ctrl+Y Ctrl+Shift+Z",
                  .enabled = when([](const Review& review) { return review.goldens.can_redo(); }, why_no_redo),
                  .title_end = [](const ReviewScreen& screen) { return ' ' + screen.review()->goldens.redo_title(); }}),

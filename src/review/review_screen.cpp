@@ -129,7 +129,12 @@ void ReviewScreen::add_state(Json& state) const {
 
 void ReviewScreen::poll() {
     if (!review_) return;
-    for (const ReviewNews& news : review_->run.poll()) session_.notifications.tell(news.level, news.text);
+    for (const ReviewNews& news : review_->run.poll()) tell(news);
+}
+
+void ReviewScreen::tell(const ReviewNews& news) {
+    if (!news.instead_of.empty()) session_.notifications.take_down(news.instead_of);
+    session_.notifications.tell(news.level, news.text);
 }
 
 void ReviewScreen::cancel() {

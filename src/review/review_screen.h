@@ -38,6 +38,7 @@ class ReviewScreen final : public Screen {
     void leave();
     /// Shows them again. Requires review().
     void back();
+    void tell(const ReviewNews& news);
     /// Opens what a case draws as a scene; what is open is put aside until that scene is left.
     void open_case(std::size_t index);
 
@@ -49,6 +50,9 @@ class ReviewScreen final : public Screen {
     std::vector<NamedThing> things() const override;
     std::array<ScreenPanel, 3> panels() override;
     void draw_above_scene(Ui& ui) override;
+    /// While there are picture tests: "review": {"shown", "folder", "cases": {NAME: outcome, "waiting" or "not drawn"},
+    /// "listed": [NAME], "marked": [NAME], "case", "outcome", "accepted", "mode", "blink_seconds", "divider", "zoom",
+    /// "middle", "failed_only", "order", "drawing", "undo", "redo", "open_case"}.
     void add_state(nlohmann::ordered_json& state) const override;
     std::any look() const override { return review_->look; }
     void restore(const std::any& look) override { review_->look = std::any_cast<const ReviewLook&>(look); }

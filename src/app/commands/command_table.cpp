@@ -46,14 +46,14 @@ std::vector<Command> only_where_shown(std::vector<Command> rows) {
 }  // namespace
 
 std::vector<Command> commands_with(std::vector<Command> of_screens) {
-    const auto in_order =
-        std::ranges::stable_partition(of_screens, [](const Command& row) { return row.behind.empty(); });
-    const std::vector<Command> placed(in_order.begin(), in_order.end());
-    of_screens.erase(in_order.begin(), in_order.end());
+    const auto placed = std::stable_partition(of_screens.begin(), of_screens.end(),
+                                              [](const Command& row) { return row.behind.empty(); });
+    const std::vector<Command> behind(placed, of_screens.end());
+    of_screens.erase(placed, of_screens.end());
     std::vector<Command> table =
         joined({file_commands(), edit_commands(), clip_commands(), view_commands(), shown_commands(), tree_commands(),
                 query_commands(), go_commands(), crowd_commands(), of_screens, help_commands()});
-    for (const Command& row : placed) table.insert(std::ranges::find(table, row.behind, &Command::id) + 1, row);
+    for (const Command& row : behind) table.insert(std::ranges::find(table, row.behind, &Command::id) + 1, row);
     return only_where_shown(std::move(table));
 }
 
