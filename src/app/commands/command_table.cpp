@@ -148,8 +148,7 @@ std::string_view first_shortcut(const Command& command) {
 }
 
 Command option_command(const ViewOption& option) {
-    CommandTraits traits{
-        .menu = option.menu, .shortcut = option.shortcut, .enabled = always, .where = Where::everywhere};
+    CommandTraits traits{.menu = option.menu, .shortcut = option.shortcut, .enabled = always};
     if (const auto value = option.toggle) {
         const auto flip = [value](Workspace& workspace) {
             workspace.change_view([&](ViewState& view) { view.*value = !(view.*value); });
