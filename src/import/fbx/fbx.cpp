@@ -244,14 +244,11 @@ class FbxSceneBuilder {
             int& link = scene_.nodes[child->second].parent;
             if (link < 0) link = static_cast<int>(parent->second);
         }
-        const std::vector<int> reached = parents_first(scene_.nodes);
-        if (reached.size() == scene_.nodes.size()) return;
-        std::vector<bool> is_reached(scene_.nodes.size());
-        for (const int node : reached) is_reached[as_index(node)] = true;
-        const auto lost = static_cast<std::size_t>(std::ranges::find(is_reached, false) - is_reached.begin());
+        const std::vector<int> lost = nodes_in_circles(scene_.nodes);
+        if (lost.empty()) return;
         throw InputError(scene_.file, "Connections",
-                         in_quotes(scene_.nodes[lost].name) + ", one of " +
-                             counted(scene_.nodes.size() - reached.size(), "node", "nodes") +
+                         in_quotes(scene_.nodes[as_index(lost.front())].name) + ", one of " +
+                             counted(lost.size(), "node", "nodes") +
                              ", hangs on itself in a circle; export the file again");
     }
 

@@ -112,13 +112,8 @@ class SceneBuilder {
                 known = parent;
             }
         }
-        // With one parent at most, what no root leads to hangs on a cycle.
-        const std::vector<int> order = parents_first(scene_.nodes);
-        if (order.size() == scene_.nodes.size()) return;
-        std::vector<bool> is_reached(scene_.nodes.size());
-        for (const int node : order) is_reached[as_index(node)] = true;
-        const auto lost = std::find(is_reached.begin(), is_reached.end(), false) - is_reached.begin();
-        fail_node(static_cast<int>(lost), "is its own ancestor, or below a node that is; break the cycle");
+        const std::vector<int> lost = nodes_in_circles(scene_.nodes);
+        if (!lost.empty()) fail_node(lost.front(), "is its own ancestor, or below a node that is; break the cycle");
     }
 
     void add_animation(std::size_t index) {
@@ -188,7 +183,7 @@ class SceneBuilder {
     }
 
     Numbers times_of(int accessor) {
-        Numbers times = accessors_.read(accessor, GltfShape::scalar);
+        Numbers times = accessors_.read(accessor, TINYGLTF_TYPE_SCALAR);
         if (!checked_times_.insert(accessor).second) return times;
         if (model_.accessors[as_index(accessor)].componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
             accessors_.fail(accessor, "key times must be floats; export the file again");
@@ -222,7 +217,7 @@ class SceneBuilder {
         const bool is_rotation = channel.property == NodeProperty::rotation;
         const bool is_cubic = channel.interpolation == Interpolation::cubic_spline;
         const std::size_t width = is_rotation ? 4 : 3;
-        channel.values = accessors_.read(sampler.output, is_rotation ? GltfShape::vec4 : GltfShape::vec3);
+        channel.values = accessors_.read(sampler.output, is_rotation ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3);
         const std::size_t expected = times->size() * (is_cubic ? 3 : 1);
         if (channel.values->size() != expected * width) {
             accessors_.fail(sampler.output, "has " + std::to_string(channel.values->size() / width) +

@@ -295,6 +295,16 @@ std::vector<int> parents_first(const std::vector<Node>& nodes) {
     return order;
 }
 
+std::vector<int> nodes_in_circles(const std::vector<Node>& nodes) {
+    std::vector<bool> is_reached(nodes.size());
+    for (const int node : parents_first(nodes)) is_reached[as_index(node)] = true;
+    std::vector<int> out;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (!is_reached[i]) out.push_back(static_cast<int>(i));
+    }
+    return out;
+}
+
 MotionTimes key_times(const std::vector<Numbers>& lists) {
     // Exporters write one list for all channels, or equal lists: merging each anew would be slow.
     std::vector<double> all;

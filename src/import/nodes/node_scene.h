@@ -84,6 +84,9 @@ std::vector<bool> moved_nodes(const NodeScene& scene);
 /// Nodes ordered so that parents come before their children, siblings in the order of their indices.
 std::vector<int> parents_first(const std::vector<Node>& nodes);
 
+/// The nodes that none without a parent leads to: they hang on themselves in a circle.
+std::vector<int> nodes_in_circles(const std::vector<Node>& nodes);
+
 /// The scene's animations as motions.
 MotionFile node_motion_file(NodeScene scene);
 

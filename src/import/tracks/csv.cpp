@@ -575,22 +575,11 @@ FieldCounts counts_of(std::string_view line, char separator) {
     return out;
 }
 
-/// Takes the next line off a text that is neither blank nor a comment; "" at the end.
-std::string_view take_line(std::string_view& text) {
-    while (!text.empty()) {
-        const std::size_t end = text.find('\n');
-        const std::string_view line = trimmed(text.substr(0, end));
-        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-        if (!line.empty() && line[0] != '#') return line;
-    }
-    return "";
-}
-
 }  // namespace
 
 bool looks_like_table(std::string_view text) {
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-    const std::string_view line = take_line(text);
+    const std::string_view line = take_row(text);
     const bool is_text = std::ranges::none_of(line, [](char c) { return c >= 0 && c < ' ' && c != '\t'; });
     if (line.empty() || !is_text || std::string_view("{[<%").find(line[0]) != std::string_view::npos) return false;
     const char separator = separator_of(line);
@@ -600,7 +589,7 @@ bool looks_like_table(std::string_view text) {
                (header.numbers == 0 ? header.known > 0 || header.fields > 2 : 2 * header.numbers >= header.fields);
     // Blanks and tabs part trajectories too, and words of sentences: under those there is no row of as many numbers.
     if (header.numbers > 0) return false;
-    const FieldCounts row = counts_of(take_line(text), separator);
+    const FieldCounts row = counts_of(take_row(text), separator);
     return header.known >= 3 || (header.fields >= 3 && row.fields == header.fields && 2 * row.numbers >= row.fields);
 }
 

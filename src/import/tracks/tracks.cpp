@@ -31,6 +31,16 @@ std::vector<Track> TrackCollector::take(const std::string& file,
     return take();
 }
 
+std::string_view take_row(std::string_view& text) {
+    while (!text.empty()) {
+        const std::size_t end = text.find('\n');
+        const std::string_view line = trimmed(text.substr(0, end));
+        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+        if (!line.empty() && line[0] != '#') return line;
+    }
+    return "";
+}
+
 OptionOffer unit_offer(double taken, const std::string& why) {
     return {"unit", unit_word(taken), why, false, {{"m", "m"}, {"cm", "cm"}, {"0.001", "mm"}, {"in", "in"}}};
 }

@@ -91,6 +91,9 @@ class TrackCollector {
     std::size_t last_ = 0;  ///< the track that had a point last
 };
 
+/// Takes the next line off a text that is neither blank nor a comment, without the blanks at its ends; "" at the end.
+std::string_view take_row(std::string_view& text);
+
 /// Whether a text begins like one of those that parse_text_tracks reads: rows of numbers between blanks.
 bool looks_like_text_tracks(std::string_view text);
 
