@@ -267,6 +267,14 @@ std::vector<int> topmost_joints(const Rig& rig) {
 
 }  // namespace
 
+Affine TranslationRotationScale::affine() const {
+    glm::dmat3 linear = glm::mat3_cast(rotation);
+    linear[0] *= scale.x;
+    linear[1] *= scale.y;
+    linear[2] *= scale.z;
+    return {linear, translation};
+}
+
 std::vector<bool> moved_nodes(const NodeScene& scene) {
     std::vector<bool> out(scene.nodes.size());
     for (const NodeAnimation& animation : scene.animations) {

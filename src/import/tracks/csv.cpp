@@ -270,19 +270,12 @@ class CsvParser {
             }
             // A table with centres of its own needs none of this.
             if (!all || (box.words[0] != "x" && has_word("x"))) continue;
-            const auto middle = [&](std::size_t low, std::size_t other, std::string_view begin, std::string_view end) {
-                return std::string(begin) + names[low] + std::string(end) + "+" + std::string(begin) + names[other] +
-                       std::string(end);
-            };
-            for (std::size_t i = 0; i < 2; ++i) {
-                const std::string sum = middle(i, i + 2, "\"", "\"");
-                formula(i == 0 ? Column::x : Column::y)
-                    .emplace(box.has_middles ? "(" + sum + ")/2" : sum + "/2", std::span<const std::string>(names_));
-            }
-            const auto centre = [&](std::size_t i) {
-                const std::string sum = middle(i, i + 2, "", "");
+            const auto centre = [&](std::size_t i, const std::string& quote = "") {
+                const std::string sum = quote + names[i] + quote + "+" + quote + names[i + 2] + quote;
                 return box.has_middles ? "(" + sum + ")/2" : sum + "/2";
             };
+            formula(Column::x).emplace(centre(0, "\""), std::span<const std::string>(names_));
+            formula(Column::y).emplace(centre(1, "\""), std::span<const std::string>(names_));
             table_.warnings.push_back({"the columns " + quoted_list({names.begin(), names.end()}) +
                                            " are taken for boxes: their centres are " + centre(0) + ", " + centre(1) +
                                            "; give columns (x=" + names[0] + ",y=" + names[1] + ") if that is wrong",

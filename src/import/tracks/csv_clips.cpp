@@ -33,11 +33,6 @@ std::optional<double> frame_rate(const CsvTable& table, const ImportOptions& opt
     return options.fps ? options.fps : table.rate;
 }
 
-/// The table's warnings go first.
-void add_warnings(const CsvTable& table, std::vector<ImportWarning>& warnings) {
-    warnings.insert(warnings.begin(), table.warnings.begin(), table.warnings.end());
-}
-
 /// A table with ids as the crowd that it is. `dt`: seconds between the rows of one without times; `rate`: frames per
 /// second of one with frame numbers.
 TrackFile tracks_of(const CsvTable& table, double dt, double rate) {
@@ -200,7 +195,9 @@ std::vector<ImportedClip> csv_clips(const CsvTable& table, const std::filesystem
         clips = clips_by_track(table.tracks, file, options,
                                [&](const Track&) { return std::optional(MotionMaker(table, options).make()); });
     }
-    for (ImportedClip& clip : clips) add_warnings(table, clip.facts.warnings);
+    for (ImportedClip& clip : clips) {
+        clip.facts.warnings.insert(clip.facts.warnings.begin(), table.warnings.begin(), table.warnings.end());
+    }
     return clips;
 }
 
