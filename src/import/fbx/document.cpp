@@ -79,11 +79,11 @@ void FbxDocument::set_version(int version) {
 }
 
 FbxDocument::Index FbxDocument::find(Index record, std::string_view name) const {
-    Index out = kNone;
-    each_inside(record, [&](Index at) {
-        if (out == kNone && records_[at].name == name) out = at;
-    });
-    return out;
+    const auto [first, end] = inside(record);
+    for (Index at = first; at < end; at = records_[at].end) {
+        if (records_[at].name == name) return at;
+    }
+    return kNone;
 }
 
 std::string FbxDocument::place_of(Index record) const {

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -56,9 +57,8 @@ class FbxDocument {
     /// Calls `visit` with each record directly inside of one; of kNone none.
     template <class Visit>
     void each_inside(Index record, const Visit& visit) const {
-        if (record == kNone) return;
-        const Index end = record == kFile ? static_cast<Index>(records_.size()) : records_[record].end;
-        for (Index at = record == kFile ? 0 : record + 1; at < end; at = records_[at].end) visit(at);
+        const auto [first, end] = inside(record);
+        for (Index at = first; at < end; at = records_[at].end) visit(at);
     }
     /// The first one of that name; kNone if there is none.
     Index find(Index record, std::string_view name) const;
@@ -82,6 +82,12 @@ class FbxDocument {
     friend class FbxBinaryReader;
     friend class FbxTextReader;
 
+    /// First and end of what is inside of a record.
+    std::pair<Index, Index> inside(Index record) const {
+        if (record == kNone) return {0, 0};
+        if (record == kFile) return {0, static_cast<Index>(records_.size())};
+        return {record + 1, records_[record].end};
+    }
     /// Throws InputError for a version that is too old.
     void set_version(int version);
     template <class Number>
