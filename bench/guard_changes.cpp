@@ -17,7 +17,7 @@
 #include <picture_tests/picture_maker.h>
 #include <picture_tests/run_cases.h>
 #include <picture_tests/test_case.h>
-#include <render/drawlist/draw_list_compare.h>
+#include <render/compare/draw_list_compare.h>
 #include <render/image/image_diff.h>
 #include <render/image/png.h>
 
