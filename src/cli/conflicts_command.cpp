@@ -210,7 +210,7 @@ void print_text(const Findings& findings) {
 
 void run_conflicts(const ConflictsCommandArguments& arguments, int& status) {
     FitArguments fit = arguments.fit;
-    if (!fit.tree) fit.tree = mobb::TreeKind::production;
+    if (!fit.tree) fit.tree = mobb::TreeKind::blocks;
     const FittedScene scene = fitted(load_crowd(arguments), fit);
     std::vector<mobb::PlacedTree> crowd;
     for (const PlacedAgent& who : scene.placed_agents()) crowd.push_back(scene.placed(who));
