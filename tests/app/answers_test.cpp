@@ -219,8 +219,8 @@ TEST(Answers, OnAGraphicsCardEveryPictureIsFineAtOnce) {
         shell.read_back();
         return wanted;
     };
-    session.open_demo();
-    while (session.job() || frame() == 0) frame();
+    session.files.open_demo();
+    while (session.jobs.job() || frame() == 0) frame();
     run_command(session, "query.select", "0");
     run_command(session, "step.last");
     while (frame() == 0) {

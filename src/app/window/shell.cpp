@@ -257,7 +257,7 @@ struct Shell::State final : PictureMaker {
         const auto [due, of] = fine_due(*time);
         if (due <= 0) drawn->painter.paint_on(of, *viewports[of].shown());
         if (std::exchange(told, renderer.notice()) != renderer.notice())
-            session.tell(MessageLevel::warning, renderer.notice());
+            session.notifications.tell_of_window(MessageLevel::warning, renderer.notice());
         if (!std::exchange(laid_out, false)) return;
         ++frames_drawn;
         if (!drawn->target || drawn->target->size() != size) drawn->target.emplace(size);
