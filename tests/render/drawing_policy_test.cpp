@@ -42,13 +42,9 @@ TEST(DrawingPolicy, AProcessorIsKnownByItsName) {
 
 /// Of so many sides that a processor is given them in parts.
 DrawList many_disks() {
-    ViewState view;
-    view.camera.preset = CameraPreset::free;
-    view.camera.target = glm::dvec3(0, 0, 1);
-    view.camera.distance = 1;
-    DrawList list = build_draw_list(testing::hit_scene(), view, kSmallSize);
+    DrawList list = build_draw_list(testing::hit_scene(), ViewState{}, kSmallSize);
     std::vector<DiskInstance>& disks = list.disks.edit();
-    for (std::size_t i = 0; disks.size() < 4000; ++i) {
+    for (std::size_t i = 0; disks.size() < 15'000; ++i) {
         disks.push_back(disks[i]);
         disks.back().id.index = static_cast<int>(disks.size());
     }
