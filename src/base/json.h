@@ -70,6 +70,15 @@ class JsonPlace {
     int size() const;
     JsonPlace operator[](int index) const&;
     JsonPlace operator[](int index) const&& = delete;  // the element would refer to a place that is gone
+    template <class Visit>
+    void each(const Visit& visit) const {
+        for (int i = 0; i < size(); ++i) visit((*this)[i]);
+    }
+    std::vector<std::string> strings() const {
+        std::vector<std::string> out;
+        each([&](const JsonPlace& element) { out.push_back(element.string()); });
+        return out;
+    }
     /// An array of exactly `count` elements.
     void require_size(int count, const char* what) const;
     /// An array of a vector's coordinates, each within [-most, most]; `what` says what to give.

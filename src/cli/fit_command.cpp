@@ -1,6 +1,7 @@
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
+#include <explain/level_columns.h>
 #include <scene/scene_json.h>
 
 #include <algorithm>
@@ -37,7 +38,7 @@ void print_tree(const std::string& clip, const mobb::Tree& tree) {
     const std::vector<mobb::LevelFigures> levels = mobb::level_figures(tree);
     std::vector<std::string> lines(1 + levels.size(), " ");
     for (const mobb::LevelColumn& column : mobb::kLevelColumns) {
-        std::vector<std::string> cells{column.key + std::string(*column.unit == '\0' ? "" : " ") + column.unit};
+        std::vector<std::string> cells{std::string(column.name) + level_unit(column)};
         for (const mobb::LevelFigures& figures : levels) cells.push_back(level_text(column, figures));
         const std::size_t width = std::ranges::max(cells, {}, &std::string::size).size();
         const std::string gap(&column == &mobb::kLevelColumns.front() ? 1 : 3, ' ');

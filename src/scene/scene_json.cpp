@@ -1,4 +1,5 @@
 #include <base/text.h>
+#include <mobb/level_figures.h>
 #include <scene/scene_json.h>
 
 #include <algorithm>
@@ -80,7 +81,7 @@ void write_level(JsonWriter& out, const mobb::LevelFigures& figures) {
     out.begin_object(Layout::row);
     for (const mobb::LevelColumn& column : mobb::kLevelColumns) {
         const std::optional<double> value = column.of(figures);
-        out.key(column.key);
+        out.key(column.name);
         if (!value) out.null();
         if (value) column.whole ? out.value(static_cast<std::int64_t>(*value)) : out.value(*value);
     }
@@ -200,12 +201,6 @@ mobb::FitOptions read_fit(const JsonPlace& place, mobb::FitOptions fit) {
         fit.time_scale = scale->number(1 / mobb::kMaxTimeScale, mobb::kMaxTimeScale);
     }
     return fit;
-}
-
-std::string level_text(const mobb::LevelColumn& column, const mobb::LevelFigures& figures) {
-    const std::optional<double> value = column.of(figures);
-    if (!value) return "-";
-    return column.whole ? std::to_string(static_cast<std::int64_t>(*value)) : brief(*value * column.in_unit);
 }
 
 void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree) {

@@ -102,8 +102,8 @@ void add_shown_options(Command& command, ViewArguments& view) {
             option.parse(text, ignored);
             view.shown.insert_or_assign(std::string(option.key), std::vector{text});
         };
-        const std::string name(option.option);
-        const std::string help(option.help);
+        const std::string& name = option.option;
+        const std::string help(option.what);
         if (option.names) {
             const auto set_names = [&view, &option](const std::vector<std::string>& names) {
                 view.shown.insert_or_assign(std::string(option.key), names);

@@ -7,7 +7,7 @@
 
 #include "mobb/random_motion.h"
 
-namespace mobbscope::app {
+namespace mobbscope {
 namespace {
 
 using mobb::Clip;
@@ -148,4 +148,4 @@ TEST(Clearance, ColumnsLoseNoMinimum) {
 }
 
 }  // namespace
-}  // namespace mobbscope::app
+}  // namespace mobbscope

@@ -1,4 +1,4 @@
-#include <render/drawlist/compare/alignment.h>
+#include <render/compare/alignment.h>
 
 #include <algorithm>
 #include <unordered_map>

@@ -1,7 +1,7 @@
 /// Elements of a draw list's arrays (draw_list_json.h): what they stand for, what they are called, how alike two are.
 #pragma once
 
-#include <render/drawlist/compare/json_values.h>
+#include <render/compare/json_values.h>
 
 #include <algorithm>
 #include <array>

@@ -11,7 +11,7 @@
 
 #include "mobb/random_motion.h"
 
-namespace mobbscope::app {
+namespace mobbscope {
 namespace {
 
 using mobb::ClipPtr;
@@ -132,4 +132,4 @@ TEST(FloorPaths, SayThatTheyGaveUpRatherThanAnythingElse) {
 }
 
 }  // namespace
-}  // namespace mobbscope::app
+}  // namespace mobbscope

@@ -1,5 +1,5 @@
 #include <base/text.h>
-#include <render/drawlist/compare/json_values.h>
+#include <render/compare/json_values.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 /// What the width of words decides in a picture, so that it may be other with other fonts.
 #pragma once
 
-#include <render/drawlist/compare/elements.h>
-#include <render/drawlist/draw_list.h>
+#include <render/compare/elements.h>
+#include <render/image/rect.h>
 
 #include <array>
 #include <cstddef>

@@ -9,6 +9,11 @@
 
 namespace mobbscope::testing {
 
+/// Whether a part stands in a message.
+inline bool says(const std::string& message, const std::string& part) {
+    return message.find(part) != std::string::npos;
+}
+
 /// Two short clips that cross.
 inline const char* const kSmallScene = R"({
  "clips": {"walk": {"dt": 0.25, "samples": [[0, 0, 0.4], [0.3, 0, 0.4], [0.6, 0.1, 0.4], [0.9, 0.2, 0.45],

@@ -1,11 +1,10 @@
 // Results as lines for other programs, and goldens that are written together.
-#include <base/base64.h>
 #include <cases/golden_change.h>
 #include <cases/result_line.h>
 #include <render/image/png.h>
 #include <support/input_error.h>
 
-#include "picture_tests/case_folder.h"
+#include "cases/case_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -21,15 +20,6 @@ using mobbscope::testing::CaseFolder;
 using mobbscope::testing::input_error;
 using mobbscope::testing::slurp;
 using mobbscope::testing::TempFolder;
-
-TEST(Base64, ReadsWhatItWrites) {
-    std::string bytes;
-    for (int i = 0; i < 300; ++i) {
-        EXPECT_EQ(from_base64(base64(bytes)), bytes);
-        bytes += static_cast<char>(i * 37);
-    }
-    for (const char* bad : {"A", "AB=C", "A===", "====", "AA A", "AAA\n"}) EXPECT_FALSE(from_base64(bad)) << bad;
-}
 
 TEST(ResultLine, IsReadAsItIsWritten) {
     const CaseFolder cases;

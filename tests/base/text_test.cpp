@@ -1,3 +1,4 @@
+#include <base/base64.h>
 #include <base/text.h>
 
 #include <gtest/gtest.h>
@@ -132,6 +133,15 @@ TEST(Text, TheNearestNameIsFoundAndOnlyNamedWhenMeant) {
     EXPECT_EQ(did_you_mean("laef", names), " (did you mean 'leaf'?)");
     EXPECT_EQ(did_you_mean(std::string(5000, 'x'), names), "");
     EXPECT_EQ(did_you_mean("quixotic", names), "");
+}
+
+TEST(Base64, ReadsWhatItWrites) {
+    std::string bytes;
+    for (int i = 0; i < 300; ++i) {
+        EXPECT_EQ(from_base64(base64(bytes)), bytes);
+        bytes += static_cast<char>(i * 37);
+    }
+    for (const char* bad : {"A", "AB=C", "A===", "====", "AA A", "AAA\n"}) EXPECT_FALSE(from_base64(bad)) << bad;
 }
 
 }  // namespace

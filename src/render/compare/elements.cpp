@@ -1,5 +1,5 @@
 #include <base/text.h>
-#include <render/drawlist/compare/elements.h>
+#include <render/compare/elements.h>
 
 #include <cmath>
 #include <cstring>

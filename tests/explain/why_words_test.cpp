@@ -4,7 +4,7 @@
 
 #include <memory>
 
-namespace mobbscope::app {
+namespace mobbscope {
 namespace {
 
 /// Somebody who walks 4 m in 4 s, 10 samples a second, through (2, 0) at 2 s; 0.4 m thick.
@@ -95,4 +95,4 @@ TEST(WhyWords, TheDirectSearchStopsAtTheFirstHit) {
 }
 
 }  // namespace
-}  // namespace mobbscope::app
+}  // namespace mobbscope

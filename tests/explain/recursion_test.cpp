@@ -5,9 +5,9 @@
 #include <set>
 #include <tuple>
 
-#include "app/random_query.h"
+#include "explain/random_query.h"
 
-namespace mobbscope::app {
+namespace mobbscope {
 namespace {
 
 using mobb::Outcome;
@@ -35,7 +35,7 @@ TEST(Recursion, HoldsEveryEventOnceAndChildrenInsideParents) {
     int hits = 0;
     int deep = 0;
     for (int round = 0; round < 300; ++round) {
-        const test::RandomQuery asked = test::random_query(random);
+        const testing::RandomQuery asked = testing::random_query(random);
         const Recursion found = recursion_of(asked.trace, asked.a(), asked.b());
         ASSERT_EQ(found.pair_of.size(), static_cast<std::size_t>(asked.trace.size()));
         int events = 0;
@@ -79,7 +79,7 @@ TEST(Recursion, CountsWhatHadBeenCountedAtEachStep) {
     std::int64_t wasted_in_all = 0;
     int needed_in_all = 0;
     for (int round = 0; round < 60; ++round) {
-        const test::RandomQuery asked = test::random_query(random);
+        const testing::RandomQuery asked = testing::random_query(random);
         if (asked.trace.size() > 400) continue;
         const Recursion found = recursion_of(asked.trace, asked.a(), asked.b());
         for (int step = 0; step < asked.trace.size(); ++step) {
@@ -116,7 +116,7 @@ TEST(Recursion, CountsWhatHadBeenCountedAtEachStep) {
 
 TEST(Recursion, OfAnEmptyTraceIsEmpty) {
     Random random(7);
-    const test::RandomQuery asked = test::random_query(random);
+    const testing::RandomQuery asked = testing::random_query(random);
     const Recursion found = recursion_of(Trace(), asked.a(), asked.b());
     EXPECT_TRUE(found.pairs.empty());
     EXPECT_EQ(found.depth, 0);
@@ -124,4 +124,4 @@ TEST(Recursion, OfAnEmptyTraceIsEmpty) {
 }
 
 }  // namespace
-}  // namespace mobbscope::app
+}  // namespace mobbscope

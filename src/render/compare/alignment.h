@@ -1,7 +1,7 @@
 /// Which elements of two arrays belong together.
 #pragma once
 
-#include <render/drawlist/compare/elements.h>
+#include <render/compare/elements.h>
 
 #include <cstddef>
 #include <optional>

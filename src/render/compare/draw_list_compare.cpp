@@ -1,7 +1,7 @@
 #include <base/text.h>
-#include <render/drawlist/compare/alignment.h>
-#include <render/drawlist/compare/word_room.h>
-#include <render/drawlist/draw_list_compare.h>
+#include <render/compare/alignment.h>
+#include <render/compare/draw_list_compare.h>
+#include <render/compare/word_room.h>
 
 #include <algorithm>
 #include <iterator>

@@ -1,6 +1,9 @@
 #include <base/text.h>
-#include <render/drawlist/compare/word_room.h>
+#include <render/compare/word_room.h>
 
+#include <glm/common.hpp>
+
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
