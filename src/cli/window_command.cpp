@@ -10,6 +10,7 @@
 #include <base/file.h>
 #include <base/text.h>
 #include <render/drawlist/picture_options.h>
+#include <review/review_screen.h>
 #include <scene/load_files.h>
 
 #include <cstdlib>
@@ -52,14 +53,17 @@ using Named = std::variant<Scene, app::ReviewFolder>;
 
 void show_named(app::Session& session, const Named& named, const WindowArguments& arguments) {
     if (const Scene* scene = std::get_if<Scene>(&named)) return session.files.open_scene(*scene, arguments.files);
-    session.reviews.case_drawer.backend = arguments.backend;
-    session.reviews.open(std::get<app::ReviewFolder>(named));
+    auto& review = session.the<app::ReviewScreen>();
+    review.case_drawer.backend = arguments.backend;
+    review.open(std::get<app::ReviewFolder>(named));
 }
 
 /// Scripts find the same everywhere: they neither read nor write a person's settings.
 int run_script(const Named& named, const WindowArguments& arguments) {
-    const app::Script script = app::Script::parse(read_file(arguments.script), arguments.script.string());
+    const app::Script script = app::Script::parse(read_file(arguments.script), arguments.script.string(),
+                                                  app::ScriptOutput::allowed, app::commands_with_review());
     app::Session session(false);
+    app::add_review(session);
     // One scale everywhere, whatever the monitor's.
     session.settings.ui_scale = arguments.ui_scale.value_or(1);
     const std::unique_ptr<app::ShellHost> host = [&]() -> std::unique_ptr<app::ShellHost> {
@@ -87,12 +91,13 @@ void show_window(const Named& named, const WindowArguments& arguments) {
     const std::filesystem::path file = app::settings_file();
     const std::string kept = app::keep_unreadable_settings(file);
     app::Session session(true, app::load_settings(file));
+    app::add_review(session);
     const double usual_scale = session.settings.ui_scale;
     if (arguments.ui_scale) session.settings.ui_scale = *arguments.ui_scale;
     app::GlfwWindow window(session, arguments.size);
     show_named(session, named, arguments);
     if (!kept.empty()) session.notifications.tell_of_window(app::MessageLevel::warning, kept);
-    if (arguments.files.empty() && !session.reviews.shown() && session.files.has_last()) {
+    if (arguments.files.empty() && !session.screen && session.files.has_last()) {
         session.notifications.tell(app::MessageLevel::info, "Last time: " + session.files.last_title(),
                                    app::MessageOffer{"file.reopen_last", "", "Reopen last session"});
     }

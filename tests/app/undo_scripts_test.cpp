@@ -54,6 +54,7 @@ class Worked {
           window(GlContext::open(Backend::osmesa), session, size_of(seed), 1),
           script_(static_cast<std::uint64_t>(seed), size_of(seed), kLeast, kMost) {
         session.options.may_write = false;
+        add_review(session);
         session.files.open({file});
         follow_opening();
         window.resize(size_of(seed));
@@ -99,7 +100,7 @@ class Worked {
     void run(const std::string& line) {
         try {
             std::ostringstream out;
-            Script::parse(line, "random").run(session, window, out);
+            Script::parse(line, "random", ScriptOutput::allowed, commands(session)).run(session, window, out);
         } catch (const InputError&) {
             // Not every command can be run everywhere.
         }

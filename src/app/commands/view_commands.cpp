@@ -406,6 +406,8 @@ std::vector<Command> level_commands() {
 }
 
 std::vector<Command> window_commands() {
+    Command theme = option_command(view_option("theme"));
+    theme.where = Where::everywhere;
     const std::vector<Command> rows{
         Command(
             "view.projection", "Disk along the axes of its box",
@@ -416,20 +418,22 @@ std::vector<Command> window_commands() {
                  [](const Workspace& workspace) { return workspace.view().projection || selected_disk(workspace); },
                  [] { return std::string_view("no sample in the picture is selected"); }},
              .checked = [](const Workspace& workspace) { return workspace.view().projection.has_value(); }}),
-        option_command(view_option("theme")),
+        theme,
         Command("window.scale", "Scale of text and panels", "Makes text and panels so many times as large, 0.5 to 4.",
                 set_scale,
                 {.menu = kNoMenu,
                  .argument = "X",
                  .enabled = always,
+                 .where = Where::everywhere,
                  .present = [](const Session& session) { return short_double(session.ui_scale()); }}),
         Command("window.larger", "Larger text", "Makes text and panels larger.", larger,
-                {.shortcut = "Ctrl+=", .repeats = true, .enabled = always}),
+                {.shortcut = "Ctrl+=", .repeats = true, .enabled = always, .where = Where::everywhere}),
         Command("window.smaller", "Smaller text", "Makes text and panels smaller.", smaller,
-                {.shortcut = "Ctrl+-", .repeats = true, .enabled = always}),
+                {.shortcut = "Ctrl+-", .repeats = true, .enabled = always, .where = Where::everywhere}),
         Command("window.scale_reset", "Usual text size",
                 "Makes text and panels as large as the monitor's scale asks for.",
-                [](Settings& settings) { settings.ui_scale = 0; }, {.shortcut = "Ctrl+0", .enabled = always}),
+                [](Settings& settings) { settings.ui_scale = 0; },
+                {.shortcut = "Ctrl+0", .enabled = always, .where = Where::everywhere}),
     };
     return in_menu("View/Window", rows);
 }

@@ -72,7 +72,7 @@ void Files::replace(Document document, const std::vector<std::filesystem::path>&
     if (parts_.options.attended && theme && document.view.theme == Theme{}) document.view.theme = *theme;
     next.history.reset(std::move(document));
     next.changed();
-    // No case of picture tests is open any more; who opens one says so afterwards.
+    // Nothing is visited any more; who visits something says so afterwards.
     aside_.reset();
     visited_.clear();
     parts_.workspace = std::move(next);
@@ -94,7 +94,7 @@ void Files::load(const std::string& title, const LoadAll& load_all, const std::v
             }
             return [this, document = std::move(document), files, present] {
                 const auto put_in = [this, document, files] { replace(document, files); };
-                // It takes the place of what was open before the picture tests.
+                // It takes the place of what was put aside.
                 if (aside_) return come_back([this, put_in] { after_asking(put_in); });
                 // Who edited meanwhile is asked again.
                 &parts_.workspace.scene() == &present->scene() ? put_in() : after_asking(put_in);
@@ -189,7 +189,7 @@ void Files::add(const std::vector<std::filesystem::path>& files) {
     if (complain_of_missing(files)) return;
     if (!may_add()) {
         throw InputError(parts_.workspace.crowd() ? "a run stands alone: open the files by themselves"
-                                                  : "picture tests are shown: leave them first, or open the files");
+                                                  : std::string(parts_.screen->words().shown) + ", or open the files");
     }
     parts_.jobs.start("Adding files", [this, files](JobControl& control) -> Job::Finish {
         const auto read = std::make_shared<const Scene>(load_files(files, {}, progress_of(control)));

@@ -105,8 +105,8 @@ void Focus::leave() {
 }
 
 void Focus::done_with(const std::string& name) {
-    // Picture tests have no arrows that step: there one goes on where one is.
-    if (entered_ == name && level() == 0 && session_.dialogs.now == Dialog::none && !session_.reviews.shown()) leave();
+    // Screens have no arrows that step: there one goes on where one is.
+    if (entered_ == name && level() == 0 && session_.dialogs.now == Dialog::none && !session_.screen) leave();
 }
 
 void Focus::press_stop(const Stop& stop) {

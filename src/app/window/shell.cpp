@@ -64,7 +64,7 @@ bool edits_text(const Chord& chord) {
 /// A dialog has the keys, but for the one that explains it; what is edited in one is undone in it too.
 bool works_under(Dialog dialog, const Command& command) {
     if (dialog == Dialog::none || command.id == "help.shortcuts") return true;
-    return dialog == Dialog::import_clip && (command.id == "edit.undo" || command.id == "edit.redo");
+    return std::ranges::find(row_of(dialog).lets_through, command.id) != row_of(dialog).lets_through.end();
 }
 
 }  // namespace
@@ -173,11 +173,7 @@ struct Shell::State final : PictureMaker {
 
     /// A dialog has opened whose field does not have the keys yet: what is typed meanwhile is meant for it.
     bool waits_for_field() {
-        const Dialog open = session.dialogs.now;
-        const bool has_field = open == Dialog::open || open == Dialog::add || open == Dialog::save_as ||
-                               open == Dialog::export_picture || open == Dialog::export_file ||
-                               open == Dialog::review || open == Dialog::palette || open == Dialog::help;
-        if (!has_field || !session.dialogs.input.fresh)
+        if (!row_of(session.dialogs.now).has_field || !session.dialogs.input.fresh)
             waited = 0;
         else if (++waited <= kFramesToFocus)
             return true;

@@ -1,8 +1,8 @@
 #include <app/commands/command.h>
-#include <app/panels/panels.h>
-#include <app/panels/review_parts.h>
 #include <app/ui/widgets.h>
 #include <base/text.h>
+#include <review/review_panels.h>
+#include <review/review_screen.h>
 
 #include <algorithm>
 #include <cmath>
@@ -243,9 +243,7 @@ void draw_view(Ui& ui, const ReviewLook& look, const PictureView& view, const Pi
 /// Changes how the pictures are looked at once the frame is drawn.
 template <class Change>
 void change_look(Ui& ui, const Change& change) {
-    ui.session.queue.push([&session = ui.session, change] {
-        if (session.reviews.review()) change(session.reviews.review()->look);
-    });
+    ui.later([change](ReviewScreen& screen) { change(screen.review()->look); });
 }
 
 /// The pixel under the mouse stays where it is.
@@ -283,8 +281,7 @@ void drag_pictures(Ui& ui, const ReviewLook& look, const PictureView& view, cons
 
 }  // namespace
 
-std::optional<glm::ivec2> review_pictures(Ui& ui) {
-    Review& review = *ui.session.reviews.review();
+std::optional<glm::ivec2> review_pictures(Ui& ui, Review& review) {
     const ReviewPictures& pictures = review.pictures();
     mode_buttons(ui, review);
     const ImVec2 min = ImGui::GetCursorScreenPos();

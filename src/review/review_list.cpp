@@ -1,8 +1,7 @@
 #include <app/commands/command.h>
-#include <app/panels/panels.h>
-#include <app/panels/review_parts.h>
 #include <app/ui/widgets.h>
 #include <base/text.h>
+#include <review/review_panels.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +18,7 @@ std::string sum_of(const Review& review) {
     std::string out;
     if (left < std::ssize(review.cases())) out = picture_tests::sum_of(review.summary());
     if (left > 0)
-        out += (out.empty() ? "" : ", ") + std::to_string(left) + (review.drawing() ? " to draw" : " not drawn");
+        out += (out.empty() ? "" : ", ") + std::to_string(left) + (review.run.drawing() ? " to draw" : " not drawn");
     return out;
 }
 
@@ -156,12 +155,12 @@ void case_row(Ui& ui, const Review& review, std::size_t index, float height) {
     ImGui::PopID();
     if (!clicked) return;
     const bool marks = over_box || ImGui::GetIO().KeyCtrl;
-    invoke(ui.session, marks ? "review.mark" : "review.show", one.file.name);
+    ui.invoke(marks ? "review.mark" : "review.show", one.file.name);
 }
 
 /// How far a run is stands in the status bar.
 void run_row(Ui& ui, const Review& review) {
-    if (review.drawing()) {
+    if (review.run.drawing()) {
         command_button(ui, "Stop drawing", "review.cancel", "review.cancel");
     } else {
         command_button(ui, "Draw all again", "review.draw_all", "review.draw_all");
@@ -170,7 +169,7 @@ void run_row(Ui& ui, const Review& review) {
 
 void order_and_filter(Ui& ui, const Review& review) {
     bool failed_only = review.look.failed_only;
-    if (ImGui::Checkbox("Only failing", &failed_only)) invoke(ui.session, "review.failed_only");
+    if (ImGui::Checkbox("Only failing", &failed_only)) ui.invoke("review.failed_only");
     ui.mark("review.failed_only");
     const std::string now(kReviewOrders[static_cast<std::size_t>(review.look.order)]);
     flow(ui.px(112));
@@ -178,7 +177,7 @@ void order_and_filter(Ui& ui, const Review& review) {
     if (!begin_dropdown(ui, "review.order", "by " + now, "Order")) return;
     for (const std::string_view order : kReviewOrders) {
         const std::string name(order);
-        if (ImGui::Selectable(("by " + name).c_str(), name == now)) invoke(ui.session, "review.order", name);
+        if (ImGui::Selectable(("by " + name).c_str(), name == now)) ui.invoke("review.order", name);
         ui.mark("review.order." + name);
     }
     ImGui::EndCombo();
@@ -186,8 +185,7 @@ void order_and_filter(Ui& ui, const Review& review) {
 
 }  // namespace
 
-void review_list(Ui& ui) {
-    const Review& review = *ui.session.reviews.review();
+void review_list(Ui& ui, const Review& review) {
     heading(ui, "PICTURE TESTS", counted(review.cases().size(), "case", "cases"));
     words(ui.style.quiet, sum_of(review));
     ui.mark_only("review.sum");

@@ -1,8 +1,7 @@
 #include <app/commands/command.h>
-#include <app/panels/panels.h>
-#include <app/panels/review_parts.h>
 #include <app/ui/widgets.h>
 #include <base/text.h>
+#include <review/review_panels.h>
 
 #include <algorithm>
 #include <cctype>
@@ -245,14 +244,13 @@ void files(Ui& ui, const Review& review, const ReviewCase& one, const ReviewPict
                                   renderer.substr(0, renderer.find(" (")) + ".");
     }
     heading(ui, "AGAIN WITHOUT A WINDOW");
-    words(ui.style.quiet, test_command_line(review.drawer(), review.folder(), one.file.name));
+    words(ui.style.quiet, test_command_line(review.run.drawer(), review.folder(), one.file.name));
     command_button(ui, "Copy as command", "review.copy_command", "review.copy_command");
 }
 
 }  // namespace
 
-void review_facts(Ui& ui, const std::optional<glm::ivec2>& pixel) {
-    Review& review = *ui.session.reviews.review();
+void review_facts(Ui& ui, Review& review, const std::optional<glm::ivec2>& pixel) {
     const ReviewCase& one = review.shown();
     const ReviewPictures& pictures = review.pictures();
     heading(ui, "CASE", std::to_string(review.current() + 1) + " of " + std::to_string(review.cases().size()));

@@ -1,9 +1,12 @@
-/// What the panels of picture tests share.
+/// The panels of picture tests, and what they share.
 #pragma once
 
-#include <app/document/review.h>
 #include <app/ui/ui.h>
+#include <review/review.h>
 
+#include <glm/vec2.hpp>
+
+#include <optional>
 #include <string>
 
 namespace mobbscope::app {
@@ -19,5 +22,11 @@ void outcome_shape(ImDrawList& list, const Style& style, ImVec2 middle, float si
 
 /// "12 passed, 3 different, 2 to draw".
 std::string sum_of(const Review& review);
+
+void review_list(Ui& ui, const Review& review);                     ///< the cases and what came of them
+std::optional<glm::ivec2> review_pictures(Ui& ui, Review& review);  ///< returns the pixel under the mouse
+/// What differs, files, what can be done.
+void review_facts(Ui& ui, Review& review, const std::optional<glm::ivec2>& pixel);
+void review_way_back(Ui& ui);  ///< over the scene of a case
 
 }  // namespace mobbscope::app

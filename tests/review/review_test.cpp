@@ -1,14 +1,16 @@
 // Picture tests in the window: what is listed and shown, goldens that are taken and given back, and the way to a case's
 // scene and back. The cases are drawn by the real program.
-#include <app/commands/command.h>
+#include <app/commands/situations.h>
 #include <app/script/state_json.h>
 #include <app/window/headless_window.h>
 #include <render/gl/gl_context.h>
 #include <render/image/png.h>
+#include <review/review_screen.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 
-#include "app/three_cases.h"
+#include "app/crossing_folder.h"
+#include "review/three_cases.h"
 
 #include <gtest/gtest.h>
 #include <imgui.h>
@@ -33,6 +35,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -50,12 +53,13 @@ struct ReviewWorld {
     TempFolder folder;
     ThreeCases files{folder.path()};
     Session session;
+    ReviewScreen& reviews = add_review(session);
     testing::TestDesktop desktop;
     std::unique_ptr<HeadlessWindow> window;
 
     /// `attended`: runs go on beside the window.
     explicit ReviewWorld(bool attended = false) : session(attended) {
-        session.reviews.case_drawer.program = MOBBSCOPE_PROGRAM;
+        reviews.case_drawer.program = MOBBSCOPE_PROGRAM;
         session.settings.ui_scale = 1;
         window =
             std::make_unique<HeadlessWindow>(GlContext::open(Backend::automatic), session, PictureSize{1024, 700}, 1);
@@ -75,7 +79,7 @@ struct ReviewWorld {
         window->settle();
     }
 
-    Review& review() { return *session.reviews.review(); }
+    Review& review() { return *reviews.review(); }
     const ReviewCase& one(const std::string& name) { return review().cases()[review().index_of(name)]; }
     void show(const std::string& name) {
         run_command(session, "review.show", name);
@@ -160,9 +164,9 @@ class HeldDrawer {
 
 std::vector<ReviewNews> finished(Review& review) {
     std::vector<ReviewNews> all;
-    while (review.drawing()) {
+    while (review.run.drawing()) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        for (ReviewNews& news : review.poll()) all.push_back(std::move(news));
+        for (ReviewNews& news : review.run.poll()) all.push_back(std::move(news));
     }
     return all;
 }
@@ -173,7 +177,7 @@ TEST(Review, ListsWhatCameOfEachCase) {
     ReviewWorld w;
     w.open();
     EXPECT_EQ(w.said(), "");
-    EXPECT_TRUE(w.session.reviews.shown());
+    EXPECT_TRUE(w.reviews.shown());
     EXPECT_EQ(outcome_name(w.one("same")), "passed");
     EXPECT_EQ(outcome_name(w.one("moved")), "different");
     EXPECT_EQ(outcome_name(w.one("missing")), "missing golden");
@@ -266,7 +270,7 @@ TEST(Review, GoldensThatChangedMeanwhileStay) {
     EXPECT_EQ(w.files.bytes("moved.png"), other);
     EXPECT_EQ(w.files.bytes("moved.draw.json").find("pictures"), std::string::npos);
     EXPECT_FALSE(w.one("moved").accepted);
-    EXPECT_FALSE(w.review().can_undo());
+    EXPECT_FALSE(w.review().goldens.can_undo());
 
     // The same the other way round.
     w.key("R");
@@ -394,7 +398,7 @@ TEST(Review, SeveralOfAnEarlierRunAreOneStep) {
     const fs::path out = w.files.path() / "out";
     const std::string picture = w.files.bytes("moved.png");
     ThreeCases::run("test '" + w.files.cases().string() + "' --output '" + out.string() + "'");
-    w.session.reviews.open(w.files.cases(), out);
+    w.reviews.open(w.files.cases(), out);
     w.show("missing");
     w.key("R");
     ASSERT_FALSE(w.one("missing").from_output);
@@ -403,11 +407,11 @@ TEST(Review, SeveralOfAnEarlierRunAreOneStep) {
     w.key("Shift+A");
     EXPECT_TRUE(w.one("missing").accepted) << w.said();
     EXPECT_TRUE(w.one("moved").accepted) << "the one that had to be drawn anew first";
-    EXPECT_EQ(w.review().undo_title(), "accepting 2 pictures");
+    EXPECT_EQ(w.review().goldens.undo_title(), "accepting 2 pictures");
     w.key("Ctrl+Z");
     EXPECT_EQ(w.files.bytes("moved.png"), picture);
     EXPECT_FALSE(fs::exists(w.files.file("missing.png")));
-    EXPECT_FALSE(w.review().has_undo());
+    EXPECT_FALSE(w.review().goldens.has_undo());
 }
 
 TEST(Review, WhatIsBeingDrawnIsNotTakenBack) {
@@ -417,24 +421,24 @@ TEST(Review, WhatIsBeingDrawnIsNotTakenBack) {
     const HeldDrawer drawer(files);
     drawer.let_go();
     Review review(find_review(files.cases()), {.attended = true, .drawer = {drawer.program(), "auto"}});
-    review.draw_all();
+    review.run.draw_all();
     finished(review);
     const std::size_t moved = review.index_of("moved");
-    review.accept({moved});
+    review.goldens.accept({moved});
     fs::remove(files.file("go"));
-    review.draw({moved});
-    ASSERT_TRUE(review.drawing());
+    review.run.draw({moved});
+    ASSERT_TRUE(review.run.drawing());
     // It would come back as passed, held against the golden that was taken, while the one of before is there again.
-    EXPECT_TRUE(review.has_undo());
-    EXPECT_FALSE(review.can_undo());
+    EXPECT_TRUE(review.goldens.has_undo());
+    EXPECT_FALSE(review.goldens.can_undo());
     drawer.let_go();
     finished(review);
-    ASSERT_TRUE(review.can_undo());
-    review.undo();
+    ASSERT_TRUE(review.goldens.can_undo());
+    review.goldens.undo();
     EXPECT_EQ(files.bytes("moved.png"), picture);
     EXPECT_EQ(outcome_name(review.cases()[moved]), "different");
-    review.draw({review.index_of("same")});
-    EXPECT_TRUE(review.can_redo()) << "another case is being drawn";
+    review.run.draw({review.index_of("same")});
+    EXPECT_TRUE(review.goldens.can_redo()) << "another case is being drawn";
     finished(review);
 }
 
@@ -442,9 +446,9 @@ TEST(Review, ARunEndsWithIt) {
     const TempFolder folder;
     const ThreeCases files(folder.path());
     const HeldDrawer drawer(files);
-    auto review = std::make_unique<Review>(
-        find_review(files.cases()), Review::Surroundings{.attended = true, .drawer = {drawer.program(), "auto"}});
-    review->draw_all();
+    auto review = std::make_unique<Review>(find_review(files.cases()),
+                                           ReviewSurroundings{.attended = true, .drawer = {drawer.program(), "auto"}});
+    review->run.draw_all();
     const pid_t child = drawer.pid();
     ASSERT_EQ(::kill(child, 0), 0);
     review.reset();
@@ -466,8 +470,8 @@ TEST(Review, NobodyIsWokenOnceItHasEnded) {
     };
     auto review = std::make_unique<Review>(
         find_review(files.cases()),
-        Review::Surroundings{.attended = true, .wake = wake, .drawer = {files.file("crash.sh"), "auto"}});
-    review->draw_all();
+        ReviewSurroundings{.attended = true, .wake = wake, .drawer = {files.file("crash.sh"), "auto"}});
+    review->run.draw_all();
     while (!wakes) std::this_thread::yield();
     review.reset();
     gone = true;
@@ -478,7 +482,7 @@ TEST(Review, NobodyIsWokenOnceItHasEnded) {
 TEST(Review, AllWorkEndsWithTheWindow) {
     ReviewWorld w(true);
     const HeldDrawer drawer(w.files);
-    w.session.reviews.case_drawer.program = drawer.program();
+    w.reviews.case_drawer.program = drawer.program();
     w.open();
     // Who looks into a file is about to wake the window, and does so for a while.
     std::latch wakes_now(1);
@@ -501,7 +505,7 @@ TEST(Review, AllWorkEndsWithTheWindow) {
     woke.count_down();
     window.join();
     const int before = w.desktop.wakes;
-    EXPECT_FALSE(w.review().drawing());
+    EXPECT_FALSE(w.review().run.drawing());
     for (int i = 0; i < 500 && Job::any_left(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     EXPECT_FALSE(Job::any_left()) << "somebody still holds one";
     EXPECT_EQ(w.desktop.wakes, before);
@@ -510,17 +514,17 @@ TEST(Review, AllWorkEndsWithTheWindow) {
 TEST(Review, ARunIsShownAndStoppedWhereTheSceneIsShownToo) {
     ReviewWorld w(true);
     const HeldDrawer drawer(w.files);
-    w.session.reviews.case_drawer.program = drawer.program();
+    w.reviews.case_drawer.program = drawer.program();
     w.open();
     EXPECT_TRUE(w.window->shell().marks().all().contains("job.0"));
     w.key("Escape");
-    ASSERT_FALSE(w.session.reviews.shown());
-    ASSERT_TRUE(w.review().drawing());
+    ASSERT_FALSE(w.reviews.shown());
+    ASSERT_TRUE(w.review().run.drawing());
     ASSERT_EQ(w.session.notifications.all().size(), 1u);
     EXPECT_EQ(w.session.notifications.all().front().offer->command, "review.back")
         << "who left by mistake sees the way back";
     w.click("job.0.cancel");
-    EXPECT_FALSE(w.review().drawing());
+    EXPECT_FALSE(w.review().run.drawing());
     EXPECT_FALSE(w.window->shell().marks().all().contains("job.0"));
     EXPECT_EQ(w.session.notifications.all().back().text, "Cancelled");
     run_command(w.session, "review.back");
@@ -543,7 +547,7 @@ TEST(Review, BeginsAtTheFirstThatFails) {
     EXPECT_EQ(w.review().shown().file.name, "a");
     w.open();
     EXPECT_EQ(w.review().shown().file.name, "a");
-    w.session.reviews.open(w.files.cases() / ".");
+    w.reviews.open(w.files.cases() / ".");
     EXPECT_EQ(w.review().shown().file.name, "missing") << "of another folder";
 }
 
@@ -589,7 +593,7 @@ TEST(Review, EscapePutsTheSliderBack) {
     ASSERT_LT(w.review().look.divider, 0.45);
     w.key("Escape");
     EXPECT_EQ(w.review().look.divider, 0.5);
-    EXPECT_TRUE(w.session.reviews.shown()) << "the key does one thing";
+    EXPECT_TRUE(w.reviews.shown()) << "the key does one thing";
     w.move(w.middle("review.divider") - glm::vec2(30, 0));
     w.button(false);
     EXPECT_EQ(w.review().look.divider, 0.5);
@@ -622,11 +626,11 @@ TEST(Review, FilesDroppedOnItAreOpenedNotAdded) {
     ASSERT_EQ(w.session.dialogs.now, Dialog::dropped);
     EXPECT_FALSE(w.window->shell().marks().all().contains("dropped.add"));
     w.key("Escape");
-    EXPECT_TRUE(w.session.reviews.shown());
+    EXPECT_TRUE(w.reviews.shown());
     w.window->shell().feed(Drop{{own}});
     w.window->settle();
     w.key("Enter");
-    EXPECT_FALSE(w.session.reviews.shown());
+    EXPECT_FALSE(w.reviews.shown());
     EXPECT_EQ(w.session.workspace.file, own);
     EXPECT_EQ(w.said(), "");
 }
@@ -680,7 +684,7 @@ TEST(Review, KeysGoFromCaseToCaseAndShowThePictures) {
     w.key("A");
     w.key("P");
     EXPECT_EQ(w.review().shown().file.name, "missing");
-    EXPECT_FALSE(find_command("review.next_failing")->enabled(w.session)) << "no other fails";
+    EXPECT_FALSE(find_command("review.next_failing", commands(w.session))->enabled(w.session)) << "no other fails";
     w.key("Ctrl+Z");
     EXPECT_EQ(w.review().shown().file.name, "moved") << "what was given back is shown";
     std::set<std::vector<std::uint8_t>> seen;
@@ -795,31 +799,36 @@ TEST(Review, ACaseOpensAsASceneAndWhatWasOpenIsBack) {
     w.show("moved");
     w.key("Enter");
     EXPECT_EQ(w.said(), "");
-    EXPECT_FALSE(w.session.reviews.shown());
+    EXPECT_FALSE(w.reviews.shown());
     EXPECT_EQ(w.session.files.visited(), "moved");
     EXPECT_EQ(w.session.workspace.scene().agents[1].placement.translate.x, 1.3);
     EXPECT_EQ(w.session.workspace.view().camera.distance, 8) << "as the case sees it";
     w.click("review.back");
-    EXPECT_TRUE(w.session.reviews.shown());
+    EXPECT_TRUE(w.reviews.shown());
     EXPECT_EQ(w.review().shown().file.name, "moved");
     EXPECT_EQ(outcome_name(w.one("moved")), "different") << "results stay";
     w.key("Escape");
-    EXPECT_FALSE(w.session.reviews.shown());
+    EXPECT_FALSE(w.reviews.shown());
     EXPECT_EQ(w.session.workspace.document().fitted, before);
     EXPECT_TRUE(w.session.workspace.modified());
     EXPECT_EQ(w.session.workspace.file, own);
     w.key("Ctrl+Z");
     EXPECT_FALSE(w.session.workspace.modified()) << "with its past";
     w.key("Ctrl+R");
-    EXPECT_TRUE(w.session.reviews.shown());
+    EXPECT_TRUE(w.reviews.shown());
 }
 
 TEST(Review, TheScenesCommandsAreNotForPictureTests) {
     ReviewWorld w;
     w.open();
-    EXPECT_EQ(why_not(w.session, command_named("view.top")), "picture tests are shown: leave them first");
+    EXPECT_EQ(why_not(w.session, command_named("view.top", commands(w.session))),
+              "picture tests are shown: leave them first");
+    EXPECT_EQ(&present_situation(w.session), &w.reviews.situation());
+    for (const std::string_view id : w.reviews.situation().commands) {
+        EXPECT_NE(find_command(id, commands(w.session)), nullptr) << id;
+    }
     run_command(w.session, "review.leave");
-    EXPECT_EQ(why_not(w.session, command_named("review.accept")), "no picture tests are shown");
+    EXPECT_EQ(why_not(w.session, command_named("review.accept", commands(w.session))), "no picture tests are shown");
 }
 
 TEST(Review, AReportsGoldensAreTakenByteByByteAndDrawNothing) {
@@ -830,10 +839,10 @@ TEST(Review, AReportsGoldensAreTakenByteByByteAndDrawNothing) {
         "test '" + w.files.cases().string() + "' --output '" + out.string() + "' --html '" + page;
     EXPECT_NE(ThreeCases::run(command + "'"), 0);
     const std::string before = w.files.bytes("moved.png");
-    w.session.reviews.case_drawer.program = w.files.file("none");
+    w.reviews.case_drawer.program = w.files.file("none");
     w.files.write("moved.json", walkers("1.6"));
     for (const fs::path& report : {out, fs::path(page)}) {
-        w.session.reviews.open(w.files.cases(), report);
+        w.reviews.open(w.files.cases(), report);
         w.window->settle();
         EXPECT_EQ(outcome_name(w.one("moved")), "different");
         EXPECT_TRUE(w.one("moved").from_output);
@@ -859,7 +868,7 @@ TEST(Review, OfADamagedReportNothingIsTaken) {
         }
     }
     write_file(out / "report.json", report.dump());
-    w.session.reviews.open(w.files.cases(), out);
+    w.reviews.open(w.files.cases(), out);
     w.show("moved");
     w.key("A");
     EXPECT_FALSE(w.one("moved").accepted);
@@ -871,13 +880,13 @@ TEST(Review, ARunIsLiveAndCanBeStopped) {
     const TempFolder folder;
     const ThreeCases files(folder.path());
     Review review(find_review(files.cases()), {.attended = true, .drawer = {MOBBSCOPE_PROGRAM, "auto"}});
-    review.draw_all();
-    EXPECT_TRUE(review.drawing());
-    EXPECT_THROW(review.draw_all(), std::invalid_argument);
-    review.cancel();
-    EXPECT_FALSE(review.drawing());
+    review.run.draw_all();
+    EXPECT_TRUE(review.run.drawing());
+    EXPECT_THROW(review.run.draw_all(), std::invalid_argument);
+    review.run.cancel();
+    EXPECT_FALSE(review.run.drawing());
     EXPECT_EQ(review.cases().front().state, ReviewCase::State::not_drawn);
-    review.draw_all();
+    review.run.draw_all();
     finished(review);
     EXPECT_EQ(review.summary().bad(), 2);
 }
@@ -888,8 +897,8 @@ TEST(Review, ACrashIsAnOutcome) {
     files.write("crash.sh", "#!/bin/sh\nkill -SEGV $$\n");
     fs::permissions(files.file("crash.sh"), fs::perms::owner_all);
     Review review(find_review(files.cases()), {.attended = false, .drawer = {files.file("crash.sh"), "auto"}});
-    review.draw_all();
-    review.poll();
+    review.run.draw_all();
+    review.run.poll();
     EXPECT_EQ(review.summary()[picture_tests::CaseOutcome::failed], 3);
     EXPECT_NE(review.shown().result.message.find("crashed: Segmentation fault"), std::string::npos)
         << review.shown().result.message;
@@ -899,9 +908,9 @@ TEST(Review, BadInputIsOneLine) {
     ReviewWorld w;
     const std::string empty = (w.files.path() / "empty").string();
     fs::create_directory(empty);
-    EXPECT_EQ(mobbscope::testing::input_error([&] { w.session.reviews.open(empty); }),
+    EXPECT_EQ(mobbscope::testing::input_error([&] { w.reviews.open(empty); }),
               empty + ": holds no case; a case is a file NAME.case.json");
-    EXPECT_FALSE(w.session.reviews.shown());
+    EXPECT_FALSE(w.reviews.shown());
     EXPECT_NE(ThreeCases::run("review '" + empty + "'"), 0);
     w.files.write("missing.case.json", "{");
     w.open();
