@@ -1,6 +1,5 @@
 #include <base/base64.h>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 

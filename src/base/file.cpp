@@ -10,7 +10,6 @@
 #include <cstdio>
 #include <memory>
 #include <system_error>
-#include <vector>
 
 namespace mobbscope {
 

@@ -2,7 +2,6 @@
 #include <cli/continuity_report.h>
 #include <scene/motion_graph.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <iomanip>

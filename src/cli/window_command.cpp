@@ -15,7 +15,6 @@
 #include <cstdlib>
 #include <iostream>
 #include <memory>
-#include <string>
 #include <system_error>
 #include <variant>
 

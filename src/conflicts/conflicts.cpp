@@ -4,21 +4,17 @@
 #include <conflicts/conflicts.h>
 #include <mobb/predicate.h>
 #include <mobb/traversal.h>
-#include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 #include <scene/motion_graph.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
 #include <memory>
-#include <optional>
 #include <tuple>
-#include <utility>
 
 namespace mobbscope {
 

@@ -6,11 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace mobbscope {
 

@@ -2,14 +2,12 @@
 #include <motion_files/glb_writer.h>
 #include <tiny_gltf.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
-#include <string_view>
 #include <vector>
 
 namespace mobbscope {

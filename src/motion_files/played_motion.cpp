@@ -9,7 +9,6 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 

@@ -1,5 +1,4 @@
 #include <base/error.h>
-#include <base/file.h>
 #include <base/text.h>
 #include <import/import.h>
 #include <mobb/predicate.h>
@@ -9,9 +8,7 @@
 #include <scene/path_figures.h>
 
 #include <algorithm>
-#include <cmath>
 #include <new>
-#include <optional>
 #include <system_error>
 
 namespace mobbscope {

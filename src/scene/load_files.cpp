@@ -1,5 +1,4 @@
 #include <base/error.h>
-#include <base/file.h>
 #include <base/text.h>
 #include <import/import.h>
 #include <scene/arrangement.h>

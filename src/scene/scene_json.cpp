@@ -2,7 +2,6 @@
 #include <scene/scene_json.h>
 
 #include <limits>
-#include <string_view>
 #include <vector>
 
 namespace mobbscope {

@@ -5,14 +5,11 @@
 #include <base/threads.h>
 #include <crowd/graph/build_graph.h>
 #include <crowd/graph/continuity.h>
-#include <crowd/graph/cut_search.h>
 #include <crowd/graph/graph_figures.h>
-#include <crowd/graph/hub_choice.h>
 #include <crowd/graph/rigs.h>
 #include <import/skeleton/warp.h>
 #include <scene/arrangement.h>
 #include <scene/load_files.h>
-#include <scene/motion_graph.h>
 #include <scene/scene_edits.h>
 
 #include <tbb/parallel_for.h>
@@ -26,7 +23,6 @@
 #include <map>
 #include <memory>
 #include <stdexcept>
-#include <string>
 #include <system_error>
 #include <tuple>
 #include <utility>

@@ -12,14 +12,12 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <tuple>
-#include <utility>
 
 namespace mobbscope {
 

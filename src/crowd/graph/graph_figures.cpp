@@ -4,20 +4,14 @@
 #include <crowd/graph/graph_figures.h>
 #include <crowd/graph/pose_distance.h>
 #include <crowd/graph/rigs.h>
-#include <import/import.h>
-#include <scene/motion_graph.h>
 
 #include <tbb/parallel_for.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <stdexcept>
-#include <string>
 #include <unordered_map>
-#include <utility>
-#include <vector>
 
 namespace mobbscope {
 

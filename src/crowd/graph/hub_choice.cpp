@@ -1,13 +1,11 @@
 #include <base/threads.h>
 #include <crowd/graph/hub_choice.h>
-#include <scene/motion_graph.h>
 
 #include <glm/geometric.hpp>
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 #include <utility>
 

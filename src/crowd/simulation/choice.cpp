@@ -7,9 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <span>
-#include <stdexcept>
 #include <tuple>
 #include <utility>
 

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <functional>
 #include <queue>
 #include <stdexcept>
 #include <string>

@@ -1,5 +1,4 @@
 #include <base/text.h>
-#include <explain/query_progress.h>
 #include <explain/query_sentence.h>
 #include <render/layout/annotations.h>
 #include <render/layout/caption.h>

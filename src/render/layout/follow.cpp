@@ -7,12 +7,10 @@
 #include <scene/crowd_scene.h>
 #include <scene/drawn_agent.h>
 #include <scene/motion_graph.h>
-#include <scene/view_state.h>
 
 #include <glm/common.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 

@@ -1,12 +1,9 @@
-#include <render/drawlist/camera.h>
-#include <render/drawlist/draw_list.h>
 #include <render/layout/framing.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 

@@ -2,7 +2,6 @@
 #include <mobb/traversal.h>
 #include <render/drawlist/pen.h>
 #include <render/parts/floor_and_axes.h>
-#include <render/text/labels.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

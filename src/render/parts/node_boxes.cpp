@@ -1,5 +1,4 @@
 #include <mobb/separation.h>
-#include <render/drawlist/draw_list.h>
 #include <render/parts/node_boxes.h>
 
 #include <glm/common.hpp>
