@@ -1,5 +1,5 @@
 #include <base/text.h>
-#include <motion_files/glb_writer.h>
+#include <motion_files/formats.h>
 #include <tiny_gltf.h>
 
 #include <cmath>
