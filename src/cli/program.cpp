@@ -33,7 +33,7 @@ void flush_results() {
 namespace fs = std::filesystem;
 
 void check_extension(const fs::path& file, std::string_view extension, const std::string& message) {
-    if (!file.empty() && lower_extension(file) != extension) throw InputError(file.string(), "", message);
+    if (!file.empty() && lower_extension(file) != extension) throw InputError(file, message);
 }
 
 void check_output(const fs::path& output) {

@@ -224,7 +224,7 @@ class Chooser {
 
     void take_least_harm() {
         if (choice_.candidates.empty()) {
-            throw InputError(moves_.fitted().scene().file.string(), "",
+            throw InputError(moves_.fitted().scene().file,
                              "the graph's moves lead beyond all bounds; check their stances");
         }
         const auto stays = [](const Candidate& candidate) { return !candidate.leaves_floor; };

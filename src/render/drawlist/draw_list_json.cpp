@@ -191,7 +191,7 @@ void write_box(JsonWriter& out, const BoxInstance& box, const Objects& objects, 
     out.member("level", box.order.level);
     out.member("state", name(box.state));
     vector(out, "center", box.center);
-    out.list("extents", box.extents, [&](const glm::vec3& e) { out.numbers({e.x, e.y, e.z}); });
+    out.list("extents", box.extents, [&](const glm::vec3& e) { out.value(e); });
     color(out, "fill", box.fill);
     color(out, "edge", box.edge);
     number(out, "width", box.width);
