@@ -1,7 +1,7 @@
 /// Time and tests per query, each kind of tree beside the direct search, on long and short walks; what building and
 /// recording cost; and how cost grows. --benchmark_filter=grow/ asks for the last alone.
 #include <benchmark/benchmark.h>
-#include <mobb/production.h>
+#include <mobb/blocks.h>
 #include <mobb/query.h>
 #include <mobb/trace.h>
 
@@ -73,7 +73,7 @@ struct Trees {
     }
 };
 
-struct Production {
+struct BlockTrees {
     /// Blocks are timed; counts come from the tree that they belong to.
     struct Placed {
         Placed(const Tree& of, const Placement& placement) : tree(of, placement), blocks(*of.blocks(), placement) {}
@@ -82,9 +82,9 @@ struct Production {
     };
     std::vector<std::unique_ptr<const Tree>> made;
 
-    explicit Production(const std::vector<ClipPtr>& clips) {
+    explicit BlockTrees(const std::vector<ClipPtr>& clips) {
         for (const ClipPtr& clip : clips)
-            made.push_back(std::make_unique<const Tree>(clip, FitOptions{.tree = TreeKind::production}));
+            made.push_back(std::make_unique<const Tree>(clip, FitOptions{.tree = TreeKind::blocks}));
     }
     template <class Observer>
     static bool ask(const Placed& a, const Placed& b, [[maybe_unused]] Observer& observer) {
@@ -321,7 +321,7 @@ void add_methods(const std::string& name, const std::string& label, const MakeWo
         return [options](const std::vector<ClipPtr>& clips) { return Trees(clips, options); };
     };
     add_one("direct", [](const std::vector<ClipPtr>& clips) { return DirectSearch(clips); });
-    add_one("production", [](const std::vector<ClipPtr>& clips) { return Production(clips); });
+    add_one("blocks", [](const std::vector<ClipPtr>& clips) { return BlockTrees(clips); });
     add_one("mobb_1level", trees({.levels = 1}));
     add_one("mobb_leaf10", trees({.leaf = 10}));
     add_one("mobb_leaf50", trees({.leaf = 50}));
@@ -356,9 +356,9 @@ void add_asked(const std::string& label, const MakeWorkload& workload, Make make
 
 void add_queries(const std::string& length, const MakeWorkload& workload) {
     add_asked("direct/" + length, workload, [](const std::vector<ClipPtr>& clips) { return DirectSearch(clips); });
-    add_asked("production/" + length, workload, [](const std::vector<ClipPtr>& clips) { return Production(clips); });
+    add_asked("blocks/" + length, workload, [](const std::vector<ClipPtr>& clips) { return BlockTrees(clips); });
     for (const TreeKind kind : kTreeKinds) {
-        if (kind == TreeKind::production) continue;  // asked above, by its blocks
+        if (kind == TreeKind::blocks) continue;  // asked above, by its blocks
         for (const int levels : {1, 0}) {
             const FitOptions options{.tree = kind, .levels = levels};
             add_asked(std::string(name(kind)) + (levels ? "_1level/" : "/") + length, workload,
@@ -390,7 +390,7 @@ void add_fits(const std::string& length, const MakeWorkload& workload) {
             add_fit("fit/" + label, workload, tree_of({.tree = kind, .axes = axes}));
         }
     }
-    add_fit("fit/production/" + length, workload, blocks_of);
+    add_fit("fit/blocks/" + length, workload, blocks_of);
 }
 
 const bool registered = [] {
@@ -410,7 +410,7 @@ const bool registered = [] {
         for (const TreeKind kind : {TreeKind::mobb, TreeKind::umobb}) {
             add_fit("grow/fit/" + std::string(name(kind)) + "/" + label, random, tree_of({.tree = kind}));
         }
-        add_fit("grow/fit/production/" + label, random, blocks_of);
+        add_fit("grow/fit/blocks/" + label, random, blocks_of);
         add_methods("grow/side_by_side", label, once([=] { return side_by_side(seconds); }), false);
     }
     for (const int clips : {16, 256, 4096, 32768}) {

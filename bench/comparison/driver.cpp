@@ -14,8 +14,11 @@
 #include <paper_tables/random_queries.h>
 
 #if __has_include(<mobb/production.h>)
-#include <mobb/production.h>
-#define COMPARE_PRODUCTION 1
+#include <mobb/production.h>  // what was so called is in mobb/blocks.h since
+#define COMPARE_BLOCKS 1
+#elif __has_include(<mobb/blocks.h>)
+#include <mobb/blocks.h>
+#define COMPARE_BLOCKS 1
 #endif
 
 #include <algorithm>
@@ -210,7 +213,7 @@ void add_tree(std::vector<Row>& rows, const Workload& w, const std::string& name
     rows.push_back(pair_row<PlacedTree, std::unique_ptr<const Tree>>(name, w, trees, ask));
 }
 
-#ifdef COMPARE_PRODUCTION
+#ifdef COMPARE_BLOCKS
 /// The pairs of a slice, asked at once.
 struct Batch {
     std::vector<Pair<PlacedBlocks>> placed;
@@ -227,16 +230,16 @@ struct Batch {
     }
 };
 
-void add_production(std::vector<Row>& rows, const Workload& w) {
+void add_blocks(std::vector<Row>& rows, const Workload& w) {
     auto blocks = std::make_shared<std::vector<std::unique_ptr<const Blocks>>>();
     for (const ClipPtr& clip : w.clips) blocks->push_back(std::make_unique<const Blocks>(clip));
     using Source = std::unique_ptr<const Blocks>;
     const auto ask = [](const Pair<PlacedBlocks>& pair, auto&) { return intersects(pair.a, pair.b); };
-    rows.push_back(pair_row<PlacedBlocks, Source>("production", w, blocks, ask));
+    rows.push_back(pair_row<PlacedBlocks, Source>("blocks", w, blocks, ask));
     const auto contact = [](const Pair<PlacedBlocks>& pair, auto&) { return query(pair.a, pair.b); };
-    rows.push_back(pair_row<PlacedBlocks, Source>("production contact", w, blocks, contact));
+    rows.push_back(pair_row<PlacedBlocks, Source>("blocks contact", w, blocks, contact));
     Row batch = rows.back();
-    batch.name = "production batch";
+    batch.name = "blocks batch";
     batch.time = [&w, blocks](std::size_t slice) {
         Batch of_slice(*blocks, w.slice(slice));
         g_found += static_cast<int>(Batch(*blocks, w.before(slice)).ask());
@@ -258,7 +261,7 @@ void add_production(std::vector<Row>& rows, const Workload& w) {
         compare_counted([&] { g_found += static_cast<int>(of_slice.ask()); });
     };
     rows.push_back(std::move(batch));
-    rows.push_back(fit_row("fit production", w, [](const ClipPtr& clip) { return Blocks(clip).clip().count() > 0; }));
+    rows.push_back(fit_row("fit blocks", w, [](const ClipPtr& clip) { return Blocks(clip).clip().count() > 0; }));
 }
 #endif
 
@@ -276,8 +279,8 @@ std::vector<Row> rows_of(const Workload& w) {
          {TreeKind::umobb, TreeKind::hybrid1, TreeKind::hybrid2, TreeKind::moving, TreeKind::aabb}) {
         add_tree(rows, w, std::string(name(kind)) + " leaf 10", options_of(kind, 10));
     }
-#ifdef COMPARE_PRODUCTION
-    add_production(rows, w);
+#ifdef COMPARE_BLOCKS
+    add_blocks(rows, w);
 #endif
     for (const TreeKind kind : {TreeKind::mobb, TreeKind::umobb, TreeKind::moving, TreeKind::aabb}) {
         rows.push_back(fit_row("fit " + std::string(name(kind)), w,

@@ -1,8 +1,8 @@
 /// One run of bench/cliffs: settings that should cost alike, asked in turns. Usage: cliffs ROUNDS [PART], of rows with
 /// that part of a name. Prints a line for each: name, how many units it has (tab), and its nanoseconds of processor
 /// time in each round. Ends with status 1 where an answer is not the direct search's.
+#include <mobb/blocks.h>
 #include <mobb/placed_tree.h>
-#include <mobb/production.h>
 #include <mobb/query.h>
 
 #include <cmath>
@@ -45,7 +45,7 @@ struct Bench {
     bool right = true;
     std::string part{};  ///< of the names of rows that are wanted
 
-    const Tree& tree_of(const ClipPtr& clip, TreeKind kind = TreeKind::production) {
+    const Tree& tree_of(const ClipPtr& clip, TreeKind kind = TreeKind::blocks) {
         return trees.emplace_back(clip, FitOptions{.tree = kind, .leaf = 50});
     }
     /// Adds a row that is wanted, which must find as much as is known.

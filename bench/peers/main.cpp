@@ -3,7 +3,7 @@
 ///
 /// Usage: bench_peers [--queries N] [--rounds N] [long|short [CLIP.csv...]]
 /// Without clips: built-in ones. They are placed as bench/compare does it.
-#include <mobb/production.h>
+#include <mobb/blocks.h>
 #include <paper_tables/built_in_clips.h>
 
 #include <algorithm>
@@ -75,7 +75,7 @@ std::unique_ptr<Peer> tree_peer(const Clips& clips, const mobb::FitOptions& opti
                                  [](const auto& a, const auto& b) { return query(a, b).has_value(); });
 }
 
-std::unique_ptr<Peer> production_peer(const Clips& clips) {
+std::unique_ptr<Peer> blocks_peer(const Clips& clips) {
     std::vector<std::unique_ptr<const mobb::Blocks>> blocks;
     for (const mobb::ClipPtr& clip : clips) blocks.push_back(std::make_unique<const mobb::Blocks>(clip));
     return own<mobb::PlacedBlocks>(std::move(blocks), [](const auto& a, const auto& b) { return intersects(a, b); });
@@ -86,7 +86,7 @@ std::vector<NamedPeer> peers_of(const Clips& clips) {
     std::vector<NamedPeer> out;
     out.push_back({"MOBB, leaf 10", tree_peer(clips, {.leaf = 10})});
     out.push_back({"MOBB, leaf 50", tree_peer(clips, {.leaf = 50})});
-    out.push_back({"production", production_peer(clips)});
+    out.push_back({"blocks", blocks_peer(clips)});
     out.push_back({"direct search", direct_peer(clips)});
     [[maybe_unused]] const auto add = [&](const char* name, auto make, std::initializer_list<int> sizes) {
         for (const int samples : sizes) {

@@ -65,6 +65,8 @@ class JsonPlace {
 
     bool is_null() const { return std::holds_alternative<std::nullptr_t>(value_->data); }
     bool is_string() const { return std::holds_alternative<std::string>(value_->data); }
+    bool is_object() const { return std::holds_alternative<JsonValue::Object>(value_->data); }
+    bool is_array() const { return std::holds_alternative<JsonValue::Array>(value_->data); }
     bool is_number() const { return std::holds_alternative<double>(value_->data); }
 
     // Each throws InputError if the value is of another type or out of range.

@@ -188,7 +188,7 @@ void print_text(const Findings& findings) {
 
 int run_conflicts(const ConflictsCommandArguments& arguments) {
     FitArguments fit = arguments.fit;
-    if (!fit.tree) fit.tree = mobb::TreeKind::production;
+    if (!fit.tree) fit.tree = mobb::TreeKind::blocks;
     const FittedScene scene = fitted(load_crowd(arguments), fit);
     std::vector<mobb::PlacedTree> crowd;
     for (const PlacedAgent& who : scene.placed_agents()) crowd.push_back(scene.placed(who));

@@ -7,6 +7,7 @@
 #include <render/gl/gl_context.h>
 #include <scene/crowd_run.h>
 #include <scene/load_files.h>
+#include <scene/scene_json.h>
 
 #include <unistd.h>
 
@@ -117,7 +118,7 @@ void add_fit_options(Command& command, FitArguments& arguments, Brute brute) {
     const std::string trees = listed(mobb::tree_kind_names()) + (takes_brute ? ", brute" : "");
     const std::string axes = listed(mobb::axes_names());
     const auto set_tree = [&arguments, takes_brute, trees](const std::string& text) {
-        arguments.tree = mobb::tree_kind_from_name(text);
+        arguments.tree = find_tree_kind(text);
         arguments.brute = takes_brute && text == "brute";
         if (!arguments.tree && !arguments.brute) throw std::invalid_argument(in_quotes(text) + " is none of " + trees);
     };

@@ -168,8 +168,7 @@ void print_run_text(const Summary& summary) {
 
 /// Trees are asked where one of the paper's kinds is named.
 QueriedBy queried_by(const FitArguments& fit) {
-    return fit.tree.value_or(mobb::TreeKind::production) == mobb::TreeKind::production ? QueriedBy::blocks
-                                                                                       : QueriedBy::trees;
+    return fit.tree.value_or(mobb::TreeKind::blocks) == mobb::TreeKind::blocks ? QueriedBy::blocks : QueriedBy::trees;
 }
 
 void run_simulate(const SimulateCommandArguments& arguments) {

@@ -1,5 +1,6 @@
 #include <base/error.h>
 #include <base/file.h>
+#include <base/json.h>
 #include <base/text.h>
 #include <cases/case_file.h>
 #include <cases/case_report.h>
@@ -18,6 +19,7 @@
 #include <render/image/image_diff.h>
 #include <render/image/png.h>
 #include <render/pictures/draw_a_little.h>
+#include <scene/scene_json.h>
 
 #include <unistd.h>
 
@@ -297,18 +299,23 @@ int answer_requests(const TestCommandArguments& arguments) {
     return kDone;
 }
 
-/// Throws InputError if the mask of a case does not fit its golden.
-void check_masks(const std::vector<CaseFile>& cases) {
+/// Throws InputError if the mask of a case does not fit its golden, or the state of its window has an old name.
+void check_goldens(const std::vector<CaseFile>& cases) {
     for (const CaseFile& file : cases) {
         std::optional<std::filesystem::path> mask;
         std::optional<PictureSize> golden;
+        std::optional<JsonValue> state;
+        const std::string state_file = file.plain_state().string();
         try {
             const picture_tests::CaseTerms terms = picture_tests::read_terms(file);
-            if (!terms.skip) mask = terms.mask;
+            if (terms.skip) continue;
+            if (std::filesystem::exists(state_file)) state = parse_json(read_file(state_file), state_file);
+            mask = terms.mask;
             if (mask) golden = png_size(read_file(file.golden()), file.golden().string());
         } catch (const InputError&) {
             // What is wrong with a case or a golden, or that there is none, is told where the case is drawn.
         }
+        if (state) refuse_old_tree_names(JsonPlace(*state, state_file));
         if (golden) read_mask(*mask, *golden, file.golden());
     }
 }
@@ -392,7 +399,7 @@ int draw_and_hold(const TestCommandArguments& arguments) {
         return taken ? kDone : kFailed;
     }
     // A mask that fits what is drawn now may wait for a golden of that size.
-    if (!arguments.json_lines && !arguments.update) check_masks(cases);
+    if (!arguments.json_lines && !arguments.update) check_goldens(cases);
     if (asks(arguments) && ::isatty(STDIN_FILENO) == 0) {
         throw InputError("--update: there is no terminal to ask at; name the cases whose pictures to take, or all");
     }

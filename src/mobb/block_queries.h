@@ -1,7 +1,7 @@
-/// The queries of production.h, compiled for one set of instructions: what production.cpp chooses from. Not installed.
+/// The queries of blocks.h, compiled for one set of instructions: what block_queries.cpp chooses from. Not installed.
 #pragma once
 
-#include <mobb/production.h>
+#include <mobb/blocks.h>
 
 #include <cstddef>
 #include <string_view>

@@ -20,13 +20,13 @@ enum class BoxKind : std::uint8_t {
 };
 
 enum class TreeKind : std::uint8_t {
-    mobb,        ///< 2D oriented boxes extruded in time
-    umobb,       ///< free boxes in space-time
-    hybrid1,     ///< MOBB root, UMOBB below (paper, Section 5)
-    hybrid2,     ///< UMOBB root, MOBB below
-    moving,      ///< 2D oriented boxes that move with the walk
-    aabb,        ///< boxes along the axes: the baseline of other fields
-    production,  ///< blocks of 16 samples and of 8 blocks, tested several at a time (mobb/blocks.h)
+    mobb,     ///< 2D oriented boxes extruded in time
+    umobb,    ///< free boxes in space-time
+    hybrid1,  ///< MOBB root, UMOBB below (paper, Section 5)
+    hybrid2,  ///< UMOBB root, MOBB below
+    moving,   ///< 2D oriented boxes that move with the walk
+    aabb,     ///< boxes along the axes: the baseline of other fields
+    blocks,   ///< blocks of 16 samples and of 8 blocks, tested several at a time (mobb/blocks.h)
 };
 
 /// The axes of a box, and so those that separate two of its kind.
@@ -55,6 +55,7 @@ struct TreeInfo {
     std::string_view help;   ///< one line
     BoxKind root = BoxKind::obb2d;
     BoxKind below = BoxKind::obb2d;  ///< of all other levels
+    std::string_view formerly{};     ///< its name once, which is refused with the present one
 
     constexpr bool has(BoxAxes axes) const;
     /// Whether FitOptions::leaf and levels matter.
@@ -128,10 +129,10 @@ constexpr TreeInfo of(TreeKind kind) {
         case TreeKind::aabb:
             return {"aabb",        "AABB",       "AABB", "Boxes along x and y: the baseline of other fields",
                     BoxKind::aabb, BoxKind::aabb};
-        case TreeKind::production:
-            return {"production",   "production",
-                    "production",   "Blocks of samples, tested several at a time: the fastest",
-                    BoxKind::block, BoxKind::block};
+        case TreeKind::blocks:
+            return {
+                "blocks",       "blocks",       "blocks",    "Blocks of samples, tested several at a time: the fastest",
+                BoxKind::block, BoxKind::block, "production"};
     }
     return {};
 }

@@ -1,8 +1,8 @@
 /// Chains where they are placed.
 #pragma once
 
+#include <mobb/blocks.h>
 #include <mobb/chain.h>
-#include <mobb/production.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 /// Trees where their clips are placed.
 #pragma once
 
-#include <mobb/production.h>
+#include <mobb/blocks.h>
 #include <mobb/tree.h>
 
 #include <array>

@@ -1,9 +1,9 @@
 /// Do two placed clips ever collide? (paper, Section 3.2)
 #pragma once
 
+#include <mobb/blocks.h>
 #include <mobb/observer.h>
 #include <mobb/placed_tree.h>
-#include <mobb/production.h>
 #include <mobb/traversal.h>
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 /// The traversal of two trees (paper, Section 3.2): the only one, for answers, counts and traces alike.
 #pragma once
 
+#include <mobb/blocks.h>
 #include <mobb/lanes.h>
 #include <mobb/observer.h>
 #include <mobb/predicate.h>
-#include <mobb/production.h>
 #include <mobb/sample_pairs.h>
 #include <mobb/separation.h>
 

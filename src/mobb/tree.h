@@ -18,7 +18,7 @@ namespace mobb {
 
 struct FitOptions {
     TreeKind tree = TreeKind::mobb;  ///< the paper's best all round
-    // A production tree has blocks of its own making: of these options it takes the time scale alone, for its boxes.
+    // A tree of blocks makes these by itself: of these options it takes the time scale alone, for its boxes.
     int leaf = 10;   ///< n_min >= 1: a node of at most so many samples is a leaf; 10 is the paper's optimum
     int levels = 0;  ///< 0: all; n >= 1: level n-1 is the last. 1 is the paper's "1 level" tree
     Axes axes = Axes::endpoints;  ///< the paper's
@@ -51,8 +51,8 @@ struct alignas(64) Node {
 };
 static_assert(sizeof(Node) == 64);
 
-/// A flat array of nodes, the root first: in depth-first order, or of a production tree level by level. Immutable; safe
-/// to query from any number of threads.
+/// A flat array of nodes, the root first: in depth-first order, or of blocks level by level. Immutable; safe to
+/// query from any number of threads.
 class Tree {
   public:
     /// Throws std::invalid_argument if there is no clip or an option is out of range.
@@ -65,7 +65,7 @@ class Tree {
     std::span<const Node> nodes() const { return nodes_; }
     const Node& node(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
     int depth() const { return depth_; }  ///< number of levels, >= 1
-    /// What the nodes of a production tree are, by the same numbers; of another tree nothing. All of these are leaves
+    /// What the nodes of a tree of blocks are, by the same numbers; of another tree nothing. All of these are leaves
     /// to a query, which goes on with the blocks.
     const Blocks* blocks() const { return blocks_.get(); }
     /// Of memory: the nodes with all that belongs to them, blocks included, without the clip.

@@ -1,8 +1,8 @@
 #include <base/random.h>
 #include <base/text.h>
+#include <mobb/blocks.h>
 #include <mobb/level_figures.h>
 #include <mobb/placed_tree.h>
-#include <mobb/production.h>
 #include <mobb/query.h>
 #include <mobb/traversal.h>
 #include <paper_tables/clock.h>
@@ -193,7 +193,7 @@ double time_block(const FittedMethod& fitted, const Workload& workload, std::siz
     if (method.batch) {
         return time(BlocksOf{fitted.trees}, [](const auto& pairs) { return count_in_batches(pairs); });
     }
-    if (method.options->tree == mobb::TreeKind::production) {
+    if (method.options->tree == mobb::TreeKind::blocks) {
         return one_by_one(BlocksOf{fitted.trees}, [](const auto& pair) { return mobb::intersects(pair.a, pair.b); });
     }
     if (method.boxes_in_walk) {

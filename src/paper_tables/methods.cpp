@@ -38,7 +38,7 @@ constexpr mobb::TreeKind kVaried[] = {mobb::TreeKind::mobb, mobb::TreeKind::umob
 std::vector<Method> table_methods(const mobb::FitOptions& base) {
     std::vector<Method> methods = baselines(base);
     append(methods, all_kinds(base));
-    methods.push_back(method_of(mobb::TreeKind::production, base, "_batch"));
+    methods.push_back(method_of(mobb::TreeKind::blocks, base, "_batch"));
     methods.back().batch = true;
     return methods;
 }

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <crowd/simulation/simulate.h>
+#include <mobb/blocks.h>
 #include <mobb/clip.h>
 #include <mobb/placed_tree.h>
-#include <mobb/production.h>
 #include <paper_tables/random_queries.h>
 #include <scene/scene.h>
 
@@ -34,7 +34,7 @@ PlacedPair<mobb::PlacedClip> placed(const Workload& workload, const WorkloadQuer
 /// The trees must outlive it.
 PlacedPair<mobb::PlacedTree> placed(const std::vector<mobb::Tree>& trees, const WorkloadQuery& query);
 
-/// Production trees whose blocks are asked. They must outlive what is placed.
+/// Trees of blocks, of which these are asked. They must outlive what is placed.
 struct BlocksOf {
     const std::vector<mobb::Tree>& trees;
 };

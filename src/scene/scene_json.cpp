@@ -1,6 +1,8 @@
 #include <base/text.h>
 #include <scene/scene_json.h>
 
+#include <algorithm>
+#include <stdexcept>
 #include <vector>
 
 namespace mobbscope {
@@ -11,10 +13,13 @@ using Layout = JsonWriter::Layout;
 
 // ---- fits and trees
 
+std::optional<mobb::TreeKind> find_tree_kind_at(const JsonPlace& place) {
+    return place.attempt([&] { return find_tree_kind(place.string()); });
+}
+
 mobb::TreeKind read_tree_kind(const JsonPlace& place) {
-    const std::string& name = place.string();
-    if (const auto kind = mobb::tree_kind_from_name(name)) return *kind;
-    place.fail(in_quotes(name) + " is no tree; give one of " + listed(mobb::tree_kind_names()));
+    if (const auto kind = find_tree_kind_at(place)) return *kind;
+    place.fail(in_quotes(place.string()) + " is no tree; give one of " + listed(mobb::tree_kind_names()));
 }
 
 mobb::Axes read_axes(const JsonPlace& place) {
@@ -139,6 +144,22 @@ void write_event(JsonWriter& out, int step, const mobb::Trace::Event& event) {
 }
 
 }  // namespace
+
+std::optional<mobb::TreeKind> find_tree_kind(std::string_view name) {
+    const auto old = std::ranges::find(mobb::kTreeKinds, name, [](auto kind) { return mobb::info(kind).formerly; });
+    if (name.empty() || old == mobb::kTreeKinds.end()) return mobb::tree_kind_from_name(name);
+    throw std::invalid_argument("`" + std::string(name) + "` is called `" + std::string(mobb::name(*old)) + "`");
+}
+
+void refuse_old_tree_names(const JsonPlace& place) {
+    const int members = place.is_object() ? place.members() : 0, elements = place.is_array() ? place.size() : 0;
+    for (int i = 0; i < members; ++i) {
+        const JsonPlace member = place.member(i);
+        if (member.key() == "tree" && member.is_string()) find_tree_kind_at(member);
+        refuse_old_tree_names(member);
+    }
+    for (int i = 0; i < elements; ++i) refuse_old_tree_names(place[i]);
+}
 
 mobb::FitOptions read_fit(const JsonPlace& place, mobb::FitOptions fit) {
     place.allow_only({"tree", "leaf", "levels", "axes", "time_scale"});

@@ -10,8 +10,14 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace mobbscope {
+
+/// The kind of trees of that name, if there is one. Throws std::invalid_argument, naming the new name, for an old one.
+std::optional<mobb::TreeKind> find_tree_kind(std::string_view name);
+/// Throws InputError for a member `tree`, at any depth, that is an old name.
+void refuse_old_tree_names(const JsonPlace& place);
 
 /// The `fit` of a scene file over `base`: a key that is not there keeps its value. Each has FitOptions' name for it:
 ///

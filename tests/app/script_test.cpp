@@ -29,6 +29,7 @@ TEST(Script, WhatIsNoStatementNamesFileAndLine) {
              {"expect a 1", "'a' is no JSON pointer"},
              {"expect /a yes", "'yes' is no JSON"},
              {"expect /a ~ 1", "needs a tolerance"},
+             {"expect /scene/fit/tree \"production\"", "line 1: `production` is called `blocks`"},
              {"run no.such.command", "there is no command 'no.such.command'"},
              {"wait -1", "from 0 to 3600"},
              {"until 1", "needs a JSON pointer"},

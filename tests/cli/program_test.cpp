@@ -70,6 +70,29 @@ TEST(Program, BadUsageIsOneLineAndStatusTwo) {
     }
 }
 
+TEST(Program, AnOldNameOfAKindOfTreesIsRefusedWithTheNewOne) {
+    const std::string scene = kProgramScenes + "crossing.json";
+    const TempFolder folder;
+    const std::string old =
+        folder.write("old.json", R"({"mobbscope": 1, "clips": {"c": {"dt": 1, "samples": [[0, 0, 1]]}},
+ "fit": {"tree": "production"}})");
+    const std::string script = folder.write("old.script", "frames 1\nrun tree.kind production\n");
+    const std::string expecting = folder.write("expecting.script", "\nexpect /scene/fit/tree \"production\"\n");
+    for (const auto& [arguments, place] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+             {{"fit", scene, "--tree", "production"}, "--tree: "},
+             {{"query", scene, "--tree", "production"}, "--tree: "},
+             {{"conflicts", scene, "--tree", "production"}, "--tree: "},
+             {{"query", old}, old + ": line 2, /fit/tree: "},
+             {{"--script", script, scene}, "line 2: "},
+             {{"--script", expecting, scene}, "line 2: "}}) {
+        const Result run = run_program(arguments);
+        EXPECT_EQ(run.status, 2) << run.err;
+        EXPECT_TRUE(is_one_line(run.err)) << run.err;
+        EXPECT_NE(run.err.find(place + "`production` is called `blocks`"), std::string::npos) << run.err;
+        EXPECT_EQ(run.out, "");
+    }
+}
+
 TEST(Program, BadUsageNamesTheHelpThatListsTheOption) {
     EXPECT_NE(run_program({"graph", "build", "--bogus"}).err.find("see mobbscope graph build --help"),
               std::string::npos);

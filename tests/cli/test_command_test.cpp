@@ -349,6 +349,13 @@ TEST_F(DrawnTestCommandTest, AMaskOfAnotherSizeEndsTheRun) {
     EXPECT_EQ(test({"path"}).status, 0) << "nothing is compared";
 }
 
+TEST_F(DrawnTestCommandTest, AStateWithAnOldNameEndsTheRun) {
+    cases.add("path", R"("window": {})");
+    cases.folder().write("path.plain.state.json", "{\n \"views\": [{\"tree\": \"production\"}]}\n");
+    expect_test_refused(test({"path"}),
+                        "path.plain.state.json: line 2, /views/0/tree: `production` is called `blocks`");
+}
+
 TEST_F(DrawnTestCommandTest, APictureOfAnotherSizeIsTakenWithTheMaskThatFitsIt) {
     cases.add("path", R"("mask": "mask.png")");
     Image mask(160, 120);

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
+#include <mobb/blocks.h>
 #include <mobb/chain_boxes.h>
 #include <mobb/placed_chain.h>
-#include <mobb/production.h>
 #include <mobb/query.h>
 #include <mobb/random_chain.h>
 #include <mobb/random_motion.h>
@@ -190,7 +190,7 @@ TEST(Chain, OfLinearAndHeldClipsGivesTheDirectSearchsAnswer) {
     while (asked < budget) {
         const double w = random_scale(random);
         // Of blocks, too.
-        const auto kind = [&] { return random.chance(0.2) ? std::optional(TreeKind::production) : std::nullopt; };
+        const auto kind = [&] { return random.chance(0.2) ? std::optional(TreeKind::blocks) : std::nullopt; };
         const double linear = random.chance(0.3) ? 1 : 0.5;
         const Chain a(random_running_links(random, 12, w, 300, kind(), linear));
         const Chain b(random_running_links(random, 12, w, 300, kind()));

@@ -43,7 +43,7 @@ TEST(Kinds, OnlyFreeBoxesUseTheTimeScaleAndAabbsAndBlocksHaveNoAxesToChoose) {
     for (const TreeKind kind : {TreeKind::mobb, TreeKind::moving}) {
         EXPECT_TRUE(!info(kind).uses_time_scale() && info(kind).chooses_axes()) << name(kind);
     }
-    for (const TreeKind kind : {TreeKind::aabb, TreeKind::production}) {
+    for (const TreeKind kind : {TreeKind::aabb, TreeKind::blocks}) {
         EXPECT_TRUE(!info(kind).uses_time_scale() && !info(kind).chooses_axes()) << name(kind);
     }
 }

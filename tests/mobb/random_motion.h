@@ -132,7 +132,7 @@ inline FitOptions random_fit(Random& random) {
 /// A tree of boxes, or of blocks.
 inline FitOptions random_any_fit(Random& random) {
     FitOptions fit = random_fit(random);
-    if (random.chance(0.2)) fit.tree = TreeKind::production;
+    if (random.chance(0.2)) fit.tree = TreeKind::blocks;
     return fit;
 }
 

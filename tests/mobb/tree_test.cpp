@@ -52,7 +52,7 @@ TEST(Tree, OfBlocksHasTheirNumbersAndParents) {
     Random random(6);
     for (int round = 0; round < 200; ++round) {
         const ClipPtr clip = test::random_clip(random);
-        const Tree tree(clip, {.tree = TreeKind::production});
+        const Tree tree(clip, {.tree = TreeKind::blocks});
         ASSERT_NE(tree.blocks(), nullptr);
         ASSERT_EQ(static_cast<int>(tree.nodes().size()), tree.blocks()->node_count());
         for (int i = 0; i < tree.blocks()->node_count(); ++i) {
@@ -206,7 +206,7 @@ TEST(Tree, BoxesOfLongClipsAreThoseFittedToTheirRanges) {
         const auto clip = std::make_shared<const Clip>(1.0 / 30, walk, motion);
         for (const TreeKind kind : kTreeKinds) {
             // The bounds of blocks are of single precision.
-            if (kind != TreeKind::production) expect_boxes_of_fit(clip, {.tree = kind});
+            if (kind != TreeKind::blocks) expect_boxes_of_fit(clip, {.tree = kind});
         }
         expect_boxes_of_fit(clip, {.leaf = 1});
     }

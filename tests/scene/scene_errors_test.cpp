@@ -136,6 +136,7 @@ TEST(SceneErrors, EverythingElseIsChecked) {
         {R"("$schema": 1)", "expected a string"},
         {R"("fit": {"tree": "oak"})", "'oak' is no tree; give one of mobb, umobb, hybrid1, hybrid2, moving, aabb"},
         {R"("fit": {"tree": "brute"})", "is no tree"},
+        {R"("fit": {"tree": "production"})", "/fit/tree: `production` is called `blocks`"},
         {R"("fit": {"tree": "productoin"})", "'productoin' is no tree"},
         {R"("fit": {"leaf": 0})", "/fit/leaf: 0 is out of range"},
         {R"("fit": {"leaf": 2.5})", "whole number"},

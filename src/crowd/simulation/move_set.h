@@ -28,7 +28,7 @@ inline constexpr double kDefaultTurnRate = 120;
 
 /// What queries go through: the answers are the same.
 enum class QueriedBy {
-    blocks,  ///< the fastest (mobb/production.h)
+    blocks,  ///< the fastest (mobb/blocks.h)
     trees,   ///< those of the fit in use
 };
 

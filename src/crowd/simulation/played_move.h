@@ -6,7 +6,6 @@
 #include <mobb/kdop.h>
 #include <mobb/lanes.h>
 #include <mobb/placed_tree.h>
-#include <mobb/production.h>
 #include <mobb/tree.h>
 #include <scene/motion_graph.h>
 

@@ -1,6 +1,6 @@
 #include <base/threads.h>
 #include <crowd/simulation/surroundings.h>
-#include <mobb/production.h>
+#include <mobb/blocks.h>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

@@ -1,8 +1,7 @@
-// The production query: the direct search's answers on every set of instructions, and bounds that hold.
+// The block query: the direct search's answers on every set of instructions, and bounds that hold.
 #include <gtest/gtest.h>
 #include <mobb/blocks.h>
 #include <mobb/placed_chain.h>
-#include <mobb/production.h>
 #include <mobb/query.h>
 #include <mobb/random_chain.h>
 #include <mobb/random_motion.h>
@@ -47,7 +46,7 @@ class EachInstructionSet {
     std::vector<std::string_view> names_ = instruction_sets();
 };
 
-TEST(Production, GivesTheDirectSearchsAnswersOnEveryInstructionSet) {
+TEST(Blocks, GivesTheDirectSearchsAnswersOnEveryInstructionSet) {
     const EachInstructionSet sets;
     Random random(71);
     int hits = 0;
@@ -84,7 +83,7 @@ ClipPtr long_walk(Random& random, int samples, double step, double dt) {
     return std::make_shared<const Clip>(dt, walk, random.chance(0.2) ? Motion::linear : Motion::held);
 }
 
-TEST(Production, GivesTheDirectSearchsAnswersOnClipsOfSeveralLevels) {
+TEST(Blocks, GivesTheDirectSearchsAnswersOnClipsOfSeveralLevels) {
     const EachInstructionSet sets;
     Random random(80);
     int hits = 0, levels = 0;
@@ -128,16 +127,16 @@ Placement of_chain(const Placement& clip, const ChainLink& first) {
     return out;
 }
 
-TEST(Production, OfChainsGivesTheDirectSearchsAnswersOnEveryInstructionSet) {
+TEST(Blocks, OfChainsGivesTheDirectSearchsAnswersOnEveryInstructionSet) {
     const EachInstructionSet sets;
     Random random(84);
     int hits = 0, asked = 0;
     while (asked < test::query_budget() / 50) {
-        const auto links = [&] { return test::random_running_links(random, 5, 1, 400, TreeKind::production); };
+        const auto links = [&] { return test::random_running_links(random, 5, 1, 400, TreeKind::blocks); };
         const std::vector<ChainLink> links_a = links(), links_b = links();
         const Chain a(links_a), b(links_b);
         const ClipPtr clip = nasty_clip(random, random.chance(0.6) ? a.dt() : 0);
-        const Tree tree(clip, {.tree = TreeKind::production});
+        const Tree tree(clip, {.tree = TreeKind::blocks});
         for (int k = 0; k < 10; ++k) {
             Placement place_a, place_b, place_c;
             test::random_placements(random, a.part(0).clip(), b.part(0).clip(), place_a, place_b);
@@ -169,7 +168,7 @@ TEST(Production, OfChainsGivesTheDirectSearchsAnswersOnEveryInstructionSet) {
     EXPECT_GT(hits, asked / 10);
 }
 
-TEST(Production, FindsAllIntervalsOfContact) {
+TEST(Blocks, FindsAllIntervalsOfContact) {
     const EachInstructionSet sets;
     Random random(72);
     for (int round = 0; round < 3000; ++round) {
@@ -184,7 +183,7 @@ TEST(Production, FindsAllIntervalsOfContact) {
     }
 }
 
-TEST(Production, DoesNotDependOnHowFarAwayOrHowLateOrHowUnlikeTwoClipsAre) {
+TEST(Blocks, DoesNotDependOnHowFarAwayOrHowLateOrHowUnlikeTwoClipsAre) {
     const EachInstructionSet sets;
     Random random(73);
     int hits = 0;
@@ -221,7 +220,7 @@ TEST(Production, DoesNotDependOnHowFarAwayOrHowLateOrHowUnlikeTwoClipsAre) {
     EXPECT_GT(hits, rounds / 10);
 }
 
-TEST(Production, OfTwoSideBySideGivesTheDirectSearchsAnswersOnEveryInstructionSet) {
+TEST(Blocks, OfTwoSideBySideGivesTheDirectSearchsAnswersOnEveryInstructionSet) {
     const EachInstructionSet sets;
     Random random(86);
     int hits = 0;
@@ -262,7 +261,7 @@ TEST(Production, OfTwoSideBySideGivesTheDirectSearchsAnswersOnEveryInstructionSe
     EXPECT_LT(hits, rounds / 2);
 }
 
-TEST(Production, TellsHowLongSamplesShareAsTheDirectSearchDoes) {
+TEST(Blocks, TellsHowLongSamplesShareAsTheDirectSearchDoes) {
     // Two samples that overlap, and nothing else that comes near: they share about what they must at least.
     const EachInstructionSet sets;
     Random random(83);
@@ -282,8 +281,8 @@ TEST(Production, TellsHowLongSamplesShareAsTheDirectSearchDoes) {
                 const auto clip_a = std::make_shared<const Clip>(dt, disks_a),
                            clip_b = std::make_shared<const Clip>(dt_b, disks_b);
                 const Blocks blocks_a(clip_a), blocks_b(clip_b);
-                const FitOptions production{.tree = TreeKind::production};
-                const Tree tree_a(clip_a, production), tree_b(clip_b, production);
+                const FitOptions of_blocks{.tree = TreeKind::blocks};
+                const Tree tree_a(clip_a, of_blocks), tree_b(clip_b, of_blocks);
                 for (int i = 0; i < 100; ++i, ++queries) {
                     // Late ones share a few times what times are rounded to, or less than nothing.
                     const bool late = i % 2 != 0;
@@ -376,7 +375,7 @@ TEST(Placed, BlocksTakeTheirPlaceInBraces) {
     EXPECT_EQ(by_place.disk(1).y, 5);
 }
 
-TEST(Production, TheOnlyOneThatCollidesIsFoundAtAnyPlaceOfAnyNumber) {
+TEST(Blocks, TheOnlyOneThatCollidesIsFoundAtAnyPlaceOfAnyNumber) {
     const EachInstructionSet sets;
     const auto walk = [](int samples, double dt) {
         std::vector<Disk> disks;
@@ -441,13 +440,13 @@ TEST(Production, TheOnlyOneThatCollidesIsFoundAtAnyPlaceOfAnyNumber) {
     }
 }
 
-TEST(Production, EachPairMustHaveItsAnswer) {
+TEST(Blocks, EachPairMustHaveItsAnswer) {
     std::array<bool, 2> answers{};
     EXPECT_THROW(intersects_each(std::array<BlocksPair, 3>{}, answers), std::invalid_argument);
     EXPECT_THROW(intersects_each(std::array<BlocksPair, 1>{}, answers), std::invalid_argument);
 }
 
-TEST(Production, RootsThatMoveMeetWhereLateDisksDo) {
+TEST(Blocks, RootsThatMoveMeetWhereLateDisksDo) {
     Random random(87);
     int hits = 0, queries = 0;
     for (; queries < 20'000; ++queries) {
@@ -474,7 +473,7 @@ TEST(Production, RootsThatMoveMeetWhereLateDisksDo) {
     EXPECT_LT(hits, queries * 3 / 4);
 }
 
-TEST(Production, TheFirstThatCollidesIsFoundAmongMany) {
+TEST(Blocks, TheFirstThatCollidesIsFoundAmongMany) {
     Random random(74);
     for (int round = 0; round < 300; ++round) {
         const ClipPtr clip = nasty_clip(random);
@@ -656,14 +655,14 @@ std::string text_of(const Trace& trace) {
     return out;
 }
 
-TEST(Production, TracesAreTheSameOnEveryInstructionSetAndCanBeWorkedOutAgain) {
+TEST(Blocks, TracesAreTheSameOnEveryInstructionSetAndCanBeWorkedOutAgain) {
     const EachInstructionSet sets;
     Random random(77);
     int separated = 0, levels = 0;
     for (int round = 0; round < 500; ++round) {
         const ClipPtr clip_a = nasty_clip(random);
         const ClipPtr clip_b = nasty_clip(random, random.chance(0.6) ? clip_a->dt() : 0);
-        const Tree tree_a(clip_a, {.tree = TreeKind::production}), tree_b(clip_b, {.tree = TreeKind::production});
+        const Tree tree_a(clip_a, {.tree = TreeKind::blocks}), tree_b(clip_b, {.tree = TreeKind::blocks});
         Placement place_a, place_b;
         test::random_placements(random, *clip_a, *clip_b, place_a, place_b);
         const PlacedTree a(tree_a, place_a), b(tree_b, place_b);
@@ -702,7 +701,7 @@ TEST(Production, TracesAreTheSameOnEveryInstructionSetAndCanBeWorkedOutAgain) {
     EXPECT_GE(levels, 1);
 }
 
-TEST(Production, TestsGrowSlowerThanTheClips) {
+TEST(Blocks, TestsGrowSlowerThanTheClips) {
     // Walks over an area that grows with them: placed at random, most pairs meet nobody.
     const auto tests_a_query = [](int samples) {
         Random random(78);
@@ -713,7 +712,7 @@ TEST(Production, TestsGrowSlowerThanTheClips) {
             heading += random.real(-0.2, 0.2);
             x += 0.04 * std::cos(heading), y += 0.04 * std::sin(heading);
         }
-        const Tree tree(std::make_shared<const Clip>(1.0 / 30, walk), {.tree = TreeKind::production});
+        const Tree tree(std::make_shared<const Clip>(1.0 / 30, walk), {.tree = TreeKind::blocks});
         const double area = tree.blocks()->radius();
         std::vector<std::int64_t> tests;
         for (int i = 0; i < 101; ++i) {

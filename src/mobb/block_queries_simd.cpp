@@ -1,4 +1,4 @@
-// The queries of production.h for each set of vector instructions, by Highway.
+// The queries of blocks.h for each set of vector instructions, by Highway.
 #include <mobb/block_queries.h>
 #include <mobb/predicate.h>
 #include <mobb/separation.h>
@@ -12,7 +12,7 @@
 #include <vector>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "mobb/production_simd.cpp"
+#define HWY_TARGET_INCLUDE "mobb/block_queries_simd.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 #include <hwy/highway.h>
 
