@@ -123,7 +123,7 @@ std::string not_measured(const Continuity& of) {
            " not measured, of clips without a common skeleton";
 }
 
-void print_continuity(std::ostream& out, const Scene& scene, const Continuity& continuity) {
+void print_graph_continuity(std::ostream& out, const Scene& scene, const Continuity& continuity) {
     begin_line(out, "joins");
     if (continuity.measured == 0) {
         out << "not measured: no two clips that join have one skeleton\n";
@@ -205,7 +205,7 @@ void print_graph_info(std::ostream& out, const Scene& scene, const GraphFigures&
         out << "                  " << transitions.count - transitions.pose_distance.count << " of "
             << transitions.count << " joins have no pose distance: their clips have no skeleton, or another one\n";
     }
-    print_continuity(out, scene, continuity);
+    print_graph_continuity(out, scene, continuity);
     out << "  hub       begin here   end here   m/s\n";
     print_rows(out, figures.hubs, [&](std::size_t, const HubFigures& hub) {
         out << "  " << std::left << std::setw(8) << cleaned(hub.name) << std::right << std::setw(12) << hub.begin
