@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -61,14 +60,15 @@ void run_fit(const FittedArguments& arguments) {
     flush_results();
 }
 
+void add_options_of_fit(Command& command, FittedArguments& arguments) {
+    add_fitted_options(command, arguments, "Levels and nodes as JSON");
+}
+
 }  // namespace
 
 void add_fit_command(Command& program) {
-    program.add_subcommand("fit", "Fit a tree to every clip and show how tight its levels are", [](Command& command) {
-        const auto arguments = std::make_shared<FittedArguments>();
-        add_fitted_options(command, *arguments, "Levels and nodes as JSON");
-        command.callback([arguments] { run_fit(*arguments); });
-    });
+    program.add_subcommand("fit", "Fit a tree to every clip and show how tight its levels are", add_options_of_fit,
+                           run_fit);
 }
 
 }  // namespace mobbscope::cli
