@@ -88,8 +88,9 @@ Json query_json(const Session& session) {
     if (!recorded) return nullptr;
     const int index = *session.view().query;
     const SceneQuery query = session.fitted().queries()[static_cast<std::size_t>(index)];
-    Json tests;
-    for (const mobb::TestKind test : mobb::kTestKinds) tests[mobb::name(test)] = recorded->tests[test];
+    Json tests = Json::object();
+    for (const mobb::TestKind test : mobb::kTestKinds)
+        if (recorded->tests[test] > 0) tests[mobb::name(test)] = recorded->tests[test];
     const mobb::Trace::Event event = recorded->trace[session.step()];
     const std::vector<DrawnAgent> sides = drawn_agents(session.fitted(), session.view());
     return {{"index", index},
