@@ -43,12 +43,12 @@ class BenchWindow {
   public:
     BenchWindow(Backend backend, const Scene& scene, Panels panels = Panels::usual)
         : session_(true, settings_with(panels)), shell_(GlContext::open(backend), session_, 1) {
-        session_.open_scene(scene, {});
+        session_.files.open_scene(scene, {});
         do {
             frame();
-        } while (session_.job());
+        } while (session_.jobs.job());
         rest();
-        if (session_.empty()) throw std::runtime_error("the scene was not opened");
+        if (session_.workspace.empty()) throw std::runtime_error("the scene was not opened");
     }
 
     void frame() {
@@ -154,9 +154,9 @@ class LiveWindow {
   public:
     LiveWindow(Backend backend, const Scene& scene)
         : session_(true, settings_with(Panels::usual)), shell_(GlContext::open(backend), session_, 1) {
-        session_.open_scene(scene, {});
+        session_.files.open_scene(scene, {});
         rest();
-        if (session_.empty()) throw std::runtime_error("the scene was not opened");
+        if (session_.workspace.empty()) throw std::runtime_error("the scene was not opened");
     }
 
     Session& session() { return session_; }
@@ -187,7 +187,7 @@ class LiveWindow {
                 pressed = true;
             }
             if (!pressed && next > 0) {
-                if (std::isinf(next) && presses.empty() && !session_.job()) break;
+                if (std::isinf(next) && presses.empty() && !session_.jobs.job()) break;
                 const double due = presses.empty() ? next : std::min(next, presses.front() - since);
                 std::this_thread::sleep_for(std::chrono::duration<double>(std::min(due, 0.01)));
                 next -= std::min(due, 0.01);
@@ -236,10 +236,10 @@ Scene long_pair() { return bench::pair(kLongWalk); }
 
 void frame_pair_under_test(Session& session) {
     run_command(session, "step.percent", "60");
-    const mobb::Trace::Event event = session.recorded()->trace[session.step()];
-    session.select({Selection::Kind::node, {0, -1, 0}, event.a});
+    const mobb::Trace::Event event = session.workspace.recorded()->trace[session.workspace.step()];
+    session.workspace.select({Selection::Kind::node, {0, -1, 0}, event.a});
     run_command(session, "view.frame");
-    session.select({});
+    session.workspace.select({});
 }
 
 std::vector<Looked> all_looked_at() {
@@ -263,7 +263,7 @@ std::vector<Looked> all_looked_at() {
         {"following", [] { return bench::run(100, 60); },
          [](Session& s) {
              run_command(s, "time.at", "30");
-             run_command(s, "crowd.follow", s.crowd()->agents.front().name);
+             run_command(s, "crowd.follow", s.workspace.crowd()->agents.front().name);
          },
          Key::period, Key::comma},
     };

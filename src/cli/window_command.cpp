@@ -51,9 +51,9 @@ void add_common_options(Command& program, WindowArguments& arguments) {
 using Named = std::variant<Scene, app::ReviewFolder>;
 
 void show_named(app::Session& session, const Named& named, const WindowArguments& arguments) {
-    if (const Scene* scene = std::get_if<Scene>(&named)) return session.open_scene(*scene, arguments.files);
-    session.case_drawer.backend = arguments.backend;
-    session.review(std::get<app::ReviewFolder>(named));
+    if (const Scene* scene = std::get_if<Scene>(&named)) return session.files.open_scene(*scene, arguments.files);
+    session.reviews.case_drawer.backend = arguments.backend;
+    session.reviews.open(std::get<app::ReviewFolder>(named));
 }
 
 /// Scripts find the same everywhere: they neither read nor write a person's settings.
@@ -91,13 +91,13 @@ void show_window(const Named& named, const WindowArguments& arguments) {
     if (arguments.ui_scale) session.settings.ui_scale = *arguments.ui_scale;
     app::GlfwWindow window(session, arguments.size);
     show_named(session, named, arguments);
-    if (!kept.empty()) session.tell_of_window(app::MessageLevel::warning, kept);
-    if (arguments.files.empty() && !session.reviewing() && session.has_last()) {
-        session.tell(app::MessageLevel::info, "Last time: " + session.last_title(),
-                     app::MessageOffer{"file.reopen_last", "", "Reopen last session"});
+    if (!kept.empty()) session.notifications.tell_of_window(app::MessageLevel::warning, kept);
+    if (arguments.files.empty() && !session.reviews.shown() && session.files.has_last()) {
+        session.notifications.tell(app::MessageLevel::info, "Last time: " + session.files.last_title(),
+                                   app::MessageOffer{"file.reopen_last", "", "Reopen last session"});
     }
     window.run();
-    session.note_session();
+    session.files.note_session();
     // What the command line asked for holds this once.
     if (session.settings.ui_scale == arguments.ui_scale) session.settings.ui_scale = usual_scale;
     app::save_settings(file, session.settings);

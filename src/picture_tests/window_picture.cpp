@@ -50,8 +50,8 @@ class WorkedWindow {
         scene.file = "." / file.filename();
         scene.fit = fitted.options();
         scene.view = view;
-        session_.may_write = false;
-        session_.open_scene(scene, {scene.file});
+        session_.options.may_write = false;
+        session_.files.open_scene(scene, {scene.file});
         const GlContext& drawn_in = *context;
         window_.emplace(std::move(context), session_, size, scale);
         if (script) {
@@ -73,16 +73,17 @@ class WorkedWindow {
 
 /// What the viewport draws, without text.
 DrawList scene_without_text(const app::Session& session, PictureSize size) {
-    ViewState view = session.view();
+    ViewState view = session.workspace.view();
     view.labels = false;
     const PictureOptions options{.size = size};
-    if (session.empty()) {
+    if (session.workspace.empty()) {
         DrawList nothing;
         nothing.size = size;
         nothing.palette = palette_for(view.theme, options);
         return nothing;
     }
-    return build_draw_list(session.fitted(), view, options, view.candidates ? session.choice() : nullptr);
+    return build_draw_list(session.workspace.fitted(), view, options,
+                           view.candidates ? session.crowds.choice() : nullptr);
 }
 
 }  // namespace

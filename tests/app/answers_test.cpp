@@ -26,14 +26,14 @@ struct AnswersTest : ::testing::Test {
     double wanted = 0;
 
     void SetUp() override {
-        session.open_demo();
+        session.files.open_demo();
         do {
             frame();
-        } while (session.job());
+        } while (session.jobs.job());
         run_command(session, "query.select", "0");
         run_command(session, "step.last");
         rest();
-        ASSERT_GT(session.step(), 12);
+        ASSERT_GT(session.workspace.step(), 12);
     }
 
     Image frame() {
@@ -67,29 +67,29 @@ struct AnswersTest : ::testing::Test {
 };
 
 TEST_F(AnswersTest, TenPressesThatCameTogetherAreOneCoarsePictureAndThenTheFineOne) {
-    const int step = session.step();
+    const int step = session.workspace.step();
     const Shell::Painted before = shell.painted();
     for (int i = 0; i < 10; ++i) key(Key::left);
     frame();
-    EXPECT_EQ(session.step(), step - 10) << "a step for each";
+    EXPECT_EQ(session.workspace.step(), step - 10) << "a step for each";
     EXPECT_EQ(shell.painted().coarse, before.coarse + 1);
     EXPECT_EQ(shell.painted().fine, before.fine);
     EXPECT_NE(picture().rgba, shell.viewport_picture().rgba);
     rest();
-    EXPECT_EQ(session.step(), step - 10);
+    EXPECT_EQ(session.workspace.step(), step - 10);
     EXPECT_EQ(shell.painted().coarse, before.coarse + 1);
     EXPECT_EQ(shell.painted().fine, before.fine + 1);
     EXPECT_EQ(picture().rgba, shell.viewport_picture().rgba);
 }
 
 TEST_F(AnswersTest, PressesWithinASecondAreCoarseEachAndFineAtTheEndAlone) {
-    const int step = session.step();
+    const int step = session.workspace.step();
     const Shell::Painted before = shell.painted();
     for (int i = 0; i < 10; ++i) {
         key(Key::left);
         for (int k = 0; k < 10; ++k) frame();
     }
-    EXPECT_EQ(session.step(), step - 10);
+    EXPECT_EQ(session.workspace.step(), step - 10);
     EXPECT_EQ(shell.painted().coarse, before.coarse + 10);
     EXPECT_EQ(shell.painted().fine, before.fine);
     rest();
@@ -103,10 +103,10 @@ TEST_F(AnswersTest, EachPressIsUndoneByItselfAlsoOfThoseThatCameTogether) {
     key(Key::n2);
     key(Key::b);
     frame();
-    ASSERT_FALSE(session.view().boxes);
-    session.undo();
-    EXPECT_TRUE(session.view().boxes);
-    EXPECT_EQ(session.view().camera.preset, CameraPreset::top);
+    ASSERT_FALSE(session.workspace.view().boxes);
+    session.edits.undo();
+    EXPECT_TRUE(session.workspace.view().boxes);
+    EXPECT_EQ(session.workspace.view().camera.preset, CameraPreset::top);
 }
 
 TEST_F(AnswersTest, AKeyIsAnsweredInTheMidstOfTheFinePicture) {
@@ -117,10 +117,10 @@ TEST_F(AnswersTest, AKeyIsAnsweredInTheMidstOfTheFinePicture) {
     for (int i = 0; i < 3; ++i) frame();
     ASSERT_EQ(shell.painted().fine, before.fine) << "it takes more than three parts";
     EXPECT_EQ(wanted, 0) << "there is more to do";
-    const int step = session.step();
+    const int step = session.workspace.step();
     key(Key::left);
     frame();
-    EXPECT_EQ(session.step(), step - 1);
+    EXPECT_EQ(session.workspace.step(), step - 1);
     EXPECT_EQ(shell.painted().coarse, before.coarse + 1);
     EXPECT_EQ(shell.painted().fine, before.fine);
     rest();
@@ -175,7 +175,7 @@ TEST_F(AnswersTest, ADragIsCoarseUntilTheButtonIsUp) {
 TEST_F(AnswersTest, AFlightEndsInTheFinePicture) {
     key(Key::n2);
     rest();
-    EXPECT_EQ(session.view().camera.preset, CameraPreset::top);
+    EXPECT_EQ(session.workspace.view().camera.preset, CameraPreset::top);
     EXPECT_EQ(picture().rgba, shell.viewport_picture().rgba);
 }
 
@@ -196,7 +196,7 @@ TEST_F(AnswersTest, ASignOfWorkComesAfterAWhileAndGoesWithTheFinePicture) {
 TEST_F(AnswersTest, WhereNobodyLooksEveryPictureIsFine) {
     Session alone(false);
     Shell window(GlContext::open(Backend::automatic), alone, 1, [this] { return measured += part; });
-    alone.open_demo();
+    alone.files.open_demo();
     for (int i = 0; i < 5; ++i) {
         window.frame(kWindow, 0.01 * i);
         window.read_back();

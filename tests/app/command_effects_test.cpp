@@ -26,29 +26,31 @@ using testing::CrossingFolder;
 struct CommandWorld {
     CrossingFolder folder;
     Session session{false};
-    std::string clipboard;
-    std::optional<DrawList> drawn;  ///< the last picture that was asked for
-    int samples = 0;
-    std::size_t copied_bytes = 0;  ///< of a picture
+    testing::TestDesktop desktop;
+    struct Maker : PictureMaker {
+        std::optional<DrawList> drawn;  ///< the last picture that was asked for
+        int samples = 0;
 
-    CommandWorld() {
-        session.hooks.set_clipboard = [this](const std::string& text) { clipboard = text; };
-        session.hooks.draw_picture = [this](const DrawList& list, int wanted) {
+        Image draw(const DrawList& list, int wanted) override {
             drawn = list;
             samples = wanted;
             return Image(list.size.width, list.size.height);
-        };
-        session.hooks.set_clipboard_picture = [this](std::string_view png) { copied_bytes = png.size(); };
-        session.hooks.why_no_clipboard_picture = [] { return std::string_view(); };
-        session.hooks.viewport_size = [] { return PictureSize{800, 600}; };
+        }
+    } maker;
+
+    CommandWorld() {
+        desktop.has_picture_clipboard = true;
+        session.desktop = &desktop;
+        session.picture_maker = &maker;
+        session.views.picture = {{800, 600}, 0};
         session.settings.recent = {folder.file("walk.csv")};
         session.settings.last.files = {folder.file("walk.csv"), folder.file("stand.csv")};
-        session.open({folder.scene});
+        session.files.open({folder.scene});
         EXPECT_EQ(all_messages(session), "");
     }
 
-    const ViewState& view() const { return session.view(); }
-    const Agent& agent(std::size_t i) const { return session.scene().agents[i]; }
+    const ViewState& view() const { return session.workspace.view(); }
+    const Agent& agent(std::size_t i) const { return session.workspace.scene().agents[i]; }
     std::string path(const std::string& name) const { return folder.file(name).string(); }
 };
 
@@ -66,12 +68,12 @@ const std::pair<std::string, std::string> kFirstQuery{"query.select", "0"};
 const std::pair<std::string, std::string> kFirstStep{"step.first", ""};
 
 mobb::Outcome outcome_now(const CommandWorld& world) {
-    const mobb::Trace& trace = world.session.recorded()->trace;
-    return trace[world.session.step()].outcome;
+    const mobb::Trace& trace = world.session.workspace.recorded()->trace;
+    return trace[world.session.workspace.step()].outcome;
 }
 
 void expect_node(const CommandWorld& world, int node) {
-    EXPECT_EQ(world.session.selection, (Selection{Selection::Kind::node, {1, -1, 0}, node}));
+    EXPECT_EQ(world.session.workspace.selection, (Selection{Selection::Kind::node, {1, -1, 0}, node}));
 }
 
 std::vector<Case> cases() {
@@ -88,51 +90,52 @@ std::vector<Case> cases() {
     };
 
     // File
-    look("file.open", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::open); });
+    look("file.open", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::open); });
     look("file.open", "@walk.csv", [](CommandWorld& w) {
-        EXPECT_TRUE(w.session.scene().agents.empty());
-        EXPECT_EQ(w.session.title(), "walk");
+        EXPECT_TRUE(w.session.workspace.scene().agents.empty());
+        EXPECT_EQ(w.session.workspace.title(), "walk");
     });
-    look("file.add", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::add); });
+    look("file.add", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::add); });
     add({"file.add",
          "@walk.csv",
          {},
          [](CommandWorld& w) {
-             EXPECT_EQ(w.session.scene().clips.size(), 3u);
-             EXPECT_EQ(w.session.scene().agents.size(), 4u);
+             EXPECT_EQ(w.session.workspace.scene().clips.size(), 3u);
+             EXPECT_EQ(w.session.workspace.scene().agents.size(), 4u);
          },
          true});
-    look("file.recent", "@walk.csv", [](CommandWorld& w) { EXPECT_EQ(w.session.scene().clips.size(), 1u); });
-    look("file.reopen_last", "", [](CommandWorld& w) { EXPECT_EQ(w.session.title(), "2 files"); });
+    look("file.recent", "@walk.csv", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.scene().clips.size(), 1u); });
+    look("file.reopen_last", "", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.title(), "2 files"); });
     look("file.demo", "", [](CommandWorld& w) {
         EXPECT_EQ(w.agent(0).name, "A");
-        EXPECT_EQ(w.session.scene().agents.size(), 2u);
-        EXPECT_FALSE(w.session.file());
+        EXPECT_EQ(w.session.workspace.scene().agents.size(), 2u);
+        EXPECT_FALSE(w.session.workspace.file);
     });
     add({"file.reload", "", {{"view.floor", ""}}, [](CommandWorld& w) {
              EXPECT_TRUE(w.view().floor);
-             EXPECT_EQ(w.session.file(), w.folder.scene);
+             EXPECT_EQ(w.session.workspace.file, w.folder.scene);
          }});
     add({"file.save", "", {kSelectB, {"agent.move", "4 5"}}, [](CommandWorld& w) {
-             EXPECT_FALSE(w.session.modified());
+             EXPECT_FALSE(w.session.workspace.modified());
              EXPECT_EQ(load_scene(w.folder.scene).agents[1].placement.translate, glm::dvec2(4, 5));
          }});
-    look("file.save_as", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::save_as); });
+    look("file.save_as", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::save_as); });
     look("file.save_as", "@other.json", [](CommandWorld& w) {
-        EXPECT_EQ(w.session.title(), "other.json");
+        EXPECT_EQ(w.session.workspace.title(), "other.json");
         EXPECT_EQ(load_scene(w.folder.file("other.json")).agents.size(), 3u);
     });
-    look("file.export_picture", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::export_picture); });
+    look("file.export_picture", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::export_picture); });
     add({"file.export_picture", "@p.png", {{"picture.size", "640x360"}}, [](CommandWorld& w) {
              ASSERT_TRUE(std::filesystem::exists(w.folder.file("p.png")));
-             EXPECT_EQ(w.drawn->size, (PictureSize{800, 600})) << "the viewport's, whatever the dialog says";
+             EXPECT_EQ(w.maker.drawn->size, (PictureSize{800, 600})) << "the viewport's, whatever the dialog says";
          }});
     look("file.copy_picture", "", [](CommandWorld& w) {
-        EXPECT_EQ(w.drawn->size, (PictureSize{800, 600}));
-        EXPECT_GT(w.copied_bytes, 100u);
+        EXPECT_EQ(w.maker.drawn->size, (PictureSize{800, 600}));
+        EXPECT_GT(w.desktop.picture_bytes, 100u);
     });
-    look("picture.file", "@here.png", [](CommandWorld& w) { EXPECT_EQ(w.session.exporting.file, w.path("here.png")); });
-    look("picture.browse", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::export_file); });
+    look("picture.file", "@here.png",
+         [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.exporting.file, w.path("here.png")); });
+    look("picture.browse", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::export_file); });
     const auto exports = [&](const std::string& option, const std::string& text,
                              std::function<void(CommandWorld&)> check) {
         add({"picture." + option, text, {}, [check](CommandWorld& w) {
@@ -141,70 +144,73 @@ std::vector<Case> cases() {
                  check(w);
              }});
     };
-    exports("size", "640x360", [](CommandWorld& w) { EXPECT_EQ(w.drawn->size, (PictureSize{640, 360})); });
+    exports("size", "640x360", [](CommandWorld& w) { EXPECT_EQ(w.maker.drawn->size, (PictureSize{640, 360})); });
     look("picture.shape", "free", [](CommandWorld& w) { EXPECT_FALSE(w.session.settings.picture_export.keeps_shape); });
     exports("scale", "2", [](CommandWorld& w) {
-        EXPECT_NE(render_line(w.session, order_to_export(w.session), "p.png")->find(" --scale 2 "), std::string::npos);
+        EXPECT_NE(render_line(w.session.workspace, w.session.files, w.session.dialogs,
+                              order_to_export(w.session.settings, w.session.workspace, w.session.views), "p.png")
+                      ->find(" --scale 2 "),
+                  std::string::npos);
     });
-    exports("samples", "8", [](CommandWorld& w) { EXPECT_EQ(w.samples, 8); });
-    exports("background", "transparent", [](CommandWorld& w) { EXPECT_EQ(w.drawn->background->a, 0); });
+    exports("samples", "8", [](CommandWorld& w) { EXPECT_EQ(w.maker.samples, 8); });
+    exports("background", "transparent", [](CommandWorld& w) { EXPECT_EQ(w.maker.drawn->background->a, 0); });
     exports("theme", "light", [](CommandWorld& w) {
-        EXPECT_FALSE(w.drawn->palette.dark);
+        EXPECT_FALSE(w.maker.drawn->palette.dark);
         EXPECT_EQ(w.view().theme, Theme::dark) << "of the picture alone";
     });
     exports("without", "legend boxes", [](CommandWorld& w) {
-        EXPECT_TRUE(w.drawn->boxes.empty());
+        EXPECT_TRUE(w.maker.drawn->boxes.empty());
         EXPECT_TRUE(w.view().boxes);
     });
     add({"picture.write", "@p.png", {{"picture.size", "640x360"}}, [](CommandWorld& w) {
              EXPECT_TRUE(std::filesystem::exists(w.folder.file("p.png")));
-             EXPECT_EQ(w.drawn->size, (PictureSize{640, 360}));
+             EXPECT_EQ(w.maker.drawn->size, (PictureSize{640, 360}));
          }});
     add({"picture.copy", "", {{"picture.size", "640x360"}}, [](CommandWorld& w) {
-             EXPECT_EQ(w.drawn->size, (PictureSize{640, 360}));
-             EXPECT_GT(w.copied_bytes, 100u);
+             EXPECT_EQ(w.maker.drawn->size, (PictureSize{640, 360}));
+             EXPECT_GT(w.desktop.picture_bytes, 100u);
          }});
     add({"picture.copy_command", "", {{"picture.size", "640x360"}, {"picture.without", "legend"}}, [](CommandWorld& w) {
-             EXPECT_EQ(w.clipboard, "mobbscope render " + w.path("scene.json") + " --no-legend --size 640x360 -o " +
+             EXPECT_EQ(w.desktop.text, "mobbscope render " + w.path("scene.json") + " --no-legend --size 640x360 -o " +
                                         w.path("scene.png"));
          }});
     look("file.copy_command", "", [](CommandWorld& w) {
-        EXPECT_EQ(w.clipboard, "mobbscope render " + w.path("scene.json") + " --size 800x600 -o picture.png");
+        EXPECT_EQ(w.desktop.text, "mobbscope render " + w.path("scene.json") + " --size 800x600 -o picture.png");
     });
-    look("file.review", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::review); });
-    look("file.quit", "", [](CommandWorld& w) { EXPECT_TRUE(w.session.closed()); });
+    look("file.review", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::review); });
+    look("file.quit", "", [](CommandWorld& w) { EXPECT_TRUE(w.session.files.closed()); });
 
     // Clips
     look("clip.import", "", [](CommandWorld& w) {
-        EXPECT_EQ(w.session.dialog, Dialog::import_clip);
-        EXPECT_EQ(w.session.importing.clip, 0);
+        EXPECT_EQ(w.session.dialogs.now, Dialog::import_clip);
+        EXPECT_EQ(w.session.imports.edited.clip, 0);
     });
     look("clip.import", "stand unit", [](CommandWorld& w) {
-        EXPECT_EQ(w.session.importing.clip, 1);
-        EXPECT_EQ(w.session.importing.field, "unit");
+        EXPECT_EQ(w.session.imports.edited.clip, 1);
+        EXPECT_EQ(w.session.imports.edited.field, "unit");
     });
     edit("clip.set", "unit cm", [](CommandWorld& w) {
-        EXPECT_EQ(w.session.scene().clips[0].options.unit, "cm");
-        EXPECT_NEAR(w.session.fitted().tree(0).clip().samples()[30].x, 0.01, 1e-9);
+        EXPECT_EQ(w.session.workspace.scene().clips[0].options.unit, "cm");
+        EXPECT_NEAR(w.session.workspace.fitted().tree(0).clip().samples()[30].x, 0.01, 1e-9);
     });
     add({"clip.set", "trim", {{"clip.set", "trim 0.5 1"}}, [](CommandWorld& w) {
-             EXPECT_FALSE(w.session.scene().clips[0].options.trim);
-             EXPECT_EQ(w.session.fitted().tree(0).clip().count(), 60);
+             EXPECT_FALSE(w.session.workspace.scene().clips[0].options.trim);
+             EXPECT_EQ(w.session.workspace.fitted().tree(0).clip().count(), 60);
          }});
     edit("clip.motion", "linear", [](CommandWorld& w) {
-        EXPECT_EQ(w.session.scene().clips[0].options.motion, mobb::Motion::linear);
-        EXPECT_EQ(w.session.fitted().tree(0).clip().motion(), mobb::Motion::linear);
+        EXPECT_EQ(w.session.workspace.scene().clips[0].options.motion, mobb::Motion::linear);
+        EXPECT_EQ(w.session.workspace.fitted().tree(0).clip().motion(), mobb::Motion::linear);
     });
 
     // Edit
     add({"edit.undo", "", {kSelectB, {"agent.move", "4 5"}}, [](CommandWorld& w) {
              EXPECT_EQ(w.agent(1).placement.translate, glm::dvec2(1, -1));
-             EXPECT_FALSE(w.session.modified());
+             EXPECT_FALSE(w.session.workspace.modified());
          }});
     add({"edit.redo", "", {kSelectB, {"agent.move", "4 5"}, {"edit.undo", ""}}, [](CommandWorld& w) {
              EXPECT_EQ(w.agent(1).placement.translate, glm::dvec2(4, 5));
          }});
-    look("edit.history", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::history); });
+    look("edit.history", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::history); });
     add({"edit.go_to",
          "1",
          {kSelectB, {"agent.move", "4 5"}, {"agent.move", "6 7"}, {"agent.turn", "8"}},
@@ -216,38 +222,38 @@ std::vector<Case> cases() {
              EXPECT_NE(testing::refusal(w.session, "edit.go_to", "4"), "");
          }});
     add({"edit.copy_figures", "", {{"go.node", "B 1"}}, [](CommandWorld& w) {
-             EXPECT_TRUE(w.clipboard.starts_with("B 1.0\n")) << w.clipboard;
-             EXPECT_NE(w.clipboard.find("\nsamples\t0..29 (30)\n"), std::string::npos) << w.clipboard;
+             EXPECT_TRUE(w.desktop.text.starts_with("B 1.0\n")) << w.desktop.text;
+             EXPECT_NE(w.desktop.text.find("\nsamples\t0..29 (30)\n"), std::string::npos) << w.desktop.text;
          }});
     edit("agent.add", "stand", [](CommandWorld& w) {
-        ASSERT_EQ(w.session.scene().agents.size(), 4u);
+        ASSERT_EQ(w.session.workspace.scene().agents.size(), 4u);
         EXPECT_EQ(w.agent(3).name, "stand");
-        EXPECT_EQ(w.session.selection.path.agent, 3);
+        EXPECT_EQ(w.session.workspace.selection.path.agent, 3);
         EXPECT_GT(w.agent(3).placement.translate.y, 9.4) << "beside the others";
     });
     add({"agent.make",
          "",
          {{"file.open", "@walk.csv"}},
          [](CommandWorld& w) {
-             ASSERT_EQ(w.session.scene().agents.size(), 1u);
+             ASSERT_EQ(w.session.workspace.scene().agents.size(), 1u);
              EXPECT_EQ(w.agent(0).name, "walk");
          },
          true});
     edit("agent.duplicate", "", [](CommandWorld& w) {
-        ASSERT_EQ(w.session.scene().agents.size(), 4u);
+        ASSERT_EQ(w.session.workspace.scene().agents.size(), 4u);
         EXPECT_EQ(w.agent(3).name, "B 2");
         EXPECT_NEAR(glm::distance(w.agent(3).placement.translate, w.agent(1).placement.translate), 1, 1e-9);
-        EXPECT_EQ(w.session.selection.path.agent, 3);
+        EXPECT_EQ(w.session.workspace.selection.path.agent, 3);
     });
     edit("agent.remove", "", [](CommandWorld& w) {
-        ASSERT_EQ(w.session.scene().agents.size(), 2u);
+        ASSERT_EQ(w.session.workspace.scene().agents.size(), 2u);
         EXPECT_EQ(w.agent(1).name, "C");
-        EXPECT_EQ(w.session.selection, Selection{});
+        EXPECT_EQ(w.session.workspace.selection, Selection{});
     });
     edit("agent.rename", "late walker", [](CommandWorld& w) { EXPECT_EQ(w.agent(1).name, "late walker"); });
     edit("agent.move", "2.5 -3", [](CommandWorld& w) {
         EXPECT_EQ(w.agent(1).placement.translate, glm::dvec2(2.5, -3));
-        EXPECT_EQ(w.session.history().undo_title(), "moving B: x 2.50 m, y -3.00 m");
+        EXPECT_EQ(w.session.workspace.history.undo_title(), "moving B: x 2.50 m, y -3.00 m");
     });
     edit("agent.nudge", "0.5 1",
          [](CommandWorld& w) { EXPECT_EQ(w.agent(1).placement.translate, glm::dvec2(1.5, 0)); });
@@ -283,14 +289,14 @@ std::vector<Case> cases() {
              EXPECT_NEAR(w.view().camera.target->z, 1.5 * w.view().time_height, 0.1);
          }});
     add({"view.frame", "", {{"view.zoom_in", ""}}, [](CommandWorld& w) { EXPECT_FALSE(w.view().camera.target); }});
-    look("view.follow_test", "", [](CommandWorld& w) { EXPECT_TRUE(w.session.follow_test); });
+    look("view.follow_test", "", [](CommandWorld& w) { EXPECT_TRUE(w.session.views.follow_test); });
     add({"view.frame_all", "", {{"view.orbit", "10 5"}}, [](CommandWorld& w) {
              EXPECT_FALSE(w.view().camera.target);
              EXPECT_NEAR(w.view().camera.yaw_deg, orientation(Camera{}).yaw_deg - 10, 1e-4) << "the direction stays";
          }});
     add({"view.zoom", "2", {{"view.zoom", "1"}}, [](CommandWorld& w) {
              const double near_by = w.view().camera.distance;
-             w.session.undo();
+             w.session.edits.undo();
              run_command(w.session, "view.zoom", "1");
              EXPECT_NEAR(w.view().camera.distance, 2 * near_by, 1e-6 * near_by);
          }});
@@ -341,47 +347,47 @@ std::vector<Case> cases() {
              run_command(w.session, "view.moment");
          }});
     look("view.split", "", [](CommandWorld& w) {
-        ASSERT_EQ(w.session.view_count(), 2u);
-        EXPECT_EQ(w.session.view_at(0).fitted->options().tree, mobb::TreeKind::mobb);
-        EXPECT_EQ(w.session.view_at(1).fitted->options().tree, mobb::TreeKind::umobb);
+        ASSERT_EQ(w.session.views.count(), 2u);
+        EXPECT_EQ(w.session.views.at(0).fitted->options().tree, mobb::TreeKind::mobb);
+        EXPECT_EQ(w.session.views.at(1).fitted->options().tree, mobb::TreeKind::umobb);
         run_command(w.session, "view.split");
-        EXPECT_EQ(w.session.view_count(), 1u);
+        EXPECT_EQ(w.session.views.count(), 1u);
         run_command(w.session, "tree.kind", "umobb");
         run_command(w.session, "view.split");
-        EXPECT_EQ(w.session.view_at(1).fitted->options().tree, mobb::TreeKind::mobb);
+        EXPECT_EQ(w.session.views.at(1).fitted->options().tree, mobb::TreeKind::mobb);
         // What another view was fitted with before is not kept for the next.
         run_command(w.session, "view.split");
         run_command(w.session, "tree.leaf", "7");
         run_command(w.session, "view.split");
-        EXPECT_EQ(w.session.view_at(1).fitted->options().leaf, 7);
-        EXPECT_EQ(w.session.document().fitted->fits().size(), 2u);
+        EXPECT_EQ(w.session.views.at(1).fitted->options().leaf, 7);
+        EXPECT_EQ(w.session.workspace.document().fitted->fits().size(), 2u);
         // A kind that was changed in its view is not taken for what the view was split with.
         run_command(w.session, "view.other");
         run_command(w.session, "tree.kind", "umobb");
         run_command(w.session, "view.split");
         run_command(w.session, "view.split");
-        EXPECT_NE(w.session.view_at(0).fitted->options().tree, w.session.view_at(1).fitted->options().tree);
+        EXPECT_NE(w.session.views.at(0).fitted->options().tree, w.session.views.at(1).fitted->options().tree);
     });
     add({"view.other", "", {{"view.split", ""}}, [](CommandWorld& w) {
-             EXPECT_EQ(w.session.active_place(), 1u);
-             EXPECT_EQ(w.session.fitted().options().tree, mobb::TreeKind::umobb);
+             EXPECT_EQ(w.session.views.active(), 1u);
+             EXPECT_EQ(w.session.workspace.fitted().options().tree, mobb::TreeKind::umobb);
              run_command(w.session, "view.other");
-             EXPECT_EQ(w.session.active_place(), 0u);
+             EXPECT_EQ(w.session.views.active(), 0u);
          }});
     add({"file.copy_command", "", {{"view.split", ""}, {"view.other", ""}}, [](CommandWorld& w) {
-             EXPECT_NE(w.clipboard.find(" --tree umobb --leaf 4 --levels 0 --axes endpoints --time-scale 1 "),
+             EXPECT_NE(w.desktop.text.find(" --tree umobb --leaf 4 --levels 0 --axes endpoints --time-scale 1 "),
                        std::string::npos)
-                 << "the file has another fit: " << w.clipboard;
+                 << "the file has another fit: " << w.desktop.text;
              run_command(w.session, "view.other");
              run_command(w.session, "view.split");
              run_command(w.session, "file.copy_command");
-             EXPECT_EQ(w.clipboard.find("--tree"), std::string::npos) << w.clipboard;
+             EXPECT_EQ(w.desktop.text.find("--tree"), std::string::npos) << w.desktop.text;
          }});
     add({"view.link_cameras", "", {{"view.split", ""}}, [](CommandWorld& w) {
              run_command(w.session, "view.top");
-             EXPECT_EQ(w.session.view_at(1).view.camera.preset, CameraPreset::iso);
+             EXPECT_EQ(w.session.views.at(1).view.camera.preset, CameraPreset::iso);
              run_command(w.session, "view.link_cameras");
-             EXPECT_EQ(w.session.view_at(1).view.camera.preset, CameraPreset::top);
+             EXPECT_EQ(w.session.views.at(1).view.camera.preset, CameraPreset::top);
          }});
     for (const ViewOption& option : view_options()) {
         if (!option.toggle || !option.command.starts_with("view.")) continue;
@@ -396,10 +402,10 @@ std::vector<Case> cases() {
              run_command(w.session, "file.save");
              run_command(w.session, "agents.hide", "A");
              run_command(w.session, "file.copy_command");
-             EXPECT_NE(w.clipboard.find(" --hide A B"), std::string::npos) << w.clipboard;
+             EXPECT_NE(w.desktop.text.find(" --hide A B"), std::string::npos) << w.desktop.text;
              run_command(w.session, "agent.show_all");
              run_command(w.session, "file.copy_command");
-             EXPECT_NE(w.clipboard.find(" --hide none"), std::string::npos) << w.clipboard;
+             EXPECT_NE(w.desktop.text.find(" --hide none"), std::string::npos) << w.desktop.text;
          }});
     add({"agent.solo", "", {kSelectB}, [](CommandWorld& w) {
              EXPECT_EQ(w.view().hidden, (std::vector<std::string>{"A", "C"}));
@@ -421,13 +427,14 @@ std::vector<Case> cases() {
         EXPECT_EQ(w.view().arrange, Arrange::none);
     });
     add({"view.projection", "", {{"go.sample", "A 7"}}, [](CommandWorld& w) {
-             const mobb::Node& leaf =
-                 w.session.fitted().tree(0).nodes()[static_cast<std::size_t>(w.view().projection.value().node)];
+             const mobb::Node& leaf = w.session.workspace.fitted()
+                                          .tree(0)
+                                          .nodes()[static_cast<std::size_t>(w.view().projection.value().node)];
              EXPECT_TRUE(leaf.is_leaf() && leaf.first <= 7 && 7 < leaf.end());
              EXPECT_EQ(w.view().projection->agent, 0);
              EXPECT_EQ(w.view().projection->sample, 7);
-             EXPECT_NO_THROW(build_draw_list(w.session.fitted(), w.view(), PictureSize{320, 240}));
-             w.session.select({});
+             EXPECT_NO_THROW(build_draw_list(w.session.workspace.fitted(), w.view(), PictureSize{320, 240}));
+             w.session.workspace.select({});
              run_command(w.session, "tree.levels", "1");
              EXPECT_FALSE(w.view().projection) << "its leaf is gone";
              EXPECT_FALSE(find_command("view.projection")->enabled(w.session));
@@ -448,7 +455,7 @@ std::vector<Case> cases() {
              EXPECT_EQ(w.view().levels, (LevelRange{0, 1, false}));
          }});
     add({"view.coarser", "", {{"view.leaves", ""}}, [](CommandWorld& w) {
-             const int deepest = w.session.fitted().tree(0).depth() - 1;
+             const int deepest = w.session.workspace.fitted().tree(0).depth() - 1;
              EXPECT_EQ(w.view().levels, (LevelRange{deepest, deepest, false}));
          }});
     look("view.leaves", "", [](CommandWorld& w) { EXPECT_TRUE(w.view().levels.leaves); });
@@ -482,10 +489,10 @@ std::vector<Case> cases() {
     look("time.at", "0.75", [](CommandWorld& w) { EXPECT_EQ(w.view().time, 0.75); });
     add({"time.clear", "", {{"time.at", "1"}}, [](CommandWorld& w) { EXPECT_FALSE(w.view().time); }});
     look("time.play", "", [](CommandWorld& w) {
-        EXPECT_TRUE(w.session.playing());
+        EXPECT_TRUE(w.session.playback.playing());
         EXPECT_EQ(w.view().time, 0);
     });
-    add({"time.play", "", {{"time.play", ""}}, [](CommandWorld& w) { EXPECT_FALSE(w.session.playing()); }});
+    add({"time.play", "", {{"time.play", ""}}, [](CommandWorld& w) { EXPECT_FALSE(w.session.playback.playing()); }});
     look("time.start", "", [](CommandWorld& w) { EXPECT_EQ(w.view().time, 0); });
     look("time.end", "", [](CommandWorld& w) { EXPECT_NEAR(*w.view().time, 2.5, 1e-6); });
     add({"time.forward", "", {{"time.at", "1.01"}}, [](CommandWorld& w) {
@@ -494,18 +501,20 @@ std::vector<Case> cases() {
     add({"time.back", "", {{"time.at", "1.01"}}, [](CommandWorld& w) {
              EXPECT_NEAR(*w.view().time, 30 / 30.0, 1e-4);
          }});
-    look("time.speed", "0.25", [](CommandWorld& w) { EXPECT_EQ(w.session.speed, 0.25); });
+    look("time.speed", "0.25", [](CommandWorld& w) { EXPECT_EQ(w.session.playback.speed, 0.25); });
 
     // Tree
     edit("tree.kind", "umobb", [](CommandWorld& w) {
-        EXPECT_EQ(w.session.scene().fit.tree, mobb::TreeKind::umobb);
-        EXPECT_EQ(w.session.fitted().tree(0).options().tree, mobb::TreeKind::umobb);
+        EXPECT_EQ(w.session.workspace.scene().fit.tree, mobb::TreeKind::umobb);
+        EXPECT_EQ(w.session.workspace.fitted().tree(0).options().tree, mobb::TreeKind::umobb);
     });
-    edit("tree.axes", "covariance",
-         [](CommandWorld& w) { EXPECT_EQ(w.session.fitted().tree(0).options().axes, mobb::Axes::covariance); });
-    edit("tree.leaf", "7", [](CommandWorld& w) { EXPECT_EQ(w.session.fitted().tree(0).options().leaf, 7); });
-    edit("tree.levels", "2", [](CommandWorld& w) { EXPECT_EQ(w.session.fitted().tree(0).depth(), 2); });
-    edit("tree.time_scale", "2.5", [](CommandWorld& w) { EXPECT_EQ(w.session.fitted().tree(0).time_scale(), 2.5); });
+    edit("tree.axes", "covariance", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.workspace.fitted().tree(0).options().axes, mobb::Axes::covariance);
+    });
+    edit("tree.leaf", "7", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.fitted().tree(0).options().leaf, 7); });
+    edit("tree.levels", "2", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.fitted().tree(0).depth(), 2); });
+    edit("tree.time_scale", "2.5",
+         [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.fitted().tree(0).time_scale(), 2.5); });
 
     // Query
     look("query.select", "2", [](CommandWorld& w) {
@@ -521,28 +530,28 @@ std::vector<Case> cases() {
     add({"query.previous", "", {{"query.select", "2"}}, [](CommandWorld& w) { EXPECT_EQ(w.view().query, 1); }});
     add({"query.none", "", {kSelectB, kFirstQuery}, [](CommandWorld& w) {
              EXPECT_FALSE(w.view().query);
-             EXPECT_EQ(w.session.selection.kind, Selection::Kind::path) << "one thing after the other";
+             EXPECT_EQ(w.session.workspace.selection.kind, Selection::Kind::path) << "one thing after the other";
          }});
     // Asked already, as all pairs are: only shown.
     add({"query.add", "C", {kSelectB}, [](CommandWorld& w) {
              EXPECT_EQ(w.view().query, 2);
-             EXPECT_FALSE(w.session.modified());
+             EXPECT_FALSE(w.session.workspace.modified());
          }});
     add({"query.add",
          "C",
          {{"query.select", "2"}, {"query.remove", ""}, kSelectB},
          [](CommandWorld& w) {
-             EXPECT_EQ(w.session.fitted().queries().size(), 3u);
+             EXPECT_EQ(w.session.workspace.fitted().queries().size(), 3u);
              EXPECT_EQ(w.view().query, 2);
-             EXPECT_EQ(w.session.fitted().queries()[2].b.name, "C");
+             EXPECT_EQ(w.session.workspace.fitted().queries()[2].b.name, "C");
          },
          true});
     add({"query.remove",
          "",
          {kFirstQuery},
          [](CommandWorld& w) {
-             ASSERT_EQ(w.session.scene().queries.size(), 2u);
-             EXPECT_EQ(w.session.fitted().queries()[0].b.name, "C");
+             ASSERT_EQ(w.session.workspace.scene().queries.size(), 2u);
+             EXPECT_EQ(w.session.workspace.fitted().queries()[0].b.name, "C");
              EXPECT_FALSE(w.view().query);
          },
          true});
@@ -550,56 +559,59 @@ std::vector<Case> cases() {
          "",
          {kFirstQuery},
          [](CommandWorld& w) {
-             ASSERT_TRUE(w.session.scene().queries[0].expect);
-             EXPECT_TRUE(w.session.scene().queries[0].expect->collides);
-             EXPECT_EQ(w.session.scene().queries[0].expect->contact, w.session.recorded()->contact);
+             ASSERT_TRUE(w.session.workspace.scene().queries[0].expect);
+             EXPECT_TRUE(w.session.workspace.scene().queries[0].expect->collides);
+             EXPECT_EQ(w.session.workspace.scene().queries[0].expect->contact, w.session.workspace.recorded()->contact);
          },
          true});
     add({"query.expect",
          "",
          {kFirstQuery, {"query.expect", ""}},
-         [](CommandWorld& w) { EXPECT_FALSE(w.session.scene().queries[0].expect); },
+         [](CommandWorld& w) { EXPECT_FALSE(w.session.workspace.scene().queries[0].expect); },
          true});
     add({"query.capture", "0", {}, [](CommandWorld& w) {
-             ASSERT_TRUE(w.session.in_excerpt());
-             for (const SceneClip& clip : w.session.scene().clips) EXPECT_FALSE(clip.source) << clip.name;
-             ASSERT_EQ(w.session.scene().queries.size(), 1u);
-             ASSERT_TRUE(w.session.scene().queries[0].expect);
-             EXPECT_TRUE(w.session.scene().queries[0].expect->collides);
-             EXPECT_EQ(w.session.scene().queries[0].expect->contact, w.session.recorded()->contact);
+             ASSERT_TRUE(w.session.workspace.in_excerpt());
+             for (const SceneClip& clip : w.session.workspace.scene().clips) EXPECT_FALSE(clip.source) << clip.name;
+             ASSERT_EQ(w.session.workspace.scene().queries.size(), 1u);
+             ASSERT_TRUE(w.session.workspace.scene().queries[0].expect);
+             EXPECT_TRUE(w.session.workspace.scene().queries[0].expect->collides);
+             EXPECT_EQ(w.session.workspace.scene().queries[0].expect->contact, w.session.workspace.recorded()->contact);
          }});
     look("query.copy_command", "2", [](CommandWorld& w) {
         EXPECT_EQ(w.view().query, 2);
-        EXPECT_NE(w.clipboard.find(" --query 2 "), std::string::npos) << w.clipboard;
+        EXPECT_NE(w.desktop.text.find(" --query 2 "), std::string::npos) << w.desktop.text;
     });
     look("query.copy_answer", "0", [](CommandWorld& w) {
         EXPECT_EQ(w.view().query, 0);
-        EXPECT_TRUE(w.clipboard.starts_with("They collide at ")) << w.clipboard;
+        EXPECT_TRUE(w.desktop.text.starts_with("They collide at ")) << w.desktop.text;
     });
     add({"step.next_of_node", "", {kFirstQuery, kFirstStep, {"go.node", "A 0"}}, [](CommandWorld& w) {
-             const mobb::Trace& trace = w.session.recorded()->trace;
-             EXPECT_EQ(w.session.step(), 1) << "the roots' boxes, behind their times";
+             const mobb::Trace& trace = w.session.workspace.recorded()->trace;
+             EXPECT_EQ(w.session.workspace.step(), 1) << "the roots' boxes, behind their times";
              for (int tests = 0; tests < 3; ++tests) {
                  run_command(w.session, "step.next_of_node");
-                 EXPECT_EQ(trace[w.session.step()].a, 0);
+                 EXPECT_EQ(trace[w.session.workspace.step()].a, 0);
              }
-             w.session.select({});
+             w.session.workspace.select({});
              EXPECT_NE(testing::refusal(w.session, "step.next_of_node"), "");
          }});
-    add({"step.first", "", {kFirstQuery}, [](CommandWorld& w) { EXPECT_EQ(w.session.step(), 0); }});
+    add({"step.first", "", {kFirstQuery}, [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.step(), 0); }});
     look("step.first", "", [](CommandWorld& w) {
         EXPECT_EQ(w.view().query, 0) << "without a query in view the first is shown";
-        EXPECT_EQ(w.session.step(), 0);
+        EXPECT_EQ(w.session.workspace.step(), 0);
     });
-    add({"step.back", "", {kFirstQuery, {"step.to", "5"}}, [](CommandWorld& w) { EXPECT_EQ(w.session.step(), 4); }});
-    in_query("step.back", "", [](CommandWorld& w) { EXPECT_EQ(w.session.step(), 0); });
-    in_query("step.forward", "", [](CommandWorld& w) { EXPECT_EQ(w.session.step(), 1); });
-    add({"step.forward", "", {kFirstQuery}, [](CommandWorld& w) {
-             EXPECT_EQ(w.session.step(), w.session.recorded()->trace.size() - 1);
+    add({"step.back", "", {kFirstQuery, {"step.to", "5"}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.session.workspace.step(), 4);
          }});
-    in_query("step.last", "",
-             [](CommandWorld& w) { EXPECT_EQ(w.session.step(), w.session.recorded()->trace.size() - 1); });
-    in_query("step.to", "3", [](CommandWorld& w) { EXPECT_EQ(w.session.step(), 3); });
+    in_query("step.back", "", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.step(), 0); });
+    in_query("step.forward", "", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.step(), 1); });
+    add({"step.forward", "", {kFirstQuery}, [](CommandWorld& w) {
+             EXPECT_EQ(w.session.workspace.step(), w.session.workspace.recorded()->trace.size() - 1);
+         }});
+    in_query("step.last", "", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.workspace.step(), w.session.workspace.recorded()->trace.size() - 1);
+    });
+    in_query("step.to", "3", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.step(), 3); });
     add({"step.next_separated", "", {{"query.select", "1"}, kFirstStep}, [](CommandWorld& w) {
              EXPECT_EQ(outcome_now(w), mobb::Outcome::separated);
          }});
@@ -610,83 +622,83 @@ std::vector<Case> cases() {
     });
     in_query("step.next_overlap", "", [](CommandWorld& w) {
         EXPECT_EQ(outcome_now(w), mobb::Outcome::overlap);
-        EXPECT_GT(w.session.step(), 0);
+        EXPECT_GT(w.session.workspace.step(), 0);
     });
     in_query("step.next_hit", "", [](CommandWorld& w) { EXPECT_EQ(outcome_now(w), mobb::Outcome::hit); });
     in_query("step.over", "", [](CommandWorld& w) {
-        const mobb::Trace& trace = w.session.recorded()->trace;
-        EXPECT_EQ(w.session.step(), 1) << "the root pair's other test";
+        const mobb::Trace& trace = w.session.workspace.recorded()->trace;
+        EXPECT_EQ(w.session.workspace.step(), 1) << "the root pair's other test";
         // From an inner pair whose tests led to others, to one that is not below it.
         for (int event = 2; event + 1 < trace.size(); ++event) {
             if (trace[event + 1].depth <= trace[event].depth) continue;
             run_command(w.session, "step.to", std::to_string(event));
             if (!find_command("step.over")->enabled(w.session)) continue;
             run_command(w.session, "step.over");
-            EXPECT_GT(w.session.step(), event + 1);
-            EXPECT_LE(trace[w.session.step()].depth, trace[event].depth);
+            EXPECT_GT(w.session.workspace.step(), event + 1);
+            EXPECT_LE(trace[w.session.workspace.step()].depth, trace[event].depth);
         }
     });
     add({"step.out", "", {kFirstQuery}, [](CommandWorld& w) {
-             const mobb::Trace& trace = w.session.recorded()->trace;
-             EXPECT_EQ(w.session.step(), trace[trace.size() - 1].parent);
+             const mobb::Trace& trace = w.session.workspace.recorded()->trace;
+             EXPECT_EQ(w.session.workspace.step(), trace[trace.size() - 1].parent);
          }});
     add({"step.before", "", {kFirstQuery, {"step.to", "3"}, kFirstStep}, [](CommandWorld& w) {
-             EXPECT_EQ(w.session.step(), 3);
-             w.session.close_group();
+             EXPECT_EQ(w.session.workspace.step(), 3);
+             w.session.workspace.close_group();
              run_command(w.session, "step.before");
-             EXPECT_EQ(w.session.step(), 0) << "and back";
+             EXPECT_EQ(w.session.workspace.step(), 0) << "and back";
          }});
     in_query("step.percent", "50", [](CommandWorld& w) { EXPECT_EQ(w.view().step, (Step{Step::Unit::percent, 50})); });
 
     // Go
-    look("go.palette", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::palette); });
+    look("go.palette", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::palette); });
     add({"go.agent", "C", {kFirstQuery}, [](CommandWorld& w) {
-             EXPECT_EQ(w.session.selection, (Selection{Selection::Kind::path, {2, -1, 0}, -1}));
+             EXPECT_EQ(w.session.workspace.selection, (Selection{Selection::Kind::path, {2, -1, 0}, -1}));
              EXPECT_FALSE(w.view().query) << "the query does not show C";
          }});
     add({"go.agent", "B", {kFirstQuery}, [](CommandWorld& w) { EXPECT_TRUE(w.view().query); }});
     look("go.clip", "stand", [](CommandWorld& w) {
-        EXPECT_EQ(w.session.selection, (Selection{Selection::Kind::clip, {}, 1}));
+        EXPECT_EQ(w.session.workspace.selection, (Selection{Selection::Kind::clip, {}, 1}));
     });
     look("go.node", "B 1.1", [](CommandWorld& w) {
-        expect_node(w, w.session.fitted().tree(0).children(0)[1]);
+        expect_node(w, w.session.workspace.fitted().tree(0).children(0)[1]);
         EXPECT_EQ(w.view().levels, (LevelRange{1, 1, false})) << "its level is shown";
     });
     look("go.node", "B 3", [](CommandWorld& w) { expect_node(w, 3); });
     look("go.sample", "B 59", [](CommandWorld& w) {
-        EXPECT_EQ(w.session.selection, (Selection{Selection::Kind::sample, {1, -1, 0}, 59}));
+        EXPECT_EQ(w.session.workspace.selection, (Selection{Selection::Kind::sample, {1, -1, 0}, 59}));
     });
     add({"go.parent", "", {{"go.node", "B 1.1"}}, [](CommandWorld& w) { expect_node(w, 0); }});
     add({"go.parent", "", {{"go.sample", "B 59"}}, [](CommandWorld& w) {
-             const mobb::Tree& tree = w.session.fitted().tree(0);
+             const mobb::Tree& tree = w.session.workspace.fitted().tree(0);
              expect_node(w, static_cast<int>(tree.nodes().size()) - 1);
          }});
     add({"go.child", "", {kSelectB}, [](CommandWorld& w) { expect_node(w, 0); }});
     add({"go.child", "", {{"go.node", "B 0"}}, [](CommandWorld& w) { expect_node(w, 1); }});
     add({"go.next_node", "", {{"go.node", "B 1.0"}}, [](CommandWorld& w) {
-             expect_node(w, w.session.fitted().tree(0).children(0)[1]);
+             expect_node(w, w.session.workspace.fitted().tree(0).children(0)[1]);
          }});
     add({"go.previous_node", "", {{"go.node", "B 1.1"}}, [](CommandWorld& w) { expect_node(w, 1); }});
     in_query("go.contact", "", [](CommandWorld& w) {
-        EXPECT_EQ(w.view().time, w.session.recorded()->contact->time);
+        EXPECT_EQ(w.view().time, w.session.workspace.recorded()->contact->time);
         EXPECT_EQ(outcome_now(w), mobb::Outcome::hit);
     });
     add({"go.none", "", {kSelectB, kFirstQuery}, [](CommandWorld& w) {
-             EXPECT_EQ(w.session.selection, Selection{});
+             EXPECT_EQ(w.session.workspace.selection, Selection{});
              EXPECT_EQ(w.view().query, 0) << "the query stays";
          }});
-    look("go.next_panel", "", [](CommandWorld& w) { EXPECT_EQ(w.session.focus_move, FocusMove::next_panel); });
-    look("go.previous_panel", "", [](CommandWorld& w) { EXPECT_EQ(w.session.focus_move, FocusMove::previous_panel); });
-    look("go.menu", "", [](CommandWorld& w) { EXPECT_EQ(w.session.focus_move, FocusMove::menu_bar); });
-    look("go.menu_of_this", "", [](CommandWorld& w) { EXPECT_EQ(w.session.focus_move, FocusMove::menu_of_this); });
+    look("go.next_panel", "", [](CommandWorld& w) { EXPECT_EQ(w.session.keys.move, FocusMove::next_panel); });
+    look("go.previous_panel", "", [](CommandWorld& w) { EXPECT_EQ(w.session.keys.move, FocusMove::previous_panel); });
+    look("go.menu", "", [](CommandWorld& w) { EXPECT_EQ(w.session.keys.move, FocusMove::menu_bar); });
+    look("go.menu_of_this", "", [](CommandWorld& w) { EXPECT_EQ(w.session.keys.move, FocusMove::menu_of_this); });
 
     // Help
-    look("help.shortcuts", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::help); });
-    look("help.messages", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::messages); });
+    look("help.shortcuts", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::help); });
+    look("help.messages", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::messages); });
     add({"help.clear_messages", "", {{"file.export_picture", "@p.png"}}, [](CommandWorld& w) {
-             EXPECT_TRUE(w.session.messages().empty());
+             EXPECT_TRUE(w.session.notifications.all().empty());
          }});
-    look("help.about", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::about); });
+    look("help.about", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::about); });
     return out;
 }
 
@@ -715,18 +727,18 @@ TEST(CommandEffects, AreWhatTheyAreSaidToBe) {
         try {
             for (const auto& [id, argument] : c.before) {
                 run_command(session, id, argument_in(world, argument));
-                session.close_group();
+                session.workspace.close_group();
             }
-            const std::shared_ptr<const FittedScene> before = session.document().fitted;
-            const bool was_modified = session.modified();
+            const std::shared_ptr<const FittedScene> before = session.workspace.document().fitted;
+            const bool was_modified = session.workspace.modified();
             run_command(session, c.id, argument_in(world, c.argument));
             c.check(world);
             if (!c.edits) continue;
-            EXPECT_NE(session.document().fitted, before);
-            EXPECT_TRUE(session.modified());
+            EXPECT_NE(session.workspace.document().fitted, before);
+            EXPECT_TRUE(session.workspace.modified());
             run_command(session, "edit.undo");
-            EXPECT_EQ(session.document().fitted, before) << "the very state from before";
-            EXPECT_EQ(session.modified(), was_modified);
+            EXPECT_EQ(session.workspace.document().fitted, before) << "the very state from before";
+            EXPECT_EQ(session.workspace.modified(), was_modified);
         } catch (const std::exception& error) {
             ADD_FAILURE() << error.what();
         }
@@ -750,20 +762,20 @@ TEST(CommandEffects, ThePresentValueOfAPromptChangesNothing) {
         ++tried;
         const std::string text = command.present(session);
         ASSERT_NE(text, "");
-        const ViewState view = session.view();
+        const ViewState view = session.workspace.view();
         const auto scene_alone = [&] {
-            Scene scene = session.scene();
+            Scene scene = session.workspace.scene();
             scene.view = {};
             return to_json(scene);
         };
         const std::string scene = scene_alone();
-        const double speed = session.speed;
+        const double speed = session.playback.speed;
         run_command(session, command.id, text);
-        ViewState after = session.view();
+        ViewState after = session.workspace.view();
         if (command.id.starts_with("step.")) after.step = view.step;
         EXPECT_EQ(after, view);
         EXPECT_EQ(scene_alone(), scene);
-        EXPECT_EQ(session.speed, speed);
+        EXPECT_EQ(session.playback.speed, speed);
         EXPECT_EQ(command.present(session), text);
     }
     EXPECT_GE(tried, 12u);
@@ -777,7 +789,7 @@ TEST(CommandEffects, LookingIsNoEdit) {
         CommandWorld world;
         for (const auto& [id, argument] : c.before) run_command(world.session, id, argument);
         run_command(world.session, c.id, c.argument);
-        EXPECT_FALSE(world.session.modified());
+        EXPECT_FALSE(world.session.workspace.modified());
     }
 }
 

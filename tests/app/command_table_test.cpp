@@ -53,8 +53,8 @@ TEST(CommandTable, EveryChordIsReadAndCallsOneCommand) {
     Session scene(false);
     Session cases(false);
     folder.write("a.case.json", "{}");
-    cases.case_drawer.program = "/bin/false";
-    cases.review(folder.scene.parent_path());
+    cases.reviews.case_drawer.program = "/bin/false";
+    cases.reviews.open(folder.scene.parent_path());
     std::size_t count = 0;
     for (const Session* session : {&scene, &cases}) {
         std::set<std::string> chords;
@@ -109,7 +109,7 @@ TEST(CommandTable, AnEmptySessionOnlyOpensAndHelps) {
 TEST(CommandTable, ArgumentsAreCheckedInOneSentence) {
     CrossingFolder folder;
     Session session(false);
-    session.open({folder.scene});
+    session.files.open({folder.scene});
     run_command(session, "go.agent", "A");
     run_command(session, "query.select", "0");
     const std::vector<std::array<std::string, 3>> bad{
@@ -137,9 +137,9 @@ TEST(CommandTable, ArgumentsAreCheckedInOneSentence) {
         {"agent.move", "", "\"Place agent at\" needs X Y"},
         {"view.top", "now", "\"View from above\" takes nothing, but was given 'now'"},
     };
-    const auto before = session.document().fitted;
+    const auto before = session.workspace.document().fitted;
     for (const auto& [id, argument, message] : bad) EXPECT_EQ(refusal(session, id, argument), message);
-    EXPECT_EQ(session.document().fitted, before);
+    EXPECT_EQ(session.workspace.document().fitted, before);
 }
 
 TEST(CommandTable, NumbersThatNobodyMeansAreRefusedEverywhere) {
@@ -149,7 +149,7 @@ TEST(CommandTable, NumbersThatNobodyMeansAreRefusedEverywhere) {
         if (command.argument.empty() || names_files) continue;
         for (const char* text : {"nan", "1e999", "1 2 3 4", "\xff", "-"}) {
             Session session(false);
-            session.open({folder.scene});
+            session.files.open({folder.scene});
             run_command(session, "go.agent", "A");
             run_command(session, "query.select", "0");
             if (command.id == "agent.rename") continue;  // names are free
@@ -161,31 +161,31 @@ TEST(CommandTable, NumbersThatNobodyMeansAreRefusedEverywhere) {
 TEST(CommandTable, AsInvokedWhatGoesWrongIsAMessage) {
     Session session(false);
     invoke(session, "view.top");
-    EXPECT_TRUE(session.messages().empty()) << "it has not run yet";
-    session.run_queue();
-    ASSERT_EQ(session.messages().size(), 1u);
-    EXPECT_EQ(session.messages()[0].level, MessageLevel::error);
-    EXPECT_EQ(session.messages()[0].text, "\"View from above\" cannot be done now");
+    EXPECT_TRUE(session.notifications.all().empty()) << "it has not run yet";
+    session.queue.run();
+    ASSERT_EQ(session.notifications.all().size(), 1u);
+    EXPECT_EQ(session.notifications.all()[0].level, MessageLevel::error);
+    EXPECT_EQ(session.notifications.all()[0].text, "\"View from above\" cannot be done now");
 }
 
 /// Panels may keep references into the document while they draw.
 TEST(CommandTable, WhatIsInvokedRunsInOrderOnceTheFrameIsDrawn) {
     CrossingFolder folder;
     Session session(false);
-    session.open({folder.scene});
-    const Document& shown = session.document();
+    session.files.open({folder.scene});
+    const Document& shown = session.workspace.document();
     const ViewState before = shown.view;
     invoke(session, "view.top");
     invoke(session, "step.out");  // cannot be done: what follows runs all the same
-    session.enqueue([&] { invoke(session, "view.side"); });
-    EXPECT_EQ(&session.document(), &shown);
+    session.queue.push([&] { invoke(session, "view.side"); });
+    EXPECT_EQ(&session.workspace.document(), &shown);
     EXPECT_EQ(shown.view, before);
-    EXPECT_TRUE(session.run_queue());
-    EXPECT_EQ(session.view().camera.preset, CameraPreset::side) << "what a command enqueues runs too";
-    ASSERT_EQ(session.messages().size(), 1u);
-    EXPECT_FALSE(session.run_queue());
+    EXPECT_TRUE(session.queue.run());
+    EXPECT_EQ(session.workspace.view().camera.preset, CameraPreset::side) << "what a command enqueues runs too";
+    ASSERT_EQ(session.notifications.all().size(), 1u);
+    EXPECT_FALSE(session.queue.run());
     run_command(session, "edit.undo");
-    EXPECT_EQ(session.view(), before);
+    EXPECT_EQ(session.workspace.view(), before);
 }
 
 TEST(CommandTable, ChoicesCanAllBeChosen) {
@@ -196,13 +196,13 @@ TEST(CommandTable, ChoicesCanAllBeChosen) {
         SCOPED_TRACE(command.id);
         Session session(false);
         session.settings.recent = {folder.file("walk.csv")};
-        session.open({folder.scene});
+        session.files.open({folder.scene});
         run_command(session, "go.agent", "A");
         const std::vector<std::string> choices = command.choices(session);
         EXPECT_FALSE(choices.empty());
         for (const std::string& choice : choices) {
             Session other(false);
-            other.open({folder.scene});
+            other.files.open({folder.scene});
             run_command(other, "go.agent", "A");
             EXPECT_NO_THROW(run_command(other, command.id, choice)) << choice;
             EXPECT_EQ(all_messages(other), "");
@@ -216,20 +216,20 @@ TEST(CommandTable, ChoicesCanAllBeChosen) {
 TEST(CommandTable, ClipsBecomeAgentsWhenOneIsEdited) {
     CrossingFolder folder;
     Session session(false);
-    session.open({folder.file("walk.csv"), folder.file("stand.csv")});
+    session.files.open({folder.file("walk.csv"), folder.file("stand.csv")});
     run_command(session, "go.agent", "stand");
     run_command(session, "agent.move", "3 4");
-    ASSERT_EQ(session.scene().agents.size(), 2u);
-    EXPECT_EQ(session.scene().agents[1].placement.translate, glm::dvec2(3, 4));
-    EXPECT_EQ(session.fitted().queries().size(), 1u);
+    ASSERT_EQ(session.workspace.scene().agents.size(), 2u);
+    EXPECT_EQ(session.workspace.scene().agents[1].placement.translate, glm::dvec2(3, 4));
+    EXPECT_EQ(session.workspace.fitted().queries().size(), 1u);
     run_command(session, "edit.undo");
-    EXPECT_TRUE(session.scene().agents.empty());
+    EXPECT_TRUE(session.workspace.scene().agents.empty());
 }
 
 TEST(CommandTable, StepsEndWhereTheTraceDoes) {
     CrossingFolder folder;
     Session session(false);
-    session.open({folder.scene});
+    session.files.open({folder.scene});
     run_command(session, "query.select", "0");
     EXPECT_FALSE(find_command("step.over")->enabled(session));
     run_command(session, "step.first");
@@ -243,35 +243,36 @@ TEST(CommandTable, StepsEndWhereTheTraceDoes) {
 TEST(CommandTable, LevelsStayWithinTheTrees) {
     CrossingFolder folder;
     Session session(false);
-    session.open({folder.scene});
-    const int deepest = session.fitted().tree(0).depth() - 1;
+    session.files.open({folder.scene});
+    const int deepest = session.workspace.fitted().tree(0).depth() - 1;
     while (find_command("view.finer")->enabled(session)) run_command(session, "view.finer");
-    EXPECT_EQ(session.view().levels, (LevelRange{deepest, deepest, false}));
+    EXPECT_EQ(session.workspace.view().levels, (LevelRange{deepest, deepest, false}));
     while (find_command("view.coarser")->enabled(session)) run_command(session, "view.coarser");
-    EXPECT_EQ(session.view().levels, (LevelRange{0, 0, false}));
+    EXPECT_EQ(session.workspace.view().levels, (LevelRange{0, 0, false}));
     run_command(session, "view.level", "900");
     run_command(session, "view.coarser");
-    EXPECT_EQ(session.view().levels.last, deepest) << "levels that no tree has are passed over";
+    EXPECT_EQ(session.workspace.view().levels.last, deepest) << "levels that no tree has are passed over";
 }
 
 TEST(CommandTable, TimeStepsStayWithinTheSpan) {
     CrossingFolder folder;
     Session session(false);
-    session.open({folder.scene});
+    session.files.open({folder.scene});
     run_command(session, "time.back");
-    EXPECT_EQ(session.view().time, session.time_span().t0);
+    EXPECT_EQ(session.workspace.view().time, session.workspace.time_span().t0);
     run_command(session, "time.end");
     run_command(session, "time.forward");
-    EXPECT_EQ(session.view().time, session.time_span().t1);
+    EXPECT_EQ(session.workspace.view().time, session.workspace.time_span().t1);
 }
 
 TEST(CommandTable, TheLineToCopyTellsThePicture) {
     CrossingFolder folder;
+    testing::TestDesktop desktop;
+    const std::string& copied = desktop.text;
     Session session(false);
-    std::string copied;
-    session.hooks.set_clipboard = [&](const std::string& text) { copied = text; };
+    session.desktop = &desktop;
     const std::filesystem::path odd = folder.write("o'dd name.json", mobbscope::testing::slurp(folder.scene));
-    session.open({odd});
+    session.files.open({odd});
     const auto options = [&] {
         run_command(session, "file.copy_command");
         const std::size_t file_end = copied.find("name.json'") + 10;
@@ -279,13 +280,11 @@ TEST(CommandTable, TheLineToCopyTellsThePicture) {
     };
     EXPECT_EQ(options(), "");
     EXPECT_NE(copied.find(" --size 1280x720 -o"), std::string::npos) << "the scale that suits the size is not said";
-    session.hooks.ui_scale = [] { return 2.0; };
-    session.hooks.viewport_size = [] { return PictureSize{640, 360}; };
-    double scale = 0;
-    session.hooks.viewport_scale = [&] { return scale; };
+    session.window_scale = 2;
+    session.views.picture = {{640, 360}, 0};
     EXPECT_EQ(options(), "");
     EXPECT_NE(copied.find(" --size 640x360 -o"), std::string::npos) << copied;
-    scale = 1.75;
+    session.views.picture->scale = 1.75;
     EXPECT_EQ(options(), "");
     EXPECT_NE(copied.find(" --size 640x360 --scale 1.75 -o"), std::string::npos) << "the viewport's, not the panels'";
     EXPECT_NE(copied.find("o'\\''dd name.json'"), std::string::npos) << copied;
@@ -316,38 +315,40 @@ TEST(CommandTable, TheLineToCopyTellsThePicture) {
     EXPECT_EQ(options(), " --select A");
     run_command(session, "go.node", "A 2");
     EXPECT_EQ(options(), " --select A:node:2");
-    session.change_view([](ViewState& view) { view.show = Show::moment; });
+    session.workspace.change_view([](ViewState& view) { view.show = Show::moment; });
     EXPECT_EQ(options().find("--select"), std::string::npos) << "a moment has no nodes: " << copied;
-    session.change_view([](ViewState& view) { view.show = Show::space_time; });
-    session.select({Selection::Kind::clip, {}, 0});
+    session.workspace.change_view([](ViewState& view) { view.show = Show::space_time; });
+    session.workspace.select({Selection::Kind::clip, {}, 0});
     EXPECT_EQ(options(), "");
-    session.select({Selection::Kind::path, {2, -1, 0}, -1});
+    session.workspace.select({Selection::Kind::path, {2, -1, 0}, -1});
     EXPECT_EQ(options(), " --select C");
     run_command(session, "query.select", "0");
-    session.select({Selection::Kind::path, {2, -1, 0}, -1});
+    session.workspace.select({Selection::Kind::path, {2, -1, 0}, -1});
     EXPECT_EQ(options().find("--select"), std::string::npos) << "the picture is of A and B: " << copied;
     run_command(session, "query.none");
     run_command(session, "go.agent", "A");
     run_command(session, "agent.nudge", "1 0");
     // No file has this scene: it gets one, whatever else is there, and its line.
     run_command(session, "file.copy_command");
-    ASSERT_TRUE(session.exporting.aside);
-    const std::filesystem::path aside = session.exporting.aside->file;
+    ASSERT_TRUE(session.dialogs.exporting.aside);
+    const std::filesystem::path aside = session.dialogs.exporting.aside->file;
     EXPECT_NE(copied.find(shell_word(aside.string())), std::string::npos) << copied;
-    EXPECT_EQ(load_scene(aside).agents[0].placement.translate, session.scene().agents[0].placement.translate);
-    EXPECT_EQ(load_scene(aside).view, session.view());
-    EXPECT_TRUE(session.modified()) << "it is not saved by that";
+    EXPECT_EQ(load_scene(aside).agents[0].placement.translate, session.workspace.scene().agents[0].placement.translate);
+    EXPECT_EQ(load_scene(aside).view, session.workspace.view());
+    EXPECT_TRUE(session.workspace.modified()) << "it is not saved by that";
     // The same scene seen otherwise takes options, another scene another file.
     run_command(session, "view.floor");
     run_command(session, "file.copy_command");
-    EXPECT_EQ(session.exporting.aside->file, aside);
+    EXPECT_EQ(session.dialogs.exporting.aside->file, aside);
     EXPECT_NE(copied.find(" --"), std::string::npos) << copied;
     run_command(session, "agent.nudge", "1 0");
-    EXPECT_EQ(render_line(session, order_of_viewport(session), "picture.png"), std::nullopt);
+    EXPECT_EQ(render_line(session.workspace, session.files, session.dialogs,
+                          order_of_viewport(session.workspace, session.views), "picture.png"),
+              std::nullopt);
     run_command(session, "file.copy_command");
-    EXPECT_NE(session.exporting.aside->file, aside);
+    EXPECT_NE(session.dialogs.exporting.aside->file, aside);
     std::filesystem::remove_all(aside.parent_path());
-    std::filesystem::remove_all(session.exporting.aside->file.parent_path());
+    std::filesystem::remove_all(session.dialogs.exporting.aside->file.parent_path());
 }
 
 }  // namespace

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <app/commands/command.h>
-#include <app/document/session.h>
+#include <app/session/session.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -48,10 +49,25 @@ class CrossingFolder {
     mobbscope::testing::TempFolder folder_;
 };
 
+/// A desktop that keeps what is copied.
+struct TestDesktop : Desktop {
+    std::string text;              ///< that was copied last
+    std::size_t picture_bytes = 0;  ///< ... of a picture
+    bool has_picture_clipboard = false;
+    std::atomic<int> wakes = 0;
+
+    void wake() override { ++wakes; }
+    void set_clipboard(const std::string& copied) override { text = copied; }
+    void set_clipboard_picture(std::string_view png) override { picture_bytes = png.size(); }
+    std::string_view why_no_clipboard_picture() override {
+        return has_picture_clipboard ? "" : Desktop::why_no_clipboard_picture();
+    }
+};
+
 /// The texts of all messages, and what else is easily asked of a session.
 inline std::string all_messages(const Session& session) {
     std::string out;
-    for (const Message& message : session.messages()) out += message.text + '\n';
+    for (const Message& message : session.notifications.all()) out += message.text + '\n';
     return out;
 }
 

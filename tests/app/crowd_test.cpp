@@ -29,19 +29,20 @@ class CrowdTest : public ::testing::Test {
   protected:
     void SetUp() override {
         file = folder.write("run.json", testing::crowded_run());
-        session.open({file});
-        ASSERT_TRUE(session.crowd()) << (session.messages().empty() ? "" : session.messages().front().text);
+        session.files.open({file});
+        ASSERT_TRUE(session.workspace.crowd())
+            << (session.notifications.all().empty() ? "" : session.notifications.all().front().text);
     }
     void run(std::string_view id, const std::string& argument = "") { run_command(session, id, argument); }
 
     /// Follows somebody at a choice that ruled a candidate out; returns that candidate.
     int follow_a_discarding_choice() {
-        const CrowdRun& crowd = *session.crowd();
+        const CrowdRun& crowd = *session.workspace.crowd();
         for (const CrowdAgent& agent : crowd.agents) {
             run("crowd.follow", agent.name);
             for (std::size_t play = 1; play < agent.plays.size(); ++play) {
                 run("time.at", std::to_string(agent.plays[play].chosen_at + 1e-5));
-                const Choice& choice = session.choice()->choice;
+                const Choice& choice = session.crowds.choice()->choice;
                 for (const std::size_t i : shown_candidates(choice)) {
                     if (outcome_of(choice, i) == CandidateOutcome::ruled_out) return static_cast<int>(i);
                 }
@@ -56,65 +57,65 @@ class CrowdTest : public ::testing::Test {
 };
 
 TEST_F(CrowdTest, OpensInItsMiddle) {
-    EXPECT_EQ(session.view().time, 10);
-    EXPECT_EQ(session.time_span().t1, 20);
-    EXPECT_FALSE(session.modified());
-    EXPECT_TRUE(session.scene().agents.empty());
-    EXPECT_GE(session.fitted().placed_agents().size(), 22u);
-    EXPECT_EQ(session.fitted().queries().size(), 0u);
+    EXPECT_EQ(session.workspace.view().time, 10);
+    EXPECT_EQ(session.workspace.time_span().t1, 20);
+    EXPECT_FALSE(session.workspace.modified());
+    EXPECT_TRUE(session.workspace.scene().agents.empty());
+    EXPECT_GE(session.workspace.fitted().placed_agents().size(), 22u);
+    EXPECT_EQ(session.workspace.fitted().queries().size(), 0u);
 }
 
 TEST_F(CrowdTest, APersonStaysSelectedWhileTimeRuns) {
-    select_agent_named(session, session.crowd()->agents[5].name);
+    select_agent_named(session.workspace, session.workspace.crowd()->agents[5].name);
     for (double time = 0; time < 20; time += 0.7) {
         run("time.at", std::to_string(time));
-        ASSERT_EQ(session.selection.kind, Selection::Kind::path);
-        EXPECT_EQ(session.fitted().scene().agents[5].run_agent, 5);
-        EXPECT_EQ(current_agent(session), session.crowd()->agents[5].name);
+        ASSERT_EQ(session.workspace.selection.kind, Selection::Kind::path);
+        EXPECT_EQ(session.workspace.fitted().scene().agents[5].run_agent, 5);
+        EXPECT_EQ(current_agent(session.workspace), session.workspace.crowd()->agents[5].name);
     }
 }
 
 TEST_F(CrowdTest, ASampleIsForgottenWithItsPlay) {
-    const int play = session.fitted().scene().agents[2].play;
-    session.select({Selection::Kind::sample, {2, -1, 0}, 3});
+    const int play = session.workspace.fitted().scene().agents[2].play;
+    session.workspace.select({Selection::Kind::sample, {2, -1, 0}, 3});
     run("time.at", "10.01");
-    if (session.fitted().scene().agents[2].play == play) {
-        EXPECT_EQ(session.selection.kind, Selection::Kind::sample);
+    if (session.workspace.fitted().scene().agents[2].play == play) {
+        EXPECT_EQ(session.workspace.selection.kind, Selection::Kind::sample);
     }
     run("time.at", "18");
-    EXPECT_EQ(session.selection, (Selection{Selection::Kind::path, {2, -1, 0}, -1}));
+    EXPECT_EQ(session.workspace.selection, (Selection{Selection::Kind::path, {2, -1, 0}, -1}));
 }
 
 TEST_F(CrowdTest, FollowingMovesTheCameraAlongAndStoppingLeavesIt) {
-    const std::string name = session.crowd()->agents[1].name;
+    const std::string name = session.workspace.crowd()->agents[1].name;
     run("view.moment");
     run("crowd.follow", name);
-    EXPECT_EQ(session.view().follow, name);
-    ASSERT_TRUE(session.view().camera.target);
-    const Camera along = session.view().camera;
+    EXPECT_EQ(session.workspace.view().follow, name);
+    ASSERT_TRUE(session.workspace.view().camera.target);
+    const Camera along = session.workspace.view().camera;
     run("time.at", "12");
-    EXPECT_EQ(session.view().camera, along) << "it is the agent that moves";
+    EXPECT_EQ(session.workspace.view().camera, along) << "it is the agent that moves";
     run("crowd.stop");
-    EXPECT_TRUE(session.view().follow.empty());
-    EXPECT_NE(session.view().camera, along);
+    EXPECT_TRUE(session.workspace.view().follow.empty());
+    EXPECT_NE(session.workspace.view().camera, along);
     EXPECT_THROW(run("crowd.follow", "nobody"), std::invalid_argument);
 }
 
 TEST_F(CrowdTest, WhatIsPlayedIsNotEdited) {
-    select_agent_named(session, session.crowd()->agents[1].name);
+    select_agent_named(session.workspace, session.workspace.crowd()->agents[1].name);
     for (const char* id : {"agent.remove", "agent.duplicate"}) EXPECT_THROW(run(id), std::invalid_argument) << id;
     EXPECT_THROW(run("agent.move", "1 2"), std::invalid_argument);
     EXPECT_THROW(run("agent.add", "ahead"), std::invalid_argument);
-    EXPECT_THROW(session.add({file}), InputError);
+    EXPECT_THROW(session.files.add({file}), InputError);
 }
 
 TEST_F(CrowdTest, TreesAreFittedOtherwiseAndTheRunIsSavedWhole) {
     run("tree.leaf", "4");
-    EXPECT_TRUE(session.modified());
-    ASSERT_TRUE(session.crowd());
-    const CrowdRun before = *session.crowd();
+    EXPECT_TRUE(session.workspace.modified());
+    ASSERT_TRUE(session.workspace.crowd());
+    const CrowdRun before = *session.workspace.crowd();
     run("file.save");
-    EXPECT_FALSE(session.modified());
+    EXPECT_FALSE(session.workspace.modified());
     const Scene again = load_scene(file);
     ASSERT_TRUE(again.crowd);
     EXPECT_EQ(*again.crowd, before);
@@ -122,76 +123,76 @@ TEST_F(CrowdTest, TreesAreFittedOtherwiseAndTheRunIsSavedWhole) {
 }
 
 TEST_F(CrowdTest, ChoicesAreSteppedThrough) {
-    const CrowdAgent& agent = session.crowd()->agents[0];
+    const CrowdAgent& agent = session.workspace.crowd()->agents[0];
     run("crowd.follow", agent.name);
     run("time.at", "0");
     run("crowd.next_choice");
-    EXPECT_EQ(session.view().time, agent.plays[1].chosen_at);
-    ASSERT_TRUE(session.choice());
-    EXPECT_EQ(session.choice()->play, 1);
+    EXPECT_EQ(session.workspace.view().time, agent.plays[1].chosen_at);
+    ASSERT_TRUE(session.crowds.choice());
+    EXPECT_EQ(session.crowds.choice()->play, 1);
     run("crowd.next_choice");
-    EXPECT_EQ(session.choice()->play, 2);
+    EXPECT_EQ(session.crowds.choice()->play, 2);
     run("crowd.previous_choice");
-    EXPECT_EQ(session.choice()->play, 1);
+    EXPECT_EQ(session.crowds.choice()->play, 1);
     run("crowd.play", "3");
-    EXPECT_EQ(session.view().time, agent.plays[3].placement.start);
+    EXPECT_EQ(session.workspace.view().time, agent.plays[3].placement.start);
 }
 
 TEST_F(CrowdTest, ACandidateOpensAgainstWhoRuledItOut) {
     const int index = follow_a_discarding_choice();
-    const Candidate candidate = session.choice()->choice.candidates[static_cast<std::size_t>(index)];
+    const Candidate candidate = session.crowds.choice()->choice.candidates[static_cast<std::size_t>(index)];
     run("crowd.candidate", std::to_string(index));
     run("crowd.open_candidate");
-    ASSERT_TRUE(session.in_excerpt());
-    EXPECT_FALSE(session.crowd());
-    EXPECT_EQ(session.scene().agents.size(), 2u);
-    ASSERT_TRUE(session.recorded());
-    ASSERT_TRUE(session.recorded()->contact);
-    EXPECT_EQ(*session.recorded()->contact, candidate.blocker->contact);
+    ASSERT_TRUE(session.workspace.in_excerpt());
+    EXPECT_FALSE(session.workspace.crowd());
+    EXPECT_EQ(session.workspace.scene().agents.size(), 2u);
+    ASSERT_TRUE(session.workspace.recorded());
+    ASSERT_TRUE(session.workspace.recorded()->contact);
+    EXPECT_EQ(*session.workspace.recorded()->contact, candidate.blocker->contact);
 }
 
 TEST_F(CrowdTest, BothWaysLeadBackFromTwoToAll) {
-    const ViewState before = session.view();
+    const ViewState before = session.workspace.view();
     run("view.moment");
-    const std::string other = session.crowd()->agents[4].name;
-    select_agent_named(session, session.crowd()->agents[3].name);
+    const std::string other = session.workspace.crowd()->agents[4].name;
+    select_agent_named(session.workspace, session.workspace.crowd()->agents[3].name);
     run("crowd.open_pair", other);
-    ASSERT_TRUE(session.in_excerpt());
-    EXPECT_FALSE(session.modified()) << "nothing was changed yet";
+    ASSERT_TRUE(session.workspace.in_excerpt());
+    EXPECT_FALSE(session.workspace.modified()) << "nothing was changed yet";
     run("edit.undo");
-    EXPECT_FALSE(session.in_excerpt());
-    EXPECT_EQ(session.view().show, Show::moment);
+    EXPECT_FALSE(session.workspace.in_excerpt());
+    EXPECT_EQ(session.workspace.view().show, Show::moment);
     run("edit.redo");
-    ASSERT_TRUE(session.in_excerpt());
+    ASSERT_TRUE(session.workspace.in_excerpt());
     run("crowd.back");
-    EXPECT_FALSE(session.in_excerpt());
-    EXPECT_EQ(session.view().show, Show::moment);
-    EXPECT_FALSE(session.modified());
-    EXPECT_NE(session.view(), before);
+    EXPECT_FALSE(session.workspace.in_excerpt());
+    EXPECT_EQ(session.workspace.view().show, Show::moment);
+    EXPECT_FALSE(session.workspace.modified());
+    EXPECT_NE(session.workspace.view(), before);
     run("edit.undo");
-    EXPECT_TRUE(session.in_excerpt());
+    EXPECT_TRUE(session.workspace.in_excerpt());
 }
 
 TEST_F(CrowdTest, AnExcerptIsSavedBesideTheRunAndNeverOverIt) {
-    select_agent_named(session, session.crowd()->agents[3].name);
-    run("crowd.open_pair", session.crowd()->agents[4].name);
-    select_agent_named(session, session.scene().agents[0].name);
+    select_agent_named(session.workspace, session.workspace.crowd()->agents[3].name);
+    run("crowd.open_pair", session.workspace.crowd()->agents[4].name);
+    select_agent_named(session.workspace, session.workspace.scene().agents[0].name);
     run("agent.move", "1 2");
-    EXPECT_TRUE(session.modified());
-    EXPECT_THROW(session.save_as(file), InputError);
+    EXPECT_TRUE(session.workspace.modified());
+    EXPECT_THROW(session.files.save_as(file), InputError);
     run("file.save_as", (folder.path() / "two.json").string());
     EXPECT_TRUE(load_scene(file).crowd);
     EXPECT_EQ(load_scene(folder.path() / "two.json").agents.size(), 2u);
-    EXPECT_FALSE(session.modified());
-    EXPECT_TRUE(session.in_excerpt());
+    EXPECT_FALSE(session.workspace.modified());
+    EXPECT_TRUE(session.workspace.in_excerpt());
 }
 
 TEST_F(CrowdTest, AConflictIsSeenWhereItWasForced) {
-    EXPECT_EQ(session.conflicts(), nullptr);
+    EXPECT_EQ(session.crowds.conflicts(), nullptr);
     run("conflicts.find");
-    ASSERT_TRUE(session.conflicts());
-    ASSERT_FALSE(session.conflicts()->empty()) << "nobody was forced: take a smaller floor";
-    const std::vector<SceneConflict> all = *session.conflicts();
+    ASSERT_TRUE(session.crowds.conflicts());
+    ASSERT_FALSE(session.crowds.conflicts()->empty()) << "nobody was forced: take a smaller floor";
+    const std::vector<SceneConflict> all = *session.crowds.conflicts();
     double before = -1e9;
     for (std::size_t i = 0; i < all.size(); ++i) {
         const SceneConflict& found = all[i];
@@ -201,29 +202,29 @@ TEST_F(CrowdTest, AConflictIsSeenWhereItWasForced) {
         EXPECT_GE(found.facts.deepest.least_clearance, before) << "the deepest first";
         before = found.facts.deepest.least_clearance;
         run("conflicts.go", std::to_string(i));
-        ASSERT_TRUE(session.choice());
-        EXPECT_EQ(session.choice()->choice.kind, PlayKind::forced);
-        const bool of_a = session.choice()->agent == found.a.agent;
-        EXPECT_EQ(session.choice()->play, of_a ? found.a_play : found.b_play) << "that of the contact";
-        EXPECT_EQ(session.view().follow, of_a ? found.a.name : found.b.name);
-        EXPECT_LE(*session.view().time, found.begin());
+        ASSERT_TRUE(session.crowds.choice());
+        EXPECT_EQ(session.crowds.choice()->choice.kind, PlayKind::forced);
+        const bool of_a = session.crowds.choice()->agent == found.a.agent;
+        EXPECT_EQ(session.crowds.choice()->play, of_a ? found.a_play : found.b_play) << "that of the contact";
+        EXPECT_EQ(session.workspace.view().follow, of_a ? found.a.name : found.b.name);
+        EXPECT_LE(*session.workspace.view().time, found.begin());
     }
     run("conflicts.go", "0");
-    EXPECT_EQ(current_agent(session), session.view().follow);
+    EXPECT_EQ(current_agent(session.workspace), session.workspace.view().follow);
     run("conflicts.open");
-    ASSERT_TRUE(session.in_excerpt());
-    ASSERT_TRUE(session.recorded()->contact);
-    EXPECT_EQ(session.recorded()->contact->time, all.front().begin());
+    ASSERT_TRUE(session.workspace.in_excerpt());
+    ASSERT_TRUE(session.workspace.recorded()->contact);
+    EXPECT_EQ(session.workspace.recorded()->contact->time, all.front().begin());
     run("crowd.back");
-    EXPECT_TRUE(session.conflicts()) << "they are still those of the run";
+    EXPECT_TRUE(session.crowds.conflicts()) << "they are still those of the run";
 }
 
 /// The walkers' clips differ in dt, so people are several agents of scene_of_people.
 TEST_F(CrowdTest, ConflictsAreCountedAsTheCommandCountsThem) {
     run("conflicts.find");
-    ASSERT_TRUE(session.conflicts());
-    const FittedScene people(scene_of_people(session.scene()), {});
-    ASSERT_GT(people.placed_agents().size(), session.crowd()->agents.size());
+    ASSERT_TRUE(session.crowds.conflicts());
+    const FittedScene people(scene_of_people(session.workspace.scene()), {});
+    ASSERT_GT(people.placed_agents().size(), session.workspace.crowd()->agents.size());
     std::vector<mobb::PlacedTree> crowd;
     std::vector<int> person_of;
     for (const PlacedAgent& who : people.placed_agents()) {
@@ -232,10 +233,10 @@ TEST_F(CrowdTest, ConflictsAreCountedAsTheCommandCountsThem) {
     }
     const std::vector<PeopleConflict> other =
         mobbscope::testing::all_of(PeopleConflicts(crowd, person_of, Search::direct));
-    ASSERT_EQ(session.conflicts()->size(), other.size());
+    ASSERT_EQ(session.crowds.conflicts()->size(), other.size());
     std::set<std::pair<int, int>> pairs;
     for (std::size_t i = 0; i < other.size(); ++i) {
-        const PeopleConflict& here = (*session.conflicts())[i].facts;
+        const PeopleConflict& here = (*session.crowds.conflicts())[i].facts;
         EXPECT_EQ(std::pair(here.a, here.b), std::pair(other[i].a, other[i].b));
         EXPECT_NEAR(here.deepest.least_clearance, other[i].deepest.least_clearance, 1e-9);
         EXPECT_NEAR(here.seconds(), other[i].seconds(), 1e-6);
@@ -243,7 +244,8 @@ TEST_F(CrowdTest, ConflictsAreCountedAsTheCommandCountsThem) {
     }
     double seconds = 0;
     for (const PeopleConflict& conflict : other) seconds += conflict.seconds();
-    EXPECT_EQ(conflict_summary(session), conflict_count(other.size(), session.crowd()->agents.size(), seconds));
+    EXPECT_EQ(session.crowds.conflict_summary(),
+              conflict_count(other.size(), session.workspace.crowd()->agents.size(), seconds));
 }
 
 /// One walks 4 m in steps of 1 m and 0.5 s, twice; another stands for 0.3 s where the first runs on from 3 m to 4 m.
@@ -259,30 +261,30 @@ constexpr const char* kMetBetweenPlays = R"({"mobbscope": 1,
     {"name": "42", "plays": [{"move": 1, "translate": [3.5,0], "rotate_deg": 0, "start": 1.6, "chosen_at": 0}]}]}})";
 
 TEST_F(CrowdTest, WhoIsMetBetweenTwoLinearPlaysIsOpenedWithTheJoint) {
-    session.open({folder.write("joint.json", kMetBetweenPlays)});
-    ASSERT_TRUE(session.crowd());
+    session.files.open({folder.write("joint.json", kMetBetweenPlays)});
+    ASSERT_TRUE(session.workspace.crowd());
     const auto expect_hit = [&] {
-        ASSERT_TRUE(session.in_excerpt());
-        EXPECT_TRUE(session.answer_of(0).contact);
-        EXPECT_EQ(session.scene().clips[0].clip->count(), 2);
-        EXPECT_EQ(session.scene().clips[0].name, "joint to walk");
-        EXPECT_EQ(session.scene().agents[0].placement.start, 1.5);
-        session.leave_excerpt();
+        ASSERT_TRUE(session.workspace.in_excerpt());
+        EXPECT_TRUE(session.queries.answer_of(0).contact);
+        EXPECT_EQ(session.workspace.scene().clips[0].clip->count(), 2);
+        EXPECT_EQ(session.workspace.scene().clips[0].name, "joint to walk");
+        EXPECT_EQ(session.workspace.scene().agents[0].placement.start, 1.5);
+        session.excerpts.leave();
     };
     run("conflicts.find");
-    ASSERT_TRUE(session.conflicts());
-    ASSERT_EQ(session.conflicts()->size(), 1u);
+    ASSERT_TRUE(session.crowds.conflicts());
+    ASSERT_EQ(session.crowds.conflicts()->size(), 1u);
     run("conflicts.open", "0");
     expect_hit();
     run("crowd.follow", "17");
     run("time.at", "1.7");
-    ASSERT_TRUE(session.choice());
+    ASSERT_TRUE(session.crowds.choice());
     run("crowd.open_candidate", "0");
     expect_hit();
     // What is drawn then runs on, too.
     run("crowd.open_pair", "42");
-    ASSERT_TRUE(session.in_excerpt());
-    EXPECT_TRUE(session.answer_of(0).contact);
+    ASSERT_TRUE(session.workspace.in_excerpt());
+    EXPECT_TRUE(session.queries.answer_of(0).contact);
 }
 
 }  // namespace

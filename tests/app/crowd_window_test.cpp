@@ -35,13 +35,13 @@ struct CrowdWindow {
 
     explicit CrowdWindow(PictureSize size = kTall, bool attended = false)
         : session(attended), window(GlContext::open(Backend::automatic), session, size, 1) {
-        session.open({folder.write("run.json", testing::crowded_run())});
-        while (session.job()) session.poll();
+        session.files.open({folder.write("run.json", testing::crowded_run())});
+        while (session.jobs.job()) session.poll();
         window.settle();
     }
 
-    const std::string& name(std::size_t agent) const { return session.crowd()->agents[agent].name; }
-    const Camera& camera() const { return session.view().camera; }
+    const std::string& name(std::size_t agent) const { return session.workspace.crowd()->agents[agent].name; }
+    const Camera& camera() const { return session.workspace.view().camera; }
 
     void key(const std::string& chord_name) {
         const Chord chord = *chord_from_name(chord_name);
@@ -68,16 +68,16 @@ struct CrowdWindow {
     }
 
     DrawList list() const {
-        return build_draw_list(session.fitted(), session.view(), session.hooks.viewport_size(),
-                               session.hooks.viewport_scale());
+        return build_draw_list(session.workspace.fitted(), session.workspace.view(), session.views.picture->size,
+                               session.views.picture->scale);
     }
     /// Where in the picture somebody stands now: (0, 0) in its middle, 1 at its borders.
     glm::vec2 seen_at(std::size_t agent) const {
         const DrawList shown = list();
-        ViewState of = session.view();
+        ViewState of = session.workspace.view();
         of.follow = name(agent);
-        const double time = shown_time(session);
-        const glm::dvec2 at = *followed_place(session.fitted(), of, time);
+        const double time = shown_time(session.workspace);
+        const glm::dvec2 at = *followed_place(session.workspace.fitted(), of, time);
         const auto pixel = shown.projection.project(shown.space.point(at.x, at.y, shown.moment ? 0.9 : time));
         if (!pixel) return glm::vec2(1e9f);
         const glm::vec2 size(shown.size.width, shown.size.height);
@@ -98,7 +98,7 @@ class CrowdWindowTest : public ::testing::TestWithParam<Show> {
   protected:
     void SetUp() override {
         if (GetParam() == Show::moment) w.key("M");
-        ASSERT_EQ(w.session.view().show, GetParam());
+        ASSERT_EQ(w.session.workspace.view().show, GetParam());
     }
     CrowdWindow w;
 };
@@ -106,13 +106,13 @@ class CrowdWindowTest : public ::testing::TestWithParam<Show> {
 TEST_P(CrowdWindowTest, FramingGoesOnFollowing) {
     w.click("agent.1");
     w.key("W");
-    ASSERT_EQ(w.session.view().follow, w.name(1));
+    ASSERT_EQ(w.session.workspace.view().follow, w.name(1));
     const Camera followed = w.camera();
     w.expect_in_the_middle(1);
     w.key("-");
     w.key("F");
     EXPECT_EQ(w.camera(), followed) << "as W frames them";
-    w.session.select({});
+    w.session.workspace.select({});
     w.key("=");
     w.key("F");
     EXPECT_EQ(w.camera(), followed) << "nobody else is selected";
@@ -125,9 +125,9 @@ TEST_P(CrowdWindowTest, StoppingLeavesThePanelWithWhatItDraws) {
     w.click("agent.1");
     for (int i = 0; i < 9; ++i) {
         w.key("W");
-        ASSERT_EQ(w.session.view().follow, w.name(1));
+        ASSERT_EQ(w.session.workspace.view().follow, w.name(1));
         w.click("crowd.stop");
-        ASSERT_EQ(w.session.view().follow, "");
+        ASSERT_EQ(w.session.workspace.view().follow, "");
     }
 }
 
@@ -135,14 +135,14 @@ TEST_P(CrowdWindowTest, ADoubleClickOnAnotherNameFollowsThatOne) {
     w.click("agent.1");
     w.key("W");
     w.double_click("agent.4");
-    EXPECT_EQ(w.session.view().follow, w.name(4));
+    EXPECT_EQ(w.session.workspace.view().follow, w.name(4));
     w.expect_in_the_middle(4);
     w.change_view("another");
 }
 
 TEST_P(CrowdWindowTest, WhoIsFramedIsInThePictureThoughNobodyIsFollowed) {
     w.double_click("agent.3");
-    EXPECT_EQ(w.session.view().follow, "");
+    EXPECT_EQ(w.session.workspace.view().follow, "");
     const glm::vec2 at = w.seen_at(3);
     EXPECT_LT(std::max(std::abs(at.x), std::abs(at.y)), 1);
     EXPECT_TRUE(w.camera().target);
@@ -157,7 +157,7 @@ TEST_P(CrowdWindowTest, TheMomentIsShownFromAsNear) {
     for (int i = 0; i < 2; ++i) {
         w.key("M");
         ASSERT_TRUE(w.camera().target);
-        EXPECT_EQ(w.session.view().follow, w.name(1));
+        EXPECT_EQ(w.session.workspace.view().follow, w.name(1));
         EXPECT_NEAR(w.camera().distance, distance, 1e-9);
         w.expect_in_the_middle(1);
         w.change_view("m" + std::to_string(i));
@@ -172,7 +172,7 @@ TEST_P(CrowdWindowTest, WhoIsLeftStaysWhereTheyWere) {
     w.key("F");
     const glm::vec2 before = w.seen_at(1);
     w.key("W");
-    ASSERT_EQ(w.session.view().follow, "");
+    ASSERT_EQ(w.session.workspace.view().follow, "");
     EXPECT_LT(glm::length(w.seen_at(1) - before), 1e-3);
     w.key("F");
     const glm::vec2 at = w.seen_at(1);
@@ -200,7 +200,7 @@ TEST(CrowdWindow, NothingFliesWhenFollowingEnds) {
     const Image before = w.window.shell().viewport_picture();
     w.window.shell().feed(KeyPress{Key::w, true});
     w.window.frame();
-    ASSERT_EQ(w.session.view().follow, "");
+    ASSERT_EQ(w.session.workspace.view().follow, "");
     EXPECT_LT(difference(before, w.window.shell().viewport_picture()), 0.1);
 }
 
@@ -209,7 +209,7 @@ TEST(CrowdWindow, CandidatesAreSortedAndFilteredAndTheHighlightFollows) {
     run_command(w.session, "time.at", "6");
     w.click("agent.1");
     w.key("W");
-    ASSERT_TRUE(w.session.choice());
+    ASSERT_TRUE(w.session.crowds.choice());
     const auto listed = [&] {
         std::vector<std::pair<float, int>> rows;
         for (const auto& [name, rect] : w.window.shell().marks().all()) {
@@ -223,16 +223,16 @@ TEST(CrowdWindow, CandidatesAreSortedAndFilteredAndTheHighlightFollows) {
     const std::vector<int> by_outcome = listed();
     ASSERT_GT(by_outcome.size(), 2u);
     w.click("candidate." + std::to_string(by_outcome.front()));
-    EXPECT_EQ(w.session.candidate(), by_outcome.front());
+    EXPECT_EQ(w.session.crowds.candidate(), by_outcome.front());
     w.click("crowd.sort_candidates.clip");
     const std::vector<int> by_clip = listed();
     w.click("crowd.sort_candidates.clip");
     const std::vector<int> back = listed();
     EXPECT_NE(by_clip, back);
-    EXPECT_EQ(w.session.candidate(), by_outcome.front()) << "it is a candidate, not a row";
+    EXPECT_EQ(w.session.crowds.candidate(), by_outcome.front()) << "it is a candidate, not a row";
     w.click("crowd.list_candidates.free");
     for (const int index : listed()) {
-        EXPECT_TRUE(w.session.choice()->choice.candidates[static_cast<std::size_t>(index)].is_free());
+        EXPECT_TRUE(w.session.crowds.choice()->choice.candidates[static_cast<std::size_t>(index)].is_free());
     }
     EXPECT_LT(listed().size(), by_outcome.size());
     w.click("crowd.list_candidates.all");
@@ -240,17 +240,17 @@ TEST(CrowdWindow, CandidatesAreSortedAndFilteredAndTheHighlightFollows) {
     for (const char c : std::string("OFF FL")) w.window.shell().feed(TypedText{static_cast<char32_t>(c)});
     w.window.settle();
     for (const int index : listed()) {
-        EXPECT_TRUE(w.session.choice()->choice.candidates[static_cast<std::size_t>(index)].leaves_floor);
+        EXPECT_TRUE(w.session.crowds.choice()->choice.candidates[static_cast<std::size_t>(index)].leaves_floor);
     }
     EXPECT_LT(listed().size(), by_outcome.size());
     // Another choice has candidates of its own; this one's is still pointed out on the way back.
-    const int play = w.session.choice()->play;
+    const int play = w.session.crowds.choice()->play;
     run_command(w.session, "crowd.next_choice");
-    ASSERT_NE(w.session.choice()->play, play);
-    EXPECT_EQ(w.session.candidate(), -1);
+    ASSERT_NE(w.session.crowds.choice()->play, play);
+    EXPECT_EQ(w.session.crowds.candidate(), -1);
     run_command(w.session, "crowd.previous_choice");
-    ASSERT_EQ(w.session.choice()->play, play);
-    EXPECT_EQ(w.session.candidate(), by_outcome.front());
+    ASSERT_EQ(w.session.crowds.choice()->play, play);
+    EXPECT_EQ(w.session.crowds.candidate(), by_outcome.front());
 }
 
 TEST(CrowdWindow, CandidatesAndConflictsThatAreLookedAtArePointedOut) {
@@ -263,18 +263,18 @@ TEST(CrowdWindow, CandidatesAndConflictsThatAreLookedAtArePointedOut) {
     run_command(w.session, "time.at", "6");
     w.click("agent.1");
     w.key("W");
-    ASSERT_TRUE(w.session.choice());
-    ASSERT_FALSE(w.session.choice()->choice.candidates.empty());
+    ASSERT_TRUE(w.session.crowds.choice());
+    ASSERT_FALSE(w.session.crowds.choice()->choice.candidates.empty());
     EXPECT_FALSE(roles().contains(HighlightLine::Role::candidate));
-    w.session.point_out(0);
+    w.session.crowds.point_out(0);
     w.window.settle();
     EXPECT_TRUE(roles().contains(HighlightLine::Role::candidate));
-    w.session.point_out(-1);
+    w.session.crowds.point_out(-1);
     run_command(w.session, "conflicts.find");
-    while (w.session.job()) w.session.poll();
+    while (w.session.jobs.job()) w.session.poll();
     run_command(w.session, "conflicts.go", "0");
     w.window.settle();
-    ASSERT_GE(w.session.conflict, 0);
+    ASSERT_GE(w.session.workspace.conflict, 0);
     EXPECT_TRUE(roles().contains(HighlightLine::Role::conflict));
     EXPECT_FALSE(roles().contains(HighlightLine::Role::candidate));
 }
@@ -283,11 +283,11 @@ TEST(CrowdWindow, ASampleIsFramedWhileSomebodyElseIsFollowed) {
     CrowdWindow w;
     w.click("agent.1");
     w.key("W");
-    w.session.select({Selection::Kind::sample, {4, -1, 0}, 3});
+    w.session.workspace.select({Selection::Kind::sample, {4, -1, 0}, 3});
     w.key("F");
-    EXPECT_EQ(w.session.view().follow, w.name(1));
+    EXPECT_EQ(w.session.workspace.view().follow, w.name(1));
     const DrawList shown = w.list();
-    const mobb::PlacedTree tree = w.session.fitted().placed(w.session.fitted().placed_agents()[4]);
+    const mobb::PlacedTree tree = w.session.workspace.fitted().placed(w.session.workspace.fitted().placed_agents()[4]);
     const mobb::Disk disk = tree.placed_clip().disk(3);
     const auto pixel = shown.projection.project(shown.space.point(disk.x, disk.y, tree.placed_clip().time(3)));
     ASSERT_TRUE(pixel);
@@ -298,15 +298,15 @@ TEST(CrowdWindow, ASampleIsFramedWhileSomebodyElseIsFollowed) {
 TEST(CrowdWindow, ADoubleClickOnAConflictShowsTheForcedChoice) {
     CrowdWindow w;
     w.click("conflicts.find");
-    ASSERT_TRUE(w.session.conflicts());
-    const std::size_t shown = std::min<std::size_t>(w.session.conflicts()->size(), 5);
+    ASSERT_TRUE(w.session.crowds.conflicts());
+    const std::size_t shown = std::min<std::size_t>(w.session.crowds.conflicts()->size(), 5);
     ASSERT_GT(shown, 0u);
     for (std::size_t i = 0; i < shown; ++i) {
         w.double_click("conflict." + std::to_string(i));
-        ASSERT_EQ(w.session.conflict, static_cast<int>(i));
-        ASSERT_TRUE(w.session.choice());
-        EXPECT_EQ(w.session.choice()->choice.kind, PlayKind::forced);
-        EXPECT_TRUE(w.session.choice()->comes_out);
+        ASSERT_EQ(w.session.workspace.conflict, static_cast<int>(i));
+        ASSERT_TRUE(w.session.crowds.choice());
+        EXPECT_EQ(w.session.crowds.choice()->choice.kind, PlayKind::forced);
+        EXPECT_TRUE(w.session.crowds.choice()->comes_out);
         EXPECT_FALSE(w.window.shell().marks().all().contains("choice.edited"));
     }
     w.change_view("forced");
@@ -318,17 +318,17 @@ TEST(CrowdWindow, AChoiceOfAnEditedRunSaysSo) {
     ASSERT_NE(seed, std::string::npos);
     text.replace(seed, 9, "\"seed\": 2");
     CrowdWindow w;
-    w.session.open({w.folder.write("edited.json", text)});
-    while (w.session.job()) w.session.poll();
+    w.session.files.open({w.folder.write("edited.json", text)});
+    while (w.session.jobs.job()) w.session.poll();
     w.window.settle();
     w.click("agent.1");
     w.key("W");
     // With another seed some choice soon comes out otherwise.
-    for (int i = 0; i < 40 && (!w.session.choice() || w.session.choice()->comes_out); ++i) {
+    for (int i = 0; i < 40 && (!w.session.crowds.choice() || w.session.crowds.choice()->comes_out); ++i) {
         w.key(i < 8 ? "N" : "Shift+N");
     }
-    ASSERT_TRUE(w.session.choice());
-    ASSERT_FALSE(w.session.choice()->comes_out);
+    ASSERT_TRUE(w.session.crowds.choice());
+    ASSERT_FALSE(w.session.crowds.choice()->comes_out);
     EXPECT_TRUE(w.window.shell().marks().all().contains("choice.edited")) << "the panel says it";
     std::string said;
     for (const TextRun& run : w.window.shell().shown()->texts) said += run.text + ' ';
@@ -339,12 +339,12 @@ TEST(CrowdWindow, AChoiceOfAnEditedRunSaysSo) {
 TEST(CrowdWindow, AConflictOpensByItsButtonWhileSomebodyIsFollowed) {
     CrowdWindow w;
     w.click("conflicts.find");
-    ASSERT_TRUE(w.session.conflicts());
+    ASSERT_TRUE(w.session.crowds.conflicts());
     w.double_click("conflict.0");
-    ASSERT_NE(w.session.view().follow, "");
+    ASSERT_NE(w.session.workspace.view().follow, "");
     ASSERT_TRUE(w.window.shell().marks().all().contains("crowd.open_candidate")) << "a button of the same words";
     w.click("conflicts.open");
-    EXPECT_TRUE(w.session.in_excerpt());
+    EXPECT_TRUE(w.session.workspace.in_excerpt());
 }
 
 TEST(CrowdWindow, AnExcerptBeginsAtTheTopOfItsPanels) {
@@ -361,14 +361,14 @@ TEST(CrowdWindow, AnExcerptBeginsAtTheTopOfItsPanels) {
     scroll_down();
     ASSERT_LT(w.place("crowd.stop").y, at_top - 50);
     w.click("conflicts.open");
-    ASSERT_TRUE(w.session.in_excerpt());
+    ASSERT_TRUE(w.session.workspace.in_excerpt());
     const float answer = w.place("query.answer").y;
     EXPECT_GT(answer, 40);
     EXPECT_LT(answer, 300);
     scroll_down();
     ASSERT_LT(w.place("query.answer").y, answer - 50);
     w.key("Backspace");
-    ASSERT_FALSE(w.session.in_excerpt());
+    ASSERT_FALSE(w.session.workspace.in_excerpt());
     EXPECT_LT(w.place("crowd.stop").y, at_top - 50) << "the crowd's panel is where it was left";
     w.click("conflicts.open");
     EXPECT_EQ(w.place("query.answer").y, answer) << "another excerpt";

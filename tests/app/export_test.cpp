@@ -41,14 +41,15 @@ class ExportTest : public ::testing::Test {
         } catch (const MachineError& error) {
             GTEST_SKIP() << error.what();
         }
-        session.hooks.set_clipboard = [this](const std::string& text) { copied = text; };
-        session.open({folder.scene});
+        session.desktop = &desktop;
+        session.files.open({folder.scene});
         window->settle();
         run("run picture.file " + file.string());
     }
 
     void TearDown() override {
-        if (session.exporting.aside) std::filesystem::remove_all(session.exporting.aside->file.parent_path());
+        if (session.dialogs.exporting.aside)
+            std::filesystem::remove_all(session.dialogs.exporting.aside->file.parent_path());
     }
 
     std::string run(const std::string& script) {
@@ -75,7 +76,8 @@ class ExportTest : public ::testing::Test {
     std::filesystem::path file = folder.file("a picture's.png");
     Session session{false};
     std::unique_ptr<HeadlessWindow> window;
-    std::string copied;
+    testing::TestDesktop desktop;
+    const std::string& copied = desktop.text;
 };
 
 TEST_F(ExportTest, TheCommandLineDrawsTheSameBytes) {
@@ -93,15 +95,15 @@ TEST_F(ExportTest, TheCommandLineDrawsTheSameBytes) {
 
 TEST_F(ExportTest, TheLineOfASceneThatNoFileHoldsNamesATemporaryOne) {
     run("run go.agent A\nrun agent.nudge 1 0");
-    ASSERT_TRUE(session.modified());
+    ASSERT_TRUE(session.workspace.modified());
     expect_the_line_does_the_same("run picture.size 640x360");
-    ASSERT_TRUE(session.exporting.aside);
-    EXPECT_EQ(session.exporting.aside->file.extension(), ".json");
+    ASSERT_TRUE(session.dialogs.exporting.aside);
+    EXPECT_EQ(session.dialogs.exporting.aside->file.extension(), ".json");
     EXPECT_NE(all_messages(session).find("No file holds the scene as it is"), std::string::npos);
     // Seen otherwise, and with another fit beside it.
-    const std::filesystem::path first = session.exporting.aside->file;
+    const std::filesystem::path first = session.dialogs.exporting.aside->file;
     expect_the_line_does_the_same("run view.top\nrun picture.without boxes");
-    EXPECT_EQ(session.exporting.aside->file, first) << "it holds this scene still";
+    EXPECT_EQ(session.dialogs.exporting.aside->file, first) << "it holds this scene still";
     expect_the_line_does_the_same("run view.split\nrun tree.kind umobb\nrun picture.without none");
 }
 
@@ -112,19 +114,19 @@ TEST_F(ExportTest, TheLineOfACasesSceneDrawsWhatTheCaseShows) {
         R"({"mobbscope_case": 1, "scene": "../scene.json", "view": {"levels": "leaves"}, "fit": {"tree": "umobb"}})");
     std::filesystem::create_directories(folder.file("drawn"));
     folder.write("drawn/report.json", R"({"mobbscope_report": 1, "cases": []})");
-    session.review(folder.file("cases"), folder.file("drawn"));
-    session.open_case(0);
+    session.reviews.open(folder.file("cases"), folder.file("drawn"));
+    session.reviews.open_case(0);
     window->settle();
-    ASSERT_EQ(session.open_case_name(), "one");
-    ASSERT_EQ(session.document().fitted->options().tree, mobb::TreeKind::umobb);
+    ASSERT_EQ(session.files.visited(), "one");
+    ASSERT_EQ(session.workspace.document().fitted->options().tree, mobb::TreeKind::umobb);
     expect_the_line_does_the_same("run picture.size 640x360");
 }
 
 TEST_F(ExportTest, AnotherSceneClosesTheDialog) {
     run("key Ctrl+E\nclick export.browse\nexpect /dialog \"export_file\"");
-    session.open({folder.write("other.json", R"({"clips": {"a": {"dt": 1, "samples": [[0, 0, 1]]}}})")});
+    session.files.open({folder.write("other.json", R"({"clips": {"a": {"dt": 1, "samples": [[0, 0, 1]]}}})")});
     window->settle();
-    EXPECT_EQ(session.dialog, Dialog::none);
+    EXPECT_EQ(session.dialogs.now, Dialog::none);
 }
 
 TEST_F(ExportTest, WhatTheViewportShowsIsExportedUnlessTheDialogSaysOtherwise) {
@@ -140,7 +142,7 @@ TEST_F(ExportTest, WhatTheViewportShowsIsExportedUnlessTheDialogSaysOtherwise) {
 
 TEST_F(ExportTest, TheDialogIsWorkedByKeysAlone) {
     run("key Ctrl+E\nexpect /dialog \"export_picture\"");
-    EXPECT_EQ(session.input.text, file.string()) << "what was said before";
+    EXPECT_EQ(session.dialogs.input.text, file.string()) << "what was said before";
     run("key Ctrl+A\ntype other\nexpect /export/file \"other\"\nkey Tab\nexpect /focus \"export.browse\"\nkey Tab");
     run("expect /focus \"export.size\"\nkey Enter\nkey Down\nkey Enter\nexpect /export/size \"1280x720\"");
     // A side takes the other one along.
@@ -162,7 +164,7 @@ TEST_F(ExportTest, AnExtensionIsMeantOnce) {
 
 TEST_F(ExportTest, ClicksChangeTheSettingsAndThePreview) {
     run("key Ctrl+E");
-    const auto preview = [&] { return session.exporting.image; };
+    const auto preview = [&] { return session.dialogs.exporting.image; };
     const auto before = preview();
     ASSERT_TRUE(before);
     const Image whole = window->shell().viewport_picture();
@@ -175,24 +177,24 @@ TEST_F(ExportTest, ClicksChangeTheSettingsAndThePreview) {
     run("click export.background.transparent\nclick export.samples.2\nclick export.theme.light");
     run("expect /export/background \"transparent\"\nexpect /export/samples \"2\"\nexpect /export/theme \"light\"");
     EXPECT_EQ(preview()->at(0, preview()->height - 1)[3], 0);
-    EXPECT_EQ(session.view().theme, Theme::dark);
+    EXPECT_EQ(session.workspace.view().theme, Theme::dark);
     run("click export.without.legend\nclick export.without.boxes\nexpect /export/without \"none\"");
     // What the view does not show either cannot be left out.
     run("run view.legend\nclick export.without.legend\nexpect /export/without \"none\"");
     run("click export.copy_command");
     EXPECT_TRUE(copied.ends_with(" --background transparent -o " + shell_word(file.string()))) << copied;
-    EXPECT_EQ(session.dialog, Dialog::export_picture);
+    EXPECT_EQ(session.dialogs.now, Dialog::export_picture);
     run("click export.close\nexpect /dialog \"none\"");
 }
 
 TEST_F(ExportTest, AFileIsOverwrittenOnceItWasAsked) {
     folder.write(file.filename().string(), "precious");
     run("key Ctrl+E\nkey Enter\nexpect /dialog \"export_picture\"");
-    EXPECT_TRUE(session.input.confirming);
+    EXPECT_TRUE(session.dialogs.input.confirming);
     EXPECT_EQ(slurp(file), "precious");
     // Another name is another question.
     run("type x");
-    EXPECT_FALSE(session.input.confirming);
+    EXPECT_FALSE(session.dialogs.input.confirming);
     run("key Ctrl+A\ntype " + file.string() + "\nkey Enter\nkey Escape\nexpect /dialog \"none\"");
     EXPECT_EQ(slurp(file), "precious");
     run("key Ctrl+E\nkey Enter\nkey Enter\nexpect /dialog \"none\"");
@@ -205,13 +207,13 @@ TEST_F(ExportTest, AFileIsOverwrittenOnceItWasAsked) {
 TEST_F(ExportTest, BrowseAsksForTheFileAndLeadsBack) {
     folder.write("there.png", "precious");
     run("key Ctrl+E\nclick export.browse\nexpect /dialog \"export_file\"");
-    EXPECT_EQ(session.input.text, file.filename().string());
+    EXPECT_EQ(session.dialogs.input.text, file.filename().string());
     run("key Escape\nexpect /dialog \"export_picture\"");
-    EXPECT_EQ(session.input.text, file.string());
+    EXPECT_EQ(session.dialogs.input.text, file.string());
     run("click export.browse\nkey Ctrl+A\ntype there.png\nkey Enter\nexpect /dialog \"export_file\"");
-    EXPECT_TRUE(session.input.confirming);
+    EXPECT_TRUE(session.dialogs.input.confirming);
     run("key Enter\nexpect /dialog \"export_picture\"");
-    EXPECT_EQ(export_file(session), folder.file("there.png"));
+    EXPECT_EQ(export_file(session.workspace, session.settings, session.dialogs), folder.file("there.png"));
     EXPECT_EQ(slurp(folder.file("there.png")), "precious") << "it was only chosen";
     run("key Enter\nexpect /dialog \"none\"");
     EXPECT_NE(slurp(folder.file("there.png")), "precious") << "who agreed there is not asked again";
@@ -242,8 +244,8 @@ TEST_F(ExportTest, WhatCannotBeIsRefusedAndNothingIsLeft) {
     for (const char* typed : {"no/such.png", "a.jpg", "../"}) {
         SCOPED_TRACE(typed);
         run("run picture.file " + folder.file(typed).string() + "\nkey Ctrl+E\nkey Enter\nkey Enter");
-        EXPECT_EQ(session.dialog, Dialog::export_picture);
-        EXPECT_FALSE(session.input.confirming);
+        EXPECT_EQ(session.dialogs.now, Dialog::export_picture);
+        EXPECT_FALSE(session.dialogs.input.confirming);
         run("key Escape");
     }
     EXPECT_EQ(names(), (std::set<std::string>{"scene.json", "stand.csv", "walk.csv"}));

@@ -1,5 +1,5 @@
 /// What is found out about a query is kept as long as it is true, and no longer.
-#include <app/document/session.h>
+#include <app/session/session.h>
 #include <gtest/gtest.h>
 #include <scene/scene_edits.h>
 
@@ -18,44 +18,44 @@ void add_three_agents(Scene& scene) {
 
 TEST(Findings, AreNoneWithoutAQuery) {
     Session session(false);
-    EXPECT_EQ(session.findings(), nullptr);
-    session.edit({"adding", ""}, add_three_agents);
-    EXPECT_EQ(session.findings(), nullptr);
+    EXPECT_EQ(session.queries.findings(), nullptr);
+    session.workspace.edit({"adding", ""}, add_three_agents);
+    EXPECT_EQ(session.queries.findings(), nullptr);
 }
 
 TEST(Findings, StayWhileOneLooksAround) {
     Session session(false);
-    session.edit({"adding", ""}, add_three_agents);
-    session.change_view([](ViewState& view) { view.query = 0; });
-    const auto before = session.findings();
+    session.workspace.edit({"adding", ""}, add_three_agents);
+    session.workspace.change_view([](ViewState& view) { view.query = 0; });
+    const auto before = session.queries.findings();
     ASSERT_NE(before, nullptr);
-    session.change_view([](ViewState& view) {
+    session.workspace.change_view([](ViewState& view) {
         view.step = {Step::Unit::event, 0};
         view.time = 1.0;
         view.theme = Theme::light;
     });
-    EXPECT_EQ(session.findings(), before);
+    EXPECT_EQ(session.queries.findings(), before);
 }
 
 TEST(Findings, FollowTheQueryAndTheScene) {
     Session session(false);
-    session.edit({"adding", ""}, add_three_agents);
-    session.change_view([](ViewState& view) { view.query = 0; });
-    const auto first = session.findings();
+    session.workspace.edit({"adding", ""}, add_three_agents);
+    session.workspace.change_view([](ViewState& view) { view.query = 0; });
+    const auto first = session.queries.findings();
     EXPECT_FALSE(first->clearance.contact.has_value());
     EXPECT_NEAR(first->clearance.pieces[*first->clearance.least].clearance, 0.6, 1e-9);
     EXPECT_NEAR(first->floor.apart, 0.6, 1e-9);
 
-    session.change_view([](ViewState& view) { view.query = 1; });
-    const auto second = session.findings();
+    session.workspace.change_view([](ViewState& view) { view.query = 1; });
+    const auto second = session.queries.findings();
     EXPECT_NE(second, first);
     EXPECT_NEAR(second->clearance.pieces[*second->clearance.least].clearance, 1.6, 1e-9);
 
-    session.edit({"moving", ""}, [](Scene& scene) { place_agent(scene, 2, {{0, 0.1}, 0, 0}); });
-    const auto moved = session.findings();
+    session.workspace.edit({"moving", ""}, [](Scene& scene) { place_agent(scene, 2, {{0, 0.1}, 0, 0}); });
+    const auto moved = session.queries.findings();
     EXPECT_NE(moved, second);
     EXPECT_TRUE(moved->clearance.contact.has_value());
-    EXPECT_EQ(moved->recursion.total().tests, session.recorded()->tests);
+    EXPECT_EQ(moved->recursion.total().tests, session.workspace.recorded()->tests);
     // Who holds the old ones may still read them.
     EXPECT_EQ(second->sides[1].name, "C");
 }

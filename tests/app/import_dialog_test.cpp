@@ -76,10 +76,10 @@ struct ImportWindow {
     }
 
     void open(const std::string& file) {
-        session.open({folder.path() / file});
+        session.files.open({folder.path() / file});
         window.settle();
     }
-    const SceneClip& clip(std::size_t index = 0) const { return session.scene().clips[index]; }
+    const SceneClip& clip(std::size_t index = 0) const { return session.workspace.scene().clips[index]; }
     bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
     glm::vec2 place(const std::string& mark) {
         const auto at = window.shell().marks().all().find(mark);
@@ -131,15 +131,15 @@ struct ImportWindow {
 TEST(ImportDialog, AWrongUnitIsMendedFromItsMessageByTwoClicks) {
     ImportWindow w;
     w.open("scene.json");
-    ASSERT_EQ(w.session.messages().size(), 1u);
+    ASSERT_EQ(w.session.notifications.all().size(), 1u);
     EXPECT_NE(all_messages(w.session).find("check unit"), std::string::npos) << all_messages(w.session);
     w.click("message.0.offer");
-    EXPECT_EQ(w.session.dialog, Dialog::import_clip);
-    EXPECT_EQ(w.session.importing.clip, 0);
-    EXPECT_EQ(w.session.importing.field, "unit");
+    EXPECT_EQ(w.session.dialogs.now, Dialog::import_clip);
+    EXPECT_EQ(w.session.imports.edited.clip, 0);
+    EXPECT_EQ(w.session.imports.edited.field, "unit");
     EXPECT_EQ(all_messages(w.session), "") << "it stands at the field now";
     EXPECT_TRUE(w.has("import.unit.warning"));
-    const FittedScene* const before = w.session.document().fitted.get();
+    const FittedScene* const before = w.session.workspace.document().fitted.get();
 
     w.click("import.unit");
     w.click("import.unit.cm");
@@ -148,43 +148,43 @@ TEST(ImportDialog, AWrongUnitIsMendedFromItsMessageByTwoClicks) {
     EXPECT_TRUE(w.clip().facts.warnings.empty());
     EXPECT_FALSE(w.has("import.unit.warning"));
     EXPECT_FALSE(w.clip(1).options.unit) << "of a motion each clip is for itself";
-    EXPECT_EQ(&w.session.fitted().tree(0).clip(), w.clip().clip.get()) << "what is drawn has changed too";
-    EXPECT_EQ(w.session.history().undo_title(), "changing the unit of walk: cm");
+    EXPECT_EQ(&w.session.workspace.fitted().tree(0).clip(), w.clip().clip.get()) << "what is drawn has changed too";
+    EXPECT_EQ(w.session.workspace.history.undo_title(), "changing the unit of walk: cm");
 
     w.key("Ctrl+Z");
-    EXPECT_EQ(w.session.document().fitted.get(), before);
-    EXPECT_EQ(w.session.dialog, Dialog::import_clip) << "undo works in the dialog";
+    EXPECT_EQ(w.session.workspace.document().fitted.get(), before);
+    EXPECT_EQ(w.session.dialogs.now, Dialog::import_clip) << "undo works in the dialog";
     w.key("Ctrl+Y");
     EXPECT_EQ(w.clip().options.unit, "cm");
     w.click("import.unit.reset");
     EXPECT_FALSE(w.clip().options.unit);
     EXPECT_NEAR(w.clip().facts.unit, 0.01, 1e-12) << "as its height says";
     w.key("Escape");
-    EXPECT_EQ(w.session.dialog, Dialog::none);
+    EXPECT_EQ(w.session.dialogs.now, Dialog::none);
 }
 
 TEST(ImportDialog, WhatCannotBeImportedIsSaidAtItsFieldAndChangesNothing) {
     ImportWindow w;
     w.open("body.bvh");
-    w.session.enqueue([&] { run_command(w.session, "clip.import"); });
+    w.session.queue.push([&] { run_command(w.session, "clip.import"); });
     w.window.settle();
-    const FittedScene* const before = w.session.document().fitted.get();
+    const FittedScene* const before = w.session.workspace.document().fitted.get();
     w.click("import.fps", 2);
     w.key("Ctrl+A");
     w.type("-5");
     w.key("Enter");
     EXPECT_TRUE(w.has("import.fps.error"));
-    EXPECT_EQ(w.session.importing.refused["fps"].why, "fps must be over 0 and at most 1000000");
+    EXPECT_EQ(w.session.imports.edited.refused["fps"].why, "fps must be over 0 and at most 1000000");
     // In range, but not in this file: the file must be asked.
-    w.session.enqueue([&] { run_command(w.session, "clip.set", "trim 90 95"); });
+    w.session.queue.push([&] { run_command(w.session, "clip.set", "trim 90 95"); });
     w.window.settle();
     EXPECT_TRUE(w.has("import.trim.error"));
-    EXPECT_NE(w.session.importing.refused["trim"].why.find("trim begins"), std::string::npos)
-        << w.session.importing.refused["trim"].why;
-    EXPECT_EQ(w.session.document().fitted.get(), before);
+    EXPECT_NE(w.session.imports.edited.refused["trim"].why.find("trim begins"), std::string::npos)
+        << w.session.imports.edited.refused["trim"].why;
+    EXPECT_EQ(w.session.workspace.document().fitted.get(), before);
     EXPECT_EQ(all_messages(w.session), "");
-    EXPECT_EQ(w.session.dialog, Dialog::import_clip) << "Enter was the field's";
-    w.session.enqueue([&] { run_command(w.session, "clip.set", "fps 60"); });
+    EXPECT_EQ(w.session.dialogs.now, Dialog::import_clip) << "Enter was the field's";
+    w.session.queue.push([&] { run_command(w.session, "clip.set", "fps 60"); });
     w.window.settle();
     EXPECT_FALSE(w.has("import.fps.error")) << "what is right now is no longer complained of";
     EXPECT_EQ(w.clip().clip->dt(), 1 / 60.0);
@@ -235,12 +235,12 @@ TEST(ImportDialog, JointsAreFoundByAFewLetters) {
     w.key("Enter");
     EXPECT_EQ(w.clip().options.root, "Foot");
     EXPECT_EQ(w.clip().facts.root, "Foot");
-    EXPECT_EQ(w.session.dialog, Dialog::import_clip);
+    EXPECT_EQ(w.session.dialogs.now, Dialog::import_clip);
     w.click("import.root");
     w.key("Escape");
-    EXPECT_EQ(w.session.dialog, Dialog::import_clip) << "Escape closes the list first";
+    EXPECT_EQ(w.session.dialogs.now, Dialog::import_clip) << "Escape closes the list first";
     w.key("Escape");
-    EXPECT_EQ(w.session.dialog, Dialog::none);
+    EXPECT_EQ(w.session.dialogs.now, Dialog::none);
 }
 
 TEST(ImportDialog, ListsAreGoneThroughByKeys) {
@@ -249,29 +249,29 @@ TEST(ImportDialog, ListsAreGoneThroughByKeys) {
     w.open("many.bvh");
     run_command(w.session, "clip.import");
     w.window.settle();
-    for (int i = 0; i < 20 && w.session.focus != "import.root"; ++i) w.key("Tab");
-    ASSERT_EQ(w.session.focus, "import.root");
+    for (int i = 0; i < 20 && w.session.keys.focus != "import.root"; ++i) w.key("Tab");
+    ASSERT_EQ(w.session.keys.focus, "import.root");
     w.key("Enter");
-    EXPECT_EQ(w.session.focus, "import.root.search") << "one types what is looked for";
+    EXPECT_EQ(w.session.keys.focus, "import.root.search") << "one types what is looked for";
     w.key("Down");
-    EXPECT_EQ(w.session.focus, "import.root.default");
+    EXPECT_EQ(w.session.keys.focus, "import.root.default");
     for (int i = 0; i < 16; ++i) w.key("Down");
-    EXPECT_EQ(w.session.focus, "import.root.Finger12") << "beyond what is drawn at once";
+    EXPECT_EQ(w.session.keys.focus, "import.root.Finger12") << "beyond what is drawn at once";
     w.key("Home");
     w.key("Up");
-    EXPECT_EQ(w.session.focus, "import.root.default") << "what stands above the list";
+    EXPECT_EQ(w.session.keys.focus, "import.root.default") << "what stands above the list";
     w.key("Down");
     w.key("Down");
     w.key("Enter");
     EXPECT_EQ(w.clip().options.root, "Spine");
-    EXPECT_EQ(w.session.focus, "import.root");
+    EXPECT_EQ(w.session.keys.focus, "import.root");
 }
 
 TEST(ImportDialog, ACrowdsUnitAndFrameTimeChangeForAllOfItsFile) {
     ImportWindow w;
     w.open("people.txt");
-    ASSERT_EQ(w.session.scene().clips.size(), 3u);
-    EXPECT_EQ(w.session.scene().agents[1].placement.start, 0.4);
+    ASSERT_EQ(w.session.workspace.scene().clips.size(), 3u);
+    EXPECT_EQ(w.session.workspace.scene().agents[1].placement.start, 0.4);
     run_command(w.session, "clip.import", "2");
     w.window.settle();
     EXPECT_TRUE(w.has("import.whole_file"));
@@ -282,7 +282,7 @@ TEST(ImportDialog, ACrowdsUnitAndFrameTimeChangeForAllOfItsFile) {
     EXPECT_EQ(w.clip(0).options.id, "1") << "whose path it is stays";
     run_command(w.session, "clip.set", "dt 2");
     EXPECT_EQ(w.clip(2).clip->dt(), 2);
-    EXPECT_EQ(w.session.scene().agents[1].placement.start, 2) << "it comes a frame later, as its track does";
+    EXPECT_EQ(w.session.workspace.scene().agents[1].placement.start, 2) << "it comes a frame later, as its track does";
     w.click("import.whole_file");
     run_command(w.session, "clip.set", "radius 0.5");
     EXPECT_FALSE(w.clip(0).options.radius);
@@ -321,7 +321,7 @@ TEST(ImportDialog, TheFileIsReadOnceUntilItChanges) {
     EXPECT_EQ(w.clip().clip->dt(), 0.1);
     std::filesystem::last_write_time(file, written + std::chrono::seconds(2));
     run_command(w.session, "clip.set", "fps 20");
-    EXPECT_NE(w.session.importing.refused["fps"].why.find("BVH begins with HIERARCHY"), std::string::npos);
+    EXPECT_NE(w.session.imports.edited.refused["fps"].why.find("BVH begins with HIERARCHY"), std::string::npos);
     EXPECT_EQ(w.clip().clip->dt(), 0.1);
 }
 
@@ -331,22 +331,22 @@ TEST(ImportDialog, TheMomentOfTheSkeletonIsScrubbed) {
     run_command(w.session, "clip.import");
     w.window.settle();
     w.click("import.time");
-    EXPECT_NEAR(w.session.importing.time, 1, 0.05);
+    EXPECT_NEAR(w.session.imports.edited.time, 1, 0.05);
     w.click("import.radius_chart");
-    EXPECT_GT(w.session.importing.time, 1);
-    EXPECT_FALSE(w.session.modified());
+    EXPECT_GT(w.session.imports.edited.time, 1);
+    EXPECT_FALSE(w.session.workspace.modified());
 }
 
 TEST(ImportDialog, ADoubleClickOnAClipOpensIt) {
     ImportWindow w;
     w.open("scene.json");
     w.click("clip.1", 2);
-    EXPECT_EQ(w.session.dialog, Dialog::import_clip);
-    EXPECT_EQ(w.session.importing.clip, 1);
+    EXPECT_EQ(w.session.dialogs.now, Dialog::import_clip);
+    EXPECT_EQ(w.session.imports.edited.clip, 1);
     // From one clip to the next.
     w.click("import.clip");
     w.click("import.clip.0");
-    EXPECT_EQ(w.session.importing.clip, 0);
+    EXPECT_EQ(w.session.imports.edited.clip, 0);
     EXPECT_TRUE(w.has("import.unit.reset"));
 }
 
@@ -357,37 +357,37 @@ TEST(ImportDialog, WithoutTheDialogWhatIsRefusedIsAnError) {
     EXPECT_NE(refusal(w.session, "clip.set", "roof Hips").find("did you mean 'root'"), std::string::npos);
     run_command(w.session, "clip.set", "root Hisp");
     EXPECT_NE(all_messages(w.session).find("the nearest is 'Hips'"), std::string::npos) << all_messages(w.session);
-    EXPECT_FALSE(w.session.modified());
+    EXPECT_FALSE(w.session.workspace.modified());
 }
 
 // A person's session: imports are jobs, one after the other, and of a drag the last value counts.
 TEST(ImportDialog, LongImportsRunBesideTheWindow) {
     const TempFolder folder;
     Session session(true);
-    session.open({folder.write("long.bvh", body_bvh(20'000))});
+    session.files.open({folder.write("long.bvh", body_bvh(20'000))});
     const auto wait = [&] {
-        while (session.job_count() > 0) {
+        while (session.jobs.count() > 0) {
             session.poll();
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
     };
     wait();
-    session.open_import(0);
-    for (const char* fps : {"31", "32", "33", "34"}) session.set_import(0, false, "fps", fps);
-    session.set_import(0, false, "unit", "in");
-    EXPECT_LE(session.job_count(), 2u) << "one at a time, beside the reading for the dialog";
+    session.imports.open(0);
+    for (const char* fps : {"31", "32", "33", "34"}) session.imports.set(0, false, "fps", fps);
+    session.imports.set(0, false, "unit", "in");
+    EXPECT_LE(session.jobs.count(), 2u) << "one at a time, beside the reading for the dialog";
     wait();
-    EXPECT_EQ(session.scene().clips[0].options.fps, 34);
-    EXPECT_EQ(session.scene().clips[0].options.unit, "in");
-    EXPECT_EQ(session.scene().clips[0].facts.unit, 0.0254);
+    EXPECT_EQ(session.workspace.scene().clips[0].options.fps, 34);
+    EXPECT_EQ(session.workspace.scene().clips[0].options.unit, "in");
+    EXPECT_EQ(session.workspace.scene().clips[0].facts.unit, 0.0254);
     EXPECT_EQ(all_messages(session), "The clip has another size now\n") << "as the camera stays";
 }
 
 TEST(ImportDialog, MotionBetweenSamplesIsAFieldThatIsUndone) {
     ImportWindow w;
     w.open("people.txt");
-    w.session.select({Selection::Kind::clip, {}, 0});
-    w.session.enqueue([&] { run_command(w.session, "clip.import"); });
+    w.session.workspace.select({Selection::Kind::clip, {}, 0});
+    w.session.queue.push([&] { run_command(w.session, "clip.import"); });
     w.window.settle();
     ASSERT_TRUE(w.has("import.motion"));
     EXPECT_EQ(w.clip().clip->motion(), mobb::Motion::linear) << "tracks are";
@@ -417,7 +417,7 @@ TEST(ImportDialog, SamplesInTheSceneGetAnotherMotionByACommand) {
     w.click("message.0.offer");
     EXPECT_EQ(w.clip(1).clip->motion(), mobb::Motion::linear);
     EXPECT_EQ(w.clip(0).clip->motion(), mobb::Motion::held);
-    EXPECT_EQ(w.session.fitted().tree(1).clip().motion(), mobb::Motion::linear);
+    EXPECT_EQ(w.session.workspace.fitted().tree(1).clip().motion(), mobb::Motion::linear);
     w.key("Ctrl+Z");
     EXPECT_EQ(w.clip(1).clip->motion(), mobb::Motion::held);
     EXPECT_EQ(refusal(w.session, "clip.motion", "fast"), "motion is held or linear, not 'fast'");

@@ -29,7 +29,7 @@ struct KeyboardWindow {
     KeyboardWindow() { open(folder.scene); }
 
     void open(const std::filesystem::path& file) {
-        session.open({file});
+        session.files.open({file});
         window.settle();
     }
     void send(const InputEvent& event) {
@@ -85,8 +85,8 @@ TEST(Keyboard, TabGoesThroughAllWidgetsAndAround) {
     std::set<std::string> seen;
     for (int i = 0; i < 100; ++i) {
         w.key("Tab");
-        ASSERT_NE(w.session.focus, "");
-        if (!seen.insert(w.session.focus).second) break;
+        ASSERT_NE(w.session.keys.focus, "");
+        if (!seen.insert(w.session.keys.focus).second) break;
     }
     for (const char* mark : {"agent.0", "clip.0", "query.0", "scene.add_agent", "tree.kind", "tree.leaf", "view.level",
                              "view.leaves", "toolbar.view.top", "timeline.time.play"}) {
@@ -99,7 +99,7 @@ TEST(Keyboard, TabGoesThroughAllWidgetsAndAround) {
     std::set<std::string> back;
     for (std::size_t i = 0; i < count; ++i) {
         w.key("Shift+Tab");
-        back.insert(w.session.focus);
+        back.insert(w.session.keys.focus);
     }
     EXPECT_EQ(back, seen);
 }
@@ -110,19 +110,19 @@ TEST(Keyboard, ArrowsStepWhileNothingHasTheFocus) {
     run_command(w.session, "step.first");
     w.window.settle();
     w.key("Right", 2);
-    EXPECT_EQ(w.session.step(), 2);
+    EXPECT_EQ(w.session.workspace.step(), 2);
     w.key("Tab");
     w.key("Ctrl+F6");
-    EXPECT_EQ(w.session.focus, "toolbar.view.iso");
+    EXPECT_EQ(w.session.keys.focus, "toolbar.view.iso");
     w.key("Right");
-    EXPECT_EQ(w.session.focus, "toolbar.view.top");
-    EXPECT_EQ(w.session.step(), 2) << "the arrow was for the focus";
+    EXPECT_EQ(w.session.keys.focus, "toolbar.view.top");
+    EXPECT_EQ(w.session.workspace.step(), 2) << "the arrow was for the focus";
     w.key("Space");
-    EXPECT_EQ(w.session.view().camera.preset, CameraPreset::top);
-    EXPECT_FALSE(w.session.playing()) << "and so was the blank";
+    EXPECT_EQ(w.session.workspace.view().camera.preset, CameraPreset::top);
+    EXPECT_FALSE(w.session.playback.playing()) << "and so was the blank";
     w.key("Escape");
     w.key("Right");
-    EXPECT_EQ(w.session.step(), 3);
+    EXPECT_EQ(w.session.workspace.step(), 3);
 }
 
 TEST(Keyboard, AListIsGoneThroughBeyondWhatIsDrawn) {
@@ -136,86 +136,86 @@ TEST(Keyboard, AListIsGoneThroughBeyondWhatIsDrawn) {
     w.open(w.folder.file("many.json"));
     ASSERT_EQ(all_messages(w.session), "");
     w.key("Tab");
-    EXPECT_EQ(w.session.focus, "scene.filter") << "long lists have a filter";
+    EXPECT_EQ(w.session.keys.focus, "scene.filter") << "long lists have a filter";
     w.key("Tab");
-    EXPECT_EQ(w.session.focus, "agent.0");
+    EXPECT_EQ(w.session.keys.focus, "agent.0");
     w.key("Down", 30);
-    EXPECT_EQ(w.session.focus, "agent.30");
+    EXPECT_EQ(w.session.keys.focus, "agent.30");
     w.key("End");
-    EXPECT_EQ(w.session.focus, "agent.59");
+    EXPECT_EQ(w.session.keys.focus, "agent.59");
     w.key("Down");
-    EXPECT_EQ(w.session.focus, "agent.59");
+    EXPECT_EQ(w.session.keys.focus, "agent.59");
     w.key("Enter");
-    EXPECT_EQ(w.session.selection.path.agent, 59);
+    EXPECT_EQ(w.session.workspace.selection.path.agent, 59);
     w.key("PageUp");
-    EXPECT_EQ(w.session.focus, "agent.51");
+    EXPECT_EQ(w.session.keys.focus, "agent.51");
     w.key("Home");
-    EXPECT_EQ(w.session.focus, "agent.0");
+    EXPECT_EQ(w.session.keys.focus, "agent.0");
     w.key("Tab");
-    EXPECT_EQ(w.session.focus, "scene.add_agent") << "a list is one stop";
+    EXPECT_EQ(w.session.keys.focus, "scene.add_agent") << "a list is one stop";
     w.key("Shift+Tab");
-    EXPECT_TRUE(w.session.focus.starts_with("agent.")) << w.session.focus;
+    EXPECT_TRUE(w.session.keys.focus.starts_with("agent.")) << w.session.keys.focus;
 }
 
 TEST(Keyboard, TheMouseTakesTheKeysBack) {
     KeyboardWindow w;
     w.key("Tab");
-    EXPECT_EQ(w.session.focus, "agent.0");
+    EXPECT_EQ(w.session.keys.focus, "agent.0");
     w.click("clip.0");
-    EXPECT_EQ(w.session.focus, "");
+    EXPECT_EQ(w.session.keys.focus, "");
     w.key("Tab");
-    EXPECT_EQ(w.session.focus, "scene.add_files") << "it goes on from what was clicked";
+    EXPECT_EQ(w.session.keys.focus, "scene.add_files") << "it goes on from what was clicked";
 }
 
 TEST(Keyboard, TabGoesOnWhereWhatHadTheFocusIsGone) {
     KeyboardWindow w;
     run_command(w.session, "go.agent", "A");
     w.window.settle();
-    for (int i = 0; i < 100 && w.session.focus != "agent.remove"; ++i) w.key("Tab");
-    ASSERT_EQ(w.session.focus, "agent.remove");
+    for (int i = 0; i < 100 && w.session.keys.focus != "agent.remove"; ++i) w.key("Tab");
+    ASSERT_EQ(w.session.keys.focus, "agent.remove");
     w.key("Enter");
-    EXPECT_EQ(w.session.scene().agents.size(), 2u);
-    EXPECT_EQ(w.session.focus, "") << "the viewport has the keys";
+    EXPECT_EQ(w.session.workspace.scene().agents.size(), 2u);
+    EXPECT_EQ(w.session.keys.focus, "") << "the viewport has the keys";
     w.key("Tab");
-    EXPECT_NE(w.session.focus, "");
-    EXPECT_NE(w.session.focus, "agent.0") << "not all over again";
+    EXPECT_NE(w.session.keys.focus, "");
+    EXPECT_NE(w.session.keys.focus, "agent.0") << "not all over again";
 }
 
 TEST(Keyboard, EscapeClosesOneThingAfterTheOther) {
     KeyboardWindow w;
     run_command(w.session, "query.select", "0");
     run_command(w.session, "go.agent", "A");
-    w.session.tell(MessageLevel::error, "This went wrong");
+    w.session.notifications.tell(MessageLevel::error, "This went wrong");
     w.window.settle();
     w.key("Tab");
-    const std::string focus = w.session.focus;
+    const std::string focus = w.session.keys.focus;
     ASSERT_NE(focus, "");
     w.key("F10");
     w.key("Alt");
     w.key("F10");
-    EXPECT_TRUE(w.session.focus.starts_with("menu.file.")) << w.session.focus;
+    EXPECT_TRUE(w.session.keys.focus.starts_with("menu.file.")) << w.session.keys.focus;
     w.key("Escape");
-    EXPECT_EQ(w.session.focus, focus) << "the menu is closed, the focus where it was";
-    EXPECT_TRUE(w.session.messages().front().up);
+    EXPECT_EQ(w.session.keys.focus, focus) << "the menu is closed, the focus where it was";
+    EXPECT_TRUE(w.session.notifications.all().front().up);
     w.key("Escape");
-    EXPECT_EQ(w.session.focus, "");
-    EXPECT_TRUE(w.session.messages().front().up);
+    EXPECT_EQ(w.session.keys.focus, "");
+    EXPECT_TRUE(w.session.notifications.all().front().up);
     w.key("Escape");
-    EXPECT_FALSE(w.session.messages().front().up) << "it is behind the bell";
-    EXPECT_EQ(w.session.selection.kind, Selection::Kind::path);
+    EXPECT_FALSE(w.session.notifications.all().front().up) << "it is behind the bell";
+    EXPECT_EQ(w.session.workspace.selection.kind, Selection::Kind::path);
     w.key("Escape");
-    EXPECT_EQ(w.session.selection.kind, Selection::Kind::none);
+    EXPECT_EQ(w.session.workspace.selection.kind, Selection::Kind::none);
     w.key("Escape", 3);
-    EXPECT_EQ(w.session.view().query, 0) << "the query stays";
+    EXPECT_EQ(w.session.workspace.view().query, 0) << "the query stays";
     w.key("Q");
-    EXPECT_FALSE(w.session.view().query);
+    EXPECT_FALSE(w.session.workspace.view().query);
 }
 
 TEST(Keyboard, EscapePutsBackWhatIsDragged) {
     KeyboardWindow w;
     run_command(w.session, "go.agent", "A");
     w.window.settle();
-    const auto x = [&] { return w.session.scene().agents[0].placement.translate.x; };
+    const auto x = [&] { return w.session.workspace.scene().agents[0].placement.translate.x; };
     const double before = x();
     for (const char* held : {"agent.x", "handle.move"}) {
         SCOPED_TRACE(held);
@@ -223,18 +223,18 @@ TEST(Keyboard, EscapePutsBackWhatIsDragged) {
         EXPECT_NE(x(), before);
         w.key("Escape");
         EXPECT_EQ(x(), before);
-        EXPECT_FALSE(w.session.history().can_undo()) << w.session.history().undo_title();
+        EXPECT_FALSE(w.session.workspace.history.can_undo()) << w.session.workspace.history.undo_title();
         w.send(MouseMove{{500, 300}});
         EXPECT_EQ(x(), before) << "the hand has not let go yet, but the drag is over";
         w.send(MouseButton{0, false});
         EXPECT_EQ(x(), before);
-        EXPECT_EQ(w.session.selection.kind, Selection::Kind::path) << "and it was no click";
+        EXPECT_EQ(w.session.workspace.selection.kind, Selection::Kind::path) << "and it was no click";
     }
-    const Camera camera = w.session.view().camera;
+    const Camera camera = w.session.workspace.view().camera;
     w.hold("viewport", {80, 0});
-    EXPECT_FALSE(w.session.view().camera == camera);
+    EXPECT_FALSE(w.session.workspace.view().camera == camera);
     w.key("Escape");
-    EXPECT_EQ(w.session.view().camera, camera);
+    EXPECT_EQ(w.session.workspace.view().camera, camera);
     w.send(MouseButton{0, false});
     const double width = w.session.settings.left_width;
     w.hold("splitter.left", {40, 0});
@@ -247,43 +247,43 @@ TEST(Keyboard, EscapePutsBackWhatIsDragged) {
 TEST(Keyboard, AltAloneOpensTheMenus) {
     KeyboardWindow w;
     w.key("Alt");
-    EXPECT_EQ(w.session.focus, "menu.file.open");
+    EXPECT_EQ(w.session.keys.focus, "menu.file.open");
     w.key("Alt");
-    EXPECT_EQ(w.session.focus, "");
+    EXPECT_EQ(w.session.keys.focus, "");
     // Another window got the keys while it was down, or it was for something else.
     w.send(KeyPress{Key::alt, true});
     w.send(KeysLost{});
     w.send(KeyPress{Key::alt, false});
-    EXPECT_EQ(w.session.focus, "");
+    EXPECT_EQ(w.session.keys.focus, "");
     w.send(KeyPress{Key::alt, true});
     w.send(MouseButton{0, true});
     w.send(MouseButton{0, false});
     w.send(KeyPress{Key::alt, false});
-    EXPECT_EQ(w.session.focus, "");
+    EXPECT_EQ(w.session.keys.focus, "");
 }
 
 TEST(Keyboard, AMenuGoesAsTheKeysSayWhereverTheMouseRests) {
     KeyboardWindow w;
     w.send(MouseMove{w.at("menu.view")});
     w.key("Alt+F");
-    EXPECT_EQ(w.session.focus, "menu.file.open");
+    EXPECT_EQ(w.session.keys.focus, "menu.file.open");
     w.key("End");
-    EXPECT_EQ(w.session.focus, "menu.file.quit");
+    EXPECT_EQ(w.session.keys.focus, "menu.file.quit");
     w.key("Down");
-    EXPECT_EQ(w.session.focus, "menu.file.open") << "around";
+    EXPECT_EQ(w.session.keys.focus, "menu.file.open") << "around";
     w.key("S");
-    EXPECT_EQ(w.session.focus, "menu.file.save");
+    EXPECT_EQ(w.session.keys.focus, "menu.file.save");
     w.key("Escape");
     // Opened by the mouse, gone on with by keys.
     w.click("menu.tree");
-    EXPECT_EQ(w.session.focus, "");
+    EXPECT_EQ(w.session.keys.focus, "");
     w.key("Down", 2);
-    EXPECT_EQ(w.session.focus, "menu.tree.axes");
+    EXPECT_EQ(w.session.keys.focus, "menu.tree.axes");
     w.key("Right");
     w.key("Down");
     w.key("Enter");
-    EXPECT_EQ(w.session.scene().fit.axes, mobb::Axes::covariance);
-    EXPECT_EQ(w.session.focus, "");
+    EXPECT_EQ(w.session.workspace.scene().fit.axes, mobb::Axes::covariance);
+    EXPECT_EQ(w.session.keys.focus, "");
 }
 
 TEST(Keyboard, TextEditsKeepTheirChords) {
@@ -298,17 +298,17 @@ TEST(Keyboard, TextEditsKeepTheirChords) {
     w.key("Ctrl+V");
     w.key("Ctrl+V");
     w.key("Ctrl+Z");
-    EXPECT_EQ(w.session.history().undo_title(), "moving A: x 1.00 m") << "nothing of the scene was undone";
-    EXPECT_EQ(w.session.focus, "agent.name");
+    EXPECT_EQ(w.session.workspace.history.undo_title(), "moving A: x 1.00 m") << "nothing of the scene was undone";
+    EXPECT_EQ(w.session.keys.focus, "agent.name");
     w.key("Tab");
-    EXPECT_EQ(w.session.scene().agents[0].name, "Axy") << "Tab takes what was typed";
-    EXPECT_EQ(w.session.focus, "agent.x");
+    EXPECT_EQ(w.session.workspace.scene().agents[0].name, "Axy") << "Tab takes what was typed";
+    EXPECT_EQ(w.session.keys.focus, "agent.x");
 }
 
 TEST(Keyboard, NumbersAreTypedWithTheirUnitAndBroughtIntoRange) {
     KeyboardWindow w;
     w.click("tree.leaf");
-    EXPECT_EQ(w.session.scene().fit.leaf, 4) << "a click alone changes nothing";
+    EXPECT_EQ(w.session.workspace.scene().fit.leaf, 4) << "a click alone changes nothing";
     const auto type = [&](const std::string& text) {
         w.send(MouseMove{w.at("tree.leaf")});
         w.window.run_for(1);
@@ -317,72 +317,72 @@ TEST(Keyboard, NumbersAreTypedWithTheirUnitAndBroughtIntoRange) {
             w.window.shell().feed(MouseButton{0, false});
         }
         w.window.settle();
-        EXPECT_EQ(w.session.focus, "tree.leaf");
+        EXPECT_EQ(w.session.keys.focus, "tree.leaf");
         for (const char c : text) w.send(TypedText{static_cast<char32_t>(c)});
         w.key("Enter");
     };
     type("12");
-    EXPECT_EQ(w.session.scene().fit.leaf, 12);
+    EXPECT_EQ(w.session.workspace.scene().fit.leaf, 12);
     type("0");
-    EXPECT_EQ(w.session.scene().fit.leaf, 1);
+    EXPECT_EQ(w.session.workspace.scene().fit.leaf, 1);
     EXPECT_EQ(all_messages(w.session), "The number of samples of a leaf is at least 1\n");
-    w.session.dismiss(0);
+    w.session.notifications.dismiss(0);
     type("many");
-    EXPECT_EQ(w.session.scene().fit.leaf, 1);
+    EXPECT_EQ(w.session.workspace.scene().fit.leaf, 1);
     EXPECT_NE(all_messages(w.session).find("no number"), std::string::npos) << all_messages(w.session);
-    EXPECT_EQ(w.session.focus, "") << "the mouse had begun";
+    EXPECT_EQ(w.session.keys.focus, "") << "the mouse had begun";
 }
 
 TEST(Keyboard, ADialogGivesTheFocusBack) {
     KeyboardWindow w;
     w.key("Tab", 2);
-    const std::string before = w.session.focus;
+    const std::string before = w.session.keys.focus;
     w.key("Ctrl+P");
-    EXPECT_EQ(w.session.focus, "palette.input");
+    EXPECT_EQ(w.session.keys.focus, "palette.input");
     w.key("Escape");
-    EXPECT_EQ(w.session.focus, before);
+    EXPECT_EQ(w.session.keys.focus, before);
     run_command(w.session, "go.agent", "A");
     run_command(w.session, "agent.nudge", "1 0");
     w.key("Ctrl+Q");
-    ASSERT_EQ(w.session.dialog, Dialog::unsaved);
+    ASSERT_EQ(w.session.dialogs.now, Dialog::unsaved);
     w.key("Tab", 3);
-    EXPECT_EQ(w.session.focus, "unsaved.cancel");
+    EXPECT_EQ(w.session.keys.focus, "unsaved.cancel");
     w.key("Right");
     w.key("Left");
-    EXPECT_EQ(w.session.focus, "unsaved.discard");
+    EXPECT_EQ(w.session.keys.focus, "unsaved.discard");
     w.key("Tab");
     w.key("Enter");
-    EXPECT_EQ(w.session.dialog, Dialog::none) << "the button with the focus, not the usual one";
-    EXPECT_FALSE(w.session.closed());
+    EXPECT_EQ(w.session.dialogs.now, Dialog::none) << "the button with the focus, not the usual one";
+    EXPECT_FALSE(w.session.files.closed());
 }
 
 TEST(Keyboard, ASuggestedNameIsReplacedByWhatIsTyped) {
     KeyboardWindow w;
     w.key("Ctrl+E");
-    EXPECT_EQ(w.session.input.text, w.folder.file("scene.png"));
+    EXPECT_EQ(w.session.dialogs.input.text, w.folder.file("scene.png"));
     w.type("made");
-    EXPECT_EQ(w.session.input.text, w.folder.file("made.png"));
+    EXPECT_EQ(w.session.dialogs.input.text, w.folder.file("made.png"));
     w.quick(Key::ctrl, Key::a);
     w.type("other");
-    EXPECT_EQ(w.session.input.text, "other");
+    EXPECT_EQ(w.session.dialogs.input.text, "other");
     w.key("Home");
     w.type("an");
     w.quick(Key::shift, Key::end);
     w.type("d");
-    EXPECT_EQ(w.session.input.text, "and");
+    EXPECT_EQ(w.session.dialogs.input.text, "and");
     w.key("Escape");
     w.key("Ctrl+Shift+S");
-    EXPECT_EQ(w.session.input.text, "scene.json");
+    EXPECT_EQ(w.session.dialogs.input.text, "scene.json");
     w.type("mine.json");
     w.key("Enter");
-    EXPECT_EQ(w.session.file(), w.folder.file("mine.json")) << "and not mine.json.json";
+    EXPECT_EQ(w.session.workspace.file, w.folder.file("mine.json")) << "and not mine.json.json";
 }
 
 TEST(Keyboard, FilesAreChosenAsFileManagersDo) {
     KeyboardWindow w;
     const auto chosen = [&] {
         std::string out;
-        for (const auto& path : w.session.browser.chosen()) out += path.filename().string() + ' ';
+        for (const auto& path : w.session.dialogs.browser.chosen()) out += path.filename().string() + ' ';
         return out;
     };
     w.key("Ctrl+O");
@@ -413,82 +413,83 @@ TEST(Keyboard, FilesAreChosenAsFileManagersDo) {
 TEST(Keyboard, LettersInAMenuAreTheBeginningOfAName) {
     KeyboardWindow w;
     w.key("Alt+F");
-    EXPECT_EQ(w.session.focus, "menu.file.open");
+    EXPECT_EQ(w.session.keys.focus, "menu.file.open");
     w.key("Z");
-    EXPECT_EQ(w.session.focus, "menu.file.open") << "nothing begins so";
+    EXPECT_EQ(w.session.keys.focus, "menu.file.open") << "nothing begins so";
     w.window.run_for(1.5);
     w.key("O");
-    EXPECT_EQ(w.session.focus, "menu.file.demo") << "the next one";
+    EXPECT_EQ(w.session.keys.focus, "menu.file.demo") << "the next one";
     w.window.run_for(1.5);
     w.key("O");
     w.key("O");
-    EXPECT_EQ(w.session.focus, "menu.file.demo") << "around";
+    EXPECT_EQ(w.session.keys.focus, "menu.file.demo") << "around";
     w.window.run_for(1.5);
     w.key("S");
     w.key("A");
     w.key("V");
     w.key("E");
-    EXPECT_EQ(w.session.focus, "menu.file.save") << "where it began it stays";
+    EXPECT_EQ(w.session.keys.focus, "menu.file.save") << "where it began it stays";
     w.window.run_for(1.5);
     w.key("C");
     w.key("O");
-    EXPECT_EQ(w.session.focus, "menu.file.copy_command");
+    EXPECT_EQ(w.session.keys.focus, "menu.file.copy_command");
     w.key("Z");
-    EXPECT_EQ(w.session.focus, "menu.file.copy_command");
+    EXPECT_EQ(w.session.keys.focus, "menu.file.copy_command");
 }
 
 TEST(Keyboard, WhatIsDoneByEnterGivesTheKeysToThePicture) {
     KeyboardWindow w;
-    for (int i = 0; i < 100 && w.session.focus != "query.0"; ++i) w.key(w.session.focus == "query.0" ? "Down" : "Tab");
-    ASSERT_EQ(w.session.focus, "query.0");
+    for (int i = 0; i < 100 && w.session.keys.focus != "query.0"; ++i)
+        w.key(w.session.keys.focus == "query.0" ? "Down" : "Tab");
+    ASSERT_EQ(w.session.keys.focus, "query.0");
     w.key("Enter");
-    EXPECT_EQ(w.session.view().query, 0);
-    EXPECT_EQ(w.session.focus, "");
+    EXPECT_EQ(w.session.workspace.view().query, 0);
+    EXPECT_EQ(w.session.keys.focus, "");
     w.key("Shift+Left");
     w.key("Right");
-    EXPECT_EQ(w.session.step(), 1) << "the arrows are for the query that was opened";
+    EXPECT_EQ(w.session.workspace.step(), 1) << "the arrows are for the query that was opened";
     w.key("Tab");
-    EXPECT_EQ(w.session.focus, "query.0") << "Tab leads back";
+    EXPECT_EQ(w.session.keys.focus, "query.0") << "Tab leads back";
     w.key("Escape");
     w.key("Ctrl+F6");
-    for (int i = 0; i < 10 && w.session.focus != "toolbar.view.iso"; ++i) w.key("Ctrl+F6");
-    ASSERT_EQ(w.session.focus, "toolbar.view.iso");
+    for (int i = 0; i < 10 && w.session.keys.focus != "toolbar.view.iso"; ++i) w.key("Ctrl+F6");
+    ASSERT_EQ(w.session.keys.focus, "toolbar.view.iso");
     w.key("Right");
     w.key("Enter");
-    EXPECT_EQ(w.session.view().camera.preset, CameraPreset::top);
-    EXPECT_EQ(w.session.focus, "");
+    EXPECT_EQ(w.session.workspace.view().camera.preset, CameraPreset::top);
+    EXPECT_EQ(w.session.keys.focus, "");
     w.key("Right");
-    EXPECT_EQ(w.session.step(), 2);
+    EXPECT_EQ(w.session.workspace.step(), 2);
     w.key("Tab");
-    ASSERT_EQ(w.session.focus, "toolbar.view.top");
+    ASSERT_EQ(w.session.keys.focus, "toolbar.view.top");
     w.key("F");
     w.key("Left");
-    EXPECT_EQ(w.session.focus, "toolbar.view.iso");
+    EXPECT_EQ(w.session.keys.focus, "toolbar.view.iso");
     w.key("Left");
-    EXPECT_EQ(w.session.step(), 1) << "beside the first button is nothing: the key is the picture's";
+    EXPECT_EQ(w.session.workspace.step(), 1) << "beside the first button is nothing: the key is the picture's";
     // The palette too.
     w.key("Q");
     w.key("Ctrl+P");
     w.type("A against B");
     w.key("Enter");
-    EXPECT_EQ(w.session.view().query, 0);
-    EXPECT_EQ(w.session.focus, "");
+    EXPECT_EQ(w.session.workspace.view().query, 0);
+    EXPECT_EQ(w.session.keys.focus, "");
 }
 
 TEST(Keyboard, ArrowsThroughAgentsSelectThem) {
     KeyboardWindow w;
     w.key("Tab");
-    EXPECT_EQ(w.session.focus, "agent.0");
-    EXPECT_EQ(w.session.selection.kind, Selection::Kind::none) << "Tab only passes by";
+    EXPECT_EQ(w.session.keys.focus, "agent.0");
+    EXPECT_EQ(w.session.workspace.selection.kind, Selection::Kind::none) << "Tab only passes by";
     w.key("Down");
-    EXPECT_EQ(w.session.focus, "agent.1");
+    EXPECT_EQ(w.session.keys.focus, "agent.1");
     w.key("V");
-    EXPECT_EQ(w.session.view().hidden, std::vector<std::string>{"B"});
+    EXPECT_EQ(w.session.workspace.view().hidden, std::vector<std::string>{"B"});
     w.key("Down");
     w.key("V");
-    EXPECT_EQ(w.session.view().hidden, (std::vector<std::string>{"B", "C"}));
+    EXPECT_EQ(w.session.workspace.view().hidden, (std::vector<std::string>{"B", "C"}));
     w.key("Ctrl+Z");
-    EXPECT_EQ(w.session.focus, "agent.2");
+    EXPECT_EQ(w.session.keys.focus, "agent.2");
 }
 
 TEST(Keyboard, ADialogOverTheHelpForgetsWhatWaitedForAnAnswer) {
@@ -497,12 +498,12 @@ TEST(Keyboard, ADialogOverTheHelpForgetsWhatWaitedForAnAnswer) {
     run_command(w.session, "agent.nudge", "1 0");
     w.window.settle();
     w.key("Ctrl+Q");
-    ASSERT_EQ(w.session.dialog, Dialog::unsaved);
+    ASSERT_EQ(w.session.dialogs.now, Dialog::unsaved);
     w.key("F1");
     w.send(Drop{{w.folder.file("stand.csv")}});
-    ASSERT_EQ(w.session.dialog, Dialog::dropped);
+    ASSERT_EQ(w.session.dialogs.now, Dialog::dropped);
     run_command(w.session, "file.save_as", w.folder.file("mine.json").string());
-    EXPECT_FALSE(w.session.closed()) << "nobody has said that it is to end";
+    EXPECT_FALSE(w.session.files.closed()) << "nobody has said that it is to end";
 }
 
 TEST(Keyboard, TheStripOfStepsStandsStill) {
@@ -510,7 +511,7 @@ TEST(Keyboard, TheStripOfStepsStandsStill) {
     run_command(w.session, "query.select", "0");
     run_command(w.session, "step.first");
     w.window.settle();
-    ASSERT_GT(w.session.recorded()->trace.size(), 10);
+    ASSERT_GT(w.session.workspace.recorded()->trace.size(), 10);
     const float left = w.window.shell().marks().all().at("query.strip").min.x;
     run_command(w.session, "step.last");
     w.window.settle();
@@ -543,10 +544,10 @@ TEST(Help, BeginsWithThePresentSituation) {
     EXPECT_EQ(present_situation(w.session).title, "You look at one moment");
     w.key("Ctrl+O");
     w.key("F1");
-    ASSERT_EQ(w.session.dialog, Dialog::help);
+    ASSERT_EQ(w.session.dialogs.now, Dialog::help);
     EXPECT_EQ(present_situation(w.session).title, "A file is asked for");
     w.key("Escape");
-    EXPECT_EQ(w.session.dialog, Dialog::open) << "back to where it was asked for";
+    EXPECT_EQ(w.session.dialogs.now, Dialog::open) << "back to where it was asked for";
     for (const Situation& situation : situations()) {
         for (const std::string_view id : situation.commands) EXPECT_NE(find_command(id), nullptr) << id;
     }
@@ -580,18 +581,18 @@ TEST(Help, RunsWhatIsPicked) {
     w.window.settle();
     w.key("F1");
     w.key("Enter");
-    EXPECT_EQ(w.session.dialog, Dialog::none);
-    EXPECT_EQ(w.session.step(), 1) << "the first of what can be done with a query: step forward";
+    EXPECT_EQ(w.session.dialogs.now, Dialog::none);
+    EXPECT_EQ(w.session.workspace.step(), 1) << "the first of what can be done with a query: step forward";
     w.key("F1");
     for (const char c : std::string("theme")) w.send(TypedText{static_cast<char32_t>(c)});
     w.key("Enter");
-    EXPECT_EQ(w.session.dialog, Dialog::palette);
-    EXPECT_EQ(w.session.input.command, "view.theme");
+    EXPECT_EQ(w.session.dialogs.now, Dialog::palette);
+    EXPECT_EQ(w.session.dialogs.input.command, "view.theme");
     w.key("Escape");
     w.key("F1");
     for (const char c : std::string("next node")) w.send(TypedText{static_cast<char32_t>(c)});
     w.key("Enter");
-    EXPECT_EQ(w.session.dialog, Dialog::help) << "it cannot be done without a node";
+    EXPECT_EQ(w.session.dialogs.now, Dialog::help) << "it cannot be done without a node";
 }
 
 }  // namespace

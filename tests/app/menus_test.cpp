@@ -24,13 +24,13 @@ struct MenuWindow {
     testing::CrossingFolder folder;
     Session session;
     HeadlessWindow window;
-    std::string clipboard;
+    testing::TestDesktop desktop;
 
     explicit MenuWindow(PictureSize size = {1280, 900}, double scale = 1, bool attended = false)
         : session(attended), window(GlContext::open(Backend::automatic), session, size, scale) {
-        session.hooks.set_clipboard = [this](const std::string& text) { clipboard = text; };
-        session.open({folder.scene});
-        while (session.job()) session.poll();
+        session.desktop = &desktop;
+        session.files.open({folder.scene});
+        while (session.jobs.job()) session.poll();
         window.settle();
     }
     void run(const std::string& script) {
@@ -54,48 +54,48 @@ struct MenuWindow {
 TEST(Menus, ARightClickSelectsWhatIsThereAndSaysWhatCanBeDoneWithIt) {
     MenuWindow w;
     w.run("click " + w.place_of_box() + " right");
-    ASSERT_EQ(w.session.selection.kind, Selection::Kind::node);
+    ASSERT_EQ(w.session.workspace.selection.kind, Selection::Kind::node);
     for (const char* id : {"view.frame", "go.parent", "step.next_of_node", "view.level", "agent.remove", "go.agent"}) {
         EXPECT_TRUE(w.has(std::string("context.") + id)) << id;
     }
-    const Selection selected = w.session.selection;
+    const Selection selected = w.session.workspace.selection;
     w.run("click context.edit.copy_figures");
     EXPECT_FALSE(w.has_menu());
-    EXPECT_NE(w.clipboard.find("samples\t"), std::string::npos) << w.clipboard;
-    EXPECT_EQ(w.session.selection, selected);
+    EXPECT_NE(w.desktop.text.find("samples\t"), std::string::npos) << w.desktop.text;
+    EXPECT_EQ(w.session.workspace.selection, selected);
     w.run("click " + w.place_of_box() + " right\nclick context.go.agent");
-    EXPECT_EQ(w.session.selection.kind, Selection::Kind::path);
+    EXPECT_EQ(w.session.workspace.selection.kind, Selection::Kind::path);
 }
 
 TEST(Menus, WhatIsSelectedBehindSomethingStaysSelected) {
     MenuWindow w;
     const std::string there = w.place_of_box();
     w.run("click " + there + "\nwait 1\nclick " + there);
-    const Selection behind = w.session.selection;
+    const Selection behind = w.session.workspace.selection;
     w.run("key Escape\nclick " + there);
-    ASSERT_NE(w.session.selection, behind);
-    w.session.select(behind);
+    ASSERT_NE(w.session.workspace.selection, behind);
+    w.session.workspace.select(behind);
     w.run("click " + there + " right");
-    EXPECT_EQ(w.session.selection, behind);
+    EXPECT_EQ(w.session.workspace.selection, behind);
 }
 
 TEST(Menus, WhatCannotBeDoneDoesNothing) {
     MenuWindow w;
     w.run("click " + w.place_of_box() + " right\nclick context.step.next_of_node");
-    EXPECT_FALSE(w.session.view().query);
+    EXPECT_FALSE(w.session.workspace.view().query);
     EXPECT_TRUE(w.has("context.step.next_of_node")) << "the menu stays";
     w.run("key Escape");
     EXPECT_FALSE(w.has_menu());
-    EXPECT_EQ(w.session.selection.kind, Selection::Kind::node) << "Escape closed the menu alone";
+    EXPECT_EQ(w.session.workspace.selection.kind, Selection::Kind::node) << "Escape closed the menu alone";
 }
 
 TEST(Menus, ARightDragShiftsAndOpensNothing) {
     MenuWindow w;
-    const Camera before = w.session.view().camera;
+    const Camera before = w.session.workspace.view().camera;
     w.run("drag viewport 60 20 right");
     EXPECT_FALSE(w.has_menu());
-    EXPECT_NE(w.session.view().camera, before);
-    EXPECT_EQ(w.session.selection, Selection{});
+    EXPECT_NE(w.session.workspace.view().camera, before);
+    EXPECT_EQ(w.session.workspace.selection, Selection{});
 }
 
 TEST(Menus, NothingUnderTheMouseHasThePicturesMenu) {
@@ -103,45 +103,45 @@ TEST(Menus, NothingUnderTheMouseHasThePicturesMenu) {
     const Rect rect = w.marks().at("viewport");
     const std::string corner = std::to_string(rect.max.x - 12) + ' ' + std::to_string(rect.min.y + 40);
     w.run("run go.agent A\nclick " + corner + " right");
-    EXPECT_EQ(w.session.selection.kind, Selection::Kind::path) << "it is not about what is selected";
+    EXPECT_EQ(w.session.workspace.selection.kind, Selection::Kind::path) << "it is not about what is selected";
     w.run("click context.view.boxes");
-    EXPECT_FALSE(w.session.view().boxes);
+    EXPECT_FALSE(w.session.workspace.view().boxes);
     EXPECT_FALSE(w.has_menu());
 }
 
 TEST(Menus, RowsTestsAndTimesHaveMenus) {
     MenuWindow w;
     w.run("click clip.1 right\nclick context.agent.add");
-    EXPECT_EQ(w.session.scene().agents.back().name, "stand");
+    EXPECT_EQ(w.session.workspace.scene().agents.back().name, "stand");
     w.run("click query.1 right\nclick context.query.select\nexpect /view/query 1");
     w.run("click query.0 right\nclick context.query.copy_answer\nexpect /view/query 0");
-    EXPECT_NE(w.clipboard, "");
+    EXPECT_NE(w.desktop.text, "");
     w.run("run step.first\nclick query.icicle right");
-    EXPECT_EQ(w.session.step(), 0) << "a right click goes nowhere by itself";
+    EXPECT_EQ(w.session.workspace.step(), 0) << "a right click goes nowhere by itself";
     w.run("click context.step.to");
-    EXPECT_GT(w.session.step(), 0);
+    EXPECT_GT(w.session.workspace.step(), 0);
     w.run("click query.icicle right\nclick context.go.node.2");
-    EXPECT_EQ(w.session.selection.kind, Selection::Kind::node);
-    EXPECT_EQ(w.session.selection.path.agent, 1) << "the node of B";
-    const mobb::Interval span = w.session.time_span();
+    EXPECT_EQ(w.session.workspace.selection.kind, Selection::Kind::node);
+    EXPECT_EQ(w.session.workspace.selection.path.agent, 1) << "the node of B";
+    const mobb::Interval span = w.session.workspace.time_span();
     w.run("click timeline.time right");
-    EXPECT_FALSE(w.session.view().time);
+    EXPECT_FALSE(w.session.workspace.view().time);
     w.run("click context.time.at");
-    EXPECT_NEAR(w.session.view().time.value_or(-1), 0.5 * (span.t0 + span.t1), 0.02);
+    EXPECT_NEAR(w.session.workspace.view().time.value_or(-1), 0.5 * (span.t0 + span.t1), 0.02);
 }
 
 TEST(Menus, KeysOpenTheMenuOfWhatHasTheFocusOrIsSelected) {
     MenuWindow w;
     w.run("key Tab\nkey Down\nexpect /focus \"agent.1\"\nkey Shift+F10");
     EXPECT_TRUE(w.has("context.agents.hide"));
-    EXPECT_EQ(w.session.selection.path.agent, 1) << "as a right click does";
-    EXPECT_EQ(w.session.focus, "context.view.frame") << "the keys go through it";
+    EXPECT_EQ(w.session.workspace.selection.path.agent, 1) << "as a right click does";
+    EXPECT_EQ(w.session.keys.focus, "context.view.frame") << "the keys go through it";
     const glm::vec2 row = w.marks().at("agent.1").center();
     const glm::vec2 menu = w.marks().at("context.view.frame").min;
     EXPECT_LT(glm::length(menu - row), 160) << "at the row";
     w.run("key Escape");
     EXPECT_FALSE(w.has_menu());
-    EXPECT_EQ(w.session.focus, "agent.1");
+    EXPECT_EQ(w.session.keys.focus, "agent.1");
     w.run("key Menu\nkey H\nkey Enter\nexpect /view/hidden/0 \"B\"");
     w.run("key V\nkey Escape\nkey Escape\nexpect /focus null\nexpect /selection/kind \"none\"\nkey Shift+F10");
     EXPECT_TRUE(w.has("context.view.iso")) << "nothing is selected: the picture's";
@@ -155,18 +155,18 @@ TEST(Menus, KeysOpenTheMenuOfWhatHasTheFocusOrIsSelected) {
     const glm::vec2 at = w.marks().at("viewport").min + list.projection.project(box->center).value();
     EXPECT_LT(glm::length(w.marks().at("context.view.frame").min - at), 60) << "at the box";
     w.run("key Down\nkey Enter\nexpect /selection/index 0");
-    EXPECT_EQ(w.session.focus, "");
+    EXPECT_EQ(w.session.keys.focus, "");
 }
 
 TEST(Menus, TheChoiceOfPastTestsIsPlain) {
     MenuWindow w;
     w.run("run query.select 0\nkey Alt+V\nkey P\nkey A\nkey S");
-    EXPECT_EQ(w.session.focus, "menu.view.past") << "two menus deep, not three";
+    EXPECT_EQ(w.session.keys.focus, "menu.view.past") << "two menus deep, not three";
     w.run("key Enter");
-    EXPECT_EQ(w.session.focus, "menu.view.past.ancestors") << "what is chosen";
+    EXPECT_EQ(w.session.keys.focus, "menu.view.past.ancestors") << "what is chosen";
     w.run("key O\nkey Enter\nexpect /view/past \"pair\"");
     w.run("key Ctrl+P\ntype only the pair\nkey Enter");
-    EXPECT_EQ(w.session.view().past, Past::pair);
+    EXPECT_EQ(w.session.workspace.view().past, Past::pair);
 }
 
 TEST(Menus, TheMoreMenuHoldsWhatHasNoRoom) {
@@ -241,37 +241,37 @@ TEST(Menus, NoListJumpsWhenSomebodyIsSelected) {
 TEST(Menus, AQueryOpensWhereItWasLeft) {
     MenuWindow w;
     w.run("run query.select 0\nrun step.to 2\nclick query.1\nexpect /query/index 1");
-    const int end = w.session.recorded()->trace.size() - 1;
-    EXPECT_EQ(w.session.step(), end) << "its first opening shows the answer";
+    const int end = w.session.workspace.recorded()->trace.size() - 1;
+    EXPECT_EQ(w.session.workspace.step(), end) << "its first opening shows the answer";
     w.run("key Q\nclick query.0\nexpect /query/step 2\nkey PageDown\nkey PageUp\nexpect /query/step 2");
     // Undo goes where one was, and what it left is still known.
     w.run("run step.to 1\nkey Q\nkey Ctrl+Z\nexpect /query/step 1\nkey Ctrl+Z\nexpect /query/step 2");
     // The queries before it may go.
     w.run("run query.select 2\nrun step.to 0\nrun query.select 0\nrun query.remove\nrun query.select 1");
-    EXPECT_EQ(w.session.step(), 0);
+    EXPECT_EQ(w.session.workspace.step(), 0);
     // Of a shorter trace the end is what is nearest.
     w.run("run query.select 0\nrun step.last\nrun query.none\nrun tree.levels 1\nrun query.select 0");
-    EXPECT_EQ(w.session.step(), w.session.recorded()->trace.size() - 1);
+    EXPECT_EQ(w.session.workspace.step(), w.session.workspace.recorded()->trace.size() - 1);
 }
 
 TEST(Menus, TheHistoryIsAListToGoTo) {
     MenuWindow w;
     w.run("run go.agent A\nrun agent.move 1 1\nrun agent.turn 20\nrun agent.start 2\nrun edit.history");
-    ASSERT_EQ(w.session.history().count(), 4u);
+    ASSERT_EQ(w.session.workspace.history.count(), 4u);
     ASSERT_TRUE(w.has("history.3"));
     w.run("click history.1");
-    EXPECT_EQ(w.session.scene().agents[0].placement.translate, glm::dvec2(1, 1));
-    EXPECT_EQ(w.session.scene().agents[0].placement.rotate_deg, 0);
-    EXPECT_EQ(w.session.history().place(), 1u) << "two back at once";
-    EXPECT_EQ(w.session.dialog, Dialog::history) << "to be looked at";
+    EXPECT_EQ(w.session.workspace.scene().agents[0].placement.translate, glm::dvec2(1, 1));
+    EXPECT_EQ(w.session.workspace.scene().agents[0].placement.rotate_deg, 0);
+    EXPECT_EQ(w.session.workspace.history.place(), 1u) << "two back at once";
+    EXPECT_EQ(w.session.dialogs.now, Dialog::history) << "to be looked at";
     w.run("key Down\nexpect /scene/agents/0/rotate_deg 20\nkey Down\nexpect /scene/agents/0/start 2");
     w.run("key Up\nkey Up\nkey Up\nkey Up\nkey Enter\nexpect /dialog \"none\"\nexpect /modified false");
-    EXPECT_EQ(w.session.history().redo_title(), "moving A: x 1.00 m, y 1.00 m");
+    EXPECT_EQ(w.session.workspace.history.redo_title(), "moving A: x 1.00 m, y 1.00 m");
 }
 
 TEST(Menus, ClipsAreNoAgentsUntilTheyAreMadeSome) {
     MenuWindow w;
-    w.session.open({w.folder.file("walk.csv"), w.folder.file("stand.csv")});
+    w.session.files.open({w.folder.file("walk.csv"), w.folder.file("stand.csv")});
     w.window.settle();
     for (const char* row : {"agent.0", "clip.0"}) {
         w.run(std::string("click ") + row + " right");
@@ -313,7 +313,7 @@ TEST(Menus, NothingButWhatIsUnderTheMouseIsOutlined) {
             };
             if (hits.empty() || !std::ranges::all_of(hits, outlined)) continue;
             w.run("move " + std::to_string(corner.x + at.x) + ' ' + std::to_string(corner.y + at.y));
-            ++(w.session.hovered == Selection{} ? empty : lit);
+            ++(w.session.workspace.hovered == Selection{} ? empty : lit);
         }
     }
     EXPECT_GT(empty, 10);
@@ -329,11 +329,11 @@ TEST(Menus, TheStatusBarCountsAndSaysWhatIsUnderTheMouse) {
     w.run("move agent.0");
     EXPECT_TRUE(w.has("status.hover"));
     w.run("move " + w.place_of_box());
-    EXPECT_EQ(w.session.hovered.kind, Selection::Kind::node);
+    EXPECT_EQ(w.session.workspace.hovered.kind, Selection::Kind::node);
     w.run("move clip.0");
-    EXPECT_EQ(w.session.hovered, (Selection{Selection::Kind::clip, {}, 0}));
+    EXPECT_EQ(w.session.workspace.hovered, (Selection{Selection::Kind::clip, {}, 0}));
     w.run("move menu.search");
-    EXPECT_EQ(w.session.hovered, Selection{}) << "what the mouse has left is not under it";
+    EXPECT_EQ(w.session.workspace.hovered, Selection{}) << "what the mouse has left is not under it";
     EXPECT_FALSE(w.has("status.hover"));
     MenuWindow attended({1280, 800}, 1, true);
     attended.window.shell().read_back();

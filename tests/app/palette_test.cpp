@@ -18,7 +18,7 @@ struct PaletteWindow {
     CrossingFolder folder;
     Session session{false};
 
-    PaletteWindow() { session.open({folder.scene}); }
+    PaletteWindow() { session.files.open({folder.scene}); }
     PaletteEntry first(const std::string& text) const {
         const auto entries = palette_entries(session, text);
         return entries.empty() ? PaletteEntry{} : entries.front();
@@ -51,7 +51,7 @@ TEST(Palette, HidesShowsAloneAndPinsByName) {
         EXPECT_EQ(entry.argument, "Jos\u00E9 am Tor") << text;
         EXPECT_NO_THROW(run_command(w.session, entry.command->id, entry.argument));
     }
-    EXPECT_EQ(w.session.view().pinned, std::vector<std::string>{"Jos\u00E9 am Tor"});
+    EXPECT_EQ(w.session.workspace.view().pinned, std::vector<std::string>{"Jos\u00E9 am Tor"});
     const PaletteEntry of_clip = w.first("hide clip walk");
     ASSERT_NE(of_clip.command, nullptr);
     EXPECT_EQ(of_clip.command->id, "agents.hide");
@@ -131,7 +131,7 @@ TEST(PaletteEntries, WhatIsOfferedCanBeRun) {
     CrossingFolder folder;
     for (const char* text : {"umobb", "walk", "against", "A 1.0", "level"}) {
         Session session(false);
-        session.open({folder.scene});
+        session.files.open({folder.scene});
         for (const PaletteEntry& entry : palette_entries(session, text)) {
             if (!entry.why_not.empty() || (entry.argument.empty() && entry.command->needs_argument())) continue;
             if (entry.command->id.starts_with("file.")) continue;

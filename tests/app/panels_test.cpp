@@ -30,7 +30,7 @@ struct Window {
 
     explicit Window(PictureSize of = {1024, 640}, double scale = 1)
         : window(GlContext::open(Backend::automatic), session, of, scale), size(of) {
-        session.open({folder.scene});
+        session.files.open({folder.scene});
         window.settle();
     }
 
@@ -77,10 +77,10 @@ TEST(Panels, ARowsMenuRemovesItsAgent) {
     for (const std::size_t left : {2u, 1u}) {
         w.click("agent.0", 1);
         w.click("context.agent.remove");
-        ASSERT_EQ(w.session.scene().agents.size(), left);
-        EXPECT_EQ(w.session.selection, Selection{});
+        ASSERT_EQ(w.session.workspace.scene().agents.size(), left);
+        EXPECT_EQ(w.session.workspace.selection, Selection{});
     }
-    EXPECT_EQ(w.session.scene().agents[0].name, "C");
+    EXPECT_EQ(w.session.workspace.scene().agents[0].name, "C");
 }
 
 TEST(Panels, KeysDoNothingToWhatIsBeingDragged) {
@@ -94,15 +94,15 @@ TEST(Panels, KeysDoNothingToWhatIsBeingDragged) {
     shell.feed(MouseButton{0, true});
     shell.feed(MouseMove{at + glm::vec2(40, 0)});
     w.window.settle();
-    ASSERT_TRUE(w.session.history().undo_title().starts_with("moving"));
+    ASSERT_TRUE(w.session.workspace.history.undo_title().starts_with("moving"));
     for (int i = 0; i < 3; ++i) w.key("Ctrl+Z");
-    EXPECT_EQ(w.session.scene().agents.size(), 4u);
+    EXPECT_EQ(w.session.workspace.scene().agents.size(), 4u);
     shell.feed(MouseMove{at + glm::vec2(60, 0)});
     shell.feed(MouseButton{0, false});
     w.window.settle();
     w.key("Ctrl+Z");
-    EXPECT_EQ(w.session.history().redo_title().substr(0, 6), "moving");
-    EXPECT_EQ(w.session.scene().agents.size(), 4u);
+    EXPECT_EQ(w.session.workspace.history.redo_title().substr(0, 6), "moving");
+    EXPECT_EQ(w.session.workspace.scene().agents.size(), 4u);
 }
 
 /// A click on the panel itself folds it; neither the camera nor the selection notices.
@@ -113,7 +113,7 @@ TEST(Panels, OverlaysFoldByAClick) {
     run_command(w.session, "view.past", "all");
     run_command(w.session, "go.agent", "A");
     w.window.settle();
-    const Camera camera = w.session.view().camera;
+    const Camera camera = w.session.workspace.view().camera;
     const auto overlay = [&](Overlay::Kind kind) {
         const auto& all = w.window.shell().shown()->overlays;
         return *std::ranges::find(all, kind, &Overlay::kind);
@@ -126,31 +126,32 @@ TEST(Panels, OverlaysFoldByAClick) {
         w.click(mark);
         EXPECT_TRUE(overlay(kind).folded) << mark;
     }
-    EXPECT_TRUE(w.session.view().fold_caption && w.session.view().fold_legend && w.session.view().fold_inset);
+    EXPECT_TRUE(w.session.workspace.view().fold_caption && w.session.workspace.view().fold_legend &&
+                w.session.workspace.view().fold_inset);
     for (const auto& [mark, kind] : panels) {
         w.click(mark);
         EXPECT_FALSE(overlay(kind).folded) << mark;
     }
     const float before = overlay(Overlay::Kind::legend).rect.size().y;
     w.click("overlay.legend.more");
-    EXPECT_TRUE(w.session.view().whole_legend);
+    EXPECT_TRUE(w.session.workspace.view().whole_legend);
     EXPECT_GT(overlay(Overlay::Kind::legend).rect.size().y, before);
     w.click("overlay.legend.more");
     EXPECT_EQ(overlay(Overlay::Kind::legend).rect.size().y, before);
-    EXPECT_EQ(w.session.view().camera, camera);
-    EXPECT_EQ(w.session.selection, (Selection{Selection::Kind::path, {0, -1, 0}, -1}));
+    EXPECT_EQ(w.session.workspace.view().camera, camera);
+    EXPECT_EQ(w.session.workspace.selection, (Selection{Selection::Kind::path, {0, -1, 0}, -1}));
 
     // What lies behind a panel is neither pointed at nor selected through it.
     const Rect legend = overlay(Overlay::Kind::legend).rect;
     const glm::vec2 at = w.window.shell().marks().all().at("viewport").min + legend.center();
     w.window.shell().feed(MouseMove{at});
     w.window.settle();
-    EXPECT_EQ(w.session.hovered, Selection{});
+    EXPECT_EQ(w.session.workspace.hovered, Selection{});
     w.window.shell().feed(MouseButton{0, true});
     w.window.shell().feed(MouseButton{0, false});
     w.window.settle();
-    EXPECT_EQ(w.session.selection, (Selection{Selection::Kind::path, {0, -1, 0}, -1}));
-    EXPECT_FALSE(w.session.view().fold_legend) << "only its chevron folds it";
+    EXPECT_EQ(w.session.workspace.selection, (Selection{Selection::Kind::path, {0, -1, 0}, -1}));
+    EXPECT_FALSE(w.session.workspace.view().fold_legend) << "only its chevron folds it";
 }
 
 TEST(Panels, AMomentIsWalkedThroughAndHasNoHandles) {
@@ -158,16 +159,17 @@ TEST(Panels, AMomentIsWalkedThroughAndHasNoHandles) {
     run_command(w.session, "go.agent", "A");
     w.window.settle();
     ASSERT_TRUE(w.has("handle.move"));
-    const Camera in_space_time = w.session.view().camera;
+    const Camera in_space_time = w.session.workspace.view().camera;
     ASSERT_TRUE(in_space_time.target) << "what framed the scene stands";
     w.key("M");
-    ASSERT_EQ(w.session.view().show, Show::moment);
+    ASSERT_EQ(w.session.workspace.view().show, Show::moment);
     EXPECT_FALSE(w.has("handle.move")) << "they stand where a path begins, in space-time";
     // What the viewport shows is what is picked: a click on a wall selects the sample that holds then.
     run_command(w.session, "time.at", "1.2");
     w.window.settle();
     w.change_view("moment");
-    const DrawList list = build_draw_list(w.session.fitted(), w.session.view(), w.session.hooks.viewport_size());
+    const DrawList list =
+        build_draw_list(w.session.workspace.fitted(), w.session.workspace.view(), w.session.views.picture->size);
     ASSERT_FALSE(list.disks.empty());
     const DiskInstance& disk = list.disks.front();
     const auto pixel = list.projection.project(disk.base + glm::vec3(0, 0, 0.9f));
@@ -177,32 +179,32 @@ TEST(Panels, AMomentIsWalkedThroughAndHasNoHandles) {
     w.window.shell().feed(MouseButton{0, true});
     w.window.shell().feed(MouseButton{0, false});
     w.window.settle();
-    EXPECT_EQ(w.session.selection.kind, Selection::Kind::sample);
-    EXPECT_EQ(w.session.selection.index, disk.id.index);
+    EXPECT_EQ(w.session.workspace.selection.kind, Selection::Kind::sample);
+    EXPECT_EQ(w.session.workspace.selection.index, disk.id.index);
     // Dragging turns the camera; time keeps the height that it has in space-time.
-    const double time_height = w.session.view().time_height;
+    const double time_height = w.session.workspace.view().time_height;
     w.window.shell().feed(MouseMove{at});
     w.window.shell().feed(MouseButton{0, true});
     w.window.shell().feed(MouseMove{at + glm::vec2(60, 20)});
     w.window.shell().feed(MouseButton{0, false});
     w.window.settle();
-    EXPECT_TRUE(w.session.view().camera.target);
-    EXPECT_EQ(w.session.view().time_height, time_height);
+    EXPECT_TRUE(w.session.workspace.view().camera.target);
+    EXPECT_EQ(w.session.workspace.view().time_height, time_height);
     w.key("M");
-    EXPECT_EQ(w.session.view().show, Show::space_time);
-    EXPECT_EQ(w.session.view().camera, in_space_time) << "each picture has its own camera";
+    EXPECT_EQ(w.session.workspace.view().show, Show::space_time);
+    EXPECT_EQ(w.session.workspace.view().camera, in_space_time) << "each picture has its own camera";
 }
 
 TEST(StillCamera, NothingThatIsShownMovesIt) {
     Window w;
-    const Camera opened = w.session.view().camera;
+    const Camera opened = w.session.workspace.view().camera;
     ASSERT_TRUE(opened.target) << "it frames the scene once";
-    const double time_height = w.session.view().time_height;
+    const double time_height = w.session.workspace.view().time_height;
     EXPECT_GT(time_height, 0);
-    EXPECT_FALSE(w.session.history().can_undo()) << "framing is no step of its own";
+    EXPECT_FALSE(w.session.workspace.history.can_undo()) << "framing is no step of its own";
     const auto expect_still = [&](const std::string& after) {
-        EXPECT_EQ(w.session.view().camera, opened) << after;
-        EXPECT_EQ(w.session.view().time_height, time_height) << after;
+        EXPECT_EQ(w.session.workspace.view().camera, opened) << after;
+        EXPECT_EQ(w.session.workspace.view().time_height, time_height) << after;
     };
     for (const std::string key : {"]", "[", "E", ".", ","}) {
         w.key(key);
@@ -215,7 +217,7 @@ TEST(StillCamera, NothingThatIsShownMovesIt) {
         w.key(key);
         expect_still(key);
     }
-    const mobb::TreeKind before = w.session.fitted().options().tree;
+    const mobb::TreeKind before = w.session.workspace.fitted().options().tree;
     run_command(w.session, "tree.kind", before == mobb::TreeKind::umobb ? "mobb" : "umobb");
     w.window.settle();
     expect_still("another kind of tree");
@@ -232,47 +234,48 @@ TEST(StillCamera, ItFramesOnCommandAndKeepsItsScaleWhenTheWindowIsResized) {
     run_command(w.session, "query.select", "0");
     w.window.settle();
     w.key("Shift+Right");
-    const Camera opened = w.session.view().camera;
+    const Camera opened = w.session.workspace.view().camera;
     w.key("F");
-    EXPECT_LT(w.session.view().camera.distance, 0.9 * opened.distance) << "the pair under test";
+    EXPECT_LT(w.session.workspace.view().camera.distance, 0.9 * opened.distance) << "the pair under test";
     w.key("Home");
     w.window.settle();
-    const Camera home = w.session.view().camera;
+    const Camera home = w.session.workspace.view().camera;
     ASSERT_TRUE(home.target);
     const auto pixels = [&] {
-        const DrawList list = build_draw_list(w.session.fitted(), w.session.view(), w.session.hooks.viewport_size());
-        return list.projection.pixels_per_metre(list.space.from_target(*w.session.view().camera.target));
+        const DrawList list =
+            build_draw_list(w.session.workspace.fitted(), w.session.workspace.view(), w.session.views.picture->size);
+        return list.projection.pixels_per_metre(list.space.from_target(*w.session.workspace.view().camera.target));
     };
     const float scale = pixels();
-    const int height = w.session.hooks.viewport_size().height;
+    const int height = w.session.views.picture->size.height;
     w.window.resize({900, 800});
     w.window.settle();
-    ASSERT_NE(w.session.hooks.viewport_size().height, height);
-    EXPECT_EQ(w.session.view().camera.target, home.target);
+    ASSERT_NE(w.session.views.picture->size.height, height);
+    EXPECT_EQ(w.session.workspace.view().camera.target, home.target);
     EXPECT_NEAR(pixels(), scale, 1e-3 * scale);
-    w.session.undo();
-    w.session.undo();
+    w.session.edits.undo();
+    w.session.edits.undo();
     w.window.settle();
-    EXPECT_EQ(w.session.view().camera.target, opened.target);
-    EXPECT_NEAR(w.session.view().camera.distance * height, opened.distance * w.session.hooks.viewport_size().height,
-                1e-6 * opened.distance * height)
+    EXPECT_EQ(w.session.workspace.view().camera.target, opened.target);
+    EXPECT_NEAR(w.session.workspace.view().camera.distance * height,
+                opened.distance * w.session.views.picture->size.height, 1e-6 * opened.distance * height)
         << "where undo leads, too";
 }
 
 TEST(StillCamera, HomeFindsAnotherHeightOfASecondUnlessOneWasChosen) {
     Window w;
-    const double opened = w.session.view().time_height;
+    const double opened = w.session.workspace.view().time_height;
     run_command(w.session, "go.agent", "A");
     run_command(w.session, "agent.move", "300 0");
     w.window.settle();
-    EXPECT_EQ(w.session.view().time_height, opened) << "an edit moves nothing";
+    EXPECT_EQ(w.session.workspace.view().time_height, opened) << "an edit moves nothing";
     w.key("Home");
     w.window.settle();
-    EXPECT_GT(w.session.view().time_height, 5 * opened) << "about as tall as wide again";
+    EXPECT_GT(w.session.workspace.view().time_height, 5 * opened) << "about as tall as wide again";
     run_command(w.session, "view.time_height", "2");
     w.key("Home");
     w.window.settle();
-    EXPECT_EQ(w.session.view().time_height, 2);
+    EXPECT_EQ(w.session.workspace.view().time_height, 2);
 }
 
 TEST(StillCamera, ASplitQueryIsAsFarOnInBothHalves) {
@@ -281,9 +284,9 @@ TEST(StillCamera, ASplitQueryIsAsFarOnInBothHalves) {
     run_command(w.session, "step.last");
     run_command(w.session, "view.split");
     w.window.settle();
-    ASSERT_EQ(w.session.view_count(), 2u);
+    ASSERT_EQ(w.session.views.count(), 2u);
     for (std::size_t place : {0u, 1u}) {
-        const SceneView seen = w.session.view_at(place);
+        const SceneView seen = w.session.views.at(place);
         EXPECT_NO_THROW(build_draw_list(*seen.fitted, seen.view, PictureSize{400, 300})) << place;
     }
 }
@@ -295,16 +298,16 @@ TEST(StillCamera, ItFollowsTheTestWhereThatIsAskedFor) {
     w.key("Shift+Left");
     run_command(w.session, "view.zoom", "6");
     w.window.settle();
-    const Camera near = w.session.view().camera;
+    const Camera near = w.session.workspace.view().camera;
     w.key("Shift+Right");
-    EXPECT_EQ(w.session.view().camera, near);
+    EXPECT_EQ(w.session.workspace.view().camera, near);
     run_command(w.session, "view.follow_test");
     w.window.settle();
-    EXPECT_NE(w.session.view().camera, near) << "the last pair was not in the picture";
-    const Camera there = w.session.view().camera;
+    EXPECT_NE(w.session.workspace.view().camera, near) << "the last pair was not in the picture";
+    const Camera there = w.session.workspace.view().camera;
     run_command(w.session, "view.orbit", "10 0");
     w.window.settle();
-    EXPECT_NE(w.session.view().camera, there) << "a hand is not overruled";
+    EXPECT_NE(w.session.workspace.view().camera, there) << "a hand is not overruled";
 }
 
 TEST(StillCamera, FollowingATestHasItBesideThePanelsAndDoesNotWander) {
@@ -315,17 +318,17 @@ TEST(StillCamera, FollowingATestHasItBesideThePanelsAndDoesNotWander) {
         run_command(w.session, "view.follow_test");
         w.window.settle();
         int flights = 0;
-        const int steps = w.session.recorded()->trace.size();
+        const int steps = w.session.workspace.recorded()->trace.size();
         for (int step = 0; step < steps; ++step) {
             run_command(w.session, "step.to", std::to_string(step));
-            const Camera before = w.session.view().camera;
+            const Camera before = w.session.workspace.view().camera;
             w.window.settle();
-            flights += w.session.view().camera == before ? 0 : 1;
+            flights += w.session.workspace.view().camera == before ? 0 : 1;
             const DrawList& shown = *w.window.shell().shown();
             std::vector<Rect> panels;
             for (const Overlay& overlay : shown.overlays) panels.push_back(overlay.rect);
             ASSERT_FALSE(panels.empty());
-            EXPECT_TRUE(is_well_seen(*corners_of_test(w.session), shown, panels)) << "step " << step;
+            EXPECT_TRUE(is_well_seen(*corners_of_test(w.session.workspace), shown, panels)) << "step " << step;
         }
         EXPECT_GT(flights, 0);
         EXPECT_LT(3 * flights, steps) << "a camera that flies at every step shows nothing";
@@ -338,7 +341,7 @@ TEST(StillCamera, ABoxThatIsCutOffOrBelowAPanelIsNotWellSeen) {
     run_command(w.session, "step.to", "3");
     w.window.settle();
     const DrawList& shown = *w.window.shell().shown();
-    const TestCorners boxes = *corners_of_test(w.session);
+    const TestCorners boxes = *corners_of_test(w.session.workspace);
     const auto at = [&](const glm::dvec3& p) { return *shown.projection.project(shown.space.point(p.x, p.y, p.z)); };
     glm::vec2 low(1e6f);
     glm::vec2 high(-1e6f);
@@ -373,7 +376,7 @@ TEST(Panels, TheCameraGoesOnFromWhatKeysHaveMade) {
     w.window.shell().feed(KeyPress{Key::n2, true});
     w.window.shell().feed(KeyPress{Key::equal, true});
     w.window.settle();
-    EXPECT_NEAR(orientation(w.session.view().camera).pitch_deg, 90, 1e-9) << "from above, and nearer";
+    EXPECT_NEAR(orientation(w.session.workspace.view().camera).pitch_deg, 90, 1e-9) << "from above, and nearer";
 }
 
 TEST(Panels, ALongNameIsKeptWhole) {
@@ -386,19 +389,19 @@ TEST(Panels, ALongNameIsKeptWhole) {
     w.key("End");
     w.type("!");
     w.key("Enter");
-    EXPECT_EQ(w.session.scene().agents[0].name, name + "!");
+    EXPECT_EQ(w.session.workspace.scene().agents[0].name, name + "!");
 }
 
 TEST(Panels, ThePaletteRunsWhatWasTyped) {
     Window w;
     w.key("Ctrl+P");
-    ASSERT_EQ(w.session.dialog, Dialog::palette);
+    ASSERT_EQ(w.session.dialogs.now, Dialog::palette);
     w.change_view("palette");
     w.type("tk umobb");
     w.change_view("palette_typed");
     w.key("Enter");
-    EXPECT_EQ(w.session.dialog, Dialog::none);
-    EXPECT_EQ(w.session.scene().fit.tree, mobb::TreeKind::umobb);
+    EXPECT_EQ(w.session.dialogs.now, Dialog::none);
+    EXPECT_EQ(w.session.workspace.scene().fit.tree, mobb::TreeKind::umobb);
 }
 
 TEST(Panels, ThePaletteGoesThroughItsListAndAsksForArguments) {
@@ -406,22 +409,22 @@ TEST(Panels, ThePaletteGoesThroughItsListAndAsksForArguments) {
     w.key("Ctrl+P");
     w.type("samples in a leaf");
     w.key("Enter");
-    ASSERT_EQ(w.session.dialog, Dialog::palette);
-    EXPECT_EQ(w.session.input.command, "tree.leaf");
+    ASSERT_EQ(w.session.dialogs.now, Dialog::palette);
+    EXPECT_EQ(w.session.dialogs.input.command, "tree.leaf");
     w.change_view("palette_argument");
     w.type("7");
     w.key("Enter");
-    EXPECT_EQ(w.session.scene().fit.leaf, 7);
+    EXPECT_EQ(w.session.workspace.scene().fit.leaf, 7);
     w.key("Ctrl+P");
     w.type("theme");
     w.key("Enter");
-    ASSERT_EQ(w.session.input.command, "view.theme");
+    ASSERT_EQ(w.session.dialogs.input.command, "view.theme");
     w.key("Down");
     w.key("Enter");
-    EXPECT_EQ(w.session.view().theme, Theme::light);
+    EXPECT_EQ(w.session.workspace.view().theme, Theme::light);
     w.key("Ctrl+P");
     w.key("Escape");
-    EXPECT_EQ(w.session.dialog, Dialog::none);
+    EXPECT_EQ(w.session.dialogs.now, Dialog::none);
 }
 
 TEST(Panels, MenusRunCommands) {
@@ -429,28 +432,28 @@ TEST(Panels, MenusRunCommands) {
     w.click("menu.view");
     w.change_view("menu_view");
     w.click("menu.view.top");
-    EXPECT_EQ(w.session.view().camera.preset, CameraPreset::top);
+    EXPECT_EQ(w.session.workspace.view().camera.preset, CameraPreset::top);
     w.click("menu.tree");
     w.click("menu.tree.kind");
     w.change_view("menu_tree");
     w.click("menu.tree.kind.hybrid1");
-    EXPECT_EQ(w.session.scene().fit.tree, mobb::TreeKind::hybrid1);
+    EXPECT_EQ(w.session.workspace.scene().fit.tree, mobb::TreeKind::hybrid1);
     w.click("menu.search");
-    EXPECT_EQ(w.session.dialog, Dialog::palette);
+    EXPECT_EQ(w.session.dialogs.now, Dialog::palette);
 }
 
 TEST(Panels, OpeningByKeysAlone) {
     Window w;
     w.key("Ctrl+O");
-    ASSERT_EQ(w.session.dialog, Dialog::open);
-    EXPECT_EQ(w.session.browser.way().back(), w.folder.scene.parent_path()) << "where one was last";
+    ASSERT_EQ(w.session.dialogs.now, Dialog::open);
+    EXPECT_EQ(w.session.dialogs.browser.way().back(), w.folder.scene.parent_path()) << "where one was last";
     w.change_view("open");
     w.type("wa");
     w.key("Tab");
-    EXPECT_EQ(w.session.input.text, "walk.csv");
+    EXPECT_EQ(w.session.dialogs.input.text, "walk.csv");
     w.key("Enter");
-    EXPECT_EQ(w.session.dialog, Dialog::none);
-    EXPECT_EQ(w.session.title(), "walk");
+    EXPECT_EQ(w.session.dialogs.now, Dialog::none);
+    EXPECT_EQ(w.session.workspace.title(), "walk");
     EXPECT_EQ(all_messages(w.session), "");
 }
 
@@ -459,7 +462,7 @@ TEST(Panels, OpeningByTheList) {
     w.key("Ctrl+O");
     w.key("Down");
     w.key("Enter");
-    EXPECT_EQ(w.session.title(), "stand") << "scene.json, stand.csv, walk.csv";
+    EXPECT_EQ(w.session.workspace.title(), "stand") << "scene.json, stand.csv, walk.csv";
 }
 
 TEST(Panels, SeveralAreOpenedByTheDialogAlone) {
@@ -467,34 +470,34 @@ TEST(Panels, SeveralAreOpenedByTheDialogAlone) {
     w.key("Ctrl+O");
     w.key("Down");
     w.key("Shift+Down");
-    EXPECT_EQ(w.session.browser.chosen_count(), 2u);
+    EXPECT_EQ(w.session.dialogs.browser.chosen_count(), 2u);
     w.change_view("open_several");
     w.key("Enter");
-    EXPECT_EQ(w.session.dialog, Dialog::none);
-    EXPECT_EQ(w.session.scene().clips.size(), 2u);
-    EXPECT_TRUE(w.session.scene().agents.empty());
+    EXPECT_EQ(w.session.dialogs.now, Dialog::none);
+    EXPECT_EQ(w.session.workspace.scene().clips.size(), 2u);
+    EXPECT_TRUE(w.session.workspace.scene().agents.empty());
     // And by the mouse: a click keeps the list, one with Ctrl adds to what is chosen.
     w.key("Ctrl+O");
     w.click("open.entry.stand.csv");
     EXPECT_TRUE(w.has("open.entry.walk.csv"));
-    EXPECT_EQ(w.session.browser.entries().size(), 3u);
+    EXPECT_EQ(w.session.dialogs.browser.entries().size(), 3u);
     w.window.shell().feed(KeyPress{Key::ctrl, true});
     w.click("open.entry.scene.json");
     w.window.shell().feed(KeyPress{Key::ctrl, false});
-    EXPECT_EQ(w.session.browser.chosen_count(), 2u);
+    EXPECT_EQ(w.session.dialogs.browser.chosen_count(), 2u);
     w.click("open.ok");
-    EXPECT_EQ(w.session.scene().clips.size(), 3u);
+    EXPECT_EQ(w.session.workspace.scene().clips.size(), 3u);
     // In a folder that was typed too.
     w.key("Ctrl+O");
     w.type(w.folder.scene.parent_path().string() + "/");
     w.key("Down");
     w.key("Shift+Down");
     w.key("Enter");
-    EXPECT_EQ(w.session.scene().clips.size(), 2u);
+    EXPECT_EQ(w.session.workspace.scene().clips.size(), 2u);
     w.key("Ctrl+O");
     w.key("Ctrl+A");
     w.key("Enter");
-    EXPECT_EQ(w.session.scene().clips.size(), 4u) << "all that is listed";
+    EXPECT_EQ(w.session.workspace.scene().clips.size(), 4u) << "all that is listed";
 }
 
 TEST(Panels, TheDialogGoesUpAndIntoFolders) {
@@ -504,23 +507,23 @@ TEST(Panels, TheDialogGoesUpAndIntoFolders) {
     w.key("Ctrl+O");
     w.type("deep");
     w.key("Enter");
-    EXPECT_EQ(w.session.browser.way().back(), w.folder.file("deep"));
-    EXPECT_EQ(w.session.input.text, "");
+    EXPECT_EQ(w.session.dialogs.browser.way().back(), w.folder.file("deep"));
+    EXPECT_EQ(w.session.dialogs.input.text, "");
     w.key("Backspace");
-    EXPECT_EQ(w.session.browser.way().back(), w.folder.scene.parent_path());
+    EXPECT_EQ(w.session.dialogs.browser.way().back(), w.folder.scene.parent_path());
     w.key("Enter");
-    EXPECT_EQ(w.session.browser.way().back(), w.folder.file("deep")) << "the cursor was on where one came from";
+    EXPECT_EQ(w.session.dialogs.browser.way().back(), w.folder.file("deep")) << "the cursor was on where one came from";
     w.click("open.up");
     w.click("open.crumb.1");
-    EXPECT_EQ(w.session.browser.way().back(), w.folder.scene.parent_path().parent_path());
+    EXPECT_EQ(w.session.dialogs.browser.way().back(), w.folder.scene.parent_path().parent_path());
     w.key("Escape");
     w.key("Ctrl+O");
-    EXPECT_EQ(w.session.browser.way().back(), w.folder.scene.parent_path().parent_path()) << "where one was";
+    EXPECT_EQ(w.session.dialogs.browser.way().back(), w.folder.scene.parent_path().parent_path()) << "where one was";
     w.type(w.folder.file("deep").string());
     w.key("Enter");
     w.click("open.folder");
-    EXPECT_EQ(w.session.scene().clips.size(), 1u);
-    EXPECT_EQ(w.session.scene().clips[0].name, "other");
+    EXPECT_EQ(w.session.workspace.scene().clips.size(), 1u);
+    EXPECT_EQ(w.session.workspace.scene().clips[0].name, "other");
 }
 
 TEST(Panels, TheHeadsOfTheListOrderIt) {
@@ -529,11 +532,11 @@ TEST(Panels, TheHeadsOfTheListOrderIt) {
                                      std::filesystem::file_time_type::clock::now() + std::chrono::hours(1));
     w.key("Ctrl+O");
     w.click("open.order.date");
-    EXPECT_EQ(w.session.browser.entries().front().name, "walk.csv") << "the latest first";
+    EXPECT_EQ(w.session.dialogs.browser.entries().front().name, "walk.csv") << "the latest first";
     w.click("open.order.date");
-    EXPECT_EQ(w.session.browser.entries().back().name, "walk.csv");
+    EXPECT_EQ(w.session.dialogs.browser.entries().back().name, "walk.csv");
     w.key("Ctrl+1");
-    EXPECT_EQ(w.session.browser.entries().front().name, "scene.json");
+    EXPECT_EQ(w.session.dialogs.browser.entries().front().name, "scene.json");
     w.key("Ctrl+3");
     EXPECT_EQ(w.session.settings.file_order, "-date");
 }
@@ -541,15 +544,15 @@ TEST(Panels, TheHeadsOfTheListOrderIt) {
 TEST(Panels, AClickOnAFileNamesTheOneToBeWritten) {
     Window w;
     w.key("Ctrl+Shift+S");
-    EXPECT_EQ(w.session.input.text, "scene.json");
+    EXPECT_EQ(w.session.dialogs.input.text, "scene.json");
     w.folder.write("there.json", "old");
     w.key("Escape");
     w.key("Ctrl+Shift+S");
     w.click("save.entry.there.json");
-    EXPECT_EQ(w.session.input.text, "there.json");
+    EXPECT_EQ(w.session.dialogs.input.text, "there.json");
     EXPECT_TRUE(w.has("save.entry.scene.json")) << "the list stays";
     w.click("save.ok");
-    EXPECT_TRUE(w.session.input.confirming);
+    EXPECT_TRUE(w.session.dialogs.input.confirming);
     w.key("Escape");
     EXPECT_EQ(mobbscope::testing::slurp(w.folder.file("there.json")), "old");
 }
@@ -560,27 +563,27 @@ TEST(Panels, WhatCannotBeOpenedIsSaidOverTheDialog) {
     w.key("Ctrl+O");
     w.type("broken.json");
     w.key("Enter");
-    EXPECT_EQ(w.session.title(), "scene.json");
-    ASSERT_EQ(w.session.messages().size(), 1u);
+    EXPECT_EQ(w.session.workspace.title(), "scene.json");
+    ASSERT_EQ(w.session.notifications.all().size(), 1u);
     w.change_view("message");
     w.click("message.0.dismiss");
-    EXPECT_TRUE(w.session.messages().empty());
+    EXPECT_TRUE(w.session.notifications.all().empty());
 }
 
 TEST(Panels, OverwritingAsks) {
     Window w;
     w.folder.write("there.json", "old");
     w.key("Ctrl+Shift+S");
-    w.session.input.set_text(w.folder.file("there").string());
+    w.session.dialogs.input.set_text(w.folder.file("there").string());
     w.window.settle();
     w.key("Enter");
-    EXPECT_EQ(w.session.dialog, Dialog::save_as);
+    EXPECT_EQ(w.session.dialogs.now, Dialog::save_as);
     w.change_view("overwrite");
     EXPECT_EQ(mobbscope::testing::slurp(w.folder.file("there.json")), "old");
     w.key("Enter");
     EXPECT_EQ(all_messages(w.session), "Saved " + w.folder.file("there.json").string() + "\n");
-    EXPECT_EQ(w.session.dialog, Dialog::none);
-    EXPECT_EQ(w.session.title(), "there.json");
+    EXPECT_EQ(w.session.dialogs.now, Dialog::none);
+    EXPECT_EQ(w.session.workspace.title(), "there.json");
 }
 
 TEST(Panels, UnsavedChangesAreAskedAbout) {
@@ -590,18 +593,18 @@ TEST(Panels, UnsavedChangesAreAskedAbout) {
     w.key("Ctrl+Q");
     w.change_view("unsaved");
     w.click("unsaved.cancel");
-    EXPECT_FALSE(w.session.closed());
+    EXPECT_FALSE(w.session.files.closed());
     w.key("Ctrl+Q");
     w.click("unsaved.save");
-    EXPECT_TRUE(w.session.closed());
-    EXPECT_FALSE(w.session.modified());
+    EXPECT_TRUE(w.session.files.closed());
+    EXPECT_FALSE(w.session.workspace.modified());
 }
 
 TEST(Panels, MessagesGoBehindTheBellWhereTheyAreRead) {
     Window w;
-    w.session.tell(MessageLevel::info, "Saved it");
-    w.session.tell(MessageLevel::error, "This went wrong");
-    const auto up = [&] { return std::ranges::count(w.session.messages(), true, &Message::up); };
+    w.session.notifications.tell(MessageLevel::info, "Saved it");
+    w.session.notifications.tell(MessageLevel::error, "This went wrong");
+    const auto up = [&] { return std::ranges::count(w.session.notifications.all(), true, &Message::up); };
     w.window.run_for(3.5);
     EXPECT_EQ(up(), 2);
     w.window.run_for(1);
@@ -610,21 +613,21 @@ TEST(Panels, MessagesGoBehindTheBellWhereTheyAreRead) {
     w.window.run_for(6.5);
     EXPECT_EQ(up(), 0);
     EXPECT_FALSE(w.has("message.1"));
-    EXPECT_EQ(w.session.unread(), 1u) << "nobody has opened the list";
+    EXPECT_EQ(w.session.notifications.unread(), 1u) << "nobody has opened the list";
     w.click("menu.bell");
-    EXPECT_EQ(w.session.dialog, Dialog::messages);
-    EXPECT_EQ(w.session.unread(), 0u);
+    EXPECT_EQ(w.session.dialogs.now, Dialog::messages);
+    EXPECT_EQ(w.session.notifications.unread(), 0u);
     w.change_view("message_list");
-    std::string copied;
-    w.session.hooks.set_clipboard = [&](const std::string& text) { copied = text; };
+    testing::TestDesktop desktop;
+    w.session.desktop = &desktop;
     w.click("messages.0.copy");
-    EXPECT_EQ(copied, "This went wrong") << "the latest stands first";
+    EXPECT_EQ(desktop.text, "This went wrong") << "the latest stands first";
     w.click("messages.0.dismiss");
     ASSERT_EQ(all_messages(w.session), "Saved it\n");
     w.key("Delete");
-    EXPECT_TRUE(w.session.messages().empty());
+    EXPECT_TRUE(w.session.notifications.all().empty());
     w.key("Escape");
-    EXPECT_EQ(w.session.dialog, Dialog::none);
+    EXPECT_EQ(w.session.dialogs.now, Dialog::none);
 }
 
 TEST(Panels, MessagesCoverNeitherLegendNorCaption) {
@@ -635,7 +638,8 @@ TEST(Panels, MessagesCoverNeitherLegendNorCaption) {
         run_command(w.session, "step.last");
         const std::string path = "/home/somebody/" + std::string(40, 'x') + "/a/long/way/" + std::string(40, 'y');
         for (int i = 0; i < 3; ++i) {
-            w.session.tell(MessageLevel::error, "Saved " + path + '/' + std::to_string(i) + "/crossing.json");
+            w.session.notifications.tell(MessageLevel::error,
+                                         "Saved " + path + '/' + std::to_string(i) + "/crossing.json");
         }
         w.window.run_for(0.2);
         const Rect viewport = w.window.shell().marks().all().at("viewport");
@@ -654,7 +658,7 @@ TEST(Panels, MessagesCoverNeitherLegendNorCaption) {
 
 TEST(Panels, MessagesStayWhileTheMouseIsOnThem) {
     Window w;
-    w.session.tell(MessageLevel::info, "Saved it");
+    w.session.notifications.tell(MessageLevel::info, "Saved it");
     w.window.run_for(0.2);
     w.window.shell().feed(MouseMove{w.window.shell().marks().all().at("message.0").center()});
     w.window.run_for(8);
@@ -667,27 +671,28 @@ TEST(Panels, MessagesStayWhileTheMouseIsOnThem) {
 TEST(Panels, EscapePutsErrorsAwayBeforeItLeavesTheQuery) {
     Window w;
     run_command(w.session, "query.select", "0");
-    w.session.tell(MessageLevel::error, "This went wrong");
+    w.session.notifications.tell(MessageLevel::error, "This went wrong");
     w.window.settle();
     w.key("Escape");
     EXPECT_FALSE(w.has("message.0"));
-    EXPECT_EQ(w.session.view().query, 0);
-    EXPECT_EQ(w.session.unread(), 1u);
+    EXPECT_EQ(w.session.workspace.view().query, 0);
+    EXPECT_EQ(w.session.notifications.unread(), 1u);
 }
 
 TEST(Panels, WhatAMessageOffersIsAButton) {
     Window w;
-    w.session.tell(MessageLevel::warning, "The unit was guessed", MessageOffer{"view.top", "", "Look from above"});
+    w.session.notifications.tell(MessageLevel::warning, "The unit was guessed",
+                                 MessageOffer{"view.top", "", "Look from above"});
     w.window.run_for(0.2);
     w.change_view("offer");
     w.click("message.0.offer");
-    EXPECT_EQ(w.session.view().camera.preset, CameraPreset::top);
+    EXPECT_EQ(w.session.workspace.view().camera.preset, CameraPreset::top);
     EXPECT_FALSE(w.has("message.0"));
     w.key("F8");
     w.click("messages.0.offer");
-    EXPECT_EQ(w.session.dialog, Dialog::none);
+    EXPECT_EQ(w.session.dialogs.now, Dialog::none);
     run_command(w.session, "file.demo");
-    EXPECT_FALSE(w.session.messages()[0].offer) << "it was about what was open";
+    EXPECT_FALSE(w.session.notifications.all()[0].offer) << "it was about what was open";
 }
 
 TEST(Panels, TheHelpSheetOpensAndCloses) {
@@ -696,12 +701,12 @@ TEST(Panels, TheHelpSheetOpensAndCloses) {
     EXPECT_TRUE(w.has("help.close"));
     w.change_view("help");
     w.key("Escape");
-    EXPECT_EQ(w.session.dialog, Dialog::none);
+    EXPECT_EQ(w.session.dialogs.now, Dialog::none);
     run_command(w.session, "help.about");
     w.window.settle();
     w.change_view("about");
     w.click("about.close");
-    EXPECT_EQ(w.session.dialog, Dialog::none);
+    EXPECT_EQ(w.session.dialogs.now, Dialog::none);
 }
 
 TEST(Panels, NothingIsCutOffAtAnySize) {
@@ -738,7 +743,7 @@ TEST(Panels, AnEmptyWindowSaysWhatToDo) {
     window.shell().feed(MouseButton{0, true});
     window.shell().feed(MouseButton{0, false});
     window.settle();
-    EXPECT_FALSE(session.empty());
+    EXPECT_FALSE(session.workspace.empty());
 }
 
 }  // namespace

@@ -31,20 +31,20 @@ struct AsideWorld {
         fs::create_directories(folder.file("drawn"));
         folder.write("drawn/report.json", R"({"mobbscope_report": 1, "cases": []})");
         folder.write("cases/one.case.json", R"({"mobbscope_case": 1, "scene": "../scene.json", "size": "160x120"})");
-        session.open({folder.scene});
+        session.files.open({folder.scene});
         window.settle();
     }
     void review() {
-        session.review(folder.file("cases"), folder.file("drawn"));
+        session.reviews.open(folder.file("cases"), folder.file("drawn"));
         window.settle();
     }
     void open_case() {
         review();
-        session.open_case(0);
+        session.reviews.open_case(0);
         window.settle();
     }
     void leave() {
-        session.leave_review();
+        session.reviews.leave();
         window.settle();
     }
     void resize(PictureSize size) {
@@ -57,7 +57,9 @@ struct AsideWorld {
         window.settle();
     }
     /// Pixels that a metre takes at the camera's target, up to a factor.
-    double pixels_a_metre() const { return session.hooks.viewport_size().height / session.view().camera.distance; }
+    double pixels_a_metre() const {
+        return session.views.picture->size.height / session.workspace.view().camera.distance;
+    }
 };
 
 constexpr PictureSize kSmaller{800, 560};
@@ -67,17 +69,17 @@ constexpr PictureSize kSmaller{800, 560};
 TEST(PutAside, AResizeKeepsTheScaleOfWhatAnExcerptWasTakenFrom) {
     AsideWorld w;
     const double before = w.pixels_a_metre();
-    const auto& agents = w.session.fitted().placed_agents();
-    w.session.open_excerpt(agents[0], agents[1]);
+    const auto& agents = w.session.workspace.fitted().placed_agents();
+    w.session.excerpts.open(agents[0], agents[1]);
     w.window.settle();
     w.resize(kSmaller);
-    w.session.leave_excerpt();
+    w.session.excerpts.leave();
     w.window.settle();
     EXPECT_NEAR(w.pixels_a_metre(), before, 1e-9 * before);
-    w.session.undo();
-    w.session.undo();
+    w.session.edits.undo();
+    w.session.edits.undo();
     w.window.settle();
-    EXPECT_FALSE(w.session.in_excerpt());
+    EXPECT_FALSE(w.session.workspace.in_excerpt());
     EXPECT_NEAR(w.pixels_a_metre(), before, 1e-9 * before);
 }
 
@@ -88,47 +90,47 @@ TEST(PutAside, AResizeKeepsTheScaleOfWhatIsOpenBesideACase) {
         w.review();
         // With the case's scene in the picture, or with no picture at all.
         if (!shown) w.resize(kSmaller);
-        w.session.open_case(0);
+        w.session.reviews.open_case(0);
         w.window.settle();
         if (shown) w.resize(kSmaller);
         w.leave();
-        ASSERT_FALSE(w.session.reviewing());
+        ASSERT_FALSE(w.session.reviews.shown());
         EXPECT_NEAR(w.pixels_a_metre(), before, 1e-9 * before) << shown;
     }
 }
 
 TEST(PutAside, EachOpeningHasANumberAndComingBackFindsIt) {
     AsideWorld w;
-    const int file = w.session.opening();
-    const auto& agents = w.session.fitted().placed_agents();
-    w.session.open_excerpt(agents[0], agents[1]);
-    const int excerpt = w.session.opening();
+    const int file = w.session.workspace.opening();
+    const auto& agents = w.session.workspace.fitted().placed_agents();
+    w.session.excerpts.open(agents[0], agents[1]);
+    const int excerpt = w.session.workspace.opening();
     EXPECT_NE(excerpt, file) << "the first file is not the first excerpt";
-    w.session.undo();
-    EXPECT_EQ(w.session.opening(), file);
-    w.session.redo();
-    EXPECT_EQ(w.session.opening(), excerpt);
-    w.session.leave_excerpt();
-    EXPECT_EQ(w.session.opening(), file);
+    w.session.edits.undo();
+    EXPECT_EQ(w.session.workspace.opening(), file);
+    w.session.edits.redo();
+    EXPECT_EQ(w.session.workspace.opening(), excerpt);
+    w.session.excerpts.leave();
+    EXPECT_EQ(w.session.workspace.opening(), file);
     w.open_case();
-    EXPECT_NE(w.session.opening(), file);
-    EXPECT_NE(w.session.opening(), excerpt);
+    EXPECT_NE(w.session.workspace.opening(), file);
+    EXPECT_NE(w.session.workspace.opening(), excerpt);
     w.leave();
-    EXPECT_EQ(w.session.opening(), file);
+    EXPECT_EQ(w.session.workspace.opening(), file);
 }
 
 TEST(PutAside, UndoWithinAnExcerptThatWasSavedCancelsNothing) {
     AsideWorld w;
-    const auto& agents = w.session.fitted().placed_agents();
-    w.session.open_excerpt(agents[0], agents[1]);
+    const auto& agents = w.session.workspace.fitted().placed_agents();
+    w.session.excerpts.open(agents[0], agents[1]);
     w.nudge();
     run_command(w.session, "view.moment");
     w.window.settle();
     run_command(w.session, "view.moment");
-    w.session.save_as(w.folder.file("two.json"));
-    ASSERT_FALSE(w.session.cameras_aside.empty());
-    w.session.undo();
-    EXPECT_FALSE(w.session.cameras_aside.empty()) << "it is the same excerpt";
+    w.session.files.save_as(w.folder.file("two.json"));
+    ASSERT_FALSE(w.session.workspace.cameras_aside.empty());
+    w.session.edits.undo();
+    EXPECT_FALSE(w.session.workspace.cameras_aside.empty()) << "it is the same excerpt";
 }
 
 // --- a case's scene
@@ -137,23 +139,23 @@ TEST(PutAside, LeavingACaseBringsBackWhatWasOpenAndSaysNothingTwice) {
     AsideWorld w;
     w.folder.write("big.csv", "t,x,y,r\n0,0,0,0.3\n0.5,1,0,0.3\n1.3,2,0,0.3\n");
     w.folder.write("warned.json", R"({"clips": {"big": {"source": "big.csv"}}})");
-    w.session.open({w.folder.file("warned.json")});
+    w.session.files.open({w.folder.file("warned.json")});
     w.window.settle();
     ASSERT_NE(all_messages(w.session).find("big: "), std::string::npos);
     const std::vector<fs::path> recent = w.session.settings.recent;
-    w.session.filter = "bi";
+    w.session.workspace.filter = "bi";
     run_command(w.session, "go.agent", "big");
-    const Selection selected = w.session.selection;
+    const Selection selected = w.session.workspace.selection;
     w.open_case();
-    EXPECT_EQ(w.session.filter, "");
+    EXPECT_EQ(w.session.workspace.filter, "");
     w.session.settings.folder = "elsewhere";
-    w.session.clear_messages();
+    w.session.notifications.clear();
     w.leave();
     EXPECT_EQ(all_messages(w.session), "");
     EXPECT_EQ(w.session.settings.recent, recent);
     EXPECT_EQ(w.session.settings.folder, "elsewhere") << "nothing was opened";
-    EXPECT_EQ(w.session.filter, "bi");
-    EXPECT_EQ(w.session.selection, selected);
+    EXPECT_EQ(w.session.workspace.filter, "bi");
+    EXPECT_EQ(w.session.workspace.selection, selected);
 }
 
 /// 20,000 samples: their tightest boxes take long.
@@ -167,65 +169,65 @@ std::string long_csv() {
 }
 
 void wait_for_jobs(Session& session) {
-    while (session.job()) session.poll();
+    while (session.jobs.job()) session.poll();
 }
 
 TEST(PutAside, JobsOfWhatIsPutAsideAreTakenInOnceItIsBack) {
     CrossingFolder folder;
     Session session(true);
-    session.patience = {};
+    session.options.patience = {};
     folder.write("long.csv", long_csv());
     fs::create_directories(folder.file("cases"));
     fs::create_directories(folder.file("drawn"));
     folder.write("drawn/report.json", R"({"mobbscope_report": 1, "cases": []})");
     folder.write("cases/one.case.json", R"({"mobbscope_case": 1, "scene": "../scene.json", "size": "160x120"})");
-    session.open({folder.file("long.csv")});
+    session.files.open({folder.file("long.csv")});
     wait_for_jobs(session);
     run_command(session, "tree.axes", "minarea");
-    ASSERT_EQ(session.job_count(), 1u);
-    session.review(folder.file("cases"), folder.file("drawn"));
-    session.open_case(0);
-    while (session.open_case_name().empty()) session.poll();
-    EXPECT_EQ(session.job_count(), 0u) << "the case has none";
+    ASSERT_EQ(session.jobs.count(), 1u);
+    session.reviews.open(folder.file("cases"), folder.file("drawn"));
+    session.reviews.open_case(0);
+    while (session.files.visited().empty()) session.poll();
+    EXPECT_EQ(session.jobs.count(), 0u) << "the case has none";
     run_command(session, "go.agent", "A");
     run_command(session, "agent.rename", "first");
-    session.leave_review();
-    session.answer_unsaved(Session::Unsaved::discard);
-    ASSERT_EQ(session.job_count(), 1u);
+    session.reviews.leave();
+    session.files.answer_unsaved(Files::Unsaved::discard);
+    ASSERT_EQ(session.jobs.count(), 1u);
     wait_for_jobs(session);
-    EXPECT_EQ(session.title(), "long");
-    EXPECT_EQ(session.fitted().options().axes, mobb::Axes::minarea);
+    EXPECT_EQ(session.workspace.title(), "long");
+    EXPECT_EQ(session.workspace.fitted().options().axes, mobb::Axes::minarea);
 }
 
 TEST(PutAside, AFileThatCannotBeLoadedLeavesTheCaseOpen) {
     AsideWorld w;
     w.open_case();
     w.nudge();
-    w.session.open({w.folder.write("broken.json", "{")});
+    w.session.files.open({w.folder.write("broken.json", "{")});
     w.window.settle();
-    EXPECT_EQ(w.session.open_case_name(), "one");
-    EXPECT_EQ(w.session.dialog, Dialog::none) << "nobody is asked for nothing";
-    EXPECT_TRUE(w.session.modified());
-    w.session.open({w.folder.file("walk.csv")});
-    EXPECT_EQ(w.session.dialog, Dialog::unsaved) << "the case's scene is lost";
-    w.session.answer_unsaved(Session::Unsaved::cancel);
-    EXPECT_EQ(w.session.open_case_name(), "one");
-    w.session.open({w.folder.file("walk.csv")});
-    w.session.answer_unsaved(Session::Unsaved::discard);
-    EXPECT_EQ(w.session.open_case_name(), "");
-    EXPECT_EQ(w.session.title(), "walk");
+    EXPECT_EQ(w.session.files.visited(), "one");
+    EXPECT_EQ(w.session.dialogs.now, Dialog::none) << "nobody is asked for nothing";
+    EXPECT_TRUE(w.session.workspace.modified());
+    w.session.files.open({w.folder.file("walk.csv")});
+    EXPECT_EQ(w.session.dialogs.now, Dialog::unsaved) << "the case's scene is lost";
+    w.session.files.answer_unsaved(Files::Unsaved::cancel);
+    EXPECT_EQ(w.session.files.visited(), "one");
+    w.session.files.open({w.folder.file("walk.csv")});
+    w.session.files.answer_unsaved(Files::Unsaved::discard);
+    EXPECT_EQ(w.session.files.visited(), "");
+    EXPECT_EQ(w.session.workspace.title(), "walk");
 }
 
 TEST(PutAside, AFileThatTakesThePlaceOfACaseAsksForWhatWasOpenBefore) {
     AsideWorld w;
     w.nudge();
     w.open_case();
-    w.session.open({w.folder.file("walk.csv")});
-    EXPECT_EQ(w.session.dialog, Dialog::unsaved);
-    EXPECT_EQ(w.session.title(), "scene.json");
-    EXPECT_TRUE(w.session.modified());
-    w.session.answer_unsaved(Session::Unsaved::discard);
-    EXPECT_EQ(w.session.title(), "walk");
+    w.session.files.open({w.folder.file("walk.csv")});
+    EXPECT_EQ(w.session.dialogs.now, Dialog::unsaved);
+    EXPECT_EQ(w.session.workspace.title(), "scene.json");
+    EXPECT_TRUE(w.session.workspace.modified());
+    w.session.files.answer_unsaved(Files::Unsaved::discard);
+    EXPECT_EQ(w.session.workspace.title(), "walk");
 }
 
 // --- what is dropped
@@ -234,16 +236,16 @@ TEST(PutAside, WhatIsDroppedOnPictureTestsIsOpenedOrNot) {
     AsideWorld w;
     w.nudge();
     w.review();
-    w.session.drop({w.folder.file("walk.csv")});
+    w.session.files.drop({w.folder.file("walk.csv")});
     w.window.settle();
-    ASSERT_EQ(w.session.dialog, Dialog::dropped);
-    EXPECT_FALSE(w.session.may_add());
+    ASSERT_EQ(w.session.dialogs.now, Dialog::dropped);
+    EXPECT_FALSE(w.session.files.may_add());
     const auto& marks = w.window.shell().marks().all();
     EXPECT_FALSE(marks.contains("dropped.add")) << "there is no scene in sight to add to";
     EXPECT_TRUE(marks.contains("dropped.open"));
-    w.session.close_dialog();
-    EXPECT_THROW(w.session.add({w.folder.file("walk.csv")}), InputError);
-    EXPECT_EQ(w.session.scene().clips.size(), 2u);
+    w.session.dialogs.close();
+    EXPECT_THROW(w.session.files.add({w.folder.file("walk.csv")}), InputError);
+    EXPECT_EQ(w.session.workspace.scene().clips.size(), 2u);
 }
 
 // --- import warnings
@@ -258,12 +260,12 @@ TEST(PutAside, FilesThatAreAddedInAJobSayWhatIsWrongWithThem) {
     folder.write("far.csv", far);
     for (const bool attended : {false, true}) {
         Session session(attended);
-        session.open({folder.scene});
+        session.files.open({folder.scene});
         wait_for_jobs(session);
-        session.add({folder.file("far.csv")});
+        session.files.add({folder.file("far.csv")});
         wait_for_jobs(session);
-        ASSERT_EQ(session.scene().clips.size(), 3u);
-        ASSERT_FALSE(session.scene().clips.back().facts.warnings.empty());
+        ASSERT_EQ(session.workspace.scene().clips.size(), 3u);
+        ASSERT_FALSE(session.workspace.scene().clips.back().facts.warnings.empty());
         EXPECT_NE(all_messages(session).find("far: "), std::string::npos) << attended << all_messages(session);
     }
 }
@@ -272,8 +274,8 @@ TEST(PutAside, FilesThatAreAddedInAJobSayWhatIsWrongWithThem) {
 
 TEST(PutAside, AnotherNameIsKnownInAllViewsAndWhereverItIsRemembered) {
     AsideWorld w;
-    w.session.split_view("UMOBB", {.tree = mobb::TreeKind::umobb, .leaf = 4});
-    w.session.link_cameras(false);
+    w.session.views.split("UMOBB", {.tree = mobb::TreeKind::umobb, .leaf = 4});
+    w.session.views.link_cameras(false);
     run_command(w.session, "view.other");
     run_command(w.session, "agents.hide", "C");
     run_command(w.session, "agents.pin", "A");
@@ -286,15 +288,15 @@ TEST(PutAside, AnotherNameIsKnownInAllViewsAndWhereverItIsRemembered) {
         run_command(w.session, "go.agent", from);
         run_command(w.session, "agent.rename", to);
     }
-    const ViewState other = w.session.view_at(1).view;
+    const ViewState other = w.session.views.at(1).view;
     EXPECT_EQ(other.hidden, AgentNames{"third"});
     EXPECT_EQ(other.pinned, AgentNames{"first"});
-    EXPECT_EQ(w.session.view().hidden, (AgentNames{"first", "third"}));
+    EXPECT_EQ(w.session.workspace.view().hidden, (AgentNames{"first", "third"}));
     run_command(w.session, "query.select", "0");
-    EXPECT_EQ(w.session.step(), 1) << "where it was left";
+    EXPECT_EQ(w.session.workspace.step(), 1) << "where it was left";
     run_command(w.session, "query.none");
     run_command(w.session, "agents.solo", "B");
-    EXPECT_TRUE(w.session.view().hidden.empty()) << "what was in the picture before";
+    EXPECT_TRUE(w.session.workspace.view().hidden.empty()) << "what was in the picture before";
 }
 
 // --- steps
@@ -303,9 +305,9 @@ struct SteppedWorld : AsideWorld {
     SteppedWorld() { run("query.select", "0"); }
     void run(const std::string& id, const std::string& argument = "") {
         run_command(session, id, argument);
-        session.close_group();
+        session.workspace.close_group();
     }
-    int last() const { return session.recorded()->trace.size() - 1; }
+    int last() const { return session.workspace.recorded()->trace.size() - 1; }
 };
 
 TEST(PutAside, ARenamedAgentLeavesNoStepsUnderItsOldName) {
@@ -314,7 +316,7 @@ TEST(PutAside, ARenamedAgentLeavesNoStepsUnderItsOldName) {
     run_command(w.session, "step.to", "3");
     run_command(w.session, "go.agent", "A");
     run_command(w.session, "agent.rename", "first");
-    for (const auto& [key, steps] : w.session.document().steps) EXPECT_NE(std::get<0>(key.first), "A");
+    for (const auto& [key, steps] : w.session.workspace.document().steps) EXPECT_NE(std::get<0>(key.first), "A");
 }
 
 TEST(Saving, AsksOnceMoreWhereAnotherProgramHasWrittenTheFile) {
@@ -323,21 +325,21 @@ TEST(Saving, AsksOnceMoreWhereAnotherProgramHasWrittenTheFile) {
     const std::string theirs = mobbscope::testing::slurp(w.folder.scene) + "\n";
     w.folder.write("scene.json", theirs);
     fs::last_write_time(w.folder.scene, fs::last_write_time(w.folder.scene) + std::chrono::seconds(2));
-    EXPECT_THROW(w.session.save(), InputError);
+    EXPECT_THROW(w.session.files.save(), InputError);
     EXPECT_EQ(mobbscope::testing::slurp(w.folder.scene), theirs);
-    EXPECT_TRUE(w.session.modified());
-    w.session.save();
-    EXPECT_FALSE(w.session.modified());
+    EXPECT_TRUE(w.session.workspace.modified());
+    w.session.files.save();
+    EXPECT_FALSE(w.session.workspace.modified());
     w.nudge();
-    w.session.save();
-    EXPECT_FALSE(w.session.modified()) << "what was saved here is no other program's";
+    w.session.files.save();
+    EXPECT_FALSE(w.session.workspace.modified()) << "what was saved here is no other program's";
 }
 
 TEST(Saving, SaysWhichFilesOfClipsAreGone) {
     AsideWorld w;
     w.nudge();
     fs::remove(w.folder.file("stand.csv"));
-    w.session.save();
+    w.session.files.save();
     EXPECT_NE(all_messages(w.session).find("stand.csv, which is not there any more"), std::string::npos);
 }
 
@@ -347,20 +349,20 @@ TEST(Steps, AreRememberedForEachKindOfTrees) {
     w.run("step.to", "2");
     const int of_mobb = w.last();
     w.run("tree.kind", "umobb");
-    EXPECT_NEAR(w.session.step(), 2.0 / of_mobb * w.last(), 1) << "as far on";
+    EXPECT_NEAR(w.session.workspace.step(), 2.0 / of_mobb * w.last(), 1) << "as far on";
     w.run("step.to", "3");
     w.run("tree.kind", "mobb");
-    EXPECT_EQ(w.session.step(), 2);
+    EXPECT_EQ(w.session.workspace.step(), 2);
     w.run("tree.kind", "umobb");
-    EXPECT_EQ(w.session.step(), 3);
+    EXPECT_EQ(w.session.workspace.step(), 3);
     w.run("query.none");
     w.run("tree.kind", "mobb");
     w.run("query.select", "0");
-    EXPECT_EQ(w.session.step(), 2) << "reopened with the other kind";
+    EXPECT_EQ(w.session.workspace.step(), 2) << "reopened with the other kind";
     w.run("query.none");
     w.run("tree.kind", "umobb");
     w.run("query.select", "0");
-    EXPECT_EQ(w.session.step(), 3);
+    EXPECT_EQ(w.session.workspace.step(), 3);
 }
 
 TEST(Steps, OneKeyGoesToAndFroBetweenTwo) {
@@ -368,30 +370,32 @@ TEST(Steps, OneKeyGoesToAndFroBetweenTwo) {
     w.run("step.first");
     for (int i = 0; i < 4; ++i) w.run("step.forward");
     w.run("step.before");
-    EXPECT_EQ(w.session.step(), 0) << "where the run began";
+    EXPECT_EQ(w.session.workspace.step(), 0) << "where the run began";
     w.run("step.before");
-    EXPECT_EQ(w.session.step(), 4);
+    EXPECT_EQ(w.session.workspace.step(), 4);
     w.run("step.forward");
     w.run("step.before");
-    EXPECT_EQ(w.session.step(), 4);
+    EXPECT_EQ(w.session.workspace.step(), 4);
     w.run("step.before");
     w.run("step.back");
-    EXPECT_EQ(w.session.step(), 4);
+    EXPECT_EQ(w.session.workspace.step(), 4);
     w.run("step.before");
-    EXPECT_EQ(w.session.step(), 5) << "a run that turned round: what was seen last";
+    EXPECT_EQ(w.session.workspace.step(), 5) << "a run that turned round: what was seen last";
 }
 
 TEST(Steps, ADragOverThemIsOneMove) {
     SteppedWorld w;
     w.run("step.to", "1");
     for (const int event : {2, 4, 3, 5}) {
-        w.session.change_view([&](ViewState& view) { view.step = {Step::Unit::event, static_cast<double>(event)}; });
+        w.session.workspace.change_view([&](ViewState& view) {
+            view.step = {Step::Unit::event, static_cast<double>(event)};
+        });
     }
-    w.session.close_group();
+    w.session.workspace.close_group();
     w.run("step.before");
-    EXPECT_EQ(w.session.step(), 1);
+    EXPECT_EQ(w.session.workspace.step(), 1);
     w.run("step.before");
-    EXPECT_EQ(w.session.step(), 5);
+    EXPECT_EQ(w.session.workspace.step(), 5);
 }
 
 TEST(Steps, TheKeyFlicksInTheWindow) {
@@ -405,11 +409,11 @@ TEST(Steps, TheKeyFlicksInTheWindow) {
     };
     press(Key::left, true);
     for (int i = 0; i < 3; ++i) press(Key::right);
-    const Camera camera = w.session.view().camera;
+    const Camera camera = w.session.workspace.view().camera;
     for (const int step : {0, 3, 0, 3}) {
         press(Key::j);
-        EXPECT_EQ(w.session.step(), step);
-        EXPECT_EQ(w.session.view().camera, camera);
+        EXPECT_EQ(w.session.workspace.step(), step);
+        EXPECT_EQ(w.session.workspace.view().camera, camera);
     }
 }
 
@@ -421,25 +425,25 @@ TEST(Steps, TheCameraThatFollowsTheTestAddsNoStates) {
     w.run("view.zoom", "6");
     w.run("view.pan", "900 0");
     w.window.settle();
-    const Camera first = w.session.view().camera;
+    const Camera first = w.session.workspace.view().camera;
     w.run("time.at", "0.5");
-    const std::size_t count = w.session.history().count();
+    const std::size_t count = w.session.workspace.history.count();
     w.run("step.last");
     w.window.settle();
-    const Camera last = w.session.view().camera;
+    const Camera last = w.session.workspace.view().camera;
     ASSERT_NE(last, first) << "the camera has followed";
-    EXPECT_EQ(w.session.history().count(), count + 1) << "with the step";
+    EXPECT_EQ(w.session.workspace.history.count(), count + 1) << "with the step";
     for (int i = 0; i < 2; ++i) {
-        w.session.undo();
+        w.session.edits.undo();
         w.window.settle();
-        EXPECT_EQ(w.session.view().camera, first);
-        EXPECT_EQ(w.session.step(), 0);
-        w.session.redo();
+        EXPECT_EQ(w.session.workspace.view().camera, first);
+        EXPECT_EQ(w.session.workspace.step(), 0);
+        w.session.edits.redo();
         w.window.settle();
-        EXPECT_EQ(w.session.view().camera, last);
-        EXPECT_EQ(w.session.history().count(), count + 1);
+        EXPECT_EQ(w.session.workspace.view().camera, last);
+        EXPECT_EQ(w.session.workspace.history.count(), count + 1);
     }
-    EXPECT_FALSE(w.session.history().can_redo());
+    EXPECT_FALSE(w.session.workspace.history.can_redo());
 }
 
 // --- the history as a list
@@ -447,7 +451,8 @@ TEST(Steps, TheCameraThatFollowsTheTestAddsNoStates) {
 /// What the history lists, the newest last.
 std::vector<std::string> titles(const Session& session) {
     std::vector<std::string> out;
-    for (std::size_t i = 1; i < session.history().count(); ++i) out.push_back(session.history().title(i));
+    for (std::size_t i = 1; i < session.workspace.history.count(); ++i)
+        out.push_back(session.workspace.history.title(i));
     return out;
 }
 
@@ -481,9 +486,9 @@ TEST(HistoryList, ANumberThatKeysChangeIsOneEntryWithItsValue) {
     step(1, Key::up, 1);
     using Titles = std::vector<std::string>;
     EXPECT_EQ(titles(w.session), (Titles{"moving A: x 0.50 m", "moving A: y -0.20 m", "moving A: x 0.60 m"}));
-    w.session.undo();
-    w.session.undo();
-    EXPECT_EQ(w.session.scene().agents[0].placement.translate, glm::dvec2(0.5, 0));
+    w.session.edits.undo();
+    w.session.edits.undo();
+    EXPECT_EQ(w.session.workspace.scene().agents[0].placement.translate, glm::dvec2(0.5, 0));
     w.press(Key::up);
     EXPECT_EQ(titles(w.session), (Titles{"moving A: x 0.50 m", "moving A: x 0.60 m"}))
         << "what was led back to stays as it was";
@@ -493,7 +498,7 @@ TEST(HistoryList, SaysWhatWasDoneWithItsValue) {
     ListedWorld w;
     const auto run = [&](const std::string& id, const std::string& argument = "") {
         run_command(w.session, id, argument);
-        w.session.close_group();
+        w.session.workspace.close_group();
     };
     run("go.agent", "A");
     run("agent.move", "1 2");
@@ -514,7 +519,7 @@ TEST(HistoryList, SaysWhatWasDoneWithItsValue) {
     run("time.at", "0.5");
     run("view.top");
     run("view.moment");
-    const std::string step = std::to_string(w.session.step());
+    const std::string step = std::to_string(w.session.workspace.step());
     EXPECT_EQ(titles(w.session),
               (std::vector<std::string>{
                   "moving A: x 1.00 m, y 2.00 m", "turning A: 30.0\u00B0", "shifting A: starts at 0.50 s",

@@ -50,22 +50,22 @@ struct ReviewWorld {
     TempFolder folder;
     ThreeCases files{folder.path()};
     Session session;
-    std::string clipboard;
+    testing::TestDesktop desktop;
     std::unique_ptr<HeadlessWindow> window;
 
     /// `attended`: runs go on beside the window.
     explicit ReviewWorld(bool attended = false) : session(attended) {
-        session.case_drawer.program = MOBBSCOPE_PROGRAM;
+        session.reviews.case_drawer.program = MOBBSCOPE_PROGRAM;
         session.settings.ui_scale = 1;
         window =
             std::make_unique<HeadlessWindow>(GlContext::open(Backend::automatic), session, PictureSize{1024, 700}, 1);
-        session.hooks.set_clipboard = [this](const std::string& text) { clipboard = text; };
+        session.desktop = &desktop;
     }
     /// Opens a scene of the person's own, and leaves a change in it that is not saved.
     fs::path edit_own_scene() {
         const fs::path own = files.path() / "own.json";
         std::ofstream(own) << walkers("5");
-        session.open({own});
+        session.files.open({own});
         run_command(session, "go.agent", "A");
         run_command(session, "agent.move", "2 2");
         return own;
@@ -75,7 +75,7 @@ struct ReviewWorld {
         window->settle();
     }
 
-    Review& review() { return *session.review(); }
+    Review& review() { return *session.reviews.review(); }
     const ReviewCase& one(const std::string& name) { return review().cases()[review().index_of(name)]; }
     void show(const std::string& name) {
         run_command(session, "review.show", name);
@@ -123,14 +123,14 @@ struct ReviewWorld {
     /// The lines that lie over the picture.
     std::vector<std::string> up() const {
         std::vector<std::string> out;
-        for (const Message& message : session.messages()) {
+        for (const Message& message : session.notifications.all()) {
             if (message.up) out.push_back(message.text);
         }
         return out;
     }
     std::string said() const {
         std::string out;
-        for (const Message& message : session.messages()) out += message.text + '\n';
+        for (const Message& message : session.notifications.all()) out += message.text + '\n';
         return out;
     }
 };
@@ -173,7 +173,7 @@ TEST(Review, ListsWhatCameOfEachCase) {
     ReviewWorld w;
     w.open();
     EXPECT_EQ(w.said(), "");
-    EXPECT_TRUE(w.session.reviewing());
+    EXPECT_TRUE(w.session.reviews.shown());
     EXPECT_EQ(outcome_name(w.one("same")), "passed");
     EXPECT_EQ(outcome_name(w.one("moved")), "different");
     EXPECT_EQ(outcome_name(w.one("missing")), "missing golden");
@@ -350,7 +350,7 @@ TEST(Review, NamesMayBeginAsOptionsDo) {
     EXPECT_EQ(outcome_name(w.one("same")), "passed");
     w.show("-moved");
     run_command(w.session, "review.copy_command");
-    EXPECT_EQ(w.clipboard, "mobbscope test -- " + w.files.cases().string() + " -moved");
+    EXPECT_EQ(w.desktop.text, "mobbscope test -- " + w.files.cases().string() + " -moved");
 }
 
 TEST(Review, WhatDoesNotGoWellIsAWarning) {
@@ -362,7 +362,7 @@ TEST(Review, WhatDoesNotGoWellIsAWarning) {
     w.key("Shift+A");
     EXPECT_TRUE(w.one("missing").accepted);
     EXPECT_FALSE(w.one("moved").accepted);
-    const std::vector<Message>& said = w.session.messages();
+    const std::vector<Message>& said = w.session.notifications.all();
     const auto level_of = [&](const std::string& part) {
         const auto at = std::ranges::find_if(said, [&](const Message& m) { return m.text.find(part) < m.text.size(); });
         return at == said.end() ? std::optional<MessageLevel>() : at->level;
@@ -394,7 +394,7 @@ TEST(Review, SeveralOfAnEarlierRunAreOneStep) {
     const fs::path out = w.files.path() / "out";
     const std::string picture = w.files.bytes("moved.png");
     ThreeCases::run("test '" + w.files.cases().string() + "' --output '" + out.string() + "'");
-    w.session.review(w.files.cases(), out);
+    w.session.reviews.open(w.files.cases(), out);
     w.show("missing");
     w.key("R");
     ASSERT_FALSE(w.one("missing").from_output);
@@ -478,9 +478,7 @@ TEST(Review, NobodyIsWokenOnceItHasEnded) {
 TEST(Review, AllWorkEndsWithTheWindow) {
     ReviewWorld w(true);
     const HeldDrawer drawer(w.files);
-    w.session.case_drawer.program = drawer.program();
-    std::atomic<int> wakes = 0;
-    w.session.hooks.wake = [&] { ++wakes; };
+    w.session.reviews.case_drawer.program = drawer.program();
     w.open();
     // Who looks into a file is about to wake the window, and does so for a while.
     std::latch wakes_now(1);
@@ -490,8 +488,8 @@ TEST(Review, AllWorkEndsWithTheWindow) {
         woke.wait();
     };
     const fs::path file = w.files.file("same.json");
-    w.session.preview.ask(file, 0, false, wake);
-    w.session.preview.ask(file, 1, false, wake);
+    w.session.dialogs.preview.ask(file, 0, false, wake);
+    w.session.dialogs.preview.ask(file, 1, false, wake);
     wakes_now.wait();
     std::atomic<bool> ended = false;
     std::jthread window([&] {
@@ -502,31 +500,32 @@ TEST(Review, AllWorkEndsWithTheWindow) {
     EXPECT_FALSE(ended) << "the window may go, and somebody still wakes it";
     woke.count_down();
     window.join();
-    const int before = wakes;
+    const int before = w.desktop.wakes;
     EXPECT_FALSE(w.review().drawing());
     for (int i = 0; i < 500 && Job::any_left(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     EXPECT_FALSE(Job::any_left()) << "somebody still holds one";
-    EXPECT_EQ(wakes, before);
+    EXPECT_EQ(w.desktop.wakes, before);
 }
 
 TEST(Review, ARunIsShownAndStoppedWhereTheSceneIsShownToo) {
     ReviewWorld w(true);
     const HeldDrawer drawer(w.files);
-    w.session.case_drawer.program = drawer.program();
+    w.session.reviews.case_drawer.program = drawer.program();
     w.open();
     EXPECT_TRUE(w.window->shell().marks().all().contains("job.0"));
     w.key("Escape");
-    ASSERT_FALSE(w.session.reviewing());
+    ASSERT_FALSE(w.session.reviews.shown());
     ASSERT_TRUE(w.review().drawing());
-    ASSERT_EQ(w.session.messages().size(), 1u);
-    EXPECT_EQ(w.session.messages().front().offer->command, "review.back") << "who left by mistake sees the way back";
+    ASSERT_EQ(w.session.notifications.all().size(), 1u);
+    EXPECT_EQ(w.session.notifications.all().front().offer->command, "review.back")
+        << "who left by mistake sees the way back";
     w.click("job.0.cancel");
     EXPECT_FALSE(w.review().drawing());
     EXPECT_FALSE(w.window->shell().marks().all().contains("job.0"));
-    EXPECT_EQ(w.session.messages().back().text, "Cancelled");
+    EXPECT_EQ(w.session.notifications.all().back().text, "Cancelled");
     run_command(w.session, "review.back");
     run_command(w.session, "review.draw_all");
-    w.session.clear_messages();
+    w.session.notifications.clear();
     run_command(w.session, "review.cancel");
     EXPECT_EQ(w.said(), "Cancelled\n");
 }
@@ -544,7 +543,7 @@ TEST(Review, BeginsAtTheFirstThatFails) {
     EXPECT_EQ(w.review().shown().file.name, "a");
     w.open();
     EXPECT_EQ(w.review().shown().file.name, "a");
-    w.session.review(w.files.cases() / ".");
+    w.session.reviews.open(w.files.cases() / ".");
     EXPECT_EQ(w.review().shown().file.name, "missing") << "of another folder";
 }
 
@@ -567,15 +566,15 @@ TEST(Review, ACaseThatNobodyChoseIsNotWhereItBeginsAgain) {
 
 TEST(Review, WarningsOfAnotherFolderAreOver) {
     ReviewWorld w;
-    w.session.tell(MessageLevel::warning, "of the scene before");
-    ASSERT_EQ(w.session.unread(), 1u);
+    w.session.notifications.tell(MessageLevel::warning, "of the scene before");
+    ASSERT_EQ(w.session.notifications.unread(), 1u);
     w.open();
-    EXPECT_EQ(w.session.unread(), 0u);
-    EXPECT_FALSE(w.session.has_message_up());
-    w.session.tell(MessageLevel::warning, "of the picture tests");
+    EXPECT_EQ(w.session.notifications.unread(), 0u);
+    EXPECT_FALSE(w.session.notifications.has_up());
+    w.session.notifications.tell(MessageLevel::warning, "of the picture tests");
     run_command(w.session, "file.demo");
     w.window->settle();
-    EXPECT_EQ(w.session.unread(), 0u);
+    EXPECT_EQ(w.session.notifications.unread(), 0u);
     EXPECT_NE(w.said().find("of the picture tests"), std::string::npos) << "the list keeps it";
 }
 
@@ -590,7 +589,7 @@ TEST(Review, EscapePutsTheSliderBack) {
     ASSERT_LT(w.review().look.divider, 0.45);
     w.key("Escape");
     EXPECT_EQ(w.review().look.divider, 0.5);
-    EXPECT_TRUE(w.session.reviewing()) << "the key does one thing";
+    EXPECT_TRUE(w.session.reviews.shown()) << "the key does one thing";
     w.move(w.middle("review.divider") - glm::vec2(30, 0));
     w.button(false);
     EXPECT_EQ(w.review().look.divider, 0.5);
@@ -600,17 +599,17 @@ TEST(Review, TheListIsGoneThroughByKeys) {
     ReviewWorld w;
     w.open();
     ASSERT_EQ(w.review().shown().file.name, "missing");
-    for (int i = 0; i < 10 && w.session.focus != "case.missing"; ++i) w.key("Tab");
-    ASSERT_EQ(w.session.focus, "case.missing") << "it begins with the case that is shown";
+    for (int i = 0; i < 10 && w.session.keys.focus != "case.missing"; ++i) w.key("Tab");
+    ASSERT_EQ(w.session.keys.focus, "case.missing") << "it begins with the case that is shown";
     w.key("End");
-    EXPECT_EQ(w.session.focus, "case.same");
+    EXPECT_EQ(w.session.keys.focus, "case.same");
     EXPECT_EQ(w.review().shown().file.name, "missing") << "it is shown once it is chosen";
     w.key("Enter");
     EXPECT_EQ(w.review().shown().file.name, "same");
     w.key("Up");
-    EXPECT_EQ(w.session.focus, "case.moved");
+    EXPECT_EQ(w.session.keys.focus, "case.moved");
     w.key("Home");
-    EXPECT_EQ(w.session.focus, "case.missing");
+    EXPECT_EQ(w.session.keys.focus, "case.missing");
 }
 
 TEST(Review, FilesDroppedOnItAreOpenedNotAdded) {
@@ -620,15 +619,15 @@ TEST(Review, FilesDroppedOnItAreOpenedNotAdded) {
     w.open();
     w.window->shell().feed(Drop{{own}});
     w.window->settle();
-    ASSERT_EQ(w.session.dialog, Dialog::dropped);
+    ASSERT_EQ(w.session.dialogs.now, Dialog::dropped);
     EXPECT_FALSE(w.window->shell().marks().all().contains("dropped.add"));
     w.key("Escape");
-    EXPECT_TRUE(w.session.reviewing());
+    EXPECT_TRUE(w.session.reviews.shown());
     w.window->shell().feed(Drop{{own}});
     w.window->settle();
     w.key("Enter");
-    EXPECT_FALSE(w.session.reviewing());
-    EXPECT_EQ(w.session.file(), own);
+    EXPECT_FALSE(w.session.reviews.shown());
+    EXPECT_EQ(w.session.workspace.file, own);
     EXPECT_EQ(w.said(), "");
 }
 
@@ -790,29 +789,29 @@ TEST(Review, TheWheelKeepsThePixelUnderTheMouse) {
 TEST(Review, ACaseOpensAsASceneAndWhatWasOpenIsBack) {
     ReviewWorld w;
     const fs::path own = w.edit_own_scene();
-    ASSERT_TRUE(w.session.modified());
-    const auto before = w.session.document().fitted;
+    ASSERT_TRUE(w.session.workspace.modified());
+    const auto before = w.session.workspace.document().fitted;
     w.open();
     w.show("moved");
     w.key("Enter");
     EXPECT_EQ(w.said(), "");
-    EXPECT_FALSE(w.session.reviewing());
-    EXPECT_EQ(w.session.open_case_name(), "moved");
-    EXPECT_EQ(w.session.scene().agents[1].placement.translate.x, 1.3);
-    EXPECT_EQ(w.session.view().camera.distance, 8) << "as the case sees it";
+    EXPECT_FALSE(w.session.reviews.shown());
+    EXPECT_EQ(w.session.files.visited(), "moved");
+    EXPECT_EQ(w.session.workspace.scene().agents[1].placement.translate.x, 1.3);
+    EXPECT_EQ(w.session.workspace.view().camera.distance, 8) << "as the case sees it";
     w.click("review.back");
-    EXPECT_TRUE(w.session.reviewing());
+    EXPECT_TRUE(w.session.reviews.shown());
     EXPECT_EQ(w.review().shown().file.name, "moved");
     EXPECT_EQ(outcome_name(w.one("moved")), "different") << "results stay";
     w.key("Escape");
-    EXPECT_FALSE(w.session.reviewing());
-    EXPECT_EQ(w.session.document().fitted, before);
-    EXPECT_TRUE(w.session.modified());
-    EXPECT_EQ(w.session.file(), own);
+    EXPECT_FALSE(w.session.reviews.shown());
+    EXPECT_EQ(w.session.workspace.document().fitted, before);
+    EXPECT_TRUE(w.session.workspace.modified());
+    EXPECT_EQ(w.session.workspace.file, own);
     w.key("Ctrl+Z");
-    EXPECT_FALSE(w.session.modified()) << "with its past";
+    EXPECT_FALSE(w.session.workspace.modified()) << "with its past";
     w.key("Ctrl+R");
-    EXPECT_TRUE(w.session.reviewing());
+    EXPECT_TRUE(w.session.reviews.shown());
 }
 
 TEST(Review, TheScenesCommandsAreNotForPictureTests) {
@@ -831,10 +830,10 @@ TEST(Review, AReportsGoldensAreTakenByteByByteAndDrawNothing) {
         "test '" + w.files.cases().string() + "' --output '" + out.string() + "' --html '" + page;
     EXPECT_NE(ThreeCases::run(command + "'"), 0);
     const std::string before = w.files.bytes("moved.png");
-    w.session.case_drawer.program = w.files.file("none");
+    w.session.reviews.case_drawer.program = w.files.file("none");
     w.files.write("moved.json", walkers("1.6"));
     for (const fs::path& report : {out, fs::path(page)}) {
-        w.session.review(w.files.cases(), report);
+        w.session.reviews.open(w.files.cases(), report);
         w.window->settle();
         EXPECT_EQ(outcome_name(w.one("moved")), "different");
         EXPECT_TRUE(w.one("moved").from_output);
@@ -860,7 +859,7 @@ TEST(Review, OfADamagedReportNothingIsTaken) {
         }
     }
     write_file(out / "report.json", report.dump());
-    w.session.review(w.files.cases(), out);
+    w.session.reviews.open(w.files.cases(), out);
     w.show("moved");
     w.key("A");
     EXPECT_FALSE(w.one("moved").accepted);
@@ -900,9 +899,9 @@ TEST(Review, BadInputIsOneLine) {
     ReviewWorld w;
     const std::string empty = (w.files.path() / "empty").string();
     fs::create_directory(empty);
-    EXPECT_EQ(mobbscope::testing::input_error([&] { w.session.review(empty); }),
+    EXPECT_EQ(mobbscope::testing::input_error([&] { w.session.reviews.open(empty); }),
               empty + ": holds no case; a case is a file NAME.case.json");
-    EXPECT_FALSE(w.session.reviewing());
+    EXPECT_FALSE(w.session.reviews.shown());
     EXPECT_NE(ThreeCases::run("review '" + empty + "'"), 0);
     w.files.write("missing.case.json", "{");
     w.open();
@@ -921,7 +920,7 @@ TEST(Review, EveryCommandIsTried) {
     run_command(w.session, "review.mark");
     EXPECT_TRUE(w.one("missing").marked);
     run_command(w.session, "review.copy_command");
-    EXPECT_EQ(w.clipboard, "mobbscope test " + w.files.cases().string() + " missing");
+    EXPECT_EQ(w.desktop.text, "mobbscope test " + w.files.cases().string() + " missing");
     run_command(w.session, "review.draw_all");
     EXPECT_EQ(w.review().summary().bad(), 2);
     run_command(w.session, "review.side");

@@ -22,13 +22,13 @@ struct Edited {
     Session session{false};
 
     Edited() {
-        session.open({folder.scene});
+        session.files.open({folder.scene});
         move(4);
     }
     void move(double x) {
-        session.edit({"moving A", "drag A"}, [&](Scene& scene) { place_agent(scene, 0, {{x, 0}, 0, 0}); });
+        session.workspace.edit({"moving A", "drag A"}, [&](Scene& scene) { place_agent(scene, 0, {{x, 0}, 0, 0}); });
     }
-    double x() const { return session.scene().agents[0].placement.translate.x; }
+    double x() const { return session.workspace.scene().agents[0].placement.translate.x; }
 };
 
 /// A scene whose tightest trees take long.
@@ -47,22 +47,22 @@ TEST(Undo, OneInteractionIsTakenBackAtOnce) {
     Edited e;
     e.move(5);
     e.move(6);
-    e.session.undo();
+    e.session.edits.undo();
     EXPECT_EQ(e.x(), 0);
-    EXPECT_FALSE(e.session.history().can_undo());
-    e.session.redo();
+    EXPECT_FALSE(e.session.workspace.history.can_undo());
+    e.session.edits.redo();
     EXPECT_EQ(e.x(), 6);
 }
 
 TEST(Undo, InteractionsThatEndedStandApart) {
     Edited e;
-    e.session.close_group();
+    e.session.workspace.close_group();
     e.move(5);
-    e.session.undo();
+    e.session.edits.undo();
     EXPECT_EQ(e.x(), 4);
     e.move(7);
-    EXPECT_FALSE(e.session.history().can_redo()) << "what was undone is forgotten by another edit";
-    e.session.undo();
+    EXPECT_FALSE(e.session.workspace.history.can_redo()) << "what was undone is forgotten by another edit";
+    e.session.edits.undo();
     EXPECT_EQ(e.x(), 4) << "an edit after an undo is its own";
 }
 
@@ -70,111 +70,112 @@ TEST(Undo, LookingAroundIsOneStepOfItsKindAndCostsNoRedo) {
     Edited e;
     run_command(e.session, "view.top");
     run_command(e.session, "view.side");
-    e.session.undo();
-    EXPECT_EQ(e.session.view().camera.preset, CameraPreset::iso);
-    EXPECT_TRUE(e.session.view().floor);
+    e.session.edits.undo();
+    EXPECT_EQ(e.session.workspace.view().camera.preset, CameraPreset::iso);
+    EXPECT_TRUE(e.session.workspace.view().floor);
     EXPECT_EQ(e.x(), 4);
-    e.session.undo();
+    e.session.edits.undo();
     run_command(e.session, "view.front");
-    EXPECT_TRUE(e.session.history().can_redo());
-    e.session.redo();
+    EXPECT_TRUE(e.session.workspace.history.can_redo());
+    e.session.edits.redo();
     EXPECT_EQ(e.x(), 4);
 }
 
 TEST(Undo, GoesBackFiveHundredStatesAtMost) {
     Edited e;
     for (int i = 0; i < 600; ++i) {
-        e.session.close_group();
+        e.session.workspace.close_group();
         e.move(10 + i);
     }
     int undone = 0;
-    for (; e.session.history().can_undo(); ++undone) e.session.undo();
+    for (; e.session.workspace.history.can_undo(); ++undone) e.session.edits.undo();
     EXPECT_EQ(undone, 499);
     EXPECT_EQ(e.x(), 10 + 599 - 499);
 }
 
 TEST(Undo, LookingAroundAfterAnUndoIsTakenBackToo) {
     Edited e;
-    const ViewState start = e.session.view();
+    const ViewState start = e.session.workspace.view();
     run_command(e.session, "view.boxes");
-    const ViewState end = e.session.view();
-    e.session.undo();
-    e.session.undo();
+    const ViewState end = e.session.workspace.view();
+    e.session.edits.undo();
+    e.session.edits.undo();
     run_command(e.session, "view.top");
-    e.session.undo();
-    EXPECT_EQ(e.session.view(), start) << "what cannot be taken back further is as it was";
-    EXPECT_FALSE(e.session.history().can_undo());
-    while (e.session.history().can_redo()) e.session.redo();
-    EXPECT_EQ(e.session.view(), end);
+    e.session.edits.undo();
+    EXPECT_EQ(e.session.workspace.view(), start) << "what cannot be taken back further is as it was";
+    EXPECT_FALSE(e.session.workspace.history.can_undo());
+    while (e.session.workspace.history.can_redo()) e.session.edits.redo();
+    EXPECT_EQ(e.session.workspace.view(), end);
     EXPECT_EQ(e.x(), 4);
 }
 
 TEST(Undo, WhatPlaysIsOneStepAndSoIsADragMeanwhile) {
     Edited e;
-    e.session.close_group();
-    const std::size_t before = e.session.history().count();
+    e.session.workspace.close_group();
+    const std::size_t before = e.session.workspace.history.count();
     run_command(e.session, "time.play");
     for (int i = 0; i < 20; ++i) {
-        e.session.advance(0.01);
+        e.session.playback.advance(0.01);
         e.move(5 + i);
     }
-    e.session.close_group();
+    e.session.workspace.close_group();
     for (int i = 0; i < 20; ++i) {
-        e.session.advance(0.01);
-        e.session.change_view([&](ViewState& view) { view.camera.yaw_deg = i; });
+        e.session.playback.advance(0.01);
+        e.session.workspace.change_view([&](ViewState& view) { view.camera.yaw_deg = i; });
     }
-    EXPECT_NEAR(*e.session.view().time, 0.4, 1e-9);
-    EXPECT_EQ(e.session.history().count(), before + 3);
-    e.session.undo();
+    EXPECT_NEAR(*e.session.workspace.view().time, 0.4, 1e-9);
+    EXPECT_EQ(e.session.workspace.history.count(), before + 3);
+    e.session.edits.undo();
     EXPECT_EQ(e.x(), 24);
-    EXPECT_EQ(e.session.history().undo_title(), "moving A");
-    e.session.undo();
+    EXPECT_EQ(e.session.workspace.history.undo_title(), "moving A");
+    e.session.edits.undo();
     EXPECT_EQ(e.x(), 4);
-    EXPECT_EQ(e.session.history().undo_title(), "playing");
-    e.session.undo();
-    EXPECT_EQ(e.session.view().time, std::nullopt);
+    EXPECT_EQ(e.session.workspace.history.undo_title(), "playing");
+    e.session.edits.undo();
+    EXPECT_EQ(e.session.workspace.view().time, std::nullopt);
 }
 
 TEST(Undo, StopsWhatPlays) {
     Edited e;
     run_command(e.session, "time.play");
-    e.session.advance(0.1);
-    e.session.undo();
-    EXPECT_FALSE(e.session.playing());
-    e.session.redo();
-    EXPECT_EQ(e.session.view().time, 0.1);
+    e.session.playback.advance(0.1);
+    e.session.edits.undo();
+    EXPECT_FALSE(e.session.playback.playing());
+    e.session.edits.redo();
+    EXPECT_EQ(e.session.workspace.view().time, 0.1);
     run_command(e.session, "time.play");
-    e.session.undo();
-    e.session.redo();
-    EXPECT_FALSE(e.session.playing());
+    e.session.edits.undo();
+    e.session.edits.redo();
+    EXPECT_FALSE(e.session.playback.playing());
 }
 
 TEST(Undo, WhatStandsStillWhilePlayingIsNoStep) {
     Edited e;
     run_command(e.session, "time.at", "0.5");
     run_command(e.session, "view.top");
-    e.session.speed = 0;
+    e.session.playback.speed = 0;
     run_command(e.session, "time.play");
-    const std::size_t before = e.session.history().count();
-    for (int i = 0; i < 3; ++i) e.session.advance(0.1);
-    EXPECT_EQ(e.session.history().count(), before);
-    e.session.speed = 1;
-    for (int i = 0; i < 3; ++i) e.session.advance(0.1);
-    EXPECT_EQ(e.session.history().count(), before + 1);
+    const std::size_t before = e.session.workspace.history.count();
+    for (int i = 0; i < 3; ++i) e.session.playback.advance(0.1);
+    EXPECT_EQ(e.session.workspace.history.count(), before);
+    e.session.playback.speed = 1;
+    for (int i = 0; i < 3; ++i) e.session.playback.advance(0.1);
+    EXPECT_EQ(e.session.workspace.history.count(), before + 1);
 }
 
 TEST(Undo, ForgetsTheOldestOfWhatTakesTooMuchMemory) {
     CrossingFolder folder;
     Session session(false);
-    session.open({long_walk(folder)});
+    session.files.open({long_walk(folder)});
     const auto fitted_with = [&](int leaf) {
-        Scene scene = session.scene();
+        Scene scene = session.workspace.scene();
         scene.fit.leaf = leaf;
         const mobb::FitOptions fit = scene.fit;
-        return Document{std::make_shared<const FittedScene>(std::move(scene), fit, session.document().fitted.get()),
-                        session.view()};
+        return Document{
+            std::make_shared<const FittedScene>(std::move(scene), fit, session.workspace.document().fitted.get()),
+            session.workspace.view()};
     };
-    const Document start = session.document();
+    const Document start = session.workspace.document();
     const std::size_t each = fitted_with(20).fitted->bytes_beyond(*start.fitted);
     History history(start, 3 * each);
     for (int i = 0; i < 10; ++i) {
@@ -195,49 +196,50 @@ TEST(Undo, ForgetsTheOldestOfWhatTakesTooMuchMemory) {
 TEST(Undo, OneDragOfAFitOptionIsOneEdit) {
     Edited e;
     for (const char* scale : {"1.5", "1.6", "1.7"}) run_command(e.session, "tree.time_scale", scale);
-    e.session.undo();
-    EXPECT_EQ(e.session.scene().fit.time_scale, 1);
+    e.session.edits.undo();
+    EXPECT_EQ(e.session.workspace.scene().fit.time_scale, 1);
     EXPECT_EQ(e.x(), 4);
 }
 
 TEST(Undo, AFailedEditChangesNothing) {
     Edited e;
-    const auto before = e.session.document().fitted;
-    EXPECT_THROW(e.session.refit({"leaf", ""}, [](mobb::FitOptions& fit) { fit.leaf = 0; }), std::invalid_argument);
-    EXPECT_EQ(e.session.document().fitted, before);
-    EXPECT_TRUE(e.session.history().can_undo());
+    const auto before = e.session.workspace.document().fitted;
+    EXPECT_THROW(e.session.edits.refit({"leaf", ""}, [](mobb::FitOptions& fit) { fit.leaf = 0; }),
+                 std::invalid_argument);
+    EXPECT_EQ(e.session.workspace.document().fitted, before);
+    EXPECT_TRUE(e.session.workspace.history.can_undo());
 }
 
 TEST(Session, UndoTakesBackOneKindOfLookingAtATime) {
     CrossingFolder folder;
     Session session(false);
-    session.open({folder.scene});
-    const Camera camera = session.view().camera;
-    session.change_view([](ViewState& view) { view.query = 0; });
-    session.change_view([](ViewState& view) { view.step = {Step::Unit::event, 3}; });
-    session.change_view([](ViewState& view) { view.step = {Step::Unit::event, 5}; });
-    session.change_view([](ViewState& view) { view.camera.preset = CameraPreset::top; });
-    session.change_view([](ViewState& view) { view.camera.preset = CameraPreset::side; });
-    session.undo();
-    EXPECT_EQ(session.view().camera, camera);
-    EXPECT_EQ(session.view().step.value, 5) << "the steps are another matter";
-    session.undo();
-    EXPECT_EQ(session.view().step, Step{});
-    EXPECT_EQ(session.view().query, 0);
-    session.undo();
-    EXPECT_EQ(session.view().query, std::nullopt);
-    EXPECT_FALSE(session.history().can_undo());
+    session.files.open({folder.scene});
+    const Camera camera = session.workspace.view().camera;
+    session.workspace.change_view([](ViewState& view) { view.query = 0; });
+    session.workspace.change_view([](ViewState& view) { view.step = {Step::Unit::event, 3}; });
+    session.workspace.change_view([](ViewState& view) { view.step = {Step::Unit::event, 5}; });
+    session.workspace.change_view([](ViewState& view) { view.camera.preset = CameraPreset::top; });
+    session.workspace.change_view([](ViewState& view) { view.camera.preset = CameraPreset::side; });
+    session.edits.undo();
+    EXPECT_EQ(session.workspace.view().camera, camera);
+    EXPECT_EQ(session.workspace.view().step.value, 5) << "the steps are another matter";
+    session.edits.undo();
+    EXPECT_EQ(session.workspace.view().step, Step{});
+    EXPECT_EQ(session.workspace.view().query, 0);
+    session.edits.undo();
+    EXPECT_EQ(session.workspace.view().query, std::nullopt);
+    EXPECT_FALSE(session.workspace.history.can_undo());
 }
 
 TEST(Session, AFileThatIsNotThereAsksNothing) {
     CrossingFolder folder;
     Session session(false);
-    session.open({folder.scene});
-    session.edit({"moving A", ""}, [](Scene& scene) { place_agent(scene, 0, {{1, 1}, 0, 0}); });
-    session.open({folder.file("none.csv")});
-    EXPECT_EQ(session.dialog, Dialog::none);
-    ASSERT_EQ(session.messages().size(), 1u);
-    EXPECT_NE(session.messages()[0].text.find("no such file"), std::string::npos);
+    session.files.open({folder.scene});
+    session.workspace.edit({"moving A", ""}, [](Scene& scene) { place_agent(scene, 0, {{1, 1}, 0, 0}); });
+    session.files.open({folder.file("none.csv")});
+    EXPECT_EQ(session.dialogs.now, Dialog::none);
+    ASSERT_EQ(session.notifications.all().size(), 1u);
+    EXPECT_NE(session.notifications.all()[0].text.find("no such file"), std::string::npos);
 }
 
 // --- opening
@@ -245,49 +247,49 @@ TEST(Session, AFileThatIsNotThereAsksNothing) {
 TEST(Opening, ErrorsKeepWhatWasOpen) {
     CrossingFolder folder;
     Session session(false);
-    session.open({folder.scene});
-    const auto before = session.document().fitted;
+    session.files.open({folder.scene});
+    const auto before = session.workspace.document().fitted;
     const std::filesystem::path broken = folder.write("broken.json", "{");
     for (const auto& file : {broken, folder.file("none.csv"), folder.file("scene.txt")}) {
         SCOPED_TRACE(file);
-        session.open({file});
-        EXPECT_EQ(session.document().fitted, before);
-        EXPECT_EQ(session.file(), folder.scene);
-        ASSERT_FALSE(session.messages().empty());
-        EXPECT_EQ(session.messages().back().level, MessageLevel::error);
-        EXPECT_NE(session.messages().back().text.find(file.filename().string()), std::string::npos);
-        session.add({file});
-        EXPECT_EQ(session.document().fitted, before);
+        session.files.open({file});
+        EXPECT_EQ(session.workspace.document().fitted, before);
+        EXPECT_EQ(session.workspace.file, folder.scene);
+        ASSERT_FALSE(session.notifications.all().empty());
+        EXPECT_EQ(session.notifications.all().back().level, MessageLevel::error);
+        EXPECT_NE(session.notifications.all().back().text.find(file.filename().string()), std::string::npos);
+        session.files.add({file});
+        EXPECT_EQ(session.workspace.document().fitted, before);
     }
 }
 
 TEST(Opening, SeveralFilesAndFoldersBecomeOneScene) {
     CrossingFolder folder;
     Session session(false);
-    session.open({folder.file("walk.csv"), folder.file("stand.csv")});
-    EXPECT_EQ(session.scene().clips.size(), 2u);
-    EXPECT_FALSE(session.file()) << "clips have no scene to save to";
-    session.open({folder.scene.parent_path()});
-    EXPECT_EQ(session.scene().clips.size(), 2u) << "a folder stands for its clips, not for its scenes";
-    EXPECT_TRUE(session.scene().agents.empty());
-    session.open({folder.file("stand.csv"), folder.scene});
-    EXPECT_EQ(session.scene().clips.size(), 3u);
-    EXPECT_EQ(session.scene().agents.size(), 4u) << "bare clips become agents next to agents";
-    EXPECT_EQ(session.file(), folder.scene);
-    session.open({folder.file("stand.csv"), folder.file("walk.csv")});
+    session.files.open({folder.file("walk.csv"), folder.file("stand.csv")});
+    EXPECT_EQ(session.workspace.scene().clips.size(), 2u);
+    EXPECT_FALSE(session.workspace.file) << "clips have no scene to save to";
+    session.files.open({folder.scene.parent_path()});
+    EXPECT_EQ(session.workspace.scene().clips.size(), 2u) << "a folder stands for its clips, not for its scenes";
+    EXPECT_TRUE(session.workspace.scene().agents.empty());
+    session.files.open({folder.file("stand.csv"), folder.scene});
+    EXPECT_EQ(session.workspace.scene().clips.size(), 3u);
+    EXPECT_EQ(session.workspace.scene().agents.size(), 4u) << "bare clips become agents next to agents";
+    EXPECT_EQ(session.workspace.file, folder.scene);
+    session.files.open({folder.file("stand.csv"), folder.file("walk.csv")});
     run_command(session, "file.reload");
-    EXPECT_EQ(session.scene().clips.size(), 2u) << "all that was opened is read again";
+    EXPECT_EQ(session.workspace.scene().clips.size(), 2u) << "all that was opened is read again";
     EXPECT_EQ(all_messages(session), "");
 }
 
 TEST(Opening, OnlyWhatCouldBeOpenedIsRemembered) {
     CrossingFolder folder;
     Session session(true);
-    session.open({folder.file("none.csv")});
-    while (session.job()) session.poll();
+    session.files.open({folder.file("none.csv")});
+    while (session.jobs.job()) session.poll();
     EXPECT_TRUE(session.settings.recent.empty());
-    session.open({folder.scene});
-    while (session.job()) session.poll();
+    session.files.open({folder.scene});
+    while (session.jobs.job()) session.poll();
     EXPECT_EQ(session.settings.recent, std::vector{folder.scene});
 }
 
@@ -295,15 +297,15 @@ TEST(Opening, AllThatWasOpenedBecomesRecent) {
     CrossingFolder folder;
     Session session(true);
     const auto done = [&] {
-        while (session.job()) session.poll();
+        while (session.jobs.job()) session.poll();
     };
-    session.open({folder.file("walk.csv"), folder.file("stand.csv")});
+    session.files.open({folder.file("walk.csv"), folder.file("stand.csv")});
     done();
     EXPECT_EQ(session.settings.recent, (std::vector{folder.file("walk.csv"), folder.file("stand.csv")}));
-    session.add({folder.scene});
+    session.files.add({folder.scene});
     done();
     EXPECT_EQ(session.settings.recent.front(), folder.scene);
-    session.save_as(folder.file("mine.json"));
+    session.files.save_as(folder.file("mine.json"));
     EXPECT_EQ(session.settings.recent.front(), folder.file("mine.json"));
     EXPECT_EQ(session.settings.folder, folder.scene.parent_path());
 }
@@ -313,63 +315,63 @@ TEST(Opening, TheLastSessionIsOpenedAgainAsItWasSeen) {
     Settings kept;
     {
         Session session(true);
-        EXPECT_FALSE(session.has_last());
-        session.open({folder.scene});
-        while (session.job()) session.poll();
-        session.change_view([](ViewState& view) {
+        EXPECT_FALSE(session.files.has_last());
+        session.files.open({folder.scene});
+        while (session.jobs.job()) session.poll();
+        session.workspace.change_view([](ViewState& view) {
             view.query = 1;
             view.camera.preset = CameraPreset::top;
         });
-        session.note_session();
+        session.files.note_session();
         kept = session.settings;
     }
     Session next(true, kept);
-    ASSERT_TRUE(next.has_last());
-    EXPECT_EQ(next.last_title(), "scene.json");
+    ASSERT_TRUE(next.files.has_last());
+    EXPECT_EQ(next.files.last_title(), "scene.json");
     run_command(next, "file.reopen_last");
-    while (next.job()) next.poll();
-    EXPECT_EQ(next.title(), "scene.json");
-    EXPECT_EQ(next.view().query, 1);
-    EXPECT_EQ(next.view().camera.preset, CameraPreset::top);
-    EXPECT_EQ(next.scene().view, ViewState{}) << "the file says nothing of it";
+    while (next.jobs.job()) next.poll();
+    EXPECT_EQ(next.workspace.title(), "scene.json");
+    EXPECT_EQ(next.workspace.view().query, 1);
+    EXPECT_EQ(next.workspace.view().camera.preset, CameraPreset::top);
+    EXPECT_EQ(next.workspace.scene().view, ViewState{}) << "the file says nothing of it";
     std::filesystem::remove(folder.scene);
-    EXPECT_FALSE(Session(true, kept).has_last()) << "what is gone is not offered";
+    EXPECT_FALSE(Session(true, kept).files.has_last()) << "what is gone is not offered";
 }
 
 TEST(Opening, TheThemeOfThePersonIsThatOfScenesThatSayNone) {
     CrossingFolder folder;
     Session session(true);
-    session.open({folder.scene});
-    while (session.job()) session.poll();
-    session.change_view([](ViewState& view) { view.theme = Theme::light; });
-    session.open({folder.file("walk.csv")});
-    while (session.job()) session.poll();
-    EXPECT_EQ(session.view().theme, Theme::light);
+    session.files.open({folder.scene});
+    while (session.jobs.job()) session.poll();
+    session.workspace.change_view([](ViewState& view) { view.theme = Theme::light; });
+    session.files.open({folder.file("walk.csv")});
+    while (session.jobs.job()) session.poll();
+    EXPECT_EQ(session.workspace.view().theme, Theme::light);
     Session script(false, session.settings);
-    script.open({folder.scene});
-    EXPECT_EQ(script.view().theme, Theme::dark) << "scripts find the same everywhere";
+    script.files.open({folder.scene});
+    EXPECT_EQ(script.workspace.view().theme, Theme::dark) << "scripts find the same everywhere";
 }
 
 TEST(Opening, WhatIsDroppedOnSomethingAsks) {
     CrossingFolder folder;
     Session session(false);
-    session.drop({folder.file("walk.csv")});
-    EXPECT_EQ(session.title(), "walk") << "nothing was open";
-    session.drop({folder.file("stand.csv"), folder.scene});
-    EXPECT_EQ(session.dialog, Dialog::dropped);
-    EXPECT_EQ(session.input.files.size(), 2u);
-    EXPECT_EQ(session.title(), "walk");
-    session.open_demo();
-    session.close_dialog();
-    session.drop({folder.scene});
-    EXPECT_EQ(session.title(), "scene.json") << "the demo is nobody's";
+    session.files.drop({folder.file("walk.csv")});
+    EXPECT_EQ(session.workspace.title(), "walk") << "nothing was open";
+    session.files.drop({folder.file("stand.csv"), folder.scene});
+    EXPECT_EQ(session.dialogs.now, Dialog::dropped);
+    EXPECT_EQ(session.dialogs.input.files.size(), 2u);
+    EXPECT_EQ(session.workspace.title(), "walk");
+    session.files.open_demo();
+    session.dialogs.close();
+    session.files.drop({folder.scene});
+    EXPECT_EQ(session.workspace.title(), "scene.json") << "the demo is nobody's";
 }
 
 TEST(Opening, AnEmptyFolderIsRefused) {
     CrossingFolder folder;
     Session session(false);
     std::filesystem::create_directory(folder.file("empty"));
-    session.open({folder.file("empty")});
+    session.files.open({folder.file("empty")});
     EXPECT_NE(all_messages(session).find("there are no clips in this folder"), std::string::npos);
 }
 
@@ -380,18 +382,18 @@ TEST(Saving, ElsewhereKeepsTheSourcesAndReadsBackEqual) {
     run_command(e.session, "view.top");
     std::filesystem::create_directories(e.folder.file("deep/down"));
     const std::filesystem::path there = e.folder.file("deep/down/copy.json");
-    e.session.save_as(there);
-    EXPECT_FALSE(e.session.modified());
-    EXPECT_EQ(e.session.file(), there);
+    e.session.files.save_as(there);
+    EXPECT_FALSE(e.session.workspace.modified());
+    EXPECT_EQ(e.session.workspace.file, there);
     Session other(false);
-    other.open({there});
+    other.files.open({there});
     EXPECT_EQ(all_messages(other), "");
-    EXPECT_EQ(to_json(other.scene(), true), to_json(e.session.scene(), true));
-    EXPECT_EQ(other.view(), e.session.view());
-    EXPECT_EQ(other.scene().clips[0].source, "../../walk.csv");
+    EXPECT_EQ(to_json(other.workspace.scene(), true), to_json(e.session.workspace.scene(), true));
+    EXPECT_EQ(other.workspace.view(), e.session.workspace.view());
+    EXPECT_EQ(other.workspace.scene().clips[0].source, "../../walk.csv");
     // And back up again.
-    e.session.save_as(e.folder.file("again.json"));
-    EXPECT_EQ(e.session.scene().clips[0].source, "walk.csv");
+    e.session.files.save_as(e.folder.file("again.json"));
+    EXPECT_EQ(e.session.workspace.scene().clips[0].source, "walk.csv");
 }
 
 TEST(Saving, TheSourceOfAClipIsNotReplaced) {
@@ -399,29 +401,29 @@ TEST(Saving, TheSourceOfAClipIsNotReplaced) {
     std::filesystem::create_hard_link(e.folder.file("walk.csv"), e.folder.file("same.json"));
     const std::string why = refusal(e.session, "file.save_as", e.folder.file("same.json").string());
     EXPECT_NE(why.find("comes from this file"), std::string::npos) << why;
-    EXPECT_TRUE(e.session.modified());
+    EXPECT_TRUE(e.session.workspace.modified());
 }
 
 TEST(Saving, WhatCannotBeWrittenStaysUnsaved) {
     Edited e;
     EXPECT_NE(refusal(e.session, "file.save_as", (e.folder.file("none/x.json")).string()), "");
     EXPECT_NE(refusal(e.session, "file.save_as", (e.folder.file("x.csv")).string()).find(".json"), std::string::npos);
-    EXPECT_TRUE(e.session.modified());
-    EXPECT_EQ(e.session.file(), e.folder.scene);
+    EXPECT_TRUE(e.session.workspace.modified());
+    EXPECT_EQ(e.session.workspace.file, e.folder.scene);
     Session empty(false);
-    EXPECT_THROW(empty.save_as(e.folder.file("x.json")), InputError);
+    EXPECT_THROW(empty.files.save_as(e.folder.file("x.json")), InputError);
 }
 
 TEST(Saving, UndoneChangesAreNoChanges) {
     Edited e;
-    EXPECT_TRUE(e.session.modified());
-    e.session.undo();
-    EXPECT_FALSE(e.session.modified());
-    e.session.redo();
-    e.session.save();
-    EXPECT_FALSE(e.session.modified());
-    e.session.undo();
-    EXPECT_TRUE(e.session.modified()) << "the file has the later state";
+    EXPECT_TRUE(e.session.workspace.modified());
+    e.session.edits.undo();
+    EXPECT_FALSE(e.session.workspace.modified());
+    e.session.edits.redo();
+    e.session.files.save();
+    EXPECT_FALSE(e.session.workspace.modified());
+    e.session.edits.undo();
+    EXPECT_TRUE(e.session.workspace.modified()) << "the file has the later state";
 }
 
 // --- unsaved changes
@@ -429,63 +431,63 @@ TEST(Saving, UndoneChangesAreNoChanges) {
 TEST(Unsaved, DiscardGoesOn) {
     Edited e;
     run_command(e.session, "file.open", e.folder.file("walk.csv").string());
-    EXPECT_EQ(e.session.dialog, Dialog::unsaved);
+    EXPECT_EQ(e.session.dialogs.now, Dialog::unsaved);
     EXPECT_EQ(e.x(), 4) << "nothing happens before the answer";
-    e.session.answer_unsaved(Session::Unsaved::discard);
-    EXPECT_EQ(e.session.dialog, Dialog::none);
-    EXPECT_EQ(e.session.title(), "walk");
+    e.session.files.answer_unsaved(Files::Unsaved::discard);
+    EXPECT_EQ(e.session.dialogs.now, Dialog::none);
+    EXPECT_EQ(e.session.workspace.title(), "walk");
     EXPECT_EQ(load_scene(e.folder.scene).agents[0].placement.translate.x, 0);
 }
 
 TEST(Unsaved, CancelForgetsWhatWaited) {
     Edited e;
     run_command(e.session, "file.quit");
-    e.session.answer_unsaved(Session::Unsaved::cancel);
-    EXPECT_EQ(e.session.dialog, Dialog::none);
+    e.session.files.answer_unsaved(Files::Unsaved::cancel);
+    EXPECT_EQ(e.session.dialogs.now, Dialog::none);
     EXPECT_EQ(e.x(), 4);
-    e.session.save();
-    EXPECT_FALSE(e.session.closed()) << "a later save does not quit";
+    e.session.files.save();
+    EXPECT_FALSE(e.session.files.closed()) << "a later save does not quit";
 }
 
 TEST(Unsaved, SaveWritesAndGoesOn) {
     Edited e;
     run_command(e.session, "file.quit");
-    e.session.answer_unsaved(Session::Unsaved::save);
-    EXPECT_TRUE(e.session.closed());
-    EXPECT_EQ(e.session.dialog, Dialog::none);
+    e.session.files.answer_unsaved(Files::Unsaved::save);
+    EXPECT_TRUE(e.session.files.closed());
+    EXPECT_EQ(e.session.dialogs.now, Dialog::none);
     EXPECT_EQ(load_scene(e.folder.scene).agents[0].placement.translate.x, 4);
 }
 
 TEST(Unsaved, SaveWithoutAFileAsksForItAndGoesOnWhenItIsGiven) {
     CrossingFolder folder;
     Session session(false);
-    session.open({folder.file("walk.csv"), folder.file("stand.csv")});
+    session.files.open({folder.file("walk.csv"), folder.file("stand.csv")});
     run_command(session, "go.agent", "walk");
     run_command(session, "agent.nudge", "1 0");
     run_command(session, "file.quit");
-    session.answer_unsaved(Session::Unsaved::save);
-    EXPECT_EQ(session.dialog, Dialog::save_as);
-    EXPECT_FALSE(session.closed());
+    session.files.answer_unsaved(Files::Unsaved::save);
+    EXPECT_EQ(session.dialogs.now, Dialog::save_as);
+    EXPECT_FALSE(session.files.closed());
     // A name that cannot be had does not end it.
-    EXPECT_THROW(session.save_as(folder.file("none/x.json")), std::exception);
-    EXPECT_EQ(session.dialog, Dialog::save_as);
-    EXPECT_FALSE(session.closed());
-    session.save_as(folder.file("saved.json"));
-    EXPECT_TRUE(session.closed());
-    EXPECT_EQ(session.dialog, Dialog::none);
+    EXPECT_THROW(session.files.save_as(folder.file("none/x.json")), std::exception);
+    EXPECT_EQ(session.dialogs.now, Dialog::save_as);
+    EXPECT_FALSE(session.files.closed());
+    session.files.save_as(folder.file("saved.json"));
+    EXPECT_TRUE(session.files.closed());
+    EXPECT_EQ(session.dialogs.now, Dialog::none);
 }
 
 TEST(Unsaved, ANameThatIsNotGivenForgetsWhatWaited) {
     CrossingFolder folder;
     Session session(false);
-    session.open({folder.file("walk.csv")});
+    session.files.open({folder.file("walk.csv")});
     run_command(session, "go.agent", "walk");
     run_command(session, "agent.nudge", "1 0");
     run_command(session, "file.quit");
-    session.answer_unsaved(Session::Unsaved::save);
-    session.close_dialog();
-    session.save_as(folder.file("saved.json"));
-    EXPECT_FALSE(session.closed());
+    session.files.answer_unsaved(Files::Unsaved::save);
+    session.dialogs.close();
+    session.files.save_as(folder.file("saved.json"));
+    EXPECT_FALSE(session.files.closed());
 }
 
 TEST(Unsaved, ASaveThatFailsAsksOn) {
@@ -495,16 +497,16 @@ TEST(Unsaved, ASaveThatFailsAsksOn) {
     std::filesystem::rename(folder.scene, folder.file("sub/scene.json"));
     std::filesystem::copy(folder.file("walk.csv"), folder.file("sub/walk.csv"));
     std::filesystem::copy(folder.file("stand.csv"), folder.file("sub/stand.csv"));
-    session.open({folder.file("sub/scene.json")});
+    session.files.open({folder.file("sub/scene.json")});
     run_command(session, "go.agent", "A");
     run_command(session, "agent.nudge", "1 0");
     std::filesystem::remove_all(folder.file("sub"));
     run_command(session, "file.quit");
-    EXPECT_THROW(session.answer_unsaved(Session::Unsaved::save), MachineError);
-    EXPECT_EQ(session.dialog, Dialog::unsaved);
-    EXPECT_FALSE(session.closed());
-    session.answer_unsaved(Session::Unsaved::discard);
-    EXPECT_TRUE(session.closed());
+    EXPECT_THROW(session.files.answer_unsaved(Files::Unsaved::save), MachineError);
+    EXPECT_EQ(session.dialogs.now, Dialog::unsaved);
+    EXPECT_FALSE(session.files.closed());
+    session.files.answer_unsaved(Files::Unsaved::discard);
+    EXPECT_TRUE(session.files.closed());
 }
 
 // --- views
@@ -512,89 +514,89 @@ TEST(Unsaved, ASaveThatFailsAsksOn) {
 TEST(Views, AreOfOneSceneWithAFitEach) {
     CrossingFolder folder;
     Session session(false);
-    session.open({folder.scene});
+    session.files.open({folder.scene});
     run_command(session, "tree.kind", "mobb");
-    session.answer_unsaved(Session::Unsaved::discard);
-    mobb::FitOptions tilted = session.fitted().options();
+    session.files.answer_unsaved(Files::Unsaved::discard);
+    mobb::FitOptions tilted = session.workspace.fitted().options();
     tilted.tree = mobb::TreeKind::umobb;
-    session.split_view("UMOBB", tilted);
-    ASSERT_EQ(session.view_count(), 2u);
-    EXPECT_EQ(session.active_place(), 0u);
-    EXPECT_EQ(session.view_at(0).fitted->options().tree, mobb::TreeKind::mobb);
-    EXPECT_EQ(session.view_at(1).fitted->options().tree, mobb::TreeKind::umobb);
-    EXPECT_EQ(&session.view_at(1).fitted->scene(), &session.scene());
+    session.views.split("UMOBB", tilted);
+    ASSERT_EQ(session.views.count(), 2u);
+    EXPECT_EQ(session.views.active(), 0u);
+    EXPECT_EQ(session.views.at(0).fitted->options().tree, mobb::TreeKind::mobb);
+    EXPECT_EQ(session.views.at(1).fitted->options().tree, mobb::TreeKind::umobb);
+    EXPECT_EQ(&session.views.at(1).fitted->scene(), &session.workspace.scene());
 
     // Time and camera are shared, what is shown is not.
-    session.change_view([](ViewState& view) {
+    session.workspace.change_view([](ViewState& view) {
         view.time = 0.5;
         view.camera.yaw_deg = 12;
         view.disks = false;
     });
-    EXPECT_EQ(session.view_at(1).view.time, 0.5);
-    EXPECT_EQ(session.view_at(1).view.camera.yaw_deg, 12);
-    EXPECT_TRUE(session.view_at(1).view.disks);
-    session.link_cameras(false);
-    session.change_view([](ViewState& view) { view.camera.yaw_deg = 40; });
-    EXPECT_EQ(session.view_at(1).view.camera.yaw_deg, 12);
+    EXPECT_EQ(session.views.at(1).view.time, 0.5);
+    EXPECT_EQ(session.views.at(1).view.camera.yaw_deg, 12);
+    EXPECT_TRUE(session.views.at(1).view.disks);
+    session.views.link_cameras(false);
+    session.workspace.change_view([](ViewState& view) { view.camera.yaw_deg = 40; });
+    EXPECT_EQ(session.views.at(1).view.camera.yaw_deg, 12);
 
     // Commands are about the active view; edits of the scene reach all.
-    session.activate_view(1);
-    EXPECT_EQ(session.active_place(), 1u);
-    EXPECT_EQ(session.fitted().options().tree, mobb::TreeKind::umobb);
-    EXPECT_EQ(session.view().camera.yaw_deg, 12);
+    session.views.activate(1);
+    EXPECT_EQ(session.views.active(), 1u);
+    EXPECT_EQ(session.workspace.fitted().options().tree, mobb::TreeKind::umobb);
+    EXPECT_EQ(session.workspace.view().camera.yaw_deg, 12);
     run_command(session, "tree.leaf", "7");
-    EXPECT_EQ(session.view_at(1).fitted->options().leaf, 7);
-    EXPECT_EQ(session.view_at(0).fitted->options().leaf, 4);
-    EXPECT_EQ(session.scene().fit.leaf, 4) << "the scene's own fit is the first";
+    EXPECT_EQ(session.views.at(1).fitted->options().leaf, 7);
+    EXPECT_EQ(session.views.at(0).fitted->options().leaf, 4);
+    EXPECT_EQ(session.workspace.scene().fit.leaf, 4) << "the scene's own fit is the first";
     run_command(session, "go.agent", "A");
     run_command(session, "agent.nudge", "1 0");
-    EXPECT_EQ(session.view_at(0).fitted->scene().agents.front().placement.translate.x, 1);
-    EXPECT_EQ(&session.view_at(0).fitted->tree(0), &session.fitted().using_fit(0).tree(0));
-    session.undo();
-    EXPECT_EQ(session.view_at(0).fitted->scene().agents.front().placement.translate.x, 0);
+    EXPECT_EQ(session.views.at(0).fitted->scene().agents.front().placement.translate.x, 1);
+    EXPECT_EQ(&session.views.at(0).fitted->tree(0), &session.workspace.fitted().using_fit(0).tree(0));
+    session.edits.undo();
+    EXPECT_EQ(session.views.at(0).fitted->scene().agents.front().placement.translate.x, 0);
 
-    session.close_other_views();
-    EXPECT_EQ(session.view_count(), 1u);
-    EXPECT_EQ(session.fitted().options().tree, mobb::TreeKind::umobb);
-    session.undo();
-    EXPECT_EQ(session.view_count(), 2u);
+    session.views.close_others();
+    EXPECT_EQ(session.views.count(), 1u);
+    EXPECT_EQ(session.workspace.fitted().options().tree, mobb::TreeKind::umobb);
+    session.edits.undo();
+    EXPECT_EQ(session.views.count(), 2u);
 }
 
 TEST(Views, StandWhereTheyStandWhicheverIsActive) {
     CrossingFolder folder;
     Session session(false);
-    session.open({folder.scene});
-    for (const char* name : {"second", "third"}) session.split_view(name, {.leaf = name[0] == 's' ? 2 : 3});
+    session.files.open({folder.scene});
+    for (const char* name : {"second", "third"}) session.views.split(name, {.leaf = name[0] == 's' ? 2 : 3});
     const auto leaves = [&] {
         std::vector<int> out;
-        for (std::size_t place = 0; place < session.view_count(); ++place)
-            out.push_back(session.view_at(place).fitted->options().leaf);
+        for (std::size_t place = 0; place < session.views.count(); ++place)
+            out.push_back(session.views.at(place).fitted->options().leaf);
         return out;
     };
     const std::vector<int> as_split{4, 2, 3};
     EXPECT_EQ(leaves(), as_split);
     for (const std::size_t place : {2u, 0u, 1u, 2u, 1u, 0u, 9u}) {
-        session.activate_view(place);
+        session.views.activate(place);
         EXPECT_EQ(leaves(), as_split) << place;
-        EXPECT_EQ(session.fitted().options().leaf, as_split[session.active_place()]);
+        EXPECT_EQ(session.workspace.fitted().options().leaf, as_split[session.views.active()]);
     }
 }
 
 TEST(Views, WhatIsSavedIsTheActiveOne) {
     CrossingFolder folder;
     Session session(false);
-    session.open({folder.scene});
-    session.split_view("fine", {.leaf = 2});
-    EXPECT_FALSE(session.modified()) << "a view more is no change of the scene";
-    session.find_conflicts();
-    ASSERT_NE(session.conflicts(), nullptr);
-    session.activate_view(1);
-    EXPECT_NE(session.conflicts(), nullptr) << "they are the scene's, whatever the fit";
-    session.activate_view(0);
-    session.activate_view(1);
-    session.save_as(folder.file("saved.json"));
-    EXPECT_EQ(session.view_count(), 2u);
-    EXPECT_FALSE(session.modified());
+    session.files.open({folder.scene});
+    session.views.split("fine", {.leaf = 2});
+    EXPECT_FALSE(session.workspace.modified()) << "a view more is no change of the scene";
+    session.crowds.find_conflicts();
+    ASSERT_NE(session.crowds.conflicts(), nullptr);
+    session.views.activate(1);
+    EXPECT_NE(session.crowds.conflicts(), nullptr) << "they are the scene's, whatever the fit";
+    session.views.activate(0);
+    session.views.activate(1);
+    session.files.save_as(folder.file("saved.json"));
+    EXPECT_EQ(session.views.count(), 2u);
+    EXPECT_FALSE(session.workspace.modified());
     EXPECT_EQ(load_scene(folder.file("saved.json")).fit.leaf, 2);
 }
 
@@ -603,115 +605,115 @@ TEST(Views, WhatIsSavedIsTheActiveOne) {
 TEST(Excerpts, OfAnAgentAgainstItselfHaveItTwice) {
     CrossingFolder folder;
     Session session(false);
-    session.open({folder.scene});
-    const PlacedAgent who = session.fitted().placed_agents()[0];
-    session.open_excerpt(who, who);
-    const Scene& scene = session.scene();
+    session.files.open({folder.scene});
+    const PlacedAgent who = session.workspace.fitted().placed_agents()[0];
+    session.excerpts.open(who, who);
+    const Scene& scene = session.workspace.scene();
     ASSERT_EQ(scene.clips.size(), 1u);
     ASSERT_EQ(scene.agents.size(), 2u);
     EXPECT_EQ(scene.agents[0].name, "A");
     EXPECT_EQ(scene.agents[1].name, "A (2)");
-    ASSERT_TRUE(session.recorded());
-    EXPECT_TRUE(session.recorded()->contact);
+    ASSERT_TRUE(session.workspace.recorded());
+    EXPECT_TRUE(session.workspace.recorded()->contact);
 }
 
 TEST(Jobs, ACancelledFitLeavesTheDocument) {
     CrossingFolder folder;
     Session opened(true);
-    opened.patience = {};
-    opened.open({long_walk(folder)});
-    while (opened.job()) opened.poll();
-    const auto before = opened.document().fitted;
+    opened.options.patience = {};
+    opened.files.open({long_walk(folder)});
+    while (opened.jobs.job()) opened.poll();
+    const auto before = opened.workspace.document().fitted;
     run_command(opened, "tree.axes", "minarea");
-    ASSERT_TRUE(opened.job()) << "a window does not wait for it";
-    EXPECT_EQ(opened.job()->title(), "Fitting trees");
-    opened.cancel_job(0);
-    EXPECT_FALSE(opened.job());
-    EXPECT_EQ(opened.document().fitted, before);
+    ASSERT_TRUE(opened.jobs.job()) << "a window does not wait for it";
+    EXPECT_EQ(opened.jobs.job()->title(), "Fitting trees");
+    opened.jobs.cancel(0);
+    EXPECT_FALSE(opened.jobs.job());
+    EXPECT_EQ(opened.workspace.document().fitted, before);
     EXPECT_NE(all_messages(opened).find("Cancelled"), std::string::npos);
     run_command(opened, "tree.leaf", "5");
-    while (opened.job()) opened.poll();
-    EXPECT_EQ(opened.scene().fit.leaf, 5);
-    EXPECT_EQ(opened.scene().fit.axes, mobb::Axes::endpoints);
+    while (opened.jobs.job()) opened.poll();
+    EXPECT_EQ(opened.workspace.scene().fit.leaf, 5);
+    EXPECT_EQ(opened.workspace.scene().fit.axes, mobb::Axes::endpoints);
 }
 
 /// A long walk against itself as an excerpt, with a fit under way.
 void fit_in_excerpt(Session& session, CrossingFolder& folder) {
-    session.open({long_walk(folder)});
-    while (session.job()) session.poll();
-    const PlacedAgent who = session.fitted().placed_agents().front();
-    session.open_excerpt(who, who);
+    session.files.open({long_walk(folder)});
+    while (session.jobs.job()) session.poll();
+    const PlacedAgent who = session.workspace.fitted().placed_agents().front();
+    session.excerpts.open(who, who);
     run_command(session, "tree.axes", "minarea");
 }
 
 TEST(Jobs, EditsGoOnMeanwhileAndAreKept) {
     CrossingFolder folder;
     Session session(true);
-    session.patience = {};
-    session.open({long_walk(folder), folder.file("walk.csv")});
-    while (session.job()) session.poll();
+    session.options.patience = {};
+    session.files.open({long_walk(folder), folder.file("walk.csv")});
+    while (session.jobs.job()) session.poll();
     run_command(session, "tree.axes", "minarea");
-    ASSERT_EQ(session.job_count(), 1u);
+    ASSERT_EQ(session.jobs.count(), 1u);
     run_command(session, "go.agent", "walk");
     run_command(session, "agent.nudge", "1 0");
-    session.change_view([](ViewState& view) { view.disks = false; });
-    EXPECT_EQ(session.scene().agents.back().placement.translate.x, 1) << "at once";
-    ASSERT_EQ(session.job_count(), 1u);
-    while (session.job()) session.poll();
-    EXPECT_EQ(session.scene().fit.axes, mobb::Axes::minarea);
-    EXPECT_EQ(session.fitted().options().axes, mobb::Axes::minarea);
-    EXPECT_EQ(session.scene().agents.back().placement.translate.x, 1);
-    EXPECT_FALSE(session.view().disks);
-    session.undo();
-    EXPECT_EQ(session.scene().fit.axes, mobb::Axes::endpoints);
-    EXPECT_EQ(session.scene().agents.back().placement.translate.x, 1);
+    session.workspace.change_view([](ViewState& view) { view.disks = false; });
+    EXPECT_EQ(session.workspace.scene().agents.back().placement.translate.x, 1) << "at once";
+    ASSERT_EQ(session.jobs.count(), 1u);
+    while (session.jobs.job()) session.poll();
+    EXPECT_EQ(session.workspace.scene().fit.axes, mobb::Axes::minarea);
+    EXPECT_EQ(session.workspace.fitted().options().axes, mobb::Axes::minarea);
+    EXPECT_EQ(session.workspace.scene().agents.back().placement.translate.x, 1);
+    EXPECT_FALSE(session.workspace.view().disks);
+    session.edits.undo();
+    EXPECT_EQ(session.workspace.scene().fit.axes, mobb::Axes::endpoints);
+    EXPECT_EQ(session.workspace.scene().agents.back().placement.translate.x, 1);
 }
 
 TEST(Jobs, UndoOutOfAnExcerptEndsThem) {
     CrossingFolder folder;
     Session session(true);
-    session.patience = {};
+    session.options.patience = {};
     fit_in_excerpt(session, folder);
-    ASSERT_TRUE(session.job());
-    session.undo();
-    EXPECT_FALSE(session.in_excerpt());
-    EXPECT_FALSE(session.job());
-    EXPECT_EQ(session.fitted().options().axes, mobb::Axes::endpoints) << "it was meant for the excerpt";
+    ASSERT_TRUE(session.jobs.job());
+    session.edits.undo();
+    EXPECT_FALSE(session.workspace.in_excerpt());
+    EXPECT_FALSE(session.jobs.job());
+    EXPECT_EQ(session.workspace.fitted().options().axes, mobb::Axes::endpoints) << "it was meant for the excerpt";
 }
 
 TEST(Jobs, SeveralRunAtOnceAndEachIsTakenIn) {
     CrossingFolder folder;
     Session session(true);
-    session.patience = {};
-    session.open({long_walk(folder)});
-    while (session.job()) session.poll();
+    session.options.patience = {};
+    session.files.open({long_walk(folder)});
+    while (session.jobs.job()) session.poll();
     run_command(session, "tree.axes", "minarea");
     run_command(session, "tree.leaf", "3");
     run_command(session, "tree.kind", "umobb");
-    EXPECT_GE(session.job_count(), 1u);
-    while (session.job()) session.poll();
-    EXPECT_EQ(session.fitted().options().axes, mobb::Axes::minarea);
-    EXPECT_EQ(session.fitted().options().leaf, 3);
-    EXPECT_EQ(session.fitted().options().tree, mobb::TreeKind::umobb);
-    EXPECT_EQ(session.scene().fit, session.fitted().options());
+    EXPECT_GE(session.jobs.count(), 1u);
+    while (session.jobs.job()) session.poll();
+    EXPECT_EQ(session.workspace.fitted().options().axes, mobb::Axes::minarea);
+    EXPECT_EQ(session.workspace.fitted().options().leaf, 3);
+    EXPECT_EQ(session.workspace.fitted().options().tree, mobb::TreeKind::umobb);
+    EXPECT_EQ(session.workspace.scene().fit, session.workspace.fitted().options());
 }
 
 TEST(Jobs, WhatIsOpenedAsksForEditsThatWereMadeMeanwhile) {
     CrossingFolder folder;
     Session session(true);
-    session.patience = {};
-    session.open({folder.scene});
-    while (session.job()) session.poll();
+    session.options.patience = {};
+    session.files.open({folder.scene});
+    while (session.jobs.job()) session.poll();
     long_walk(folder);
-    session.open(std::vector(20, folder.file("long.csv")));
-    ASSERT_TRUE(session.job()) << "a window does not wait for it";
+    session.files.open(std::vector(20, folder.file("long.csv")));
+    ASSERT_TRUE(session.jobs.job()) << "a window does not wait for it";
     run_command(session, "go.agent", "A");
     run_command(session, "agent.nudge", "1 0");
-    while (session.job()) session.poll();
-    EXPECT_EQ(session.dialog, Dialog::unsaved);
-    EXPECT_EQ(session.scene().agents.front().placement.translate.x, 1);
-    session.answer_unsaved(Session::Unsaved::discard);
-    EXPECT_NE(session.scene().clips.front().name.find("long"), std::string::npos);
+    while (session.jobs.job()) session.poll();
+    EXPECT_EQ(session.dialogs.now, Dialog::unsaved);
+    EXPECT_EQ(session.workspace.scene().agents.front().placement.translate.x, 1);
+    session.files.answer_unsaved(Files::Unsaved::discard);
+    EXPECT_NE(session.workspace.scene().clips.front().name.find("long"), std::string::npos);
 }
 
 TEST(Jobs, ADroppedOneWakesNobodyAndIsCountedUntilItEnds) {
@@ -736,79 +738,79 @@ TEST(Jobs, ADroppedOneWakesNobodyAndIsCountedUntilItEnds) {
 TEST(Jobs, WhatPlaysGoesOn) {
     CrossingFolder folder;
     Session session(true);
-    session.patience = {};
-    session.open({long_walk(folder)});
-    while (session.job()) session.poll();
+    session.options.patience = {};
+    session.files.open({long_walk(folder)});
+    while (session.jobs.job()) session.poll();
     run_command(session, "time.play");
     run_command(session, "tree.axes", "minarea");
-    ASSERT_TRUE(session.job());
-    session.advance(0.1);
-    const std::optional<double> time = session.view().time;
+    ASSERT_TRUE(session.jobs.job());
+    session.playback.advance(0.1);
+    const std::optional<double> time = session.workspace.view().time;
     ASSERT_TRUE(time);
-    while (session.job()) session.poll();
-    EXPECT_EQ(session.view().time, time) << "a job does not set it back";
+    while (session.jobs.job()) session.poll();
+    EXPECT_EQ(session.workspace.view().time, time) << "a job does not set it back";
 }
 
 TEST(Jobs, TheDocumentIsNotLeftForAnExcerptMeanwhile) {
     CrossingFolder folder;
     Session session(true);
-    session.patience = {};
+    session.options.patience = {};
     fit_in_excerpt(session, folder);
-    ASSERT_TRUE(session.job());
-    const auto before = session.document().fitted;
-    const PlacedAgent who = session.fitted().placed_agents().front();
-    EXPECT_THROW(session.open_excerpt(who, who), std::invalid_argument);
-    EXPECT_THROW(session.leave_excerpt(), std::invalid_argument);
-    EXPECT_EQ(session.document().fitted, before);
+    ASSERT_TRUE(session.jobs.job());
+    const auto before = session.workspace.document().fitted;
+    const PlacedAgent who = session.workspace.fitted().placed_agents().front();
+    EXPECT_THROW(session.excerpts.open(who, who), std::invalid_argument);
+    EXPECT_THROW(session.excerpts.leave(), std::invalid_argument);
+    EXPECT_EQ(session.workspace.document().fitted, before);
 }
 
 TEST(Jobs, UnattendedTheyAreWaitedFor) {
     CrossingFolder folder;
     Session session(false);
-    session.open({long_walk(folder)});
-    EXPECT_FALSE(session.job());
-    EXPECT_EQ(session.scene().clips.size(), 1u);
+    session.files.open({long_walk(folder)});
+    EXPECT_FALSE(session.jobs.job());
+    EXPECT_EQ(session.workspace.scene().clips.size(), 1u);
 }
 
 // --- messages
 
 TEST(Messages, AreFiftyAtMostAndSaidOnce) {
     Session session(false);
-    for (int i = 0; i < 62; ++i) session.tell(MessageLevel::info, std::to_string(i % 60));
-    ASSERT_EQ(session.messages().size(), 50u);
-    EXPECT_EQ(session.messages().back().text, "1");
-    session.dismiss(49);
-    EXPECT_EQ(session.messages().back().text, "0");
-    session.dismiss(170);
-    EXPECT_EQ(session.messages().size(), 49u);
+    for (int i = 0; i < 62; ++i) session.notifications.tell(MessageLevel::info, std::to_string(i % 60));
+    ASSERT_EQ(session.notifications.all().size(), 50u);
+    EXPECT_EQ(session.notifications.all().back().text, "1");
+    session.notifications.dismiss(49);
+    EXPECT_EQ(session.notifications.all().back().text, "0");
+    session.notifications.dismiss(170);
+    EXPECT_EQ(session.notifications.all().size(), 49u);
 }
 
 TEST(Messages, OfTheLastDocumentGoBehindTheBell) {
     CrossingFolder folder;
     Session session(false);
-    session.open({folder.file("none.csv")});
-    EXPECT_TRUE(session.messages().front().up);
-    session.open({folder.scene});
-    EXPECT_FALSE(session.messages().front().up);
-    EXPECT_EQ(session.unread(), 0u) << "the bell is about what is open";
-    EXPECT_EQ(session.messages().size(), 1u) << "but it can still be read";
+    session.files.open({folder.file("none.csv")});
+    EXPECT_TRUE(session.notifications.all().front().up);
+    session.files.open({folder.scene});
+    EXPECT_FALSE(session.notifications.all().front().up);
+    EXPECT_EQ(session.notifications.unread(), 0u) << "the bell is about what is open";
+    EXPECT_EQ(session.notifications.all().size(), 1u) << "but it can still be read";
 }
 
 /// Each press of a button remembers the past, in case that what it drags is put back.
 TEST(History, ACopyHasTheSameStatesAndIsItsOwn) {
     Session session(false);
-    session.open_demo();
-    while (session.job()) session.poll();
-    session.change_view([](ViewState& view) { view.floor = !view.floor; });
-    History copy = session.history();
-    EXPECT_EQ(&copy.now(), &session.history().now()) << "no state is copied";
-    const bool floor = session.view().floor;
+    session.files.open_demo();
+    while (session.jobs.job()) session.poll();
+    session.workspace.change_view([](ViewState& view) { view.floor = !view.floor; });
+    History copy = session.workspace.history;
+    EXPECT_EQ(&copy.now(), &session.workspace.history.now()) << "no state is copied";
+    const bool floor = session.workspace.view().floor;
     copy.undo();
     copy.amend_views([](ViewState& view) { view.labels = !view.labels; });
     EXPECT_EQ(copy.now().view.floor, !floor);
-    EXPECT_EQ(session.view().floor, floor);
-    session.undo();
-    EXPECT_NE(session.view().labels, copy.now().view.labels);
+    EXPECT_EQ(session.workspace.view().floor, floor);
+    session.edits.undo();
+    EXPECT_NE(session.workspace.view().labels, copy.now().view.labels);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ class ShellTest : public ::testing::TestWithParam<Backend> {
     void SetUp() override {
         if (!mobbscope::testing::open_or_skip(GetParam())) return;
         window = std::make_unique<HeadlessWindow>(GlContext::open(GetParam()), session, kSize, 1);
-        session.open_demo();
+        session.files.open_demo();
         window->settle();
     }
 
@@ -50,7 +50,7 @@ class ShellTest : public ::testing::TestWithParam<Backend> {
         const glm::vec2 pixel = list.projection.project(disk.base + glm::vec3(0, 0, 0.5f * disk.height())).value();
         window->shell().feed(MouseMove{window->shell().marks().all().at("viewport").min + pixel});
         window->settle();
-        ASSERT_TRUE(session.hovered.on_path());
+        ASSERT_TRUE(session.workspace.hovered.on_path());
     }
 
     Session session{false};
@@ -78,14 +78,14 @@ TEST_P(ShellTest, TheThemeIsTheViews) {
         return static_cast<int>(*image.at(2, image.height - 2));
     };
     EXPECT_LT(brightness(), 60);
-    session.change_view([](ViewState& view) { view.theme = Theme::light; });
+    session.workspace.change_view([](ViewState& view) { view.theme = Theme::light; });
     window->settle();
     EXPECT_GT(brightness(), 200);
 }
 
 TEST_P(ShellTest, AFieldUndoesNothingThatWasTypedIntoAnotherDialogs) {
     run("key Ctrl+P\ntype abcdefgh\nkey Escape\nkey Ctrl+P\nkey Ctrl+Z\nkey Ctrl+Z\ntype xy");
-    EXPECT_EQ(session.input.text, "xy");
+    EXPECT_EQ(session.dialogs.input.text, "xy");
 }
 
 TEST_P(ShellTest, FramesThatNobodyLooksAtAreNotDrawn) {
@@ -101,8 +101,8 @@ TEST_P(ShellTest, FramesThatNobodyLooksAtAreNotDrawn) {
 
 TEST_P(ShellTest, WhatPlaysIsNotWaitedFor) {
     run("run time.play\nkey B\nkey B\nclick viewport");
-    EXPECT_TRUE(session.playing());
-    EXPECT_LT(*session.view().time, 1) << "a few frames for each";
+    EXPECT_TRUE(session.playback.playing());
+    EXPECT_LT(*session.workspace.view().time, 1) << "a few frames for each";
 }
 
 TEST_P(ShellTest, UntilRunsFramesUntilItHolds) {
@@ -157,9 +157,9 @@ TEST_P(ShellTest, ThePictureIsTheOneThatRenderDrawsOfTheSavedView) {
     const std::string file = folder.path() / "saved.json";
     // Turned, zoomed and panned; then the mouse leaves, as what is under it is marked in the window.
     run("drag viewport 90 -35\nscroll viewport 2\nmove 5 5\nrun file.save_as " + file + "\n");
-    while (!session.messages().empty()) session.dismiss(0);
+    while (!session.notifications.all().empty()) session.notifications.dismiss(0);
     window->settle();
-    ASSERT_NE(session.view().camera, Camera{});
+    ASSERT_NE(session.workspace.view().camera, Camera{});
     const Rect rect = window->shell().marks().all().at("viewport");
     const PictureSize size{static_cast<int>(rect.size().x), static_cast<int>(rect.size().y)};
 
@@ -196,10 +196,10 @@ TEST_P(ShellTest, WhatIsUnderTheMouseIsPointedOutAndNothingElseIsDrawnAnew) {
     EXPECT_EQ(statistics.world_bytes + statistics.state_bytes, 0u);
     EXPECT_EQ(statistics.overlay_bytes, shell.shown()->highlights.size() * 17 * sizeof(float));
     // What is selected too is not pointed out twice.
-    session.select(session.hovered);
+    session.workspace.select(session.workspace.hovered);
     window->settle();
     EXPECT_EQ(pointed_out(shell), Roles{HighlightLine::Role::selection});
-    session.select({});
+    session.workspace.select({});
     run("move 5 5");
     EXPECT_EQ(pointed_out(shell), Roles{});
     EXPECT_EQ(shell.read_back().rgba, before.rgba);
@@ -209,25 +209,25 @@ TEST_P(ShellTest, WhatIsUnderTheMouseIsPointedOutAndNothingElseIsDrawnAnew) {
 TEST_P(ShellTest, WhatIsPointedOutInANewPictureIsDrawnWithAllOfIt) {
     Shell& shell = window->shell();
     shell.read_back();
-    session.change_view([](ViewState& view) { view.theme = Theme::light; });
+    session.workspace.change_view([](ViewState& view) { view.theme = Theme::light; });
     window->settle();
-    session.select({Selection::Kind::path, {0, -1, 0}, -1});
+    session.workspace.select({Selection::Kind::path, {0, -1, 0}, -1});
     window->settle();
     EXPECT_GT(*shell.read_back().at(400, 250), 100) << "the ground is light";
     EXPECT_EQ(pointed_out(shell), Roles{HighlightLine::Role::selection});
 }
 
 TEST_P(ShellTest, ThePictureShowsWhatIsSelectedAsRenderDoes) {
-    session.select({Selection::Kind::node, {1, -1, 0}, 2});
+    session.workspace.select({Selection::Kind::node, {1, -1, 0}, 2});
     window->settle();
     hover_over_a_disk();
     EXPECT_EQ(pointed_out(window->shell()), (Roles{HighlightLine::Role::selection, HighlightLine::Role::hover}));
     const Rect rect = window->shell().marks().all().at("viewport");
-    DrawList list = build_draw_list(session.fitted(), session.view(),
+    DrawList list = build_draw_list(session.workspace.fitted(), session.workspace.view(),
                                     PictureSize{static_cast<int>(rect.size().x), static_cast<int>(rect.size().y)});
     const Image without = Renderer(GetParam()).draw(list);
-    const std::string name = session.fitted().placed_agents()[1].name;
-    add_selection(list, session.fitted(), session.view(), {name, {AgentPart::Kind::node, 2}},
+    const std::string name = session.workspace.fitted().placed_agents()[1].name;
+    add_selection(list, session.workspace.fitted(), session.workspace.view(), {name, {AgentPart::Kind::node, 2}},
                   metrics_of(list.size).scale);
     EXPECT_EQ(window->shell().viewport_picture().rgba, Renderer(GetParam()).draw(list).rgba);
     EXPECT_NE(window->shell().viewport_picture().rgba, without.rgba);
@@ -236,7 +236,7 @@ TEST_P(ShellTest, ThePictureShowsWhatIsSelectedAsRenderDoes) {
 TEST_P(ShellTest, WhatIsDraggedLeavesAGhostWhereItStood) {
     Shell& shell = window->shell();
     run("run go.agent A");
-    const mobb::PlacedTree before = session.fitted().placed(session.fitted().placed_agents()[0]);
+    const mobb::PlacedTree before = session.workspace.fitted().placed(session.workspace.fitted().placed_agents()[0]);
     const mobb::Disk first = before.placed_clip().disk(0);
     const glm::vec2 at = shell.marks().all().at("handle.move").center();
     shell.feed(MouseMove{at});
@@ -250,7 +250,7 @@ TEST_P(ShellTest, WhatIsDraggedLeavesAGhostWhereItStood) {
     ASSERT_EQ(line.role, HighlightLine::Role::ghost);
     const glm::dvec3 place = shell.shown()->space.place(line.from);
     EXPECT_NEAR(std::hypot(place.x - first.x, place.y - first.y), first.r, 1e-3) << "where it stood";
-    ASSERT_NE(session.scene().agents[0].placement.translate, glm::dvec2(0));
+    ASSERT_NE(session.workspace.scene().agents[0].placement.translate, glm::dvec2(0));
     shell.feed(MouseButton{0, false});
     window->settle();
     EXPECT_FALSE(pointed_out(shell).contains(HighlightLine::Role::ghost));
@@ -259,23 +259,23 @@ TEST_P(ShellTest, WhatIsDraggedLeavesAGhostWhereItStood) {
 TEST_P(ShellTest, TheCloseButtonEndsTheSession) {
     window->shell().feed(CloseRequest{});
     window->settle();
-    EXPECT_TRUE(session.closed());
+    EXPECT_TRUE(session.files.closed());
 }
 
 TEST_P(ShellTest, WhatIsDroppedIsOpened) {
     const TempFolder folder;
     window->shell().feed(Drop{{folder.write("a.csv", "t,x,y,r\n0,0,0,0.3\n1,1,0,0.3\n")}});
     window->settle();
-    EXPECT_EQ(session.scene().clips.size(), 1u) << "a clip replaces the demo";
+    EXPECT_EQ(session.workspace.scene().clips.size(), 1u) << "a clip replaces the demo";
     window->shell().feed(Drop{{folder.write("b.csv", "t,x,y,r\n0,0,0,0.3\n1,1,0,0.3\n")}});
     window->settle();
-    EXPECT_EQ(session.dialog, Dialog::dropped) << "what a person opened is not replaced without asking";
+    EXPECT_EQ(session.dialogs.now, Dialog::dropped) << "what a person opened is not replaced without asking";
     run("key Enter");
-    EXPECT_EQ(session.scene().clips.size(), 2u) << "Enter adds";
+    EXPECT_EQ(session.workspace.scene().clips.size(), 2u) << "Enter adds";
     window->shell().feed(Drop{{demo_scene_file()}});
     window->shell().feed(Drop{{folder.path() / "none.csv"}});
     window->settle();
-    EXPECT_FALSE(session.messages().empty());
+    EXPECT_FALSE(session.notifications.all().empty());
 }
 
 TEST_P(ShellTest, ScriptsSeeTheStateAndTakePictures) {
@@ -294,7 +294,7 @@ TEST_P(ShellTest, FileNamesMayHaveBlanksAndBeNoText) {
     const TempFolder folder;
     run("picture \"" + (folder.path() / "my window.png").string() + "\"");
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "my window.png"));
-    session.open({folder.write("a\xff.csv", "t,x,y,r\n0,0,0,0.3\n1,1,0,0.3\n")});
+    session.files.open({folder.write("a\xff.csv", "t,x,y,r\n0,0,0,0.3\n1,1,0,0.3\n")});
     EXPECT_NE(run("state").find("\"title\": \"a"), std::string::npos);
 }
 
@@ -327,16 +327,16 @@ TEST_P(ShellTest, APressMakesAViewTheActiveOneAndLinkedCamerasMoveTogether) {
     EXPECT_LT(left.max.x, right.min.x);
     EXPECT_EQ(width, left.size().x);
     const Image mobb = window->shell().viewport_picture();
-    const Camera before = session.view().camera;
+    const Camera before = session.workspace.view().camera;
     run("drag viewport.1 40 20");
-    EXPECT_EQ(session.active_place(), 1u);
-    EXPECT_NE(session.view().camera, before);
-    EXPECT_EQ(session.view_at(0).view.camera, session.view().camera);
+    EXPECT_EQ(session.views.active(), 1u);
+    EXPECT_NE(session.workspace.view().camera, before);
+    EXPECT_EQ(session.views.at(0).view.camera, session.workspace.view().camera);
     EXPECT_NE(window->shell().viewport_picture().rgba, mobb.rgba);
     run("click viewport.0");
-    EXPECT_EQ(session.active_place(), 0u);
+    EXPECT_EQ(session.views.active(), 0u);
     run("run view.link_cameras\nscroll viewport 3");
-    EXPECT_NE(session.view_at(1).view.camera, session.view().camera);
+    EXPECT_NE(session.views.at(1).view.camera, session.workspace.view().camera);
     run("run view.split");
     EXPECT_EQ(window->shell().marks().all().count("viewport.1"), 0u);
     EXPECT_GT(window->shell().viewport_picture().width, 2 * static_cast<int>(width) - 10);

@@ -53,24 +53,24 @@ struct KeyWorld {
     std::shared_ptr<const FittedScene> opened;
 
     void begin(const Steps& before) {
-        if (!session || session->closed()) {
+        if (!session || session->files.closed()) {
             window.reset();
             session = std::make_unique<Session>(false);
             window = std::make_unique<HeadlessWindow>(GlContext::open(Backend::automatic), *session,
                                                       PictureSize{800, 500}, 1);
         }
         folder = std::make_unique<CrossingFolder>();
-        session->close_dialog();
-        session->open({folder->scene});
-        session->answer_unsaved(Session::Unsaved::discard);
-        while (!session->messages().empty()) session->dismiss(0);
+        session->dialogs.close();
+        session->files.open({folder->scene});
+        session->files.answer_unsaved(Files::Unsaved::discard);
+        while (!session->notifications.all().empty()) session->notifications.dismiss(0);
         session->settings = {};
         window->settle();
         for (const auto& [id, argument] : before) {
             run_command(*session, id, argument);
             window->settle();
         }
-        opened = session->document().fitted;
+        opened = session->workspace.document().fitted;
     }
 
     void press(const Chord& chord) const {
@@ -95,14 +95,14 @@ struct KeyWorld {
         };
         for (Json& message : json["messages"]) take_folder_out(message["text"]);
         if (json.contains("export")) take_folder_out(json["export"]["file"]);
-        if (session->playing()) {
+        if (session->playback.playing()) {
             // Frames go by until it is looked at.
             json.erase("time");
             json["view"].erase("time");
         }
-        json["closed"] = session->closed();
+        json["closed"] = session->files.closed();
         json["scale"] = session->settings.ui_scale;
-        json["reread"] = session->document().fitted != opened;
+        json["reread"] = session->workspace.document().fitted != opened;
         return json;
     }
 };
@@ -164,9 +164,9 @@ TEST(Shortcuts, HeldKeysGoOnWhereTheirCommandRepeats) {
     KeyWorld world;
     world.begin({{"query.select", "0"}, {"step.first", ""}});
     hold(world, Key::right, 3);
-    EXPECT_EQ(world.session->step(), 3);
+    EXPECT_EQ(world.session->workspace.step(), 3);
     hold(world, Key::d, 2);
-    EXPECT_FALSE(world.session->view().disks) << "a toggle is one";
+    EXPECT_FALSE(world.session->workspace.view().disks) << "a toggle is one";
 }
 
 /// A letter as a keyboard sends it: the key, and what it types.
@@ -205,10 +205,10 @@ TEST(Shortcuts, TextFieldsKeepTheirLetters) {
     EXPECT_EQ(after["query"], before["query"]);
     EXPECT_EQ(after["selection"]["kind"], before["selection"]["kind"]);
     world.press(*chord_from_name("Enter"));
-    EXPECT_EQ(world.session->scene().agents[0].name, typed);
+    EXPECT_EQ(world.session->workspace.scene().agents[0].name, typed);
     // With the field left, letters are commands again.
     world.press(*chord_from_name("D"));
-    EXPECT_FALSE(world.session->view().disks);
+    EXPECT_FALSE(world.session->workspace.view().disks);
 }
 
 }  // namespace

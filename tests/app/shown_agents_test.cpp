@@ -17,21 +17,21 @@ using testing::refusal;
 class ShownAgentsTest : public ::testing::Test {
   protected:
     ShownAgentsTest() {
-        session.open({folder.scene});
+        session.files.open({folder.scene});
         EXPECT_EQ(all_messages(session), "");
     }
-    const AgentNames& hidden() const { return session.view().hidden; }
+    const AgentNames& hidden() const { return session.workspace.view().hidden; }
 
     CrossingFolder folder;
     Session session{false};
 };
 
 TEST_F(ShownAgentsTest, AnswersStay) {
-    const bool before = session.answer_of(0).contact.has_value();
+    const bool before = session.queries.answer_of(0).contact.has_value();
     run_command(session, "agents.hide", "B");
     EXPECT_EQ(hidden(), AgentNames{"B"});
-    EXPECT_EQ(session.answer_of(0).contact.has_value(), before);
-    EXPECT_FALSE(session.modified()) << "how a scene is seen is no edit of it";
+    EXPECT_EQ(session.queries.answer_of(0).contact.has_value(), before);
+    EXPECT_FALSE(session.workspace.modified()) << "how a scene is seen is no edit of it";
     run_command(session, "edit.undo");
     EXPECT_TRUE(hidden().empty());
 }
@@ -44,7 +44,7 @@ TEST_F(ShownAgentsTest, AClipMeansAllThatPlayIt) {
     EXPECT_NE(refusal(session, "agents.hide", "clip:stand").find("no agent plays it"), std::string::npos);
     EXPECT_NE(refusal(session, "agents.hide", "clip:wolk").find("walk"), std::string::npos);
     EXPECT_EQ(why_not(session, *find_command("agent.hide")), "no agent is selected");
-    session.select({Selection::Kind::clip, {}, 0});
+    session.workspace.select({Selection::Kind::clip, {}, 0});
     run_command(session, "agent.hide");
     EXPECT_EQ(hidden().size(), 3u);
 }
@@ -90,17 +90,18 @@ TEST_F(ShownAgentsTest, NamesThatAreWordsMeanTheirAgents) {
 }
 
 TEST_F(ShownAgentsTest, ClipsAreGroupedByFolderAndRig) {
-    EXPECT_TRUE(session.clip_groups().empty()) << "one folder, no skeletons";
+    EXPECT_TRUE(session.workspace.clip_groups().empty()) << "one folder, no skeletons";
     const std::string assets = MOBBSCOPE_SOURCE_DIR "/assets/";
-    session.open({assets + "clips/walk.glb", assets + "clips/run.glb", folder.file("walk.csv")});
+    session.files.open({assets + "clips/walk.glb", assets + "clips/run.glb", folder.file("walk.csv")});
     ASSERT_EQ(all_messages(session), "");
-    ASSERT_EQ(session.clip_groups().size(), 2u);
-    EXPECT_EQ(session.clip_groups()[0].clips, (std::vector<int>{0, 1}));
-    EXPECT_EQ(session.clip_groups()[0].title.rfind("clips: ", 0), 0u) << session.clip_groups()[0].title;
-    EXPECT_EQ(session.view().arrange, Arrange::grid);
-    run_command(session, "agents.solo", "group:" + session.clip_groups()[0].title);
-    EXPECT_EQ(hidden(), AgentNames{session.scene().clips[2].name});
-    EXPECT_FALSE(session.is_crowd());
+    ASSERT_EQ(session.workspace.clip_groups().size(), 2u);
+    EXPECT_EQ(session.workspace.clip_groups()[0].clips, (std::vector<int>{0, 1}));
+    EXPECT_EQ(session.workspace.clip_groups()[0].title.rfind("clips: ", 0), 0u)
+        << session.workspace.clip_groups()[0].title;
+    EXPECT_EQ(session.workspace.view().arrange, Arrange::grid);
+    run_command(session, "agents.solo", "group:" + session.workspace.clip_groups()[0].title);
+    EXPECT_EQ(hidden(), AgentNames{session.workspace.scene().clips[2].name});
+    EXPECT_FALSE(session.workspace.is_crowd());
 }
 
 }  // namespace

@@ -53,28 +53,28 @@ class Worked {
         : session(seed % 4 == 3),
           window(GlContext::open(Backend::osmesa), session, size_of(seed), 1),
           script_(static_cast<std::uint64_t>(seed), size_of(seed), kLeast, kMost) {
-        session.may_write = false;
-        session.open({file});
+        session.options.may_write = false;
+        session.files.open({file});
         follow_opening();
         window.resize(size_of(seed));
         settle();
     }
 
     void work(int statements) {
-        for (int i = 0; i < statements && !session.closed(); ++i) {
+        for (int i = 0; i < statements && !session.files.closed(); ++i) {
             const std::string lines = script_.next(session, window.shell().marks());
             done += lines + '\n';
             std::istringstream in(lines);
             for (std::string line; std::getline(in, line);) run(line);
             follow_opening();
         }
-        session.stop();
+        session.playback.stop();
         settle();
         follow_opening();
     }
 
     /// The document as text.
-    std::string now() const { return as_json(session.document(), viewport_size(session).height); }
+    std::string now() const { return as_json(session.workspace.document(), viewport_size(session.views).height); }
     const std::string& begun() const { return begun_; }
 
     Session session;
@@ -86,14 +86,14 @@ class Worked {
 
     /// Another file was opened: what was done before is no past of it.
     void follow_opening() {
-        if (session.in_excerpt() || session.opening() == opening_) return;
-        opening_ = session.opening();
+        if (session.workspace.in_excerpt() || session.workspace.opening() == opening_) return;
+        opening_ = session.workspace.opening();
         // In a window where the camera has something to frame the scene in.
         window.resize(kMost);
         settle();
-        History history = session.history();
+        History history = session.workspace.history;
         while (history.can_undo()) history.undo();
-        begun_ = as_json(history.now(), viewport_size(session).height);
+        begun_ = as_json(history.now(), viewport_size(session.views).height);
     }
 
     void run(const std::string& line) {
@@ -109,7 +109,7 @@ class Worked {
     void settle() {
         do {
             window.settle();
-        } while (session.job());
+        } while (session.jobs.job());
     }
 
     test::RandomScript script_;
@@ -132,19 +132,19 @@ TEST(UndoScripts, AnyScriptUndoneIsWhereItBeganAndRedoneWhereItWas) {
         SCOPED_TRACE("script " + std::to_string(seed) + ":\n" + worked.done);
         Session& session = worked.session;
         const auto lines = static_cast<std::size_t>(std::count(worked.done.begin(), worked.done.end(), '\n'));
-        ASSERT_LE(session.history().count(), 1 + 3 * lines) << "a statement is a state, or a few of them";
+        ASSERT_LE(session.workspace.history.count(), 1 + 3 * lines) << "a statement is a state, or a few of them";
         std::vector<std::string> past;
-        while (session.history().can_undo()) {
+        while (session.workspace.history.can_undo()) {
             past.push_back(worked.now());
             ASSERT_LE(past.size(), 1000u) << "undo does not end";
-            session.undo();
+            session.edits.undo();
             worked.window.frame();
         }
         ASSERT_EQ(worked.now(), worked.begun());
         undone += past.size();
         for (; !past.empty(); past.pop_back()) {
-            ASSERT_TRUE(session.history().can_redo());
-            session.redo();
+            ASSERT_TRUE(session.workspace.history.can_redo());
+            session.edits.redo();
             worked.window.frame();
             ASSERT_EQ(worked.now(), past.back());
         }

@@ -59,9 +59,9 @@ bool meets(const Rect& rect, std::span<const glm::vec2> points) {
     return true;
 }
 
-PictureFrame present_picture(const Session& session) {
-    const double scale = session.hooks.viewport_scale ? session.hooks.viewport_scale() : 0;
-    return picture_frame(session.fitted(), session.view(), viewport_size(session), scale);
+PictureFrame present_picture(const Views& views, const Workspace& workspace) {
+    const double scale = views.picture ? views.picture->scale : 0;
+    return picture_frame(workspace.fitted(), workspace.view(), viewport_size(views), scale);
 }
 
 Camera framing_box(const Camera& camera, const PictureFrame& picture, const Bounds& box) {
@@ -71,28 +71,27 @@ Camera framing_box(const Camera& camera, const PictureFrame& picture, const Boun
 
 }  // namespace
 
-PictureSize viewport_size(const Session& session) {
-    return session.hooks.viewport_size ? session.hooks.viewport_size() : kWithoutWindow;
-}
+PictureSize viewport_size(const Views& views) { return views.picture ? views.picture->size : kWithoutWindow; }
 
-void move_camera(Session& session, const std::function<Camera(const Camera&, const PictureFrame&)>& move) {
-    const PictureFrame picture = present_picture(session);
+void move_camera(Views& views, Workspace& workspace,
+                 const std::function<Camera(const Camera&, const PictureFrame&)>& move) {
+    const PictureFrame picture = present_picture(views, workspace);
     const Camera moved = move(picture.camera, picture);
-    session.change_view([&](ViewState& view) {
+    workspace.change_view([&](ViewState& view) {
         view.camera = moved;
         if (!picture.moment) view.time_height = picture.space.time_height;
     });
 }
 
-std::optional<Bounds> box_of(const Session& session, const Selection& selected) {
+std::optional<Bounds> box_of(const Workspace& workspace, const Selection& selected) {
     Bounds bounds;
-    const std::vector<DrawnAgent> shown = drawn_agents(session.fitted(), session.view());
+    const std::vector<DrawnAgent> shown = drawn_agents(workspace.fitted(), workspace.view());
     const std::optional<int> index =
-        selected.on_path() ? index_in_view(session.fitted(), session.view(), selected.path) : std::nullopt;
+        selected.on_path() ? index_in_view(workspace.fitted(), workspace.view(), selected.path) : std::nullopt;
     const mobb::Clip* of_clip = selected.kind == Selection::Kind::clip
-                                    ? session.scene().clips[static_cast<std::size_t>(selected.index)].clip.get()
+                                    ? workspace.scene().clips[static_cast<std::size_t>(selected.index)].clip.get()
                                     : nullptr;
-    const bool all = selected.kind == Selection::Kind::query && session.view().query == selected.index;
+    const bool all = selected.kind == Selection::Kind::query && workspace.view().query == selected.index;
     for (const DrawnAgent& agent : shown) {
         const mobb::PlacedClip& clip = agent.clip();
         if (!all && index != agent.index && of_clip != &clip.clip()) continue;
@@ -105,7 +104,7 @@ std::optional<Bounds> box_of(const Session& session, const Selection& selected) 
         }
     }
     if (bounds.min.x > bounds.max.x) return std::nullopt;
-    if (session.view().show == Show::moment) {
+    if (workspace.view().show == Show::moment) {
         const std::vector<double> heights = cylinder_heights(shown);
         bounds.min.z = 0;
         bounds.max.z = *std::max_element(heights.begin(), heights.end());
@@ -113,16 +112,16 @@ std::optional<Bounds> box_of(const Session& session, const Selection& selected) 
     return bounds;
 }
 
-std::optional<TestCorners> corners_of_test(const Session& session) {
-    const RecordedQuery* recorded = session.recorded();
-    if (!recorded || session.view().show == Show::moment) return std::nullopt;
-    const auto event = recorded->trace[session.step()];
-    const std::vector<DrawnAgent> sides = drawn_agents(session.fitted(), session.view());
+std::optional<TestCorners> corners_of_test(const Workspace& workspace) {
+    const RecordedQuery* recorded = workspace.recorded();
+    if (!recorded || workspace.view().show == Show::moment) return std::nullopt;
+    const auto event = recorded->trace[workspace.step()];
+    const std::vector<DrawnAgent> sides = drawn_agents(workspace.fitted(), workspace.view());
     return TestCorners{corners_of_node(sides[0].placed, event.a), corners_of_node(sides[1].placed, event.b)};
 }
 
-std::optional<Bounds> box_of_test(const Session& session) {
-    const std::optional<TestCorners> boxes = corners_of_test(session);
+std::optional<Bounds> box_of_test(const Workspace& workspace) {
+    const std::optional<TestCorners> boxes = corners_of_test(workspace);
     if (!boxes) return std::nullopt;
     Bounds bounds;
     for (const std::vector<glm::dvec3>& box : *boxes) {
@@ -192,36 +191,35 @@ Camera framing_in(const TestCorners& boxes, const PictureFrame& picture, const R
     return panned(resized(near, fitted, picture.size), part.center() - middle, picture.size);
 }
 
-void frame_box(Session& session, const Bounds& box) {
-    move_camera(session,
+void frame_box(Views& views, Workspace& workspace, const Bounds& box) {
+    move_camera(views, workspace,
                 [&](const Camera& camera, const PictureFrame& picture) { return framing_box(camera, picture, box); });
 }
 
-void go_along_with(Session& session, const TestCorners& boxes, const Rect& part) {
-    const PictureFrame picture = present_picture(session);
-    const double chosen = session.view().time_height;
-    session.settle_camera(session.active_place(), framing_in(boxes, picture, part),
-                          chosen > 0 ? 0 : picture.space.time_height);
+void go_along_with(Views& views, Workspace& workspace, const TestCorners& boxes, const Rect& part) {
+    const PictureFrame picture = present_picture(views, workspace);
+    const double chosen = workspace.view().time_height;
+    views.settle_camera(views.active(), framing_in(boxes, picture, part), chosen > 0 ? 0 : picture.space.time_height);
 }
 
-bool follows(const Session& session) { return !session.view().follow.empty(); }
+bool follows(const Workspace& workspace) { return !workspace.view().follow.empty(); }
 
-void follow_agent(Session& session, const std::string& name, double metres) {
-    index_of_name(agent_names(session), name, "agent");
-    session.change_view([&](ViewState& view) { view.follow = name; });
-    frame_followed(session, metres);
-    select_agent_named(session, name);
+void follow_agent(Workspace& workspace, Views& views, const std::string& name, double metres) {
+    index_of_name(agent_names(workspace), name, "agent");
+    workspace.change_view([&](ViewState& view) { view.follow = name; });
+    frame_followed(views, workspace, metres);
+    select_agent_named(workspace, name);
 }
 
-void frame_followed(Session& session, double metres) {
-    move_camera(session, [&](const Camera&, const PictureFrame& picture) {
-        return framing_followed(session.fitted(), session.view(), picture, metres);
+void frame_followed(Views& views, Workspace& workspace, double metres) {
+    move_camera(views, workspace, [&](const Camera&, const PictureFrame& picture) {
+        return framing_followed(workspace.fitted(), workspace.view(), picture, metres);
     });
 }
 
-void center_followed(Session& session) {
-    move_camera(session, [&](Camera camera, const PictureFrame& picture) {
-        const glm::dvec3 foot = target_of_followed(session.fitted(), session.view(), picture);
+void center_followed(Views& views, Workspace& workspace) {
+    move_camera(views, workspace, [&](Camera camera, const PictureFrame& picture) {
+        const glm::dvec3 foot = target_of_followed(workspace.fitted(), workspace.view(), picture);
         camera.target = foot + glm::dvec3(0, 0, 0.5 * kStanding);
         camera.shift = {0, 0};
         return camera;

@@ -1,7 +1,7 @@
 /// The view with a camera that says where it stands, for commands that move it.
 #pragma once
 
-#include <app/document/session.h>
+#include <app/session/session.h>
 #include <render/drawlist/draw_list.h>
 #include <render/layout/framing.h>
 
@@ -15,22 +15,23 @@
 namespace mobbscope::app {
 
 /// Of the viewport's picture; without a window that of `render`.
-PictureSize viewport_size(const Session& session);
+PictureSize viewport_size(const Views& views);
 
 /// Looks from elsewhere: `move` turns the present explicit camera, and what it shows, into another. Time keeps the
 /// height that it has now, as the camera's target is measured in it. Requires a scene.
-void move_camera(Session& session, const std::function<Camera(const Camera&, const PictureFrame&)>& move);
+void move_camera(Views& views, Workspace& workspace,
+                 const std::function<Camera(const Camera&, const PictureFrame&)>& move);
 
 /// What `selected` covers of what the present picture shows, in (x, y, t), or in the picture of a moment (x, y,
 /// height). None if it is not in the picture.
-std::optional<Bounds> box_of(const Session& session, const Selection& selected);
+std::optional<Bounds> box_of(const Workspace& workspace, const Selection& selected);
 
 /// What the pair under test covers, likewise; none without a query in view, or in the picture of a moment.
-std::optional<Bounds> box_of_test(const Session& session);
+std::optional<Bounds> box_of_test(const Workspace& workspace);
 
 /// The corners of the two boxes under test, in (x, y, t); none where box_of_test has none.
 using TestCorners = std::array<std::vector<glm::dvec3>, 2>;
-std::optional<TestCorners> corners_of_test(const Session& session);
+std::optional<TestCorners> corners_of_test(const Workspace& workspace);
 
 /// Whether both boxes lie wholly in the part of a picture that no panel covers, and are together not small.
 bool is_well_seen(const TestCorners& boxes, const PictureFrame& picture, std::span<const Rect> panels);
@@ -43,22 +44,22 @@ Rect free_part(PictureSize size, std::span<const Rect> panels);
 Camera framing_in(const TestCorners& boxes, const PictureFrame& picture, const Rect& part);
 
 /// Brings a box that box_of gave into the middle, as large as it fits.
-void frame_box(Session& session, const Bounds& box);
+void frame_box(Views& views, Workspace& workspace, const Bounds& box);
 
 /// Frames both boxes so, as what the present step brings along: the state of the history that shows the step has the
 /// camera too.
-void go_along_with(Session& session, const TestCorners& boxes, const Rect& part);
+void go_along_with(Views& views, Workspace& workspace, const TestCorners& boxes, const Rect& part);
 
-bool follows(const Session& session);
+bool follows(const Workspace& workspace);
 
 /// Follows and selects an agent, with so many metres around it in the picture. Throws std::invalid_argument if there is
 /// no agent of that name.
-void follow_agent(Session& session, const std::string& name, double metres);
+void follow_agent(Workspace& workspace, Views& views, const std::string& name, double metres);
 
 /// Brings so many metres around the followed agent into the picture.
-void frame_followed(Session& session, double metres);
+void frame_followed(Views& views, Workspace& workspace, double metres);
 
 /// Puts the followed agent in the middle again, seen from as far as before.
-void center_followed(Session& session);
+void center_followed(Views& views, Workspace& workspace);
 
 }  // namespace mobbscope::app

@@ -10,75 +10,78 @@ namespace mobbscope::app {
 
 namespace {
 
-bool has_source(const Session& session, int clip) {
-    const auto& clips = session.scene().clips;
+bool has_source(const Workspace& workspace, int clip) {
+    const auto& clips = workspace.scene().clips;
     return clip >= 0 && static_cast<std::size_t>(clip) < clips.size() && clips[static_cast<std::size_t>(clip)].source;
 }
 
 /// The clip that import commands are about: of the dialog, else the selected one or that of the selected agent, else
 /// the first from a file; -1: none.
-int clip_to_import(const Session& session) {
-    if (session.dialog == Dialog::import_clip) return session.importing.clip;
-    const Selection& selected = session.selection;
-    if (selected.kind == Selection::Kind::clip && has_source(session, selected.index)) return selected.index;
+int clip_to_import(const Dialogs& dialogs, const Imports& imports, const Workspace& workspace) {
+    if (dialogs.now == Dialog::import_clip) return imports.edited.clip;
+    const Selection& selected = workspace.selection;
+    if (selected.kind == Selection::Kind::clip && has_source(workspace, selected.index)) return selected.index;
     if (selected.on_path()) {
-        const auto who = placed_agent_of(session.fitted(), selected.path);
-        if (who && has_source(session, who->clip)) return who->clip;
+        const auto who = placed_agent_of(workspace.fitted(), selected.path);
+        if (who && has_source(workspace, who->clip)) return who->clip;
     }
-    const auto& clips = session.scene().clips;
+    const auto& clips = workspace.scene().clips;
     const auto at = std::ranges::find_if(clips, [](const SceneClip& clip) { return clip.source.has_value(); });
     return at == clips.end() ? -1 : static_cast<int>(at - clips.begin());
 }
 
 /// The clip of the dialog, the selected one, that of the selected agent, or the only one; -1: none.
-int clip_to_move(const Session& session) {
-    if (session.dialog == Dialog::import_clip) return session.importing.clip;
-    const Selection& selected = session.selection;
+int clip_to_move(const Dialogs& dialogs, const Imports& imports, const Workspace& workspace) {
+    if (dialogs.now == Dialog::import_clip) return imports.edited.clip;
+    const Selection& selected = workspace.selection;
     if (selected.kind == Selection::Kind::clip) return selected.index;
-    const auto who = selected.on_path() ? placed_agent_of(session.fitted(), selected.path) : std::nullopt;
+    const auto who = selected.on_path() ? placed_agent_of(workspace.fitted(), selected.path) : std::nullopt;
     if (who) return who->clip;
-    return session.scene().clips.size() == 1 ? 0 : -1;
+    return workspace.scene().clips.size() == 1 ? 0 : -1;
 }
 
-bool can_move(const Session& session) { return has_scene(session) && !session.crowd() && !session.scene().graph; }
+bool can_move(const Workspace& workspace) {
+    return has_scene(workspace) && !workspace.crowd() && !workspace.scene().graph;
+}
 
-std::string_view why_not_move(const Session& session) {
-    return session.crowd() ? "a run is not edited" : "the motion graph was cut out of these clips";
+std::string_view why_not_move(const Workspace& workspace) {
+    return workspace.crowd() ? "a run is not edited" : "the motion graph was cut out of these clips";
 }
 
 /// held or linear, and behind it whose.
-void set_motion(Session& session, const std::string& text) {
+void set_motion(Dialogs& dialogs, Imports& imports, Workspace& workspace, const std::string& text) {
     const std::string_view both = trimmed(text);
     const std::size_t end = std::min(both.find(' '), both.size());
     const auto motion = mobb::motion_from_name(both.substr(0, end));
     if (!motion) throw std::invalid_argument("motion is held or linear, not " + in_quotes(both.substr(0, end)));
     const std::string_view named = trimmed(both.substr(end));
-    const int clip = named.empty() ? clip_to_move(session) : index_of_name(clip_names(session), named, "clip");
+    const int clip =
+        named.empty() ? clip_to_move(dialogs, imports, workspace) : index_of_name(clip_names(workspace), named, "clip");
     if (clip < 0) throw std::invalid_argument("select the clip, or an agent that plays it");
-    session.set_motion(clip, session.dialog == Dialog::import_clip && session.importing.whole_file, *motion);
+    imports.set_motion(clip, dialogs.now == Dialog::import_clip && imports.edited.whole_file, *motion);
 }
 
-bool can_import(const Session& session) {
-    return !session.crowd() && !session.scene().graph && clip_to_import(session) >= 0;
+bool can_import(const Workspace& workspace, const Dialogs& dialogs, const Imports& imports) {
+    return !workspace.crowd() && !workspace.scene().graph && clip_to_import(dialogs, imports, workspace) >= 0;
 }
 
-std::string_view why_no_import(const Session& session) {
-    if (session.crowd()) return "a run is not edited";
-    return session.scene().graph ? "the motion graph was cut out of these clips" : "no clip comes from a file";
+std::string_view why_no_import(const Workspace& workspace) {
+    if (workspace.crowd()) return "a run is not edited";
+    return workspace.scene().graph ? "the motion graph was cut out of these clips" : "no clip comes from a file";
 }
 
-std::vector<std::string> names_of_sources(const Session& session) {
+std::vector<std::string> names_of_sources(const Workspace& workspace) {
     std::vector<std::string> out;
-    for (const SceneClip& clip : session.scene().clips) {
+    for (const SceneClip& clip : workspace.scene().clips) {
         if (clip.source) out.push_back(clip.name);
     }
     return out;
 }
 
 /// A clip's name, and behind it the option that the dialog is opened for.
-void open_dialog(Session& session, const std::string& text) {
-    if (text.empty()) return session.open_import(clip_to_import(session));
-    const std::vector<std::string> names = clip_names(session);
+void open_dialog(Imports& imports, Dialogs& dialogs, Workspace& workspace, const std::string& text) {
+    if (text.empty()) return imports.open(clip_to_import(dialogs, imports, workspace));
+    const std::vector<std::string> names = clip_names(workspace);
     std::string name(trimmed(text));
     std::string option;
     const std::size_t blank = name.rfind(' ');
@@ -87,17 +90,18 @@ void open_dialog(Session& session, const std::string& text) {
         option = name.substr(blank + 1);
         name = trimmed(std::string_view(name).substr(0, blank));
     }
-    session.open_import(index_of_name(names, name, "clip"), option);
+    imports.open(index_of_name(names, name, "clip"), option);
 }
 
-void set(Session& session, const std::string& text) {
+void set(Imports& imports, Dialogs& dialogs, Workspace& workspace, const std::string& text) {
     const std::string_view both = trimmed(text);
     const std::size_t end = std::min(both.find(' '), both.size());
     std::vector<std::string> keys;
     for (const ImportOption& option : kImportOptions) keys.emplace_back(option.key);
     const int option = index_of_name(keys, both.substr(0, end), "import option");
-    session.set_import(clip_to_import(session), session.dialog == Dialog::import_clip && session.importing.whole_file,
-                       keys[static_cast<std::size_t>(option)], std::string(trimmed(both.substr(end))));
+    imports.set(clip_to_import(dialogs, imports, workspace),
+                dialogs.now == Dialog::import_clip && imports.edited.whole_file, keys[static_cast<std::size_t>(option)],
+                std::string(trimmed(both.substr(end))));
 }
 
 }  // namespace
@@ -117,13 +121,12 @@ std::vector<Command> clip_commands() {
                 {.argument = "MOTION [CLIP]",
                  .enabled = {can_move, why_not_move},
                  .choices =
-                     [](const Session&) {
-                         return std::vector<std::string>(mobb::motion_names().begin(), mobb::motion_names().end());
-                     },
+                     [] { return std::vector<std::string>(mobb::motion_names().begin(), mobb::motion_names().end()); },
                  .chosen =
-                     [](const Session& session, const std::string& motion) {
-                         const int clip = clip_to_move(session);
-                         return clip >= 0 && name(session.fitted().tree(clip).clip().motion()) == motion;
+                     [](const Dialogs& dialogs, const Imports& imports, const Workspace& workspace,
+                        const std::string& motion) {
+                         const int clip = clip_to_move(dialogs, imports, workspace);
+                         return clip >= 0 && name(workspace.fitted().tree(clip).clip().motion()) == motion;
                      }}),
     };
     return in_menu("Edit", rows);

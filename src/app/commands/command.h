@@ -2,47 +2,91 @@
 /// table.
 #pragma once
 
-#include <app/document/session.h>
 #include <app/input/key.h>
+#include <app/session/session.h>
 #include <scene/view_options.h>
 
-#include <concepts>
 #include <functional>
 #include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace mobbscope::app {
 
+/// What a parameter stands for: the text that a command was given, the desktop, a part of the session, or all of it.
+template <class Parameter, class AnySession>
+Parameter given(AnySession& session, const std::string& text) {
+    using Type = std::remove_cvref_t<Parameter>;
+    if constexpr (std::is_same_v<Type, std::string>) {
+        return text;
+    } else if constexpr (std::is_same_v<Type, Session>) {
+        return session;
+    } else if constexpr (std::is_same_v<Type, Desktop>) {
+        return *session.desktop;
+    } else if constexpr (std::is_const_v<AnySession>) {
+        return std::get<const Type&>(Session::parts(session));
+    } else {
+        return std::get<Type&>(Session::parts(session));
+    }
+}
+
+/// A function of a session that names only the parts that it takes, in any order, and the text if it wants that:
+/// `[](Workspace& workspace, const std::string& name) { ... }`.
+template <class Result, class AnySession>
+class OfParts {
+  public:
+    OfParts() = default;
+    template <class Function>
+    requires(!std::is_same_v<std::remove_cvref_t<Function>, OfParts>) OfParts(Function function)
+        : OfParts(std::in_place, std::function(std::move(function))) {}
+
+    /// A function of one part.
+    template <class Returned, class Part>
+    OfParts(Returned (Part::*function)())
+        : OfParts([function](Part& part) { return static_cast<Result>((part.*function)()); }) {}
+    template <class Returned, class Part>
+    OfParts(Returned (Part::*function)() const)
+        : OfParts([function](const Part& part) { return static_cast<Result>((part.*function)()); }) {}
+
+    Result operator()(AnySession& session, const std::string& text = {}) const { return call_(session, text); }
+    explicit operator bool() const { return static_cast<bool>(call_); }
+
+  private:
+    template <class Returned, class... Parameters>
+    OfParts(std::in_place_t, std::function<Returned(Parameters...)> function)
+        : call_([function = std::move(function)](AnySession& session, const std::string& text) {
+              return static_cast<Result>(function(given<Parameters>(session, text)...));
+          }) {}
+
+    std::function<Result(AnySession&, const std::string&)> call_;
+};
+
 /// The rule of commands that need nothing but a scene.
-inline bool has_scene(const Session& session) { return !session.empty(); }
-inline bool always(const Session&) { return true; }
+inline bool has_scene(const Workspace& workspace) { return !workspace.empty(); }
+inline bool always() { return true; }
 
 /// Why a command that says no more cannot be done.
 inline constexpr std::string_view kNotNow = "not now";
 
 /// Whether a command can be done; and why not, where a scene is open and no job under way.
 struct Condition {
+    template <class Holds, class WhyNot>
+    Condition(Holds if_, WhyNot else_) : holds(if_), why_not(else_) {}
     template <class Holds>
-    Condition(
-        Holds if_, std::string_view (*else_)(const Session&) = [](const Session&) { return kNotNow; })
-        : holds(if_), why_not(else_) {}
+    Condition(Holds if_) : Condition(if_, [] { return kNotNow; }) {}
     bool operator()(const Session& session) const { return holds(session); }
 
-    std::function<bool(const Session&)> holds;
-    std::string_view (*why_not)(const Session&);
+    OfParts<bool, const Session> holds;
+    OfParts<std::string_view, const Session> why_not;
 };
 
-/// What a command does; what takes no argument need not name it. Throws InputError, MachineError or
-/// std::invalid_argument, in words for the person.
-struct Action : std::function<void(Session&, const std::string& argument)> {
-    using function::function;
-    template <std::invocable<Session&> Act>
-    Action(Act act) : function([act](Session& session, const std::string&) { std::invoke(act, session); }) {}
-};
+/// What a command does. Throws InputError, MachineError or std::invalid_argument, in words for the person.
+using Action = OfParts<void, Session>;
 
 /// What a command may have besides.
 struct CommandTraits {
@@ -53,15 +97,15 @@ struct CommandTraits {
     bool repeats = false;         ///< while its key is held
     std::string_view argument{};  ///< what it takes: "FILE", "N"; in brackets if it can do without; empty: nothing
     Condition enabled = has_scene;
-    std::function<bool(const Session&)> checked{};                      ///< of a toggle: whether it is on
-    std::function<std::vector<std::string>(const Session&)> choices{};  ///< arguments to choose from
+    OfParts<bool, const Session> checked{};                      ///< of a toggle: whether it is on
+    OfParts<std::vector<std::string>, const Session> choices{};  ///< arguments to choose from
     /// What menus call a choice. Null: as it is given.
     std::function<std::string(const std::string& choice)> choice_title{};
     /// Without choices: the argument that would leave all as it is now, with which a prompt for another one begins;
     /// empty where nothing is. Null: there is no such argument.
-    std::function<std::string(const Session&)> present{};
+    OfParts<std::string, const Session> present{};
     /// Of a command with choices: whether this one is what is now. Null: no choice is.
-    std::function<bool(const Session&, const std::string& choice)> chosen{};
+    OfParts<bool, const Session> chosen{};
 };
 
 struct Command : CommandTraits {
@@ -83,7 +127,7 @@ std::span<const Command> commands();
 /// Why a command cannot be done now; empty if it can.
 std::string_view why_not(const Session& session, const Command& command);
 /// ... of a command that looks for a step of the query in view.
-std::string_view why_no_step(const Session& session);
+std::string_view why_no_step(const Workspace& workspace);
 
 /// Null if there is none.
 const Command* find_command(std::string_view id);
@@ -95,7 +139,7 @@ const Command& command_named(std::string_view id);
 /// throws.
 void run_command(Session& session, std::string_view id, const std::string& argument = "");
 
-/// Runs a command for a person once the frame is drawn (Session::enqueue).
+/// Runs a command for a person once the frame is drawn (CommandQueue).
 void invoke(Session& session, std::string_view id, const std::string& argument = "");
 
 /// Opens the palette for the argument of a command.

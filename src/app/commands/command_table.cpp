@@ -16,14 +16,18 @@ std::vector<Command> help_commands() {
     const std::vector<Command> rows{
         Command("help.shortcuts", "Help",
                 "Says what can be done now, then lists all keys and what the mouse does; a search finds commands.",
-                &Session::open_help, {.shortcut = "F1", .enabled = always}),
+                &Dialogs::open_help, {.shortcut = "F1", .enabled = always}),
         Command("help.messages", "Messages", "Lists what was said: what went wrong, what to do, and what was done.",
-                &Session::open_messages, {.shortcut = "F8", .enabled = always}),
-        Command("help.clear_messages", "Clear messages", "Empties the list of messages.", &Session::clear_messages,
-                {.enabled = {[](const Session& session) { return !session.messages().empty(); },
-                             [](const Session&) -> std::string_view { return "there are none"; }}}),
+                [](Dialogs& dialogs, Notifications& notifications) {
+                    dialogs.open(Dialog::messages);
+                    notifications.mark_read();
+                },
+                {.shortcut = "F8", .enabled = always}),
+        Command("help.clear_messages", "Clear messages", "Empties the list of messages.", &Notifications::clear,
+                {.enabled = {[](const Notifications& notifications) { return !notifications.all().empty(); },
+                             []() -> std::string_view { return "there are none"; }}}),
         Command("help.about", "About Mobbscope", "Says which version this is and what it shows.",
-                [](Session& session) { session.open_dialog(Dialog::about); }, {.enabled = always}),
+                [](Dialogs& dialogs) { dialogs.open(Dialog::about); }, {.enabled = always}),
     };
     return in_menu("Help", rows);
 }
@@ -44,7 +48,7 @@ std::vector<Command> only_where_shown(std::vector<Command> rows) {
     for (Command& row : rows) {
         if (is_everywhere(row)) continue;
         row.enabled.holds = [shown_there = is_of_review(row), holds = row.enabled.holds](const Session& session) {
-            return session.reviewing() == shown_there && holds(session);
+            return session.reviews.shown() == shown_there && holds(session);
         };
     }
     return rows;
@@ -60,21 +64,21 @@ std::span<const Command> commands() {
 }
 
 bool belongs_here(const Session& session, const Command& command) {
-    return is_everywhere(command) || is_of_review(command) == session.reviewing();
+    return is_everywhere(command) || is_of_review(command) == session.reviews.shown();
 }
 
 std::string_view why_not(const Session& session, const Command& command) {
     if (command.enabled(session)) return "";
     if (!belongs_here(session, command)) {
-        return session.reviewing() ? "picture tests are shown: leave them first" : "no picture tests are shown";
+        return session.reviews.shown() ? "picture tests are shown: leave them first" : "no picture tests are shown";
     }
-    if (session.reviewing()) return command.enabled.why_not(session);
-    if (session.job()) return "something is under way";
-    return session.empty() ? "nothing is open" : command.enabled.why_not(session);
+    if (session.reviews.shown()) return command.enabled.why_not(session);
+    if (session.jobs.job()) return "something is under way";
+    return session.workspace.empty() ? "nothing is open" : command.enabled.why_not(session);
 }
 
-std::string_view why_no_step(const Session& session) {
-    return session.view().query ? "there is none from here" : "no query is shown";
+std::string_view why_no_step(const Workspace& workspace) {
+    return workspace.view().query ? "there is none from here" : "no query is shown";
 }
 
 const Command* find_command(std::string_view id) {
@@ -102,13 +106,13 @@ void run_command(Session& session, std::string_view id, const std::string& argum
 }
 
 void invoke(Session& session, std::string_view id, const std::string& argument) {
-    session.enqueue([&session, id = std::string(id), argument] { run_command(session, id, argument); });
+    session.queue.push([&session, id = std::string(id), argument] { run_command(session, id, argument); });
 }
 
 void ask_for_argument(Session& session, const Command& command) {
     DialogInput input{.text = command.present ? command.present(session) : "", .command = std::string(command.id)};
     input.selected = !input.text.empty();
-    session.open_dialog(Dialog::palette, std::move(input));
+    session.dialogs.open(Dialog::palette, std::move(input));
 }
 
 const Command* command_for(const Session& session, const Chord& chord) {
@@ -132,21 +136,21 @@ std::string_view first_shortcut(const Command& command) {
 Command option_command(const ViewOption& option) {
     CommandTraits traits{.menu = option.menu, .shortcut = option.shortcut, .enabled = always};
     if (const auto value = option.toggle) {
-        const auto flip = [value](Session& session) {
-            session.change_view([&](ViewState& view) { view.*value = !(view.*value); });
+        const auto flip = [value](Workspace& workspace) {
+            workspace.change_view([&](ViewState& view) { view.*value = !(view.*value); });
         };
-        traits.checked = [value](const Session& session) { return session.view().*value; };
+        traits.checked = [value](const Workspace& workspace) { return workspace.view().*value; };
         return {option.command, option.title, option.doc, flip, traits};
     }
-    const auto choose = [&option](Session& session, const std::string& text) {
+    const auto choose = [&option](Workspace& workspace, const std::string& text) {
         const std::vector<std::string_view>& all = option.choices;
         // Without an argument the next one.
-        const auto now = std::ranges::find(all, option.text(session.view()));
+        const auto now = std::ranges::find(all, option.text(workspace.view()));
         const std::string wanted(text.empty() ? (now + 1 == all.end() ? all.front() : *(now + 1)) : text);
         if (std::ranges::find(all, wanted) == all.end()) {
             throw std::invalid_argument(refusal_of(option.refused_in_window, wanted) + ": give " + either(all));
         }
-        session.change_view([&](ViewState& view) { option.parse(wanted, view); });
+        workspace.change_view([&](ViewState& view) { option.parse(wanted, view); });
     };
     traits.argument = option.argument;
     traits.choices = [&option](const Session&) {
@@ -158,8 +162,8 @@ Command option_command(const ViewOption& option) {
             return std::string(option.choice_titles.at(static_cast<std::size_t>(at)));
         };
     }
-    traits.chosen = [&option](const Session& session, const std::string& text) {
-        return option.text(session.view()) == text;
+    traits.chosen = [&option](const Workspace& workspace, const std::string& text) {
+        return option.text(workspace.view()) == text;
     };
     return {option.command, option.title, option.doc, choose, traits};
 }

@@ -22,48 +22,48 @@ constexpr double kNear = 2.5;  // metres around two that meet
 
 // --- following
 
-void stop_following(Session& session) {
-    const double time = shown_time(session);
-    const glm::dvec3 anchor = camera_anchor(session.fitted(), session.view(), time);
-    session.change_view([&](ViewState& view) {
+void stop_following(Workspace& workspace) {
+    const double time = shown_time(workspace);
+    const glm::dvec3 anchor = camera_anchor(workspace.fitted(), workspace.view(), time);
+    workspace.change_view([&](ViewState& view) {
         view.follow.clear();
         // What was in the middle stays there.
         if (view.camera.target) *view.camera.target += glm::dvec3(anchor.x, anchor.y, 0);
     });
 }
 
-void follow(Session& session, const std::string& name) {
-    if (!name.empty()) return follow_agent(session, name, kAroundFollowed);
-    const std::string who = current_agent(session);
-    if (who.empty()) return session.tell(MessageLevel::info, "Click somebody first to follow them");
-    if (who == session.view().follow) return stop_following(session);
-    follow_agent(session, who, kAroundFollowed);
+void follow(Workspace& workspace, Views& views, Notifications& notifications, const std::string& name) {
+    if (!name.empty()) return follow_agent(workspace, views, name, kAroundFollowed);
+    const std::string who = current_agent(workspace);
+    if (who.empty()) return notifications.tell(MessageLevel::info, "Click somebody first to follow them");
+    if (who == workspace.view().follow) return stop_following(workspace);
+    follow_agent(workspace, views, who, kAroundFollowed);
 }
 
 // --- plays and choices
 
-const CrowdAgent* followed(const Session& session) {
-    const auto run_agent = current_run_agent(session);
-    return run_agent ? &session.crowd()->agents[static_cast<std::size_t>(*run_agent)] : nullptr;
+const CrowdAgent* followed(const Workspace& workspace) {
+    const auto run_agent = current_run_agent(workspace);
+    return run_agent ? &workspace.crowd()->agents[static_cast<std::size_t>(*run_agent)] : nullptr;
 }
 
-void to_time(Session& session, double time) {
-    session.stop();
-    session.change_view([&](ViewState& view) { view.time = time; });
+void to_time(Playback& playback, Workspace& workspace, double time) {
+    playback.stop();
+    workspace.change_view([&](ViewState& view) { view.time = time; });
 }
 
-void to_play(Session& session, const std::string& text) {
-    const CrowdAgent& agent = *followed(session);
+void to_play(Workspace& workspace, Playback& playback, const std::string& text) {
+    const CrowdAgent& agent = *followed(workspace);
     const int play = whole_number_in(text, "the play", 0, static_cast<int>(agent.plays.size()) - 1);
-    to_time(session, agent.plays[static_cast<std::size_t>(play)].placement.start);
+    to_time(playback, workspace, agent.plays[static_cast<std::size_t>(play)].placement.start);
 }
 
 /// The choice after or before the present time; none if there is none.
 template <int direction>
-std::optional<double> next_choice(const Session& session) {
-    const CrowdAgent* agent = followed(session);
+std::optional<double> next_choice(const Workspace& workspace) {
+    const CrowdAgent* agent = followed(workspace);
     if (!agent) return std::nullopt;
-    const double now = run_time(session.scene(), session.view());
+    const double now = run_time(workspace.scene(), workspace.view());
     std::optional<double> best;
     for (std::size_t i = 1; i < agent->plays.size(); ++i) {
         const double at = agent->plays[i].chosen_at;
@@ -74,26 +74,26 @@ std::optional<double> next_choice(const Session& session) {
 }
 
 template <int direction>
-bool has_choice(const Session& session) {
-    return next_choice<direction>(session).has_value();
+bool has_choice(const Workspace& workspace) {
+    return next_choice<direction>(workspace).has_value();
 }
 template <int direction>
-void to_choice(Session& session) {
-    to_time(session, *next_choice<direction>(session));
+void to_choice(Playback& playback, Workspace& workspace) {
+    to_time(playback, workspace, *next_choice<direction>(workspace));
 }
 
 // --- candidates
 
 Command candidates_command() {
     Command out = option_command(view_option("candidates"));
-    out.enabled = &Session::crowd;
+    out.enabled = &Workspace::crowd;
     return out;
 }
 
-void point_out(Session& session, const std::string& text) {
-    const int count = static_cast<int>(session.choice()->choice.candidates.size());
-    session.point_out(whole_number_in(text, "the candidate", 0, count - 1));
-    session.change_view([](ViewState& view) { view.candidates = true; });
+void point_out(CrowdInspector& crowds, Workspace& workspace, const std::string& text) {
+    const int count = static_cast<int>(crowds.choice()->choice.candidates.size());
+    crowds.point_out(whole_number_in(text, "the candidate", 0, count - 1));
+    workspace.change_view([](ViewState& view) { view.candidates = true; });
 }
 
 constexpr std::array<std::string_view, 4> kColumns{"outcome", "clip", "reason", "contact"};
@@ -106,69 +106,73 @@ std::size_t which_of(const std::array<std::string_view, N>& names, const char* w
 }
 
 /// The same column once more turns the order round.
-void sort_candidates(Session& session, const std::string& text) {
+void sort_candidates(CrowdInspector& crowds, const std::string& text) {
     const auto by = static_cast<CandidateList::Column>(which_of(kColumns, "column", text));
-    CandidateList& list = session.candidates;
+    CandidateList& list = crowds.list;
     list.descending = list.by == by && !list.descending;
     list.by = by;
 }
 
-void list_candidates(Session& session, const std::string& text) {
-    session.candidates.which = static_cast<CandidateList::Which>(which_of(kWhich, "choice", text));
+void list_candidates(CrowdInspector& crowds, const std::string& text) {
+    crowds.list.which = static_cast<CandidateList::Which>(which_of(kWhich, "choice", text));
 }
 
-void open_candidate(Session& session, const std::string& text) {
-    int index = session.candidate();
+void open_candidate(CrowdInspector& crowds, Excerpts& excerpts, const std::string& text) {
+    int index = crowds.candidate();
     if (!text.empty()) {
         index = whole_number_in(text, "the candidate", 0, std::numeric_limits<int>::max());
     }
-    session.open_candidate(index);
+    excerpts.open_candidate(index);
 }
 
 // --- conflicts
 
-bool can_find(const Session& session) { return !session.empty() && !session.job() && can_conflict(session); }
-bool has_conflicts(const Session& session) { return session.conflicts() && !session.conflicts()->empty(); }
+bool can_find(const Workspace& workspace, const Jobs& jobs) {
+    return !workspace.empty() && !jobs.job() && can_conflict(workspace);
+}
+bool has_conflicts(const CrowdInspector& crowds) { return crowds.conflicts() && !crowds.conflicts()->empty(); }
 
 void to_conflict(Session& session, int index) {
-    const ConflictPlace place = conflict_place(session, (*session.conflicts())[static_cast<std::size_t>(index)]);
-    session.stop();
-    session.conflict = index;
-    session.change_view([&](ViewState& view) {
+    const ConflictPlace place =
+        conflict_place(session.workspace, (*session.crowds.conflicts())[static_cast<std::size_t>(index)]);
+    session.playback.stop();
+    session.workspace.conflict = index;
+    session.workspace.change_view([&](ViewState& view) {
         view.query.reset();
         view.time = place.time;
     });
-    follow_agent(session, place.followed.name, kNear);
+    follow_agent(session.workspace, session.views, place.followed.name, kNear);
 }
 
 void go_conflict(Session& session, const std::string& text) {
-    to_conflict(session, whole_number_in(text, "the conflict", 0, static_cast<int>(session.conflicts()->size()) - 1));
+    to_conflict(session,
+                whole_number_in(text, "the conflict", 0, static_cast<int>(session.crowds.conflicts()->size()) - 1));
 }
 
 template <int direction>
-bool has_next_conflict(const Session& session) {
-    if (!has_conflicts(session)) return false;
-    const int next = session.conflict + direction;
-    return next >= 0 && next < static_cast<int>(session.conflicts()->size());
+bool has_next_conflict(const CrowdInspector& crowds, const Workspace& workspace) {
+    if (!has_conflicts(crowds)) return false;
+    const int next = workspace.conflict + direction;
+    return next >= 0 && next < static_cast<int>(crowds.conflicts()->size());
 }
 template <int direction>
 void next_conflict(Session& session) {
-    to_conflict(session, session.conflict + direction);
+    to_conflict(session, session.workspace.conflict + direction);
 }
 
-void open_conflict(Session& session, const std::string& text) {
-    const int last = static_cast<int>(session.conflicts()->size()) - 1;
-    const int index = text.empty() ? session.conflict : whole_number_in(text, "the conflict", 0, last);
+void open_conflict(CrowdInspector& crowds, Workspace& workspace, Excerpts& excerpts, const std::string& text) {
+    const int last = static_cast<int>(crowds.conflicts()->size()) - 1;
+    const int index = text.empty() ? workspace.conflict : whole_number_in(text, "the conflict", 0, last);
     if (index < 0) throw std::invalid_argument("choose a conflict first: click one in the list");
-    session.open_conflict((*session.conflicts())[static_cast<std::size_t>(index)]);
+    excerpts.open_conflict((*crowds.conflicts())[static_cast<std::size_t>(index)]);
 }
 
-void open_pair(Session& session, const std::string& name) {
-    const auto path = current_path(session);
-    const int index = index_of_name(agent_names(session), name, "agent");
-    const PlacedAgent other = session.fitted().placed_agents()[static_cast<std::size_t>(index)];
+void open_pair(Workspace& workspace, Excerpts& excerpts, const std::string& name) {
+    const auto path = current_path(workspace);
+    const int index = index_of_name(agent_names(workspace), name, "agent");
+    const PlacedAgent other = workspace.fitted().placed_agents()[static_cast<std::size_t>(index)];
     if (other.name == path->name) throw std::invalid_argument("an agent cannot be asked against itself: name another");
-    session.open_excerpt(*path, other);
+    excerpts.open(*path, other);
 }
 
 }  // namespace
@@ -182,14 +186,14 @@ std::vector<Command> crowd_commands() {
         candidates_command(),
         Command("crowd.window", "Seconds around the time",
                 "Shows so many seconds of a run before and after its time in space-time, 0.1 to 60.",
-                [](Session& session, const std::string& text) {
+                [](Workspace& workspace, const std::string& text) {
                     const double window = number_in(text, "the window", kLeastTimeWindow, kMostTimeWindow);
-                    session.change_view([&](ViewState& view) { view.time_window = window; });
+                    workspace.change_view([&](ViewState& view) { view.time_window = window; });
                 },
                 {.menu = kNoMenu,
                  .argument = "S",
-                 .enabled = &Session::crowd,
-                 .present = [](const Session& session) { return short_double(session.view().time_window); }}),
+                 .enabled = &Workspace::crowd,
+                 .present = [](const Workspace& workspace) { return short_double(workspace.view().time_window); }}),
         Command("crowd.next_choice", "Next choice", "Goes to the time at which the agent chooses next.", to_choice<1>,
                 {.shortcut = "N", .enabled = has_choice<1>}),
         Command("crowd.previous_choice", "Previous choice", "Goes to the time at which the agent chose before.",
@@ -198,37 +202,39 @@ std::vector<Command> crowd_commands() {
                 to_play, {.menu = kNoMenu, .argument = "N", .enabled = followed}),
         Command("crowd.candidate", "Point out a candidate",
                 "Points out one of the moves that the followed agent could choose, by its number from 0.", point_out,
-                {.menu = kNoMenu, .argument = "N", .enabled = &Session::choice}),
+                {.menu = kNoMenu, .argument = "N", .enabled = &CrowdInspector::choice}),
         Command("crowd.sort_candidates", "Sort candidates by",
                 "Lists the candidates of the last choice by a column; by the same one again the other way round.",
                 sort_candidates,
                 {.argument = "COLUMN",
-                 .choices = [](const Session&) { return std::vector<std::string>(kColumns.begin(), kColumns.end()); },
+                 .choices = [] { return std::vector<std::string>(kColumns.begin(), kColumns.end()); },
                  .chosen =
-                     [](const Session& session, const std::string& column) {
-                         return column == kColumns[static_cast<std::size_t>(session.candidates.by)];
+                     [](const CrowdInspector& crowds, const std::string& column) {
+                         return column == kColumns[static_cast<std::size_t>(crowds.list.by)];
                      }}),
         Command("crowd.list_candidates", "List candidates",
                 "Lists all candidates of the last choice, those that were free, or those that were rejected.",
                 list_candidates,
                 {.argument = "WHICH",
-                 .choices = [](const Session&) { return std::vector<std::string>(kWhich.begin(), kWhich.end()); },
+                 .choices = [] { return std::vector<std::string>(kWhich.begin(), kWhich.end()); },
                  .chosen =
-                     [](const Session& session, const std::string& which) {
-                         return which == kWhich[static_cast<std::size_t>(session.candidates.which)];
+                     [](const CrowdInspector& crowds, const std::string& which) {
+                         return which == kWhich[static_cast<std::size_t>(crowds.list.which)];
                      }}),
         Command(
             "crowd.open_candidate", "Open the candidate as a scene",
             "Opens the candidate that is pointed out, and who rules it out, as a scene with the query between them.",
-            open_candidate, {.argument = "[N]", .enabled = &Session::choice}),
+            open_candidate, {.argument = "[N]", .enabled = &CrowdInspector::choice}),
         Command("crowd.open_pair", "Open as a scene with",
                 "Opens what the selected agent and another walk now as a scene with the query between them.", open_pair,
                 {.argument = "AGENT",
                  .enabled =
-                     [](const Session& session) { return session.is_crowd() && current_path(session).has_value(); }}),
+                     [](const Workspace& workspace) {
+                         return workspace.is_crowd() && current_path(workspace).has_value();
+                     }}),
         Command("conflicts.find", "Find conflicts",
                 "Looks for all pairs of people who collide, through the trees, and lists the deepest overlap first.",
-                &Session::find_conflicts, {.enabled = can_find}),
+                &CrowdInspector::find_conflicts, {.enabled = can_find}),
         Command("conflicts.next", "Next conflict",
                 "Goes to just before the next two of the list collide; in a run to the choice that was forced.",
                 next_conflict<1>, {.shortcut = "Shift+PageDown", .repeats = true, .enabled = has_next_conflict<1>}),
@@ -241,7 +247,7 @@ std::vector<Command> crowd_commands() {
                 "Opens the two of a conflict as a scene with the query between them.", open_conflict,
                 {.argument = "[N]", .enabled = has_conflicts}),
         Command("crowd.back", "Back to the crowd", "Leaves the scene of two for the crowd that they were taken from.",
-                &Session::leave_excerpt, {.shortcut = "Backspace", .enabled = &Session::in_excerpt}),
+                &Excerpts::leave, {.shortcut = "Backspace", .enabled = &Workspace::in_excerpt}),
     };
     return in_menu("Go/Crowd", rows);
 }

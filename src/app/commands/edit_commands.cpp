@@ -37,79 +37,81 @@ mobb::Placement aside(const FittedScene& fitted, const mobb::Clip& clip) {
     return {{rounded_up(x), rounded_up(y)}, 0, start};
 }
 
-void select_agent(Session& session, int agent) { session.select({Selection::Kind::path, {agent, -1, 0}, -1}); }
+void select_agent(Workspace& workspace, int agent) { workspace.select({Selection::Kind::path, {agent, -1, 0}, -1}); }
 
-void add(Session& session, const std::string& name) {
-    const int clip = index_of_name(clip_names(session), name, "clip");
+void add(Workspace& workspace, const std::string& name) {
+    const int clip = index_of_name(clip_names(workspace), name, "clip");
     const mobb::Placement placement =
-        aside(session.fitted(), *session.scene().clips[static_cast<std::size_t>(clip)].clip);
+        aside(workspace.fitted(), *workspace.scene().clips[static_cast<std::size_t>(clip)].clip);
     int agent = 0;
-    session.edit({"adding an agent that plays " + name, ""},
-                 [&](Scene& scene) { agent = add_agent(scene, clip, placement); });
-    select_agent(session, agent);
+    workspace.edit({"adding an agent that plays " + name, ""},
+                   [&](Scene& scene) { agent = add_agent(scene, clip, placement); });
+    select_agent(workspace, agent);
 }
 
-void duplicate(Session& session) {
+void duplicate(Workspace& workspace) {
     int copy = 0;
-    edit_selected_agent(session, {"duplicating " + selected_agent_name(session), ""}, [&](Scene& scene, int agent) {
+    edit_selected_agent(workspace, {"duplicating " + selected_agent_name(workspace), ""}, [&](Scene& scene, int agent) {
         copy = duplicate_agent(scene, agent);
         mobb::Placement placement = scene.agents[static_cast<std::size_t>(copy)].placement;
         placement.translate += glm::dvec2(kAside, kAside) / std::sqrt(2.0);
         place_agent(scene, copy, placement);
     });
-    select_agent(session, copy);
+    select_agent(workspace, copy);
 }
 
-void remove(Session& session) {
-    edit_selected_agent(session, {"removing " + selected_agent_name(session), ""},
+void remove(Workspace& workspace) {
+    edit_selected_agent(workspace, {"removing " + selected_agent_name(workspace), ""},
                         [](Scene& scene, int agent) { remove_agent(scene, agent); });
     // The next agent has its index now.
-    session.select({});
+    workspace.select({});
 }
 
-void rename(Session& session, const std::string& name) { session.rename_agent(selected_agent(session), name); }
+void rename(Edits& edits, Workspace& workspace, const std::string& name) {
+    edits.rename_agent(selected_agent(workspace), name);
+}
 
-const mobb::Placement& selected_placement(const Session& session) {
-    return session.fitted().placed_agents()[static_cast<std::size_t>(selected_agent(session))].placement;
+const mobb::Placement& selected_placement(const Workspace& workspace) {
+    return workspace.fitted().placed_agents()[static_cast<std::size_t>(selected_agent(workspace))].placement;
 }
 
 template <class Change>
-void place_agent(Session& session, const Change& change) {
-    const mobb::Placement before = selected_placement(session);
+void place_agent(Workspace& workspace, const Change& change) {
+    const mobb::Placement before = selected_placement(workspace);
     mobb::Placement placement = before;
     change(placement);
-    EditName name = name_of_placing(selected_agent_name(session), before, placement);
+    EditName name = name_of_placing(selected_agent_name(workspace), before, placement);
     // Each command is an edit of its own.
     name.group.clear();
-    edit_selected_agent(session, name, [&](Scene& scene, int agent) { place_agent(scene, agent, placement); });
+    edit_selected_agent(workspace, name, [&](Scene& scene, int agent) { place_agent(scene, agent, placement); });
 }
 
-void move(Session& session, const std::string& text) {
+void move(Workspace& workspace, const std::string& text) {
     const glm::dvec2 to = two_numbers(text, "the place");
-    place_agent(session, [&](mobb::Placement& placement) { placement.translate = to; });
+    place_agent(workspace, [&](mobb::Placement& placement) { placement.translate = to; });
 }
 
-void nudge(Session& session, const std::string& text) {
+void nudge(Workspace& workspace, const std::string& text) {
     const glm::dvec2 by = two_numbers(text, "the way");
-    place_agent(session, [&](mobb::Placement& placement) { placement.translate += by; });
+    place_agent(workspace, [&](mobb::Placement& placement) { placement.translate += by; });
 }
 
-void turn(Session& session, const std::string& text) {
+void turn(Workspace& workspace, const std::string& text) {
     const double degrees = number_in(text, "the angle", -kMaxDegrees, kMaxDegrees);
-    place_agent(session, [&](mobb::Placement& placement) { placement.rotate_deg = degrees; });
+    place_agent(workspace, [&](mobb::Placement& placement) { placement.rotate_deg = degrees; });
 }
 
-void start(Session& session, const std::string& text) {
+void start(Workspace& workspace, const std::string& text) {
     const double time = number_in(text, "the start", -mobb::kMaxTime, mobb::kMaxTime);
-    place_agent(session, [&](mobb::Placement& placement) { placement.start = time; });
+    place_agent(workspace, [&](mobb::Placement& placement) { placement.start = time; });
 }
 
-void shift_start(Session& session, const std::string& text) {
+void shift_start(Workspace& workspace, const std::string& text) {
     const double by = number_in(text, "the shift", -mobb::kMaxTime, mobb::kMaxTime);
-    place_agent(session, [&](mobb::Placement& placement) { placement.start += by; });
+    place_agent(workspace, [&](mobb::Placement& placement) { placement.start += by; });
 }
 
-void set_color(Session& session, const std::string& text) {
+void set_color(Workspace& workspace, const std::string& text) {
     std::optional<Color> color;
     if (text != "none") {
         color = color_from_text(text);
@@ -117,55 +119,56 @@ void set_color(Session& session, const std::string& text) {
             throw std::invalid_argument("the colour cannot be " + in_quotes(text) + ": give one like #E69F00, or none");
         }
     }
-    edit_selected_agent(session, {"colouring " + selected_agent_name(session) + ": " + text, ""},
+    edit_selected_agent(workspace, {"colouring " + selected_agent_name(workspace) + ": " + text, ""},
                         [&](Scene& scene, int agent) { scene.agents[static_cast<std::size_t>(agent)].color = color; });
 }
 
-void go_to_state(Session& session, const std::string& text) {
-    const int last = static_cast<int>(session.history().count()) - 1;
-    session.go_to_state(static_cast<std::size_t>(whole_number_in(text, "the state", 0, last)));
+void go_to_state(Workspace& workspace, Edits& edits, const std::string& text) {
+    const int last = static_cast<int>(workspace.history.count()) - 1;
+    edits.go_to_state(static_cast<std::size_t>(whole_number_in(text, "the state", 0, last)));
 }
 
 void copy_figures(Session& session) {
-    const Described what = describe(session.fitted(), session.selection);
-    if (session.hooks.set_clipboard) session.hooks.set_clipboard(lines_of(what));
-    session.tell(MessageLevel::info, "Copied the figures of " + what.name);
+    const Described what = describe(session.workspace.fitted(), session.workspace.selection);
+    session.desktop->set_clipboard(lines_of(what));
+    session.notifications.tell(MessageLevel::info, "Copied the figures of " + what.name);
 }
 
 }  // namespace
 
 std::vector<Command> edit_commands() {
     const std::vector<Command> rows{
-        Command("edit.undo", "Undo", "Takes back the last edit, or the looking around since.", &Session::undo,
+        Command("edit.undo", "Undo", "Takes back the last edit, or the looking around since.", &Edits::undo,
                 {.shortcut = "Ctrl+Z",
                  .repeats = true,
-                 .enabled = [](const Session& session) { return session.history().can_undo(); }}),
-        Command("edit.redo", "Redo", "Brings back what was undone.", &Session::redo,
+                 .enabled = [](const Workspace& workspace) { return workspace.history.can_undo(); }}),
+        Command("edit.redo", "Redo", "Brings back what was undone.", &Edits::redo,
                 {.shortcut = "Ctrl+Y Ctrl+Shift+Z",
                  .repeats = true,
-                 .enabled = [](const Session& session) { return session.history().can_redo(); }}),
+                 .enabled = [](const Workspace& workspace) { return workspace.history.can_redo(); }}),
         Command("edit.history", "History...", "Lists what was done; a click goes back or on to it.",
-                [](Session& session) { session.open_dialog(Dialog::history); }),
+                [](Dialogs& dialogs) { dialogs.open(Dialog::history); }),
         Command("edit.go_to", "To a state of the history",
                 "Goes to a state of what was done, by its number from 0, the oldest.", go_to_state,
                 {.menu = kNoMenu, .argument = "N"}),
-        Command("edit.copy_figures", "Copy figures", "Copies what is selected with all its numbers, a line each.",
-                copy_figures,
-                {.enabled = {[](const Session& session) { return session.selection.kind != Selection::Kind::none; },
-                             [](const Session&) -> std::string_view { return "nothing is selected"; }}}),
+        Command(
+            "edit.copy_figures", "Copy figures", "Copies what is selected with all its numbers, a line each.",
+            copy_figures,
+            {.enabled = {[](const Workspace& workspace) { return workspace.selection.kind != Selection::Kind::none; },
+                         []() -> std::string_view { return "nothing is selected"; }}}),
         Command("agent.make", "Make these agents",
                 "Makes an agent of every clip that is shown, where it is: agents can be placed and asked.",
-                [](Session& session) {
-                    session.edit({"making agents", ""}, add_agents_for_clips);
+                [](Workspace& workspace) {
+                    workspace.edit({"making agents", ""}, add_agents_for_clips);
                 },
                 {.enabled = {shows_bare_clips,
-                             [](const Session& session) -> std::string_view {
-                                 return session.crowd() ? "a run is not edited" : "they are agents already";
+                             [](const Workspace& workspace) -> std::string_view {
+                                 return workspace.crowd() ? "a run is not edited" : "they are agents already";
                              }}}),
         Command("agent.add", "Add agent", "Adds an agent that plays a clip, a little aside from the others.", add,
                 {.argument = "CLIP",
-                 .enabled = {[](const Session& session) {
-                                 return has_scene(session) && !session.crowd() && !shows_bare_clips(session);
+                 .enabled = {[](const Workspace& workspace) {
+                                 return has_scene(workspace) && !workspace.crowd() && !shows_bare_clips(workspace);
                              },
                              why_no_agent},
                  .choices = clip_names}),
@@ -180,8 +183,8 @@ std::vector<Command> edit_commands() {
                  .argument = "X Y",
                  .enabled = {has_selected_agent, why_nothing_to_place},
                  .present =
-                     [](const Session& session) {
-                         const glm::dvec2 at = selected_placement(session).translate;
+                     [](const Workspace& workspace) {
+                         const glm::dvec2 at = selected_placement(workspace).translate;
                          return short_double(at.x) + ' ' + short_double(at.y);
                      }}),
         Command(
@@ -190,12 +193,14 @@ std::vector<Command> edit_commands() {
             {.menu = kNoMenu,
              .argument = "DEG",
              .enabled = {has_selected_agent, why_nothing_to_place},
-             .present = [](const Session& session) { return short_double(selected_placement(session).rotate_deg); }}),
-        Command("agent.start", "Start agent at", "Lets the selected agent begin at a moment, in seconds.", start,
-                {.menu = kNoMenu,
-                 .argument = "S",
-                 .enabled = {has_selected_agent, why_nothing_to_place},
-                 .present = [](const Session& session) { return short_double(selected_placement(session).start); }}),
+             .present =
+                 [](const Workspace& workspace) { return short_double(selected_placement(workspace).rotate_deg); }}),
+        Command(
+            "agent.start", "Start agent at", "Lets the selected agent begin at a moment, in seconds.", start,
+            {.menu = kNoMenu,
+             .argument = "S",
+             .enabled = {has_selected_agent, why_nothing_to_place},
+             .present = [](const Workspace& workspace) { return short_double(selected_placement(workspace).start); }}),
         Command("agent.nudge", "Move agent by", "Moves the selected agent on the floor by metres.", nudge,
                 {.menu = kNoMenu, .argument = "DX DY", .enabled = {has_selected_agent, why_nothing_to_place}}),
         Command("agent.shift_start", "Shift agent in time by",

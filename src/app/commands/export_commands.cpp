@@ -16,55 +16,50 @@ namespace mobbscope::app {
 namespace {
 
 /// Another document's picture gets another name.
-void name_file(Session& session) {
-    ExportDialog& dialog = session.exporting;
-    if (dialog.opening == session.opening()) return;
+void name_file(Dialogs& dialogs, Workspace& workspace, Settings& settings) {
+    ExportDialog& dialog = dialogs.exporting;
+    if (dialog.opening == workspace.opening()) return;
     dialog.file.clear();
-    dialog.file = export_file(session).string();
+    dialog.file = export_file(workspace, settings, dialogs).string();
     dialog.agreed.clear();
-    dialog.opening = session.opening();
+    dialog.opening = workspace.opening();
 }
 
-void open_export_dialog(Session& session) {
-    name_file(session);
-    const ExportDialog& dialog = session.exporting;
-    session.open_dialog(Dialog::export_picture, {.text = dialog.file});
+void open_export_dialog(Dialogs& dialogs, Workspace& workspace, Settings& settings) {
+    name_file(dialogs, workspace, settings);
+    const ExportDialog& dialog = dialogs.exporting;
+    dialogs.open(Dialog::export_picture, {.text = dialog.file});
 }
 
 void write_and_tell(Session& session, const PictureOrder& order, const std::filesystem::path& file) {
     const std::size_t bytes = write_picture(session, order, file);
-    session.tell(MessageLevel::info,
-                 "Wrote " + file.string() + " (" + size_text(order.options.size) + ", " + bytes_text(bytes) + ")");
+    session.notifications.tell(MessageLevel::info, "Wrote " + file.string() + " (" + size_text(order.options.size) +
+                                                       ", " + bytes_text(bytes) + ")");
 }
 
 void copy_picture_of(Session& session, const PictureOrder& order) {
     const std::string png = png_of(session, order);
-    if (!session.hooks.set_clipboard_picture) throw std::invalid_argument("there is no clipboard for pictures");
-    session.hooks.set_clipboard_picture(png);
-    session.tell(MessageLevel::info, "Copied the picture (" + size_text(order.options.size) + ")");
+    session.desktop->set_clipboard_picture(png);
+    session.notifications.tell(MessageLevel::info, "Copied the picture (" + size_text(order.options.size) + ")");
 }
 
 /// `shown`: the line stands in the dialog.
 void copy_line_of(Session& session, const PictureOrder& order, const std::string& output, bool shown) {
-    const bool has_file = render_line(session, order, output).has_value();
-    const std::string line = render_line_with_scene(session, order, output);
-    if (session.hooks.set_clipboard) session.hooks.set_clipboard(line);
+    const bool has_file = render_line(session.workspace, session.files, session.dialogs, order, output).has_value();
+    const std::string line = render_line_with_scene(session.workspace, session.files, session.dialogs, order, output);
+    session.desktop->set_clipboard(line);
     std::string said = shown ? "Copied the command line" : "Copied: " + line;
     if (!has_file) {
-        said += ". No file holds the scene as it is: it was written to " + session.exporting.aside->file.string();
+        said +=
+            ". No file holds the scene as it is: it was written to " + session.dialogs.exporting.aside->file.string();
     }
-    session.tell(MessageLevel::info, said);
+    session.notifications.tell(MessageLevel::info, said);
 }
 
-const Condition kHasPictureClipboard{[](const Session& session) {
-                                         return has_scene(session) && session.hooks.why_no_clipboard_picture &&
-                                                session.hooks.why_no_clipboard_picture().empty();
+const Condition kHasPictureClipboard{[](const Workspace& workspace, Desktop& desktop) {
+                                         return has_scene(workspace) && desktop.why_no_clipboard_picture().empty();
                                      },
-                                     [](const Session& session) -> std::string_view {
-                                         return session.hooks.why_no_clipboard_picture
-                                                    ? session.hooks.why_no_clipboard_picture()
-                                                    : "there is no clipboard without a display";
-                                     }};
+                                     [](Desktop& desktop) { return desktop.why_no_clipboard_picture(); }};
 
 Command command_of(const ExportOption& option) {
     static std::vector<std::string> ids = [] {
@@ -73,8 +68,8 @@ Command command_of(const ExportOption& option) {
         return out;
     }();
     const std::string& id = ids[static_cast<std::size_t>(&option - export_options().data())];
-    const auto set = [&option](Session& session, const std::string& text) {
-        option.parse(text, session.settings.picture_export);
+    const auto set = [&option](Settings& settings, const std::string& text) {
+        option.parse(text, settings.picture_export);
     };
     CommandTraits traits{.menu = kNoMenu, .argument = option.argument};
     if (!option.choices.empty()) {
@@ -85,8 +80,8 @@ Command command_of(const ExportOption& option) {
                 return option.choice_titles.at(static_cast<std::size_t>(at));
             };
         }
-        traits.chosen = [&option](const Session& session, const std::string& choice) {
-            return option.text(session.settings.picture_export) == choice;
+        traits.chosen = [&option](const Settings& settings, const std::string& choice) {
+            return option.text(settings.picture_export) == choice;
         };
     }
     return {id, option.title, option.doc, set, std::move(traits)};
@@ -99,46 +94,52 @@ std::vector<Command> export_commands() {
         Command("file.export_picture", "Export picture...",
                 "Writes the picture in the middle of the window to a PNG file; without a name a dialog asks for more.",
                 [](Session& session, const std::string& file) {
-                    file.empty() ? open_export_dialog(session)
-                                 : write_and_tell(session, order_of_viewport(session), file);
+                    file.empty() ? open_export_dialog(session.dialogs, session.workspace, session.settings)
+                                 : write_and_tell(session, order_of_viewport(session.workspace, session.views), file);
                 },
                 {.shortcut = "Ctrl+E", .argument = "[FILE.png]"}),
         Command("file.copy_picture", "Copy picture", "Copies the picture in the middle of the window.",
-                [](Session& session) { copy_picture_of(session, order_of_viewport(session)); },
+                [](Session& session) { copy_picture_of(session, order_of_viewport(session.workspace, session.views)); },
                 {.enabled = kHasPictureClipboard}),
         Command("file.copy_command", "Copy as command",
                 "Copies the command line that draws this picture again without a window.",
-                [](Session& session) { copy_line_of(session, order_of_viewport(session), "picture.png", false); },
+                [](Session& session) {
+                    copy_line_of(session, order_of_viewport(session.workspace, session.views), "picture.png", false);
+                },
                 {.shortcut = "Ctrl+Shift+C"}),
         Command("picture.file", "Picture file", "Says where the export dialog writes to.",
-                [](Session& session, const std::string& file) {
+                [](Dialogs& dialogs, Workspace& workspace, const std::string& file) {
                     check_file_name(file);
-                    session.exporting.file = file;
-                    session.exporting.opening = session.opening();
-                    if (session.dialog == Dialog::export_picture) session.input.set_text(file);
+                    dialogs.exporting.file = file;
+                    dialogs.exporting.opening = workspace.opening();
+                    if (dialogs.now == Dialog::export_picture) dialogs.input.set_text(file);
                 },
                 {.menu = kNoMenu, .argument = "FILE.png"}),
         Command("picture.browse", "Browse for the picture file", "Asks for the file of the export dialog.",
-                [](Session& session) {
-                    name_file(session);
-                    session.open_dialog(Dialog::export_file);
+                [](Dialogs& dialogs, Workspace& workspace, Settings& settings) {
+                    name_file(dialogs, workspace, settings);
+                    dialogs.open(Dialog::export_file);
                 },
                 {.menu = kNoMenu}),
         Command("picture.write", "Write picture as in the dialog",
                 "Writes the picture as the export dialog says, to its file or another one.",
                 [](Session& session, const std::string& file) {
-                    write_and_tell(session, order_to_export(session),
-                                   file.empty() ? export_file(session) : std::filesystem::path(file));
+                    write_and_tell(session, order_to_export(session.settings, session.workspace, session.views),
+                                   file.empty() ? export_file(session.workspace, session.settings, session.dialogs)
+                                                : std::filesystem::path(file));
                 },
                 {.menu = kNoMenu, .argument = "[FILE.png]"}),
         Command("picture.copy", "Copy picture as in the dialog", "Copies the picture as the export dialog says.",
-                [](Session& session) { copy_picture_of(session, order_to_export(session)); },
+                [](Session& session) {
+                    copy_picture_of(session, order_to_export(session.settings, session.workspace, session.views));
+                },
                 {.menu = kNoMenu, .enabled = kHasPictureClipboard}),
         Command("picture.copy_command", "Copy command line of the dialog",
                 "Copies the command line that writes the same file as the export dialog; a scene that no file holds is "
                 "written to a temporary one.",
                 [](Session& session) {
-                    copy_line_of(session, order_to_export(session), export_file(session).string(), true);
+                    copy_line_of(session, order_to_export(session.settings, session.workspace, session.views),
+                                 export_file(session.workspace, session.settings, session.dialogs).string(), true);
                 },
                 {.menu = kNoMenu}),
     };

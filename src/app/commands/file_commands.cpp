@@ -10,32 +10,32 @@ namespace mobbscope::app {
 
 namespace {
 
-void open_file(Session& session, const std::string& file) {
-    if (file.empty()) return session.open_dialog(Dialog::open);
-    session.open(paths_in(file));
+void open_file(Dialogs& dialogs, Files& files, const std::string& file) {
+    if (file.empty()) return dialogs.open(Dialog::open);
+    files.open(paths_in(file));
 }
 
-void add_file(Session& session, const std::string& file) {
-    if (file.empty()) return session.open_dialog(Dialog::add);
-    session.add(paths_in(file));
+void add_file(Dialogs& dialogs, Files& files, const std::string& file) {
+    if (file.empty()) return dialogs.open(Dialog::add);
+    files.add(paths_in(file));
 }
 
-void review_folder(Session& session, const std::string& argument) {
-    if (argument.empty()) return session.open_dialog(Dialog::review);
+void review_folder(Dialogs& dialogs, Reviews& reviews, const std::string& argument) {
+    if (argument.empty()) return dialogs.open(Dialog::review);
     const std::vector<std::filesystem::path> given = paths_in(argument);
     if (given.size() > 2) throw std::invalid_argument("give the folder of the cases, and one report at most");
-    session.review(given.front(), given.size() == 2 ? given.back() : std::filesystem::path());
+    reviews.open(given.front(), given.size() == 2 ? given.back() : std::filesystem::path());
 }
 
-std::vector<std::string> recent_names(const Session& session) {
+std::vector<std::string> recent_names(const Settings& settings) {
     std::vector<std::string> out;
-    for (const auto& file : session.settings.recent) out.push_back(file.string());
+    for (const auto& file : settings.recent) out.push_back(file.string());
     return out;
 }
 
-void save_as(Session& session, const std::string& file) {
-    if (file.empty()) return session.open_dialog(Dialog::save_as);
-    session.save_as(file);
+void save_as(Dialogs& dialogs, Files& files, const std::string& file) {
+    if (file.empty()) return dialogs.open(Dialog::save_as);
+    files.save_as(file);
 }
 
 }  // namespace
@@ -50,16 +50,15 @@ std::vector<Command> file_commands() {
         Command("file.add", "Add files...", "Adds clips, or the agents and clips of another scene, to what is open.",
                 add_file, {.argument = "[FILE]", .enabled = always}),
         Command("file.recent", "Open recent", "Opens a file that was open before.",
-                [](Session& session, const std::string& file) { session.open({file}); },
+                [](Files& files, const std::string& file) { files.open({file}); },
                 {.argument = "FILE", .enabled = always, .choices = recent_names}),
-        Command(
-            "file.reopen_last", "Reopen last session",
-            "Opens what was open when the window was closed last, as it was seen.", &Session::reopen_last,
-            {.enabled = {&Session::has_last,
-                         [](const Session&) -> std::string_view { return "there is none, or its files are gone"; }}}),
+        Command("file.reopen_last", "Reopen last session",
+                "Opens what was open when the window was closed last, as it was seen.", &Files::reopen_last,
+                {.enabled = {&Files::has_last,
+                             []() -> std::string_view { return "there is none, or its files are gone"; }}}),
         Command("file.demo", "Open the demo",
                 "Opens the scene that comes with the program: two walkers whose paths cross, but not in time.",
-                &Session::open_demo, {.enabled = always}),
+                &Files::open_demo, {.enabled = always}),
         Command(
             "file.review", "Review picture tests...",
             "Draws the picture tests of a folder and shows what differs from their goldens. With a report of mobbscope "
@@ -67,9 +66,11 @@ std::vector<Command> file_commands() {
             review_folder, {.argument = "[FOLDER]", .enabled = always}),
         Command("file.reload", "Reload",
                 "Reads what is open again from its files, when another program has changed them.",
-                [](Session& session) { session.open(std::vector<std::filesystem::path>(session.opened())); },
-                {.shortcut = "F5", .enabled = [](const Session& session) { return !session.opened().empty(); }}),
-        Command("file.save", "Save", "Writes the scene and how it is seen to its file.", &Session::save,
+                [](Files& files, Workspace& workspace) {
+                    files.open(std::vector<std::filesystem::path>(workspace.opened));
+                },
+                {.shortcut = "F5", .enabled = [](const Workspace& workspace) { return !workspace.opened.empty(); }}),
+        Command("file.save", "Save", "Writes the scene and how it is seen to its file.", &Files::save,
                 {.shortcut = "Ctrl+S"}),
         Command("file.save_as", "Save as...",
                 "Writes the scene to another file; its clips are still read from where they are.", save_as,
@@ -77,7 +78,7 @@ std::vector<Command> file_commands() {
     };
     const std::vector<Command> end{
         Command("file.quit", "Quit", "Ends the program; asks first if there are unsaved changes.",
-                &Session::request_close, {.shortcut = "Ctrl+Q", .enabled = always}),
+                &Files::request_close, {.shortcut = "Ctrl+Q", .enabled = always}),
     };
     return in_menu("File", joined({rows, export_commands(), end}));
 }

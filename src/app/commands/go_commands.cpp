@@ -17,15 +17,15 @@ struct NamedPaths {
     explicit NamedPaths(const Session& session) {
         std::unordered_set<std::string> known;
         const auto add = [&](const AgentRef& path) {
-            const std::string name = placed_agent_of(session.fitted(), path)->name;
+            const std::string name = placed_agent_of(session.workspace.fitted(), path)->name;
             if (!known.insert(name).second) return;
             names.push_back(name);
             paths.push_back(path);
         };
-        for (int side = 0; side < (session.view().query ? 2 : 0); ++side) {
-            add(agent_in_view(session.fitted(), session.view(), side));
+        for (int side = 0; side < (session.workspace.view().query ? 2 : 0); ++side) {
+            add(agent_in_view(session.workspace.fitted(), session.workspace.view(), side));
         }
-        for (int i = 0; i < static_cast<int>(session.fitted().placed_agents().size()); ++i) add({i, -1, 0});
+        for (int i = 0; i < static_cast<int>(session.workspace.fitted().placed_agents().size()); ++i) add({i, -1, 0});
     }
     std::vector<std::string> names;
     std::vector<AgentRef> paths;
@@ -36,18 +36,18 @@ AgentRef path_named(const Session& session, std::string_view name) {
     return all.paths[static_cast<std::size_t>(index_of_name(all.names, name, "agent"))];
 }
 
-const mobb::Tree& tree_of(const Session& session, const AgentRef& path) {
-    return session.fitted().tree(placed_agent_of(session.fitted(), path)->clip);
+const mobb::Tree& tree_of(const Workspace& workspace, const AgentRef& path) {
+    return workspace.fitted().tree(placed_agent_of(workspace.fitted(), path)->clip);
 }
 
-const mobb::Tree& selected_tree(const Session& session) { return tree_of(session, session.selection.path); }
+const mobb::Tree& selected_tree(const Workspace& workspace) { return tree_of(workspace, workspace.selection.path); }
 
 /// Selects something of a path and brings it into the picture: what a query does not show is outside of it, and a node
 /// is seen only on its level.
-void go_to(Session& session, const Selection& selected) {
-    const bool in_view = index_in_view(session.fitted(), session.view(), selected.path).has_value();
-    const mobb::Tree& tree = tree_of(session, selected.path);
-    session.change_view([&](ViewState& view) {
+void go_to(Workspace& workspace, const Selection& selected) {
+    const bool in_view = index_in_view(workspace.fitted(), workspace.view(), selected.path).has_value();
+    const mobb::Tree& tree = tree_of(workspace, selected.path);
+    workspace.change_view([&](ViewState& view) {
         if (!in_view) view.query.reset();
         if (selected.kind != Selection::Kind::node || view.query) return;
         const std::vector<int> shown = shown_nodes(tree, view.levels);
@@ -55,88 +55,90 @@ void go_to(Session& session, const Selection& selected) {
         const int level = tree.level(selected.index);
         view.levels = {level, level, false};
     });
-    session.select(selected);
+    workspace.select(selected);
 }
 
-void go_to_node(Session& session, int node) { go_to(session, {Selection::Kind::node, session.selection.path, node}); }
+void go_to_node(Workspace& workspace, int node) {
+    go_to(workspace, {Selection::Kind::node, workspace.selection.path, node});
+}
 
 void go_agent(Session& session, const std::string& name) {
-    go_to(session, {Selection::Kind::path, path_named(session, name), -1});
+    go_to(session.workspace, {Selection::Kind::path, path_named(session, name), -1});
 }
 
 void go_node(Session& session, const std::string& text) {
     const auto [name, place] = name_and_word(text, "the node");
     const AgentRef path = path_named(session, name);
-    go_to(session, {Selection::Kind::node, path, node_at(tree_of(session, path), place)});
+    go_to(session.workspace, {Selection::Kind::node, path, node_at(tree_of(session.workspace, path), place)});
 }
 
 void go_sample(Session& session, const std::string& text) {
     const auto [name, index] = name_and_word(text, "the sample");
     const AgentRef path = path_named(session, name);
-    const int last = tree_of(session, path).clip().count() - 1;
-    go_to(session, {Selection::Kind::sample, path, whole_number_in(index, "the sample", 0, last)});
+    const int last = tree_of(session.workspace, path).clip().count() - 1;
+    go_to(session.workspace, {Selection::Kind::sample, path, whole_number_in(index, "the sample", 0, last)});
 }
 
 // --- about the tree
 
 /// A node's parent, or a sample's leaf; -1 if there is none.
-int parent(const Session& session) {
-    const Selection& selected = session.selection;
-    if (selected.kind == Selection::Kind::sample) return leaf_of_sample(selected_tree(session), selected.index);
+int parent(const Workspace& workspace) {
+    const Selection& selected = workspace.selection;
+    if (selected.kind == Selection::Kind::sample) return leaf_of_sample(selected_tree(workspace), selected.index);
     if (selected.kind != Selection::Kind::node) return -1;
-    return selected_tree(session).parent(selected.index);
+    return selected_tree(workspace).parent(selected.index);
 }
 
 /// A node's first child, or a path's root; -1 if there is none.
-int child(const Session& session) {
-    const Selection& selected = session.selection;
+int child(const Workspace& workspace) {
+    const Selection& selected = workspace.selection;
     if (selected.kind == Selection::Kind::path) return 0;
     if (selected.kind != Selection::Kind::node) return -1;
-    return selected_tree(session).children(selected.index)[0];
+    return selected_tree(workspace).children(selected.index)[0];
 }
 
 /// The node before or after on the same level; -1 if there is none.
 template <int direction>
-int neighbour(const Session& session) {
-    if (session.selection.kind != Selection::Kind::node) return -1;
-    return neighbour_on_level(selected_tree(session), session.selection.index, direction);
+int neighbour(const Workspace& workspace) {
+    if (workspace.selection.kind != Selection::Kind::node) return -1;
+    return neighbour_on_level(selected_tree(workspace), workspace.selection.index, direction);
 }
 
 /// A command that goes to the node that `find` finds, if it finds one.
-template <int (*find)(const Session&)>
-bool is_found(const Session& session) {
-    return find(session) >= 0;
+template <int (*find)(const Workspace&)>
+bool is_found(const Workspace& workspace) {
+    return find(workspace) >= 0;
 }
-template <int (*find)(const Session&)>
-void go_to_found(Session& session) {
-    go_to_node(session, find(session));
+template <int (*find)(const Workspace&)>
+void go_to_found(Workspace& workspace) {
+    go_to_node(workspace, find(workspace));
 }
 
 // --- the rest
 
 template <FocusMove move>
-void move_focus(Session& session) {
-    session.focus_move = move;
+void move_focus(Keys& keys) {
+    keys.move = move;
 }
 
 /// One thing after the other, what lies in front first.
-void put_away(Session& session) {
-    if (session.has_message_up()) return session.put_messages_away();
-    session.select({});
+void put_away(Notifications& notifications, Workspace& workspace) {
+    if (notifications.has_up()) return notifications.put_away();
+    workspace.select({});
 }
 
-void go_clip(Session& session, const std::string& name) {
-    session.select({Selection::Kind::clip, {}, index_of_name(clip_names(session), name, "clip")});
+void go_clip(Workspace& workspace, const std::string& name) {
+    workspace.select({Selection::Kind::clip, {}, index_of_name(clip_names(workspace), name, "clip")});
 }
 
-bool has_contact(const Session& session) {
-    const RecordedQuery* recorded = session.recorded();
+bool has_contact(const Workspace& workspace) {
+    const RecordedQuery* recorded = workspace.recorded();
     return recorded && recorded->contact;
 }
 
-void go_contact(Session& session) {
-    const RecordedQuery& recorded = *session.recorded();
-    session.change_view([&](ViewState& view) {
+void go_contact(Workspace& workspace) {
+    const RecordedQuery& recorded = *workspace.recorded();
+    workspace.change_view([&](ViewState& view) {
         view.time = recorded.contact->time;
         view.step = {Step::Unit::end, 0};  // the search ends with the hit
     });
@@ -147,8 +149,7 @@ void go_contact(Session& session) {
 std::vector<Command> go_commands() {
     const std::vector<Command> rows{
         Command("go.palette", "Search...", "Finds commands, agents, clips, queries and nodes by a few letters.",
-                [](Session& session) { session.open_dialog(Dialog::palette); },
-                {.shortcut = "Ctrl+P", .enabled = always}),
+                [](Dialogs& dialogs) { dialogs.open(Dialog::palette); }, {.shortcut = "Ctrl+P", .enabled = always}),
         Command("go.agent", "Agent", "Selects an agent.", go_agent,
                 {.argument = "NAME", .choices = [](const Session& session) { return NamedPaths(session).names; }}),
         Command("go.clip", "Clip", "Selects a clip.", go_clip, {.argument = "NAME", .choices = clip_names}),
@@ -186,8 +187,8 @@ std::vector<Command> go_commands() {
                 put_away,
                 {.shortcut = "Escape",
                  .enabled =
-                     [](const Session& session) {
-                         return session.selection.kind != Selection::Kind::none || session.has_message_up();
+                     [](const Workspace& workspace, const Notifications& notifications) {
+                         return workspace.selection.kind != Selection::Kind::none || notifications.has_up();
                      }}),
     };
     return in_menu("Go", rows);

@@ -97,9 +97,9 @@ char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned 
 void add_node(Collector& out, const Session& session, const std::string& text) {
     try {
         const auto [name, place] = name_and_word(text, "the node");
-        for (const PlacedAgent& who : session.fitted().placed_agents()) {
+        for (const PlacedAgent& who : session.workspace.fitted().placed_agents()) {
             if (!std::ranges::equal(who.name, name, {}, lower, lower)) continue;
-            static_cast<void>(node_at(session.fitted().tree(who.clip), place));
+            static_cast<void>(node_at(session.workspace.fitted().tree(who.clip), place));
             const std::string named = who.name + ' ' + std::string(place);
             out.add("go.node", named, named, "Node", {{named}});
         }
@@ -109,14 +109,15 @@ void add_node(Collector& out, const Session& session, const std::string& text) {
 }
 
 void add_things(Collector& out, const Session& session) {
-    for (const std::string& name : path_names(session)) out.add("go.agent", name, name, "Agent", {{name}, {"agent"}});
-    for (const SceneClip& clip : session.scene().clips) {
+    for (const std::string& name : path_names(session.workspace))
+        out.add("go.agent", name, name, "Agent", {{name}, {"agent"}});
+    for (const SceneClip& clip : session.workspace.scene().clips) {
         out.add("go.clip", clip.name, clip.name, "Clip", {{clip.name}, {"clip"}});
     }
     // All pairs of a crowd would take seconds with each letter; they are found from their agents.
-    const std::size_t count = session.fitted().queries().size();
+    const std::size_t count = session.workspace.fitted().queries().size();
     for (std::size_t i = 0; i < (count <= kMostQueries ? count : 0); ++i) {
-        const SceneQuery query = session.fitted().queries()[i];
+        const SceneQuery query = session.workspace.fitted().queries()[i];
         const std::string title = query.a.name + " against " + query.b.name;
         out.add("query.select", std::to_string(i), title, "Query", {{title}, {"query " + std::to_string(i)}});
     }
@@ -142,12 +143,12 @@ bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || sta
 std::vector<PaletteEntry> palette_entries(const Session& session, const std::string& text) {
     Collector out(session, text);
     const bool names = out.has_words();
-    if (names && !session.reviewing()) add_node(out, session, text);
+    if (names && !session.reviews.shown()) add_node(out, session, text);
     for (const Command& command : commands()) {
         if (belongs_here(session, command)) add_command(out, session, command);
     }
-    if (names && session.reviewing()) add_cases(out, *session.review());
-    if (names && !session.reviewing()) add_things(out, session);
+    if (names && session.reviews.shown()) add_cases(out, *session.reviews.review());
+    if (names && !session.reviews.shown()) add_things(out, session);
     return std::move(out).sorted();
 }
 

@@ -25,9 +25,9 @@ namespace mobbscope::app {
 namespace {
 
 /// What is selected, where the picture shows it.
-std::optional<NamedPart> selected_part(const Session& session, const PictureOrder& order) {
-    const Selection& selected = session.selection;
-    const FittedScene& fitted = session.fitted();
+std::optional<NamedPart> selected_part(const Workspace& workspace, const PictureOrder& order) {
+    const Selection& selected = workspace.selection;
+    const FittedScene& fitted = workspace.fitted();
     if (!selected.on_path()) return std::nullopt;
     const auto agent = index_in_view(fitted, order.view, selected.path);
     if (!agent) return std::nullopt;
@@ -43,8 +43,8 @@ std::optional<NamedPart> selected_part(const Session& session, const PictureOrde
     }
 }
 
-void select_in(const Session& session, PictureOrder& order) {
-    order.select = selected_part(session, order);
+void select_in(const Workspace& workspace, PictureOrder& order) {
+    order.select = selected_part(workspace, order);
     if (order.select) order.options.selected = order.select->agent;
 }
 
@@ -117,12 +117,12 @@ std::string picture_options(const PictureOptions& options) {
 }
 
 /// Whether the one file that was opened holds the scene.
-bool is_in_its_file(const Session& session) {
-    const std::filesystem::path& file = session.scene().file;
+bool is_in_its_file(const Workspace& workspace, const Files& files) {
+    const std::filesystem::path& file = workspace.scene().file;
     const bool one_file =
-        session.opened().empty() || (session.opened().size() == 1 && session.opened().front() == file);
+        workspace.opened.empty() || (workspace.opened.size() == 1 && workspace.opened.front() == file);
     // The scene of a case is seen and fitted as the case says, not as its file.
-    const bool as_file = !session.modified() && !session.in_excerpt() && session.open_case_name().empty();
+    const bool as_file = !workspace.modified() && !workspace.in_excerpt() && files.visited().empty();
     return as_file && one_file && !file.empty();
 }
 
@@ -144,7 +144,7 @@ std::optional<std::string> render_line_of(const SceneFile& file, const std::stri
 }
 
 /// A new file in a new folder, which nobody else can have.
-std::filesystem::path temporary_scene_file(const Session& session) {
+std::filesystem::path temporary_scene_file(const Workspace& workspace) {
     std::error_code error;
     std::filesystem::path folder = std::filesystem::temp_directory_path(error);
     if (error) folder = "/tmp";
@@ -152,17 +152,17 @@ std::filesystem::path temporary_scene_file(const Session& session) {
     if (!::mkdtemp(name.data())) {
         throw MachineError(folder.string() + ": no temporary folder can be made there: " + std::strerror(errno));
     }
-    const std::string stem = std::filesystem::path(session.title()).stem().string();
+    const std::string stem = std::filesystem::path(workspace.title()).stem().string();
     return std::filesystem::path(name) / ((stem.empty() ? "scene" : stem) + ".json");
 }
 
 /// Throws MachineError, and leaves nothing, if it cannot be written; InputError where nothing may be.
-std::filesystem::path write_scene_aside(const Session& session, const ViewState& view) {
-    session.check_may_write("a temporary file for " + session.title());
-    Scene aside = session.scene();
+std::filesystem::path write_scene_aside(const Files& files, const Workspace& workspace, const ViewState& view) {
+    files.check_may_write("a temporary file for " + workspace.title());
+    Scene aside = workspace.scene();
     aside.view = view;
-    aside.fit = session.document().fitted->options();
-    std::filesystem::path file = temporary_scene_file(session);
+    aside.fit = workspace.document().fitted->options();
+    std::filesystem::path file = temporary_scene_file(workspace);
     try {
         move_to_file(aside, file);
         write_file(file, to_json(aside));
@@ -176,18 +176,18 @@ std::filesystem::path write_scene_aside(const Session& session, const ViewState&
 
 }  // namespace
 
-PictureOrder order_of_viewport(const Session& session) {
-    PictureOrder out{session.view(), {}, {}};
-    out.options.size = viewport_size(session);
+PictureOrder order_of_viewport(const Workspace& workspace, const Views& views) {
+    PictureOrder out{workspace.view(), {}, {}};
+    out.options.size = viewport_size(views);
     // 0: what suits the size, as `render` takes it without being told.
-    out.options.scale = session.hooks.viewport_scale ? session.hooks.viewport_scale() : 0;
-    select_in(session, out);
+    out.options.scale = views.picture ? views.picture->scale : 0;
+    select_in(workspace, out);
     return out;
 }
 
-PictureOrder order_to_export(const Session& session) {
-    const PictureExport& wanted = session.settings.picture_export;
-    PictureOrder out = order_of_viewport(session);
+PictureOrder order_to_export(const Settings& settings, const Workspace& workspace, const Views& views) {
+    const PictureExport& wanted = settings.picture_export;
+    PictureOrder out = order_of_viewport(workspace, views);
     if (wanted.size && *wanted.size != out.options.size) {
         out.options.size = *wanted.size;
         out.options.scale = 0;
@@ -203,24 +203,23 @@ PictureOrder order_to_export(const Session& session) {
     return out;
 }
 
-DrawList draw_list_of(const Session& session, const PictureOrder& order) {
+DrawList draw_list_of(const Workspace& workspace, const PictureOrder& order) {
     check(order.options);
-    DrawList list = build_draw_list(*session.document().fitted, order.view, order.options);
+    DrawList list = build_draw_list(*workspace.document().fitted, order.view, order.options);
     if (order.select) {
         const float scale = metrics_of(order.options.size, order.options.scale).scale;
-        add_selection(list, session.fitted(), order.view, *order.select, scale);
+        add_selection(list, workspace.fitted(), order.view, *order.select, scale);
     }
     return list;
 }
 
 std::string png_of(const Session& session, const PictureOrder& order) {
-    if (!session.hooks.draw_picture) throw std::invalid_argument("there is no window to take a picture of");
-    return png_bytes(session.hooks.draw_picture(draw_list_of(session, order), order.options.samples));
+    return png_bytes(session.picture_maker->draw(draw_list_of(session.workspace, order), order.options.samples));
 }
 
 std::size_t write_picture(const Session& session, const PictureOrder& order, const std::filesystem::path& file) {
     check_file_name(file);
-    session.check_may_write(file);
+    session.files.check_may_write(file);
     if (lower_extension(file) != ".png") {
         throw InputError(file.string(), "", "pictures are written as .png; rename the output");
     }
@@ -229,35 +228,39 @@ std::size_t write_picture(const Session& session, const PictureOrder& order, con
     return bytes.size();
 }
 
-std::filesystem::path export_file(const Session& session) {
-    const std::filesystem::path folder = session.file() ? session.file()->parent_path() : session.settings.folder;
-    const std::string& typed = session.exporting.file;
-    if (typed.empty()) return folder / (std::filesystem::path(session.title()).stem().string() + ".png");
+std::filesystem::path export_file(const Workspace& workspace, const Settings& settings, const Dialogs& dialogs) {
+    const std::filesystem::path folder = workspace.file ? workspace.file->parent_path() : settings.folder;
+    const std::string& typed = dialogs.exporting.file;
+    if (typed.empty()) return folder / (std::filesystem::path(workspace.title()).stem().string() + ".png");
     return with_extension(typed.find('/') == std::string::npos ? folder / typed : typed_path(typed, {}), ".png");
 }
 
-std::optional<std::string> render_line(const Session& session, const PictureOrder& order, const std::string& output) {
-    const FittedScene& fitted = *session.document().fitted;
-    if (is_in_its_file(session)) {
+std::optional<std::string> render_line(const Workspace& workspace, const Files& files, const Dialogs& dialogs,
+                                       const PictureOrder& order, const std::string& output) {
+    const FittedScene& fitted = *workspace.document().fitted;
+    if (is_in_its_file(workspace, files)) {
         // Of an unchanged scene, its `view` is the one in the file.
         const std::string fit = fitted.fits().size() == 1 ? "" : fit_options(fitted.options());
         if (auto line =
-                render_line_of({session.scene().file, session.scene(), session.scene().view}, fit, order, output))
+                render_line_of({workspace.scene().file, workspace.scene(), workspace.scene().view}, fit, order, output))
             return line;
     }
-    const std::optional<ExportDialog::SceneAside>& aside = session.exporting.aside;
+    const std::optional<ExportDialog::SceneAside>& aside = dialogs.exporting.aside;
     std::error_code ignored;
     if (!aside || &aside->of->scene() != &fitted.scene() || !std::filesystem::exists(aside->file, ignored)) {
         return std::nullopt;
     }
     const std::string fit = fitted.options() == aside->of->options() ? "" : fit_options(fitted.options());
-    return render_line_of({aside->file, session.scene(), aside->view}, fit, order, output);
+    return render_line_of({aside->file, workspace.scene(), aside->view}, fit, order, output);
 }
 
-std::string render_line_with_scene(Session& session, const PictureOrder& order, const std::string& output) {
-    if (auto line = render_line(session, order, output)) return *line;
-    session.exporting.aside = {session.document().fitted, order.view, write_scene_aside(session, order.view)};
-    return *render_line(session, order, output);  // as no option differs from a scene that was just written
+std::string render_line_with_scene(Workspace& workspace, Files& files, Dialogs& dialogs, const PictureOrder& order,
+                                   const std::string& output) {
+    if (auto line = render_line(workspace, files, dialogs, order, output)) return *line;
+    dialogs.exporting.aside = {workspace.document().fitted, order.view,
+                               write_scene_aside(files, workspace, order.view)};
+    return *render_line(workspace, files, dialogs, order,
+                        output);  // as no option differs from a scene that was just written
 }
 
 }  // namespace mobbscope::app

@@ -2,7 +2,7 @@
 /// that asks for it.
 #pragma once
 
-#include <app/document/session.h>
+#include <app/session/session.h>
 #include <render/drawlist/draw_list.h>
 #include <render/drawlist/picture_options.h>
 #include <render/parts/highlights.h>
@@ -22,13 +22,13 @@ struct PictureOrder {
 };
 
 /// What the active viewport shows.
-PictureOrder order_of_viewport(const Session& session);
+PictureOrder order_of_viewport(const Workspace& workspace, const Views& views);
 
 /// The same as the settings of the export dialog say. Its size may be one that `check` refuses.
-PictureOrder order_to_export(const Session& session);
+PictureOrder order_to_export(const Settings& settings, const Workspace& workspace, const Views& views);
 
 /// Throws std::invalid_argument if it cannot be drawn.
-DrawList draw_list_of(const Session& session, const PictureOrder& order);
+DrawList draw_list_of(const Workspace& workspace, const PictureOrder& order);
 
 /// The bytes of its PNG file. Throws std::invalid_argument if it cannot be drawn, or there is no window to draw it;
 /// MachineError if the machine cannot.
@@ -40,14 +40,16 @@ std::size_t write_picture(const Session& session, const PictureOrder& order, con
 
 /// Where the export dialog writes to: a name alone goes beside the scene's file, else where a file was opened or
 /// written last; without an extension it gets ".png". Of an empty field the scene's name.
-std::filesystem::path export_file(const Session& session);
+std::filesystem::path export_file(const Workspace& workspace, const Settings& settings, const Dialogs& dialogs);
 
 /// "mobbscope render ..." that draws the picture into `output`, quoted for a shell. None if no file holds the scene as
 /// it is: neither that which was opened nor the one that was written aside last.
-std::optional<std::string> render_line(const Session& session, const PictureOrder& order, const std::string& output);
+std::optional<std::string> render_line(const Workspace& workspace, const Files& files, const Dialogs& dialogs,
+                                       const PictureOrder& order, const std::string& output);
 
 /// The same; where no file holds the scene it is written to a new one among the temporary files, and the session
 /// remembers that. Throws MachineError if that cannot be written, InputError where nothing may be (may_write).
-std::string render_line_with_scene(Session& session, const PictureOrder& order, const std::string& output);
+std::string render_line_with_scene(Workspace& workspace, Files& files, Dialogs& dialogs, const PictureOrder& order,
+                                   const std::string& output);
 
 }  // namespace mobbscope::app

@@ -16,51 +16,55 @@ namespace {
 
 using mobb::Outcome;
 
-bool has_queries(const Session& session) { return !session.fitted().queries().empty(); }
-std::string_view why_no_query(const Session& session) {
-    return session.crowd() ? "a run is asked for its conflicts" : "there is no query";
+bool has_queries(const Workspace& workspace) { return !workspace.fitted().queries().empty(); }
+std::string_view why_no_query(const Workspace& workspace) {
+    return workspace.crowd() ? "a run is asked for its conflicts" : "there is no query";
 }
-bool may_capture(const Session& session) { return has_queries(session) && !session.job() && !session.in_excerpt(); }
-bool in_query(const Session& session) { return session.view().query.has_value(); }
-int query_total(const Session& session) { return static_cast<int>(session.fitted().queries().size()); }
-
-void select(Session& session, const std::string& text) {
-    session.show_query(whole_number_in(text, "the query", 0, query_total(session) - 1));
-    session.focus_move = FocusMove::picture;  // its arrows step now
+bool may_capture(const Workspace& workspace, const Jobs& jobs) {
+    return has_queries(workspace) && !jobs.job() && !workspace.in_excerpt();
 }
+bool in_query(const Workspace& workspace) { return workspace.view().query.has_value(); }
+int query_total(const Workspace& workspace) { return static_cast<int>(workspace.fitted().queries().size()); }
 
-void leave(Session& session) {
-    session.change_view([](ViewState& view) { view.query.reset(); });
+void select(QueryInspector& queries, Workspace& workspace, Keys& keys, const std::string& text) {
+    queries.show(whole_number_in(text, "the query", 0, query_total(workspace) - 1));
+    keys.move = FocusMove::picture;  // its arrows step now
 }
 
-void next(Session& session) { session.show_query(session.view().query.value_or(-1) + 1); }
+void leave(Workspace& workspace) {
+    workspace.change_view([](ViewState& view) { view.query.reset(); });
+}
 
-void previous(Session& session) { session.show_query(session.view().query.value_or(query_total(session)) - 1); }
+void next(QueryInspector& queries, Workspace& workspace) { queries.show(workspace.view().query.value_or(-1) + 1); }
+
+void previous(QueryInspector& queries, Workspace& workspace) {
+    queries.show(workspace.view().query.value_or(query_total(workspace)) - 1);
+}
 
 // --- what is asked
 
-std::vector<std::string> others(const Session& session) {
-    std::vector<std::string> names = path_names(session);
-    if (has_selected_agent(session)) names.erase(names.begin() + selected_agent(session));
+std::vector<std::string> others(const Workspace& workspace) {
+    std::vector<std::string> names = path_names(workspace);
+    if (has_selected_agent(workspace)) names.erase(names.begin() + selected_agent(workspace));
     return names;
 }
 
 /// The query that asks these two against each other, in either order.
-std::optional<int> query_of(const Session& session, int a, int b) {
-    for (int i = 0; i < query_total(session); ++i) {
-        const SceneQuery query = session.fitted().queries()[static_cast<std::size_t>(i)];
+std::optional<int> query_of(const Workspace& workspace, int a, int b) {
+    for (int i = 0; i < query_total(workspace); ++i) {
+        const SceneQuery query = workspace.fitted().queries()[static_cast<std::size_t>(i)];
         const auto [low, high] = std::minmax(query.a.agent, query.b.agent);
         if (low == std::min(a, b) && high == std::max(a, b)) return i;
     }
     return std::nullopt;
 }
 
-void add_against(Session& session, const std::string& other) {
-    const int a = selected_agent(session);
-    const int b = index_of_name(path_names(session), other, "agent");
+void add_against(Workspace& workspace, QueryInspector& queries, const std::string& other) {
+    const int a = selected_agent(workspace);
+    const int b = index_of_name(path_names(workspace), other, "agent");
     // What is asked already is only shown.
-    if (const auto known = query_of(session, a, b)) return session.show_query(*known);
-    session.edit({"asking " + selected_agent_name(session) + " against " + other, ""}, [&](Scene& scene) {
+    if (const auto known = query_of(workspace, a, b)) return queries.show(*known);
+    workspace.edit({"asking " + selected_agent_name(workspace) + " against " + other, ""}, [&](Scene& scene) {
         add_agents_for_clips(scene);
         scene.view.query = static_cast<int>(add_query(scene, a, b));
         scene.view.step = {};
@@ -68,34 +72,34 @@ void add_against(Session& session, const std::string& other) {
 }
 
 /// The query that is edited: the selected one, else that in view.
-std::optional<int> edited_query(const Session& session) {
-    if (session.selection.kind == Selection::Kind::query) return session.selection.index;
-    return session.view().query;
+std::optional<int> edited_query(const Workspace& workspace) {
+    if (workspace.selection.kind == Selection::Kind::query) return workspace.selection.index;
+    return workspace.view().query;
 }
 
-void remove_edited(Session& session) {
-    const int query = *edited_query(session);
-    const SceneQuery asked = session.fitted().queries()[static_cast<std::size_t>(query)];
-    session.edit({"no longer asking " + asked.a.name + " against " + asked.b.name, ""}, [&](Scene& scene) {
+void remove_edited(Workspace& workspace) {
+    const int query = *edited_query(workspace);
+    const SceneQuery asked = workspace.fitted().queries()[static_cast<std::size_t>(query)];
+    workspace.edit({"no longer asking " + asked.a.name + " against " + asked.b.name, ""}, [&](Scene& scene) {
         remove_query(scene, static_cast<std::size_t>(query));
         std::optional<int>& shown = scene.view.query;
         if (shown == query) shown.reset();
         if (shown && *shown > query) --*shown;
     });
     // Those behind it have other indices now.
-    if (session.selection.kind == Selection::Kind::query || session.selection.path.query >= 0) session.select({});
+    if (workspace.selection.kind == Selection::Kind::query || workspace.selection.path.query >= 0) workspace.select({});
 }
 
-bool is_expected(const Session& session) {
-    const auto query = edited_query(session);
-    return query && session.fitted().queries()[static_cast<std::size_t>(*query)].expect.has_value();
+bool is_expected(const Workspace& workspace) {
+    const auto query = edited_query(workspace);
+    return query && workspace.fitted().queries()[static_cast<std::size_t>(*query)].expect.has_value();
 }
 
-void expect(Session& session) {
-    const auto query = static_cast<std::size_t>(*edited_query(session));
-    const bool was_expected = is_expected(session);
-    const std::optional<mobb::Contact> contact = session.answer_of(query).contact;
-    session.edit({was_expected ? "expecting nothing" : "expecting the answer", ""}, [&](Scene& scene) {
+void expect(Workspace& workspace, QueryInspector& queries) {
+    const auto query = static_cast<std::size_t>(*edited_query(workspace));
+    const bool was_expected = is_expected(workspace);
+    const std::optional<mobb::Contact> contact = queries.answer_of(query).contact;
+    workspace.edit({was_expected ? "expecting nothing" : "expecting the answer", ""}, [&](Scene& scene) {
         make_queries_explicit(scene);
         scene.queries[query].expect =
             was_expected ? std::nullopt : std::optional<Expectation>({contact.has_value(), contact});
@@ -103,20 +107,20 @@ void expect(Session& session) {
 }
 
 /// The query by its number; without one the edited one.
-int asked_query(const Session& session, const std::string& text) {
-    if (!text.empty()) return whole_number_in(text, "the query", 0, query_total(session) - 1);
-    const auto query = edited_query(session);
+int asked_query(const Workspace& workspace, const std::string& text) {
+    if (!text.empty()) return whole_number_in(text, "the query", 0, query_total(workspace) - 1);
+    const auto query = edited_query(workspace);
     if (!query) throw std::invalid_argument("no query is selected or in view: choose one first");
     return *query;
 }
 
 /// The two with their samples inside and the answer expected, as a scene that stands alone.
-void capture(Session& session, const std::string& text) {
-    const auto index = static_cast<std::size_t>(asked_query(session, text));
-    const SceneQuery query = session.fitted().queries()[index];
-    const std::optional<mobb::Contact> contact = session.answer_of(index).contact;
-    session.open_excerpt(query.a, query.b);
-    session.edit({"capturing " + query.a.name + " against " + query.b.name, ""}, [&](Scene& scene) {
+void capture(Workspace& workspace, QueryInspector& queries, Excerpts& excerpts, const std::string& text) {
+    const auto index = static_cast<std::size_t>(asked_query(workspace, text));
+    const SceneQuery query = workspace.fitted().queries()[index];
+    const std::optional<mobb::Contact> contact = queries.answer_of(index).contact;
+    excerpts.open(query.a, query.b);
+    workspace.edit({"capturing " + query.a.name + " against " + query.b.name, ""}, [&](Scene& scene) {
         for (SceneClip& clip : scene.clips) {
             clip.source.reset();
             clip.options = {};
@@ -129,114 +133,115 @@ void capture(Session& session, const std::string& text) {
 }
 
 void copy_query_command(Session& session, const std::string& text) {
-    session.show_query(asked_query(session, text));
+    session.queries.show(asked_query(session.workspace, text));
     run_command(session, "file.copy_command");
 }
 
 void copy_answer(Session& session, const std::string& text) {
-    session.show_query(asked_query(session, text));
-    const std::shared_ptr<const QueryFindings> findings = session.findings();
+    session.queries.show(asked_query(session.workspace, text));
+    const std::shared_ptr<const QueryFindings> findings = session.queries.findings();
     std::string answer = answer_words(findings->sides, findings->clearance) + ".\n";
     for (const std::string& sentence : why_words(findings->sides, findings->clearance, findings->floor)) {
         answer += sentence + '\n';
     }
-    if (session.hooks.set_clipboard) session.hooks.set_clipboard(answer);
-    session.tell(MessageLevel::info, "Copied: " + answer);
+    session.desktop->set_clipboard(answer);
+    session.notifications.tell(MessageLevel::info, "Copied: " + answer);
 }
 
 // --- steps
 
-void to_event(Session& session, int event) {
-    session.change_view([&](ViewState& view) { view.step = {Step::Unit::event, static_cast<double>(event)}; });
+void to_event(Workspace& workspace, int event) {
+    workspace.change_view([&](ViewState& view) { view.step = {Step::Unit::event, static_cast<double>(event)}; });
 }
 
 /// Without a query in view its first one is shown instead, at this step.
-bool entered(Session& session, Step step) {
-    if (in_query(session)) return false;
-    session.show_query(0, step);
+bool entered(Workspace& workspace, QueryInspector& queries, Step step) {
+    if (in_query(workspace)) return false;
+    queries.show(0, step);
     return true;
 }
 
 constexpr Step kFirst{Step::Unit::event, 0};
 constexpr Step kEnd{Step::Unit::end, 0};
 
-void first(Session& session) {
-    if (!entered(session, kFirst)) to_event(session, 0);
+void first(Workspace& workspace, QueryInspector& queries) {
+    if (!entered(workspace, queries, kFirst)) to_event(workspace, 0);
 }
 
-void back(Session& session) {
-    if (!entered(session, kEnd)) to_event(session, std::max(session.step() - 1, 0));
+void back(Workspace& workspace, QueryInspector& queries) {
+    if (!entered(workspace, queries, kEnd)) to_event(workspace, std::max(workspace.step() - 1, 0));
 }
 
-void forward(Session& session) {
-    if (!entered(session, kFirst))
-        to_event(session, std::min(session.step() + 1, session.recorded()->trace.size() - 1));
+void forward(Workspace& workspace, QueryInspector& queries) {
+    if (!entered(workspace, queries, kFirst))
+        to_event(workspace, std::min(workspace.step() + 1, workspace.recorded()->trace.size() - 1));
 }
 
-void last(Session& session) {
-    if (!entered(session, kEnd)) session.change_view([](ViewState& view) { view.step = kEnd; });
+void last(Workspace& workspace, QueryInspector& queries) {
+    if (!entered(workspace, queries, kEnd)) workspace.change_view([](ViewState& view) { view.step = kEnd; });
 }
 
-void to(Session& session, const std::string& text) {
-    to_event(session, whole_number_in(text, "the step", 0, session.recorded()->trace.size() - 1));
+void to(Workspace& workspace, const std::string& text) {
+    to_event(workspace, whole_number_in(text, "the step", 0, workspace.recorded()->trace.size() - 1));
 }
 
-void percent(Session& session, const std::string& text) {
+void percent(Workspace& workspace, const std::string& text) {
     const double share = number_in(text, "the percentage", 0, 100);
-    session.change_view([&](ViewState& view) { view.step = {Step::Unit::percent, share}; });
+    workspace.change_view([&](ViewState& view) { view.step = {Step::Unit::percent, share}; });
 }
 
-bool has_step_before(const Session& session) { return session.step_before().has_value(); }
-std::string_view why_no_step_before(const Session& session) {
-    return in_query(session) ? "no other step was looked at" : "no query is shown";
+bool has_step_before(const QueryInspector& queries) { return queries.step_before().has_value(); }
+std::string_view why_no_step_before(const Workspace& workspace) {
+    return in_query(workspace) ? "no other step was looked at" : "no query is shown";
 }
 
-void to_step_before(Session& session) {
-    const Step before = *session.step_before();
-    session.change_view([&](ViewState& view) { view.step = before; });
+void to_step_before(QueryInspector& queries, Workspace& workspace) {
+    const Step before = *queries.step_before();
+    workspace.change_view([&](ViewState& view) { view.step = before; });
 }
 
 /// To the next event that ended so; says so if there is none.
-void to_next(Session& session, Outcome outcome, const char* what) {
-    const int from = in_query(session) ? session.step() : -1;
-    entered(session, kFirst);
-    const mobb::Trace& trace = session.recorded()->trace;
+void to_next(Workspace& workspace, QueryInspector& queries, Notifications& notifications, Outcome outcome,
+             const char* what) {
+    const int from = in_query(workspace) ? workspace.step() : -1;
+    entered(workspace, queries, kFirst);
+    const mobb::Trace& trace = workspace.recorded()->trace;
     for (int event = from + 1; event < trace.size(); ++event) {
-        if (trace[event].outcome == outcome) return to_event(session, event);
+        if (trace[event].outcome == outcome) return to_event(workspace, event);
     }
-    session.tell(MessageLevel::info, std::string("There is no later test that ") + what);
+    notifications.tell(MessageLevel::info, std::string("There is no later test that ") + what);
 }
 
 /// Which side of the query in view the selected node is of; none if no node of it is selected.
-std::optional<int> side_of_node(const Session& session) {
-    if (!in_query(session) || session.selection.kind != Selection::Kind::node) return std::nullopt;
-    return index_in_view(session.fitted(), session.view(), session.selection.path);
+std::optional<int> side_of_node(const Workspace& workspace) {
+    if (!in_query(workspace) || workspace.selection.kind != Selection::Kind::node) return std::nullopt;
+    return index_in_view(workspace.fitted(), workspace.view(), workspace.selection.path);
 }
 
 /// To the next test of the selected node; behind the last one to the first again.
-void to_next_of_node(Session& session) {
-    const bool of_a = *side_of_node(session) == 0;
-    const mobb::Trace& trace = session.recorded()->trace;
+void to_next_of_node(Workspace& workspace, Notifications& notifications) {
+    const bool of_a = *side_of_node(workspace) == 0;
+    const mobb::Trace& trace = workspace.recorded()->trace;
     for (int i = 1; i <= trace.size(); ++i) {
-        const int event = (session.step() + i) % trace.size();
-        if ((of_a ? trace[event].a : trace[event].b) == session.selection.index) return to_event(session, event);
+        const int event = (workspace.step() + i) % trace.size();
+        if ((of_a ? trace[event].a : trace[event].b) == workspace.selection.index) return to_event(workspace, event);
     }
-    session.tell(MessageLevel::info, "The selected node is never tested: the search ended before it");
+    notifications.tell(MessageLevel::info, "The selected node is never tested: the search ended before it");
 }
 
 /// The next event of the same pair, or of the next pair that is not below it.
-std::optional<int> event_after_pair(const Session& session) {
-    const mobb::Trace& trace = session.recorded()->trace;
-    const int depth = trace[session.step()].depth;
-    for (int event = session.step() + 1; event < trace.size(); ++event) {
+std::optional<int> event_after_pair(const Workspace& workspace) {
+    const mobb::Trace& trace = workspace.recorded()->trace;
+    const int depth = trace[workspace.step()].depth;
+    for (int event = workspace.step() + 1; event < trace.size(); ++event) {
         if (trace[event].depth <= depth) return event;
     }
     return std::nullopt;
 }
 
-int parent_event(const Session& session) {
-    const mobb::Trace& trace = session.recorded()->trace;
-    return trace[session.step()].parent;
+int parent_event(const Workspace& workspace) {
+    const mobb::Trace& trace = workspace.recorded()->trace;
+    return trace[workspace.step()].parent;
 }
 
 }  // namespace
@@ -245,23 +250,27 @@ std::vector<Command> query_commands() {
     const std::vector<Command> rows{
         Command("query.select", "Show query", "Shows a query, by its number from 0, with its answer.", select,
                 {.menu = kNoMenu, .argument = "N", .enabled = has_queries}),
-        Command(
-            "query.next", "Next query", "Shows the next query with its answer.", next,
-            {.shortcut = "PageDown",
-             .repeats = true,
-             .enabled =
-                 [](const Session& session) { return session.view().query.value_or(-1) + 1 < query_total(session); }}),
+        Command("query.next", "Next query", "Shows the next query with its answer.", next,
+                {.shortcut = "PageDown",
+                 .repeats = true,
+                 .enabled =
+                     [](const Workspace& workspace) {
+                         return workspace.view().query.value_or(-1) + 1 < query_total(workspace);
+                     }}),
         Command("query.previous", "Previous query", "Shows the previous query with its answer.", previous,
                 {.shortcut = "PageUp",
                  .repeats = true,
                  .enabled =
-                     [](const Session& session) { return session.view().query.value_or(query_total(session)) > 0; }}),
+                     [](const Workspace& workspace) {
+                         return workspace.view().query.value_or(query_total(workspace)) > 0;
+                     }}),
         Command("query.none", "Close the query", "Leaves the query in view for the levels of all trees.", leave,
                 {.shortcut = "Q", .enabled = {in_query, why_no_step}}),
         Command("query.add", "Ask against", "Asks whether the selected agent collides with another.", add_against,
                 {.argument = "AGENT", .enabled = {has_selected_of_several, why_no_agent}, .choices = others}),
         Command("query.remove", "Remove the query", "Asks the selected query, or that in view, no more.", remove_edited,
-                {.enabled = [](const Session& session) { return edited_query(session) && query_total(session) > 1; }}),
+                {.enabled =
+                     [](const Workspace& workspace) { return edited_query(workspace) && query_total(workspace) > 1; }}),
         Command(
             "query.capture", "Open as a capture",
             "Opens the two of a query as a scene of their own, their samples inside and the answer expected; saved, "
@@ -275,7 +284,7 @@ std::vector<Command> query_commands() {
                 {.argument = "[N]", .enabled = {has_queries, why_no_query}}),
         Command("query.expect", "Expect this answer",
                 "Writes the present answer into the scene: `mobbscope query` then says when it has changed.", expect,
-                {.enabled = [](const Session& session) { return edited_query(session).has_value(); },
+                {.enabled = [](const Workspace& workspace) { return edited_query(workspace).has_value(); },
                  .checked = is_expected}),
         Command("step.first", "First step", "Shows the first test of the query.", first,
                 {.shortcut = "Shift+Left", .enabled = {has_queries, why_no_step}}),
@@ -293,36 +302,45 @@ std::vector<Command> query_commands() {
                 {.menu = kNoMenu,
                  .argument = "N",
                  .enabled = {in_query, why_no_step},
-                 .present = [](const Session& session) { return std::to_string(session.step()); }}),
+                 .present = [](const Workspace& workspace) { return std::to_string(workspace.step()); }}),
         Command("step.next_separated", "Next separation",
                 "Shows the next test that found two boxes separated in space.",
-                [](Session& session) { to_next(session, Outcome::separated, "found boxes separated in space"); },
+                [](Workspace& workspace, QueryInspector& queries, Notifications& notifications) {
+                    to_next(workspace, queries, notifications, Outcome::separated, "found boxes separated in space");
+                },
                 {.shortcut = "S", .enabled = {has_queries, why_no_step}}),
         Command("step.next_overlap", "Next overlap",
                 "Shows the next test that found an overlap, so that the search went on below.",
-                [](Session& session) { to_next(session, Outcome::overlap, "found an overlap"); },
+                [](Workspace& workspace, QueryInspector& queries, Notifications& notifications) {
+                    to_next(workspace, queries, notifications, Outcome::overlap, "found an overlap");
+                },
                 {.shortcut = "O", .enabled = {has_queries, why_no_step}}),
         Command("step.next_hit", "Next hit", "Shows the test that found samples which collide.",
-                [](Session& session) { to_next(session, Outcome::hit, "found a hit"); },
+                [](Workspace& workspace, QueryInspector& queries, Notifications& notifications) {
+                    to_next(workspace, queries, notifications, Outcome::hit, "found a hit");
+                },
                 {.shortcut = "H", .enabled = {has_queries, why_no_step}}),
         Command("step.next_of_node", "Next test of the selected node",
                 "Shows the next test of the selected node, and behind the last one the first.", to_next_of_node,
-                {.enabled = {[](const Session& session) { return side_of_node(session).has_value(); },
-                             [](const Session& session) -> std::string_view {
-                                 return session.view().query ? "no node of the query is selected" : "no query is shown";
+                {.enabled = {[](const Workspace& workspace) { return side_of_node(workspace).has_value(); },
+                             [](const Workspace& workspace) -> std::string_view {
+                                 return workspace.view().query ? "no node of the query is selected"
+                                                               : "no query is shown";
                              }}}),
-        Command("step.over", "Step over", "Shows the next test that is not about parts of the present two nodes.",
-                [](Session& session) { to_event(session, *event_after_pair(session)); },
-                {.shortcut = "Down",
-                 .repeats = true,
-                 .enabled = {[](const Session& session) { return in_query(session) && event_after_pair(session); },
-                             why_no_step}}),
-        Command("step.out", "Step out", "Shows the test that led to the present one.",
-                [](Session& session) { to_event(session, parent_event(session)); },
-                {.shortcut = "Up",
-                 .repeats = true,
-                 .enabled = {[](const Session& session) { return in_query(session) && parent_event(session) >= 0; },
-                             why_no_step}}),
+        Command(
+            "step.over", "Step over", "Shows the next test that is not about parts of the present two nodes.",
+            [](Workspace& workspace) { to_event(workspace, *event_after_pair(workspace)); },
+            {.shortcut = "Down",
+             .repeats = true,
+             .enabled = {[](const Workspace& workspace) { return in_query(workspace) && event_after_pair(workspace); },
+                         why_no_step}}),
+        Command(
+            "step.out", "Step out", "Shows the test that led to the present one.",
+            [](Workspace& workspace) { to_event(workspace, parent_event(workspace)); },
+            {.shortcut = "Up",
+             .repeats = true,
+             .enabled = {[](const Workspace& workspace) { return in_query(workspace) && parent_event(workspace) >= 0; },
+                         why_no_step}}),
         Command("step.percent", "Go to a percentage of the steps",
                 "Shows the test at a percentage of the way, 0 to 100.", percent,
                 {.menu = kNoMenu, .argument = "P", .enabled = {in_query, why_no_step}}),

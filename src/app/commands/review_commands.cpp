@@ -18,76 +18,75 @@ constexpr double kLeastBlink = 0.1;     // seconds
 constexpr double kMostBlink = 5;
 
 /// One thing after the other, what lies in front first.
-void leave_or_put_away(Session& session) {
-    if (session.has_message_up()) return session.put_messages_away();
-    session.leave_review();
-    if (session.reviewing()) return;
-    session.tell(MessageLevel::info, "The picture tests are left, not closed",
-                 MessageOffer{"review.back", "", "Back to them"});
+void leave_or_put_away(Notifications& notifications, Reviews& reviews) {
+    if (notifications.has_up()) return notifications.put_away();
+    reviews.leave();
+    if (reviews.shown()) return;
+    notifications.tell(MessageLevel::info, "The picture tests are left, not closed",
+                       MessageOffer{"review.back", "", "Back to them"});
 }
 
 /// The rule of all that needs picture tests; that they are shown is everybody's rule.
-bool has_review(const Session& session) { return session.review() != nullptr; }
+bool has_review(const Reviews& reviews) { return reviews.review() != nullptr; }
 
-Condition when(const std::function<bool(const Review&)>& holds, std::string_view (*else_)(const Session&)) {
-    return {[holds](const Session& session) { return session.review() && holds(*session.review()); }, else_};
+Condition when(const std::function<bool(const Review&)>& holds, const OfParts<std::string_view, const Session>& else_) {
+    return {[holds](const Reviews& reviews) { return reviews.review() && holds(*reviews.review()); }, else_};
 }
 
 /// Of what is on or chosen: false where there are no picture tests.
-std::function<bool(const Session&)> so(const std::function<bool(const Review&)>& holds) {
-    return [holds](const Session& session) { return session.review() && holds(*session.review()); };
+OfParts<bool, const Session> so(const std::function<bool(const Review&)>& holds) {
+    return [holds](const Reviews& reviews) { return reviews.review() && holds(*reviews.review()); };
 }
-std::function<bool(const Session&, const std::string&)> so(
-    const std::function<bool(const Review&, const std::string&)>& holds) {
-    return [holds](const Session& session, const std::string& choice) {
-        return session.review() && holds(*session.review(), choice);
+OfParts<bool, const Session> so(const std::function<bool(const Review&, const std::string&)>& holds) {
+    return [holds](const Reviews& reviews, const std::string& choice) {
+        return reviews.review() && holds(*reviews.review(), choice);
     };
 }
 
 Condition if_failing(int by) {
     return when([by](const Review& review) { return review.next_failing(by).has_value(); },
-                [](const Session&) -> std::string_view { return "no other case fails"; });
+                []() -> std::string_view { return "no other case fails"; });
 }
 
 Command go_to_failing(std::string_view id, std::string_view title, std::string_view doc, std::string_view shortcut,
                       int by) {
-    const auto go = [by](Session& session) { session.review()->show(*session.review()->next_failing(by)); };
+    const auto go = [by](Reviews& reviews) { reviews.review()->show(*reviews.review()->next_failing(by)); };
     return {id, title, doc, go, {.shortcut = shortcut, .repeats = true, .enabled = if_failing(by)}};
 }
 
 Command go_to_case(std::string_view id, std::string_view title, std::string_view doc, std::string_view shortcut,
                    int by) {
-    const auto go = [by](Session& session) { session.review()->show(*session.review()->next(by)); };
+    const auto go = [by](Reviews& reviews) { reviews.review()->show(*reviews.review()->next(by)); };
     const Condition enabled = when([by](const Review& review) { return review.next(by).has_value(); },
-                                   [](const Session&) -> std::string_view { return "there is none from here"; });
+                                   []() -> std::string_view { return "there is none from here"; });
     return {id, title, doc, go, {.shortcut = shortcut, .repeats = true, .enabled = enabled}};
 }
 
-std::vector<std::string> case_names(const Session& session) {
+std::vector<std::string> case_names(const Reviews& reviews) {
     std::vector<std::string> out;
-    if (!session.review()) return out;
-    for (const ReviewCase& one : session.review()->cases()) out.push_back(one.file.name);
+    if (!reviews.review()) return out;
+    for (const ReviewCase& one : reviews.review()->cases()) out.push_back(one.file.name);
     return out;
 }
 
-void show_case(Session& session, const std::string& name) { session.review()->show(session.review()->index_of(name)); }
+void show_case(Reviews& reviews, const std::string& name) { reviews.review()->show(reviews.review()->index_of(name)); }
 
 /// Marks a case, or the one that is shown.
-void toggle_mark(Session& session, const std::string& name) {
-    Review& review = *session.review();
+void toggle_mark(Reviews& reviews, const std::string& name) {
+    Review& review = *reviews.review();
     const std::size_t index = name.empty() ? review.current() : review.index_of(name);
     review.mark(index, !review.cases()[index].marked);
 }
 
-void mark_failing(Session& session) {
-    Review& review = *session.review();
+void mark_failing(Reviews& reviews) {
+    Review& review = *reviews.review();
     for (std::size_t i = 0; i < review.cases().size(); ++i) review.mark(i, review.why_not_accept(i).empty());
 }
 
-void order_cases(Session& session, const std::string& name) {
+void order_cases(Reviews& reviews, const std::string& name) {
     const auto at = std::ranges::find(kReviewOrders, name);
     if (at == kReviewOrders.end()) throw std::invalid_argument("give one of " + listed(kReviewOrders));
-    session.review()->look.order = static_cast<ReviewOrder>(at - kReviewOrders.begin());
+    reviews.review()->look.order = static_cast<ReviewOrder>(at - kReviewOrders.begin());
 }
 
 std::vector<Command> case_commands() {
@@ -105,42 +104,41 @@ std::vector<Command> case_commands() {
                  .chosen = so(
                      [](const Review& review, const std::string& name) { return review.shown().file.name == name; })}),
         Command("review.failed_only", "Only failing cases", "Leaves out of the list what passed.",
-                [](Session& session) { session.review()->look.failed_only = !session.review()->look.failed_only; },
+                [](Reviews& reviews) { reviews.review()->look.failed_only = !reviews.review()->look.failed_only; },
                 {.shortcut = "L", .enabled = has_review, .checked = so([](const Review& review) {
                                                              return review.look.failed_only;
                                                          })}),
-        Command(
-            "review.order", "Order of the list", "Sorts the list by name, by difference or by outcome.", order_cases,
-            {.argument = "ORDER",
-             .enabled = has_review,
-             .choices =
-                 [](const Session&) { return std::vector<std::string>(kReviewOrders.begin(), kReviewOrders.end()); },
-             .chosen = so([](const Review& review, const std::string& name) {
-                 return kReviewOrders[static_cast<std::size_t>(review.look.order)] == name;
-             })}),
+        Command("review.order", "Order of the list", "Sorts the list by name, by difference or by outcome.",
+                order_cases,
+                {.argument = "ORDER",
+                 .enabled = has_review,
+                 .choices = [] { return std::vector<std::string>(kReviewOrders.begin(), kReviewOrders.end()); },
+                 .chosen = so([](const Review& review, const std::string& name) {
+                     return kReviewOrders[static_cast<std::size_t>(review.look.order)] == name;
+                 })}),
     };
 }
 
 /// A mode that is on already stays; blinking ends.
-void set_mode(Session& session, ReviewMode mode) {
-    ReviewLook& look = session.review()->look;
+void set_mode(Reviews& reviews, ReviewMode mode) {
+    ReviewLook& look = reviews.review()->look;
     const bool ends = mode == ReviewMode::blink && look.mode == ReviewMode::blink;
     look.mode = ends ? ReviewMode::actual : mode;
 }
 
 /// The other of golden and actual picture.
-void flip(Session& session) {
-    ReviewLook& look = session.review()->look;
+void flip(Reviews& reviews) {
+    ReviewLook& look = reviews.review()->look;
     look.mode = look.mode == ReviewMode::golden ? ReviewMode::actual : ReviewMode::golden;
 }
 
 Command divider_command(std::string_view id, std::string_view title, std::string_view shortcut, double by) {
-    const auto move = [by](Session& session) {
-        double& divider = session.review()->look.divider;
+    const auto move = [by](Reviews& reviews) {
+        double& divider = reviews.review()->look.divider;
         divider = std::clamp(divider + by, 0.0, 1.0);
     };
     const Condition enabled = when([](const Review& review) { return review.look.mode == ReviewMode::slider; },
-                                   [](const Session&) -> std::string_view { return "the slider is not shown"; });
+                                   []() -> std::string_view { return "the slider is not shown"; });
     return {id,
             title,
             "Moves the line between golden and actual picture.",
@@ -158,7 +156,7 @@ std::vector<Command> mode_commands() {
     for (std::size_t i = 0; i < kReviewModes.size(); ++i) {
         const auto mode = static_cast<ReviewMode>(i);
         const ReviewModeWords& words = kReviewModes[i];
-        out.push_back(Command(ids[i], words.title, words.doc, [mode](Session& session) { set_mode(session, mode); },
+        out.push_back(Command(ids[i], words.title, words.doc, [mode](Reviews& reviews) { set_mode(reviews, mode); },
                               {.menu = "Review/Pictures",
                                .shortcut = words.shortcut,
                                .enabled = has_review,
@@ -168,14 +166,14 @@ std::vector<Command> mode_commands() {
                           {.menu = "Review/Pictures", .shortcut = "Space", .enabled = has_review}));
     out.push_back(Command("review.blink_rate", "Blink every so many seconds",
                           "Sets how long each picture stays while they blink.",
-                          [](Session& session, const std::string& text) {
-                              session.review()->look.blink_seconds = parse_number_within(text, kLeastBlink, kMostBlink);
+                          [](Reviews& reviews, const std::string& text) {
+                              reviews.review()->look.blink_seconds = parse_number_within(text, kLeastBlink, kMostBlink);
                           },
                           {.menu = "Review/Pictures",
                            .argument = "SECONDS",
                            .enabled = has_review,
                            .choices =
-                               [](const Session&) {
+                               [] {
                                    return std::vector<std::string>{"0.2", "0.5", "1", "2"};
                                },
                            .chosen = so([](const Review& review, const std::string& text) {
@@ -189,15 +187,15 @@ std::vector<Command> mode_commands() {
 void set_zoom(ReviewLook& look, double zoom) { look.zoom = std::clamp(zoom, kLeastReviewZoom, kMostReviewZoom); }
 
 /// To the next power of two.
-void zoom_by(Session& session, bool in) {
-    ReviewLook& look = session.review()->look;
+void zoom_by(Reviews& reviews, bool in) {
+    ReviewLook& look = reviews.review()->look;
     const double power = std::log2(look.scale());
     constexpr double kAlmost = 0.01;
     set_zoom(look, std::exp2(in ? std::floor(power + kAlmost) + 1 : std::ceil(power - kAlmost) - 1));
 }
 
-void zoom_to_difference(Session& session) {
-    Review& review = *session.review();
+void zoom_to_difference(Reviews& reviews) {
+    Review& review = *reviews.review();
     const ReviewPictures& pictures = review.pictures();
     if (!pictures.diff || !pictures.diff->bounds) throw std::invalid_argument("no pixels differ in this case");
     const PixelRect& bounds = *pictures.diff->bounds;
@@ -211,8 +209,8 @@ void zoom_to_difference(Session& session) {
 }
 
 Command pan_command(std::string_view id, std::string_view title, std::string_view shortcut, double right, double down) {
-    const auto pan = [right, down](Session& session) {
-        ReviewLook& look = session.review()->look;
+    const auto pan = [right, down](Reviews& reviews) {
+        ReviewLook& look = reviews.review()->look;
         const double step = kPanStep / std::max(look.scale() / look.fits, 1.0);
         look.middle = glm::clamp(look.middle + step * glm::dvec2(right, down), 0.0, 1.0);
     };
@@ -227,19 +225,19 @@ std::vector<Command> zoom_commands() {
     const std::string_view menu = "Review/Zoom";
     return {
         Command("review.fit", "Whole picture", "Shows all of the pictures.",
-                [](Session& session) {
-                    session.review()->look.zoom = 0;
-                    session.review()->look.middle = glm::dvec2(0.5);
+                [](Reviews& reviews) {
+                    reviews.review()->look.zoom = 0;
+                    reviews.review()->look.middle = glm::dvec2(0.5);
                 },
                 {.menu = menu, .shortcut = "F Home", .enabled = has_review}),
         Command("review.actual_size", "Actual size", "One pixel of the window for each pixel of the pictures.",
-                [](Session& session) { set_zoom(session.review()->look, 1); },
+                [](Reviews& reviews) { set_zoom(reviews.review()->look, 1); },
                 {.menu = menu, .shortcut = "0", .enabled = has_review}),
         Command("review.zoom_in", "Zoom in", "Shows the pictures twice as large.",
-                [](Session& session) { zoom_by(session, true); },
+                [](Reviews& reviews) { zoom_by(reviews, true); },
                 {.menu = menu, .shortcut = "= Shift+=", .repeats = true, .enabled = has_review}),
         Command("review.zoom_out", "Zoom out", "Shows the pictures half as large.",
-                [](Session& session) { zoom_by(session, false); },
+                [](Reviews& reviews) { zoom_by(reviews, false); },
                 {.menu = menu, .shortcut = "-", .repeats = true, .enabled = has_review}),
         Command("review.zoom_to_difference", "Zoom to the difference",
                 "Shows the part of the pictures that holds all pixels that differ.", zoom_to_difference,
@@ -252,34 +250,34 @@ std::vector<Command> zoom_commands() {
 }
 
 void accept_cases(Session& session, const std::vector<std::size_t>& indices) {
-    for (const ReviewNews& news : session.review()->accept(indices)) session.tell(news.level, news.text);
+    for (const ReviewNews& news : session.reviews.review()->accept(indices))
+        session.notifications.tell(news.level, news.text);
     session.poll();
 }
 
 /// What was said of the same before is not true any more.
-void tell_instead(Session& session, const ReviewNews& news) {
-    session.take_down(news.instead_of);
-    session.tell(news.level, news.text);
+void tell_instead(Notifications& notifications, const ReviewNews& news) {
+    notifications.take_down(news.instead_of);
+    notifications.tell(news.level, news.text);
 }
 
 constexpr std::string_view kItsCasesWait = "its cases are being drawn: wait, or stop the run";
 
-std::string_view why_no_undo(const Session& session) {
-    return session.review()->has_undo() ? kItsCasesWait : "nothing was accepted";
+std::string_view why_no_undo(const Reviews& reviews) {
+    return reviews.review()->has_undo() ? kItsCasesWait : "nothing was accepted";
 }
 
-std::string_view why_no_redo(const Session& session) {
-    return session.review()->has_redo() ? kItsCasesWait : "nothing was undone";
+std::string_view why_no_redo(const Reviews& reviews) {
+    return reviews.review()->has_redo() ? kItsCasesWait : "nothing was undone";
 }
 
 std::vector<Command> golden_commands() {
     return {
-        Command(
-            "review.accept", "Accept", "Makes the picture the case's golden.",
-            [](Session& session) { accept_cases(session, {session.review()->current()}); },
-            {.shortcut = "A",
-             .enabled = when([](const Review& review) { return review.why_not_accept(review.current()).empty(); },
-                             [](const Session&) -> std::string_view { return "this case has nothing to accept"; })}),
+        Command("review.accept", "Accept", "Makes the picture the case's golden.",
+                [](Session& session) { accept_cases(session, {session.reviews.review()->current()}); },
+                {.shortcut = "A",
+                 .enabled = when([](const Review& review) { return review.why_not_accept(review.current()).empty(); },
+                                 []() -> std::string_view { return "this case has nothing to accept"; })}),
         Command("review.mark", "Mark", "Marks a case, to accept it with others; without a name the one that is shown.",
                 toggle_mark,
                 {.shortcut = "M", .argument = "[CASE]", .enabled = has_review, .checked = so([](const Review& review) {
@@ -289,23 +287,26 @@ std::vector<Command> golden_commands() {
                 "Marks every case that did not pass and has a picture to accept; takes other marks away.", mark_failing,
                 {.shortcut = "Ctrl+A", .enabled = has_review}),
         Command("review.accept_marked", "Accept marked cases", "Makes the pictures of all marked cases their goldens.",
-                [](Session& session) { accept_cases(session, session.review()->marked()); },
+                [](Session& session) { accept_cases(session, session.reviews.review()->marked()); },
                 {.shortcut = "Shift+A",
                  .enabled = when([](const Review& review) { return !review.marked().empty(); },
-                                 [](const Session&) -> std::string_view { return "no case is marked"; })}),
+                                 []() -> std::string_view { return "no case is marked"; })}),
         Command("review.accept_viewed", "Accept all that were viewed",
                 "Makes goldens of the pictures of all failing cases that were looked at.",
-                [](Session& session) { accept_cases(session, session.review()->viewed()); },
+                [](Session& session) { accept_cases(session, session.reviews.review()->viewed()); },
                 {.shortcut = "Ctrl+Shift+A",
-                 .enabled = when(
-                     [](const Review& review) { return !review.viewed().empty(); },
-                     [](const Session&) -> std::string_view { return "none that could be accepted was looked at"; })}),
+                 .enabled = when([](const Review& review) { return !review.viewed().empty(); },
+                                 []() -> std::string_view { return "none that could be accepted was looked at"; })}),
         Command("review.undo", "Undo", "Gives back the goldens that were there before.",
-                [](Session& session) { tell_instead(session, session.review()->undo()); },
+                [](Notifications& notifications, Reviews& reviews) {
+                    tell_instead(notifications, reviews.review()->undo());
+                },
                 {.shortcut = "Ctrl+Z",
                  .enabled = when([](const Review& review) { return review.can_undo(); }, why_no_undo)}),
         Command("review.redo", "Redo", "Takes again the goldens that were given back.",
-                [](Session& session) { tell_instead(session, session.review()->redo()); },
+                [](Notifications& notifications, Reviews& reviews) {
+                    tell_instead(notifications, reviews.review()->redo());
+                },
                 {.shortcut = "Ctrl+Y Ctrl+Shift+Z",
                  .enabled = when([](const Review& review) { return review.can_redo(); }, why_no_redo)}),
     };
@@ -313,37 +314,37 @@ std::vector<Command> golden_commands() {
 
 Condition if_idle() {
     return when([](const Review& review) { return !review.drawing(); },
-                [](const Session&) -> std::string_view { return "cases are being drawn"; });
+                []() -> std::string_view { return "cases are being drawn"; });
 }
 
 void copy_line(Session& session) {
-    const Review& review = *session.review();
+    const Review& review = *session.reviews.review();
     const std::string line = test_command_line(review.drawer(), review.folder(), review.shown().file.name);
-    if (session.hooks.set_clipboard) session.hooks.set_clipboard(line);
-    session.tell(MessageLevel::info, "Copied: " + line);
+    session.desktop->set_clipboard(line);
+    session.notifications.tell(MessageLevel::info, "Copied: " + line);
 }
 
 std::vector<Command> run_commands() {
     return {
         Command("review.draw", "Draw the case again", "Draws the case anew and compares it.",
                 [](Session& session) {
-                    session.review()->draw({session.review()->current()});
+                    session.reviews.review()->draw({session.reviews.review()->current()});
                     session.poll();
                 },
                 {.shortcut = "R", .enabled = if_idle()}),
         Command("review.draw_all", "Draw all cases again", "Draws all cases anew and compares them.",
                 [](Session& session) {
-                    session.review()->draw_all();
+                    session.reviews.review()->draw_all();
                     session.poll();
                 },
                 {.shortcut = "Shift+R F5", .enabled = if_idle()}),
         Command("review.cancel", "Stop drawing", "Leaves the cases that are not drawn yet as they were.",
-                &Session::cancel_review_run,
+                &Reviews::cancel_run,
                 {.enabled = when([](const Review& review) { return review.drawing(); },
-                                 [](const Session&) -> std::string_view { return "nothing is drawn"; })}),
+                                 []() -> std::string_view { return "nothing is drawn"; })}),
         Command("review.open", "Open the case as a scene",
                 "Opens what the case draws in place of the picture tests; what was open is back when they are left.",
-                [](Session& session) { session.open_case(session.review()->current()); },
+                [](Reviews& reviews) { reviews.open_case(reviews.review()->current()); },
                 {.shortcut = "Enter", .enabled = has_review}),
         Command("review.copy_command", "Copy as command", "Copies the command line that draws and compares the case.",
                 copy_line, {.shortcut = "Ctrl+Shift+C", .enabled = has_review}),
@@ -357,11 +358,10 @@ std::vector<Command> run_commands() {
 std::vector<Command> review_commands() {
     std::vector<Command> rows = in_menu(
         "Review", joined({case_commands(), mode_commands(), zoom_commands(), golden_commands(), run_commands()}));
-    rows.push_back(
-        Command("review.back", "Back to the picture tests", "Shows the picture tests again.", &Session::back_to_review,
-                {.menu = "File", .shortcut = "Ctrl+R", .enabled = {has_review, [](const Session&) -> std::string_view {
-                                                                       return "no picture tests were shown";
-                                                                   }}}));
+    rows.push_back(Command("review.back", "Back to the picture tests", "Shows the picture tests again.", &Reviews::back,
+                           {.menu = "File", .shortcut = "Ctrl+R", .enabled = {has_review, []() -> std::string_view {
+                                                                                  return "no picture tests were shown";
+                                                                              }}}));
     return rows;
 }
 

@@ -10,49 +10,49 @@ namespace mobbscope::app {
 
 namespace {
 
-using Change = void (*)(Session&, const AgentNames&);
-using Holds = bool (*)(const Session&, const AgentNames&);
+using Change = void (*)(Workspace&, const AgentNames&);
+using Holds = bool (*)(const Workspace&, const AgentNames&);
 
-bool has_selected_agents(const Session& session) { return !selected_agents(session).empty(); }
-std::string_view why_nobody(const Session& session) {
-    return session.selection.kind == Selection::Kind::clip ? "no agent plays the clip" : "no agent is selected";
+bool has_selected_agents(const Workspace& workspace) { return !selected_agents(workspace).empty(); }
+std::string_view why_nobody(const Workspace& workspace) {
+    return workspace.selection.kind == Selection::Kind::clip ? "no agent plays the clip" : "no agent is selected";
 }
 
 /// About those that are selected.
 Command of_selected(std::string_view id, std::string_view title, std::string_view key, std::string_view doc,
                     Change change, Holds holds) {
-    const auto act = [change](Session& session) { change(session, selected_agents(session)); };
-    const auto is_so = [holds](const Session& session) { return holds(session, selected_agents(session)); };
+    const auto act = [change](Workspace& workspace) { change(workspace, selected_agents(workspace)); };
+    const auto is_so = [holds](const Workspace& workspace) { return holds(workspace, selected_agents(workspace)); };
     return {id, title, doc, act, {.shortcut = key, .enabled = {has_selected_agents, why_nobody}, .checked = is_so}};
 }
 
 /// What agents_meant takes.
-std::vector<std::string> meanings(const Session& session) {
+std::vector<std::string> meanings(const Workspace& workspace) {
     std::vector<std::string> out;
-    for (const std::string& name : all_agents(session)) out.push_back(text_of_agent(name));
-    for (const ClipGroup& group : session.clip_groups()) {
-        if (!agents_of_group(session, group).empty()) out.push_back(kOfGroup + group.title);
+    for (const std::string& name : all_agents(workspace)) out.push_back(text_of_agent(name));
+    for (const ClipGroup& group : workspace.clip_groups()) {
+        if (!agents_of_group(workspace, group).empty()) out.push_back(kOfGroup + group.title);
     }
-    const std::vector<std::string> clips = clip_names(session);
+    const std::vector<std::string> clips = clip_names(workspace);
     for (int clip = 0; clip < static_cast<int>(clips.size()); ++clip) {
-        if (!agents_of_clip(session, clip).empty()) out.push_back(kOfClip + clips[static_cast<std::size_t>(clip)]);
+        if (!agents_of_clip(workspace, clip).empty()) out.push_back(kOfClip + clips[static_cast<std::size_t>(clip)]);
     }
     return out;
 }
 
 /// The same about others, as the lists' buttons have it.
 Command of_named(std::string_view id, std::string_view title, std::string_view doc, Change change) {
-    const auto act = [change](Session& session, const std::string& text) {
-        const AgentNames who = agents_meant(session, text);
+    const auto act = [change](Workspace& workspace, const std::string& text) {
+        const AgentNames who = agents_meant(workspace, text);
         if (who.empty()) throw std::invalid_argument("no agent plays it");
-        change(session, who);
+        change(workspace, who);
     };
     return {id, title, doc, act, {.menu = kNoMenu, .argument = "NAME|clip:NAME|group:NAME", .choices = meanings}};
 }
 
 /// Where a run's people stand is what it is about.
-bool may_be_laid_out(const Session& session) { return has_scene(session) && !session.crowd(); }
-std::string_view why_not_laid_out(const Session&) { return "a run is shown where it takes place"; }
+bool may_be_laid_out(const Workspace& workspace) { return has_scene(workspace) && !workspace.crowd(); }
+std::string_view why_not_laid_out() { return "a run is shown where it takes place"; }
 
 Command arrange_command() {
     Command out = option_command(view_option("arrange"));
@@ -60,7 +60,7 @@ Command arrange_command() {
     // One of two is a tick in the menu.
     out.choices = {};
     out.chosen = {};
-    out.checked = [](const Session& session) { return session.view().arrange == Arrange::grid; };
+    out.checked = [](const Workspace& workspace) { return workspace.view().arrange == Arrange::grid; };
     return out;
 }
 
@@ -82,8 +82,8 @@ std::vector<Command> shown_commands() {
                     toggle_pinned, are_pinned),
         Command("agent.show_all", "Show all", "Brings everybody who is hidden back into the picture.", show_all,
                 {.shortcut = "Shift+V",
-                 .enabled = {[](const Session& session) { return !session.view().hidden.empty(); },
-                             [](const Session&) { return std::string_view("nobody is hidden"); }}}),
+                 .enabled = {[](const Workspace& workspace) { return !workspace.view().hidden.empty(); },
+                             [] { return std::string_view("nobody is hidden"); }}}),
         arrange_command(),
         of_named("agents.hide", "Hide by name", "Hides an agent, or all of a clip or a group of clips, or shows them.",
                  toggle_hidden),

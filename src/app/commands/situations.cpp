@@ -7,19 +7,19 @@ namespace mobbscope::app {
 
 namespace {
 
-bool in_file_dialog(const Session& session) {
-    const Dialog open = session.behind_help();
+bool in_file_dialog(const Dialogs& dialogs) {
+    const Dialog open = dialogs.behind_help();
     return open == Dialog::open || open == Dialog::add || open == Dialog::save_as || open == Dialog::export_file ||
            open == Dialog::review;
 }
 
 template <Dialog dialog>
-bool in_dialog(const Session& session) {
-    return session.behind_help() == dialog;
+bool in_dialog(const Dialogs& dialogs) {
+    return dialogs.behind_help() == dialog;
 }
 
-bool agent_is_selected(const Session& session) {
-    return session.selection.on_path() && !session.crowd() && !session.scene().agents.empty();
+bool agent_is_selected(const Workspace& workspace) {
+    return workspace.selection.on_path() && !workspace.crowd() && !workspace.scene().agents.empty();
 }
 
 }  // namespace
@@ -60,27 +60,27 @@ std::span<const Situation> situations() {
           {"Escape", "Close it; the settings stay"}}},
         {"You look at picture tests",
          "Go through the cases that differ; accept what is right, and leave the rest to be mended.",
-         [](const Session& session) { return session.reviewing(); },
+         [](const Reviews& reviews) { return reviews.shown(); },
          {"review.next_failing", "review.previous_failing", "review.accept", "review.undo", "review.blink",
           "review.open", "review.draw_all", "review.leave"}},
         {"Nothing is open",
          "Open a scene, motion clips or tracked people; they can also be dropped on the window.",
-         [](const Session& session) { return session.empty(); },
+         [](const Workspace& workspace) { return workspace.empty(); },
          {"file.open", "file.demo", "file.recent", "go.palette"}},
         {"You look at one moment",
          "Everybody stands on the floor as they do at the time of the cursor.",
-         [](const Session& session) { return session.view().show == Show::moment; },
+         [](const Workspace& workspace) { return workspace.view().show == Show::moment; },
          {"view.moment", "time.play", "time.forward", "time.back", "crowd.follow", "view.top", "view.frame",
           "time.start", "time.end"}},
         {"You look at a query",
          "Go through its tests: the boxes that stand out are compared, and at the right stands why they are apart.",
-         [](const Session& session) { return session.view().query.has_value(); },
+         [](const Workspace& workspace) { return workspace.view().query.has_value(); },
          {"step.forward", "step.back", "step.first", "step.last", "step.next_separated", "step.next_overlap",
           "step.next_hit", "step.over", "step.out", "go.contact", "view.frame", "query.next", "query.previous",
           "query.none", "crowd.back"}},
         {"You look at a crowd",
          "Follow somebody, and see at each choice which moves could be taken and who ruled out the others.",
-         [](const Session& session) { return session.is_crowd(); },
+         [](const Workspace& workspace) { return workspace.is_crowd(); },
          {"crowd.follow", "crowd.next_choice", "crowd.previous_choice", "crowd.stop", "time.play", "view.moment",
           "conflicts.find", "conflicts.next", "crowd.candidates", "view.frame"}},
         {"An agent is selected",
@@ -90,7 +90,7 @@ std::span<const Situation> situations() {
           "go.none"}},
         {"You look at a scene",
          "Show coarser and finer boxes, try other trees, or choose a query to see why two never meet.",
-         [](const Session&) { return true; },
+         [] { return true; },
          {"query.next", "view.finer", "view.coarser", "view.leaves", "tree.kind", "view.split", "time.play",
           "view.moment", "view.frame_all", "go.palette"}},
     };

@@ -1,7 +1,7 @@
 /// What a person is in the midst of, and what can be done then: the help begins with it.
 #pragma once
 
-#include <app/document/session.h>
+#include <app/commands/command.h>
 
 #include <span>
 #include <string_view>
@@ -18,7 +18,7 @@ struct KeyHelp {
 struct Situation {
     std::string_view title;
     std::string_view words;  ///< a sentence or two
-    bool (*holds)(const Session&);
+    OfParts<bool, const Session> holds;
     std::vector<std::string_view> commands{};  ///< that matter now, by id
     std::vector<KeyHelp> keys{};               ///< of a dialog
 };

@@ -15,9 +15,9 @@ std::vector<std::string> as_strings(std::span<const std::string_view> names) { r
 
 /// Sets an option of the fit, which `text` says.
 template <class Option>
-void fit(Session& session, const std::string& doing, const std::string& text, Option mobb::FitOptions::*option,
+void fit(Edits& edits, const std::string& doing, const std::string& text, Option mobb::FitOptions::*option,
          Option value) {
-    session.refit({doing + ": " + text, doing}, [=](mobb::FitOptions& options) { options.*option = value; });
+    edits.refit({doing + ": " + text, doing}, [=](mobb::FitOptions& options) { options.*option = value; });
 }
 
 /// What a name stands for.
@@ -28,28 +28,28 @@ Option named(std::string_view what, const std::string& text, std::optional<Optio
     throw std::invalid_argument(std::string(what) + " cannot be " + in_quotes(text) + ": give one of " + listed(names));
 }
 
-void set_kind(Session& session, const std::string& text) {
-    fit(session, "changing the kind of trees", text, &mobb::FitOptions::tree,
+void set_kind(Edits& edits, const std::string& text) {
+    fit(edits, "changing the kind of trees", text, &mobb::FitOptions::tree,
         named("the trees", text, find_tree_kind, mobb::tree_kind_names()));
 }
 
-void set_axes(Session& session, const std::string& text) {
-    fit(session, "changing the axes", text, &mobb::FitOptions::axes,
+void set_axes(Edits& edits, const std::string& text) {
+    fit(edits, "changing the axes", text, &mobb::FitOptions::axes,
         named("the axes", text, mobb::axes_from_name, mobb::axes_names()));
 }
 
-void set_leaf(Session& session, const std::string& text) {
-    fit(session, "changing the leaves", text, &mobb::FitOptions::leaf,
+void set_leaf(Edits& edits, const std::string& text) {
+    fit(edits, "changing the leaves", text, &mobb::FitOptions::leaf,
         whole_number_in(text, "the samples of a leaf", 1, std::numeric_limits<int>::max()));
 }
 
-void set_tree_levels(Session& session, const std::string& text) {
-    fit(session, "changing the levels", text, &mobb::FitOptions::levels,
+void set_tree_levels(Edits& edits, const std::string& text) {
+    fit(edits, "changing the levels", text, &mobb::FitOptions::levels,
         whole_number_in(text, "the number of levels", 0, std::numeric_limits<int>::max()));
 }
 
-void set_time_scale(Session& session, const std::string& text) {
-    fit(session, "changing the time scale", text, &mobb::FitOptions::time_scale,
+void set_time_scale(Edits& edits, const std::string& text) {
+    fit(edits, "changing the time scale", text, &mobb::FitOptions::time_scale,
         number_in(text, "the time scale", 1 / mobb::kMaxTimeScale, mobb::kMaxTimeScale));
 }
 
@@ -61,29 +61,31 @@ std::vector<Command> tree_commands() {
                 "Fits boxes upright in time (mobb), free boxes (umobb), or one kind at the root and the other below.",
                 set_kind,
                 {.argument = "K",
-                 .choices = [](const Session&) { return as_strings(mobb::tree_kind_names()); },
-                 .chosen = [](const Session& session,
-                              const std::string& kind) { return name(session.fitted().options().tree) == kind; }}),
+                 .choices = [] { return as_strings(mobb::tree_kind_names()); },
+                 .chosen = [](const Workspace& workspace,
+                              const std::string& kind) { return name(workspace.fitted().options().tree) == kind; }}),
         Command("tree.axes", "Axes",
                 "Takes the directions of boxes from first to last sample, from the principal axes, or the tightest.",
                 set_axes,
                 {.argument = "K",
-                 .choices = [](const Session&) { return as_strings(mobb::axes_names()); },
-                 .chosen = [](const Session& session,
-                              const std::string& axes) { return name(session.fitted().options().axes) == axes; }}),
-        Command("tree.leaf", "Samples in a leaf...",
-                "Makes a node of at most N samples a leaf; 10 is the usual number.", set_leaf,
-                {.argument = "N",
-                 .present = [](const Session& session) { return std::to_string(session.fitted().options().leaf); }}),
+                 .choices = [] { return as_strings(mobb::axes_names()); },
+                 .chosen = [](const Workspace& workspace,
+                              const std::string& axes) { return name(workspace.fitted().options().axes) == axes; }}),
+        Command(
+            "tree.leaf", "Samples in a leaf...", "Makes a node of at most N samples a leaf; 10 is the usual number.",
+            set_leaf,
+            {.argument = "N",
+             .present = [](const Workspace& workspace) { return std::to_string(workspace.fitted().options().leaf); }}),
         Command("tree.levels", "Levels of the trees...",
                 "Ends the trees after N levels; 0 lets them go down to their leaves.", set_tree_levels,
                 {.argument = "N",
-                 .present = [](const Session& session) { return std::to_string(session.fitted().options().levels); }}),
-        Command(
-            "tree.time_scale", "Time scale...", "Mixes time with space in free boxes at so many metres per second.",
-            set_time_scale,
-            {.argument = "W",
-             .present = [](const Session& session) { return short_double(session.fitted().options().time_scale); }}),
+                 .present =
+                     [](const Workspace& workspace) { return std::to_string(workspace.fitted().options().levels); }}),
+        Command("tree.time_scale", "Time scale...", "Mixes time with space in free boxes at so many metres per second.",
+                set_time_scale,
+                {.argument = "W",
+                 .present =
+                     [](const Workspace& workspace) { return short_double(workspace.fitted().options().time_scale); }}),
     };
     return in_menu("Tree", rows);
 }

@@ -21,7 +21,7 @@ constexpr double kKeyZoom = 1.25;
 constexpr double kOrbitStep = 5;  // degrees
 constexpr std::array kScales{0.5, 0.75, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0};
 
-bool shows_levels(const Session& session) { return has_scene(session) && !session.view().query; }
+bool shows_levels(const Workspace& workspace) { return has_scene(workspace) && !workspace.view().query; }
 
 // --- the camera
 
@@ -35,60 +35,60 @@ void frame_by_itself(Camera& camera) {
 /// The camera turns about its target, and stays as far from it.
 Command see_from(CameraPreset preset, std::string_view id, std::string_view title, std::string_view key,
                  std::string_view doc) {
-    const auto see = [preset](Session& session) {
-        session.change_view([&](ViewState& view) { view.camera.preset = preset; });
+    const auto see = [preset](Workspace& workspace) {
+        workspace.change_view([&](ViewState& view) { view.camera.preset = preset; });
     };
-    const auto is_seen = [preset](const Session& session) { return session.view().camera.preset == preset; };
+    const auto is_seen = [preset](const Workspace& workspace) { return workspace.view().camera.preset == preset; };
     return {id, title, doc, see, {.shortcut = key, .checked = is_seen}};
 }
 
-bool may_have_perspective(const Session& session) {
-    Camera camera = session.view().camera;
+bool may_have_perspective(const Workspace& workspace) {
+    Camera camera = workspace.view().camera;
     camera.perspective = true;
-    return has_scene(session) && orientation(camera).perspective;
+    return has_scene(workspace) && orientation(camera).perspective;
 }
 
-void frame_all(Session& session) {
-    session.change_view([&](ViewState& view) {
+void frame_all(Workspace& workspace, Views& views) {
+    workspace.change_view([&](ViewState& view) {
         frame_by_itself(view.camera);
         // What is framed may have become larger since, by another unit or a longer clip.
-        if (view.show == Show::space_time && !session.has_chosen_height()) view.time_height = 0;
+        if (view.show == Show::space_time && !views.has_chosen_height()) view.time_height = 0;
     });
 }
 
 /// Whether an agent is selected, and no part of its path; in the picture of a moment an agent stands where a sample is.
-bool is_agent_selected(const Session& session) {
-    const Selection& selected = session.selection;
+bool is_agent_selected(const Workspace& workspace) {
+    const Selection& selected = workspace.selection;
     if (!selected.on_path() || selected.path.agent < 0) return false;
     return selected.kind == Selection::Kind::path ||
-           (selected.kind == Selection::Kind::sample && session.view().show == Show::moment);
+           (selected.kind == Selection::Kind::sample && workspace.view().show == Show::moment);
 }
 
 /// Frames the selected agent while the camera follows one: it follows the selected one from now on, as nobody else
 /// stays in its picture.
-void frame_selected_agent(Session& session) {
-    const std::string who = current_agent(session);
-    if (who == session.view().follow) return frame_followed(session, kAroundFollowed);
-    follow_agent(session, who, kAroundFollowed);
+void frame_selected_agent(Workspace& workspace, Views& views) {
+    const std::string who = current_agent(workspace);
+    if (who == workspace.view().follow) return frame_followed(views, workspace, kAroundFollowed);
+    follow_agent(workspace, views, who, kAroundFollowed);
 }
 
 /// What is selected, else the pair under test; none: neither is in the picture.
-std::optional<Bounds> what_to_frame(const Session& session) {
+std::optional<Bounds> what_to_frame(const Workspace& workspace) {
     // A query that is selected is the one in view: what is looked at is its test.
-    const bool apart = session.selection.kind != Selection::Kind::query;
-    const std::optional<Bounds> selected = apart ? box_of(session, session.selection) : std::nullopt;
-    return selected ? selected : box_of_test(session);
+    const bool apart = workspace.selection.kind != Selection::Kind::query;
+    const std::optional<Bounds> selected = apart ? box_of(workspace, workspace.selection) : std::nullopt;
+    return selected ? selected : box_of_test(workspace);
 }
 
-void frame_selection(Session& session) {
-    const bool whom = session.selection.kind == Selection::Kind::none || is_agent_selected(session);
-    if (follows(session) && whom) return frame_selected_agent(session);
-    if (const std::optional<Bounds> box = what_to_frame(session)) return frame_box(session, *box);
-    return follows(session) ? frame_followed(session, kAroundFollowed) : frame_all(session);
+void frame_selection(Workspace& workspace, Views& views) {
+    const bool whom = workspace.selection.kind == Selection::Kind::none || is_agent_selected(workspace);
+    if (follows(workspace) && whom) return frame_selected_agent(workspace, views);
+    if (const std::optional<Bounds> box = what_to_frame(workspace)) return frame_box(views, workspace, *box);
+    return follows(workspace) ? frame_followed(views, workspace, kAroundFollowed) : frame_all(workspace, views);
 }
 
-void zoom(Session& session, double factor) {
-    move_camera(session, [&](const Camera& camera, const PictureFrame& picture) {
+void zoom(Views& views, Workspace& workspace, double factor) {
+    move_camera(views, workspace, [&](const Camera& camera, const PictureFrame& picture) {
         const PictureSize size = picture.size;
         const glm::dvec2 target =
             (glm::dvec2(0.5) + camera.shift * glm::dvec2(1, -1)) * glm::dvec2(size.width, size.height);
@@ -97,21 +97,21 @@ void zoom(Session& session, double factor) {
 }
 
 /// The scene turns as if it was dragged to the right and downwards.
-void orbit(Session& session, glm::dvec2 degrees) {
-    move_camera(session, [&](const Camera& camera, const PictureFrame& picture) {
+void orbit(Views& views, Workspace& workspace, glm::dvec2 degrees) {
+    move_camera(views, workspace, [&](const Camera& camera, const PictureFrame& picture) {
         return orbited(camera, glm::vec2(degrees * (picture.size.height / 180.0)), picture.size);
     });
 }
 
 Command orbit_step(glm::dvec2 way, std::string_view id, std::string_view title, std::string_view key,
                    std::string_view doc) {
-    const auto step = [way](Session& session) { orbit(session, kOrbitStep * way); };
+    const auto step = [way](Views& views, Workspace& workspace) { orbit(views, workspace, kOrbitStep * way); };
     return {id, title, doc, step, {.shortcut = key, .repeats = true}};
 }
 
 // --- what is drawn
 
-bool shows_moment(const Session& session) { return session.view().show == Show::moment; }
+bool shows_moment(const Workspace& workspace) { return workspace.view().show == Show::moment; }
 
 std::string_view subject(const ViewState& view) {
     if (view.show == Show::moment) return "moment";
@@ -120,12 +120,12 @@ std::string_view subject(const ViewState& view) {
 
 /// Heights mean something else in a picture of something else: each has its own camera, and frames the scene when it is
 /// shown first. A disk is framed each time, as it may be another one.
-void show_other_picture(Session& session, const std::function<void(ViewState&)>& change) {
-    session.change_view([&](ViewState& view) {
-        session.cameras_aside[subject(view)] = view.camera;
+void show_other_picture(Workspace& workspace, const std::function<void(ViewState&)>& change) {
+    workspace.change_view([&](ViewState& view) {
+        workspace.cameras_aside[subject(view)] = view.camera;
         change(view);
-        const auto known = session.cameras_aside.find(subject(view));
-        if (known != session.cameras_aside.end() && !view.projection) {
+        const auto known = workspace.cameras_aside.find(subject(view));
+        if (known != workspace.cameras_aside.end() && !view.projection) {
             view.camera = known->second;
         } else {
             frame_by_itself(view.camera);
@@ -134,142 +134,139 @@ void show_other_picture(Session& session, const std::function<void(ViewState&)>&
 }
 
 /// Who the camera goes along with stays as near.
-void toggle_moment(Session& session) {
+void toggle_moment(Workspace& workspace, Views& views) {
     const auto toggle = [](ViewState& view) {
         view.show = view.show == Show::moment ? Show::space_time : Show::moment;
     };
-    if (!follows(session) || !session.view().camera.target) return show_other_picture(session, toggle);
-    session.change_view(toggle);
-    center_followed(session);
+    if (!follows(workspace) || !workspace.view().camera.target) return show_other_picture(workspace, toggle);
+    workspace.change_view(toggle);
+    center_followed(views, workspace);
 }
 
 /// Levels of the deepest tree in the picture.
-int depth_in_view(const Session& session) {
+int depth_in_view(const Workspace& workspace) {
     int depth = 1;
-    for (const PlacedAgent& who : session.fitted().placed_agents()) {
-        depth = std::max(depth, session.fitted().tree(who.clip).depth());
+    for (const PlacedAgent& who : workspace.fitted().placed_agents()) {
+        depth = std::max(depth, workspace.fitted().tree(who.clip).depth());
     }
     return depth;
 }
 
 /// A query's picture has no levels: showing some leaves it.
-void show_levels(Session& session, LevelRange levels) {
-    session.change_view([&](ViewState& view) {
+void show_levels(Workspace& workspace, LevelRange levels) {
+    workspace.change_view([&](ViewState& view) {
         view.levels = levels;
         view.query.reset();
     });
 }
 
-std::string_view why_no_level(const Session& session) {
-    return shows_levels(session) ? "there is no further level" : "a query is in the picture: Q closes it";
+std::string_view why_no_level(const Workspace& workspace) {
+    return shows_levels(workspace) ? "there is no further level" : "a query is in the picture: Q closes it";
 }
 
-bool can_be_finer(const Session& session) {
-    const LevelRange levels = session.view().levels;
-    return shows_levels(session) && !levels.leaves && levels.last + 1 < depth_in_view(session);
+bool can_be_finer(const Workspace& workspace) {
+    const LevelRange levels = workspace.view().levels;
+    return shows_levels(workspace) && !levels.leaves && levels.last + 1 < depth_in_view(workspace);
 }
 
-void finer(Session& session) {
-    const LevelRange levels = session.view().levels;
-    show_levels(session, {levels.first + 1, levels.last + 1, false});
+void finer(Workspace& workspace) {
+    const LevelRange levels = workspace.view().levels;
+    show_levels(workspace, {levels.first + 1, levels.last + 1, false});
 }
 
-bool can_be_coarser(const Session& session) {
-    return shows_levels(session) && (session.view().levels.leaves || session.view().levels.first > 0);
+bool can_be_coarser(const Workspace& workspace) {
+    return shows_levels(workspace) && (workspace.view().levels.leaves || workspace.view().levels.first > 0);
 }
 
-void coarser(Session& session) {
-    const LevelRange levels = session.view().levels;
-    const int deepest = depth_in_view(session) - 1;
+void coarser(Workspace& workspace) {
+    const LevelRange levels = workspace.view().levels;
+    const int deepest = depth_in_view(workspace) - 1;
     // Leaves are of several levels, and a range from a file may go deeper than the trees do.
-    if (levels.leaves) return show_levels(session, {deepest, deepest, false});
+    if (levels.leaves) return show_levels(workspace, {deepest, deepest, false});
     const int by = std::max(1, std::min(levels.last - deepest, levels.first));
-    show_levels(session, {levels.first - by, levels.last - by, false});
+    show_levels(workspace, {levels.first - by, levels.last - by, false});
 }
 
-void set_shown_levels(Session& session, const std::string& levels) { show_levels(session, parse_level_range(levels)); }
+void set_shown_levels(Workspace& workspace, const std::string& levels) {
+    show_levels(workspace, parse_level_range(levels));
+}
 
-void set_time_height(Session& session, const std::string& metres) {
+void set_time_height(Workspace& workspace, const std::string& metres) {
     const double height = metres == "auto" ? 0 : number_in(metres, "the height of a second", 1e-6, 1e6);
-    session.change_view([&](ViewState& view) { view.time_height = height; });
+    workspace.change_view([&](ViewState& view) { view.time_height = height; });
 }
 
 /// The selected sample's disk, and the leaf that holds it; none if it is not in the picture. The agents of a run are
 /// others at every time, so that none of them keeps its number.
-std::optional<DiskProjection> selected_disk(const Session& session) {
-    const Selection& selected = session.selection;
-    if (selected.kind != Selection::Kind::sample || session.crowd()) return std::nullopt;
-    const auto who = index_in_view(session.fitted(), session.view(), selected.path);
+std::optional<DiskProjection> selected_disk(const Workspace& workspace) {
+    const Selection& selected = workspace.selection;
+    if (selected.kind != Selection::Kind::sample || workspace.crowd()) return std::nullopt;
+    const auto who = index_in_view(workspace.fitted(), workspace.view(), selected.path);
     if (!who) return std::nullopt;
-    const mobb::Tree& tree = session.fitted().tree(placed_agent_of(session.fitted(), selected.path)->clip);
+    const mobb::Tree& tree = workspace.fitted().tree(placed_agent_of(workspace.fitted(), selected.path)->clip);
     return DiskProjection{*who, leaf_of_sample(tree, selected.index), selected.index};
 }
 
-void toggle_projection(Session& session) {
-    const auto disk = session.view().projection ? std::nullopt : selected_disk(session);
-    show_other_picture(session, [&](ViewState& view) { view.projection = disk; });
+void toggle_projection(Workspace& workspace) {
+    const auto disk = workspace.view().projection ? std::nullopt : selected_disk(workspace);
+    show_other_picture(workspace, [&](ViewState& view) { view.projection = disk; });
 }
 
 // --- the window
 
-double present_scale(const Session& session) {
-    if (session.settings.ui_scale > 0) return session.settings.ui_scale;
-    return session.hooks.ui_scale ? session.hooks.ui_scale() : 1;
-}
-
-void set_scale(Session& session, const std::string& text) {
-    session.settings.ui_scale = number_in(text, "the scale", kScales.front(), kScales.back());
+void set_scale(Settings& settings, const std::string& text) {
+    settings.ui_scale = number_in(text, "the scale", kScales.front(), kScales.back());
 }
 
 constexpr double kHair = 1e-3;
 
 void larger(Session& session) {
-    const auto next = std::upper_bound(kScales.begin(), kScales.end(), present_scale(session) + kHair);
+    const auto next = std::upper_bound(kScales.begin(), kScales.end(), session.ui_scale() + kHair);
     session.settings.ui_scale = next == kScales.end() ? kScales.back() : *next;
 }
 
 void smaller(Session& session) {
-    const auto next = std::lower_bound(kScales.begin(), kScales.end(), present_scale(session) - kHair);
+    const auto next = std::lower_bound(kScales.begin(), kScales.end(), session.ui_scale() - kHair);
     session.settings.ui_scale = next == kScales.begin() ? kScales.front() : *(next - 1);
 }
 
 // --- time
 
-void set_time(Session& session, double time) {
-    session.change_view([&](ViewState& view) { view.time = time; });
+void set_time(Workspace& workspace, double time) {
+    workspace.change_view([&](ViewState& view) { view.time = time; });
 }
 
 /// The shortest sample of the paths in the picture, seconds.
-double sample_time(const Session& session) {
+double sample_time(const Workspace& workspace) {
     double dt = std::numeric_limits<double>::max();
-    for_each_agent_in_view(session.fitted(), session.view(), [&](const PlacedAgent& who) {
-        dt = std::min(dt, session.fitted().tree(who.clip).clip().dt());
+    for_each_agent_in_view(workspace.fitted(), workspace.view(), [&](const PlacedAgent& who) {
+        dt = std::min(dt, workspace.fitted().tree(who.clip).clip().dt());
     });
     return dt;
 }
 
 /// To the next multiple of a sample after (before) the present time, counted from the first moment.
-void step_time(Session& session, int direction) {
-    const mobb::Interval span = session.time_span();
-    const double dt = sample_time(session);
-    const double at = (session.view().time.value_or(span.t0) - span.t0) / dt;
+void step_time(Workspace& workspace, Playback& playback, int direction) {
+    const mobb::Interval span = workspace.time_span();
+    const double dt = sample_time(workspace);
+    const double at = (workspace.view().time.value_or(span.t0) - span.t0) / dt;
     const double next = direction > 0 ? std::floor(at + kHair) + 1 : std::ceil(at - kHair) - 1;
-    session.stop();
-    set_time(session, std::clamp(span.t0 + next * dt, span.t0, span.t1));
+    playback.stop();
+    set_time(workspace, std::clamp(span.t0 + next * dt, span.t0, span.t1));
 }
 
-void play(Session& session) {
-    if (session.playing()) return session.stop();
-    session.play();
+void play(Playback& playback) {
+    if (playback.playing()) return playback.stop();
+    playback.play();
 }
 
-bool is_split(const Session& session) { return session.view_count() > 1; }
+bool is_split(const Views& views) { return views.count() > 1; }
 
-void toggle_split(Session& session) {
-    if (is_split(session)) return session.close_other_views();
-    mobb::FitOptions other = session.fitted().options();
+void toggle_split(Views& views, Workspace& workspace) {
+    if (is_split(views)) return views.close_others();
+    mobb::FitOptions other = workspace.fitted().options();
     other.tree = other.tree == mobb::TreeKind::umobb ? mobb::TreeKind::mobb : mobb::TreeKind::umobb;
-    session.split_view(other.tree == mobb::TreeKind::umobb ? "UMOBB" : "MOBB", other);
+    views.split(other.tree == mobb::TreeKind::umobb ? "UMOBB" : "MOBB", other);
 }
 
 // --- the tables, in the order of the menus
@@ -282,14 +279,14 @@ std::vector<Command> direction_commands() {
         see_from(CameraPreset::front, "view.front", "View from the front", "3",
                  "Looks along y: x to the right, time upwards."),
         see_from(CameraPreset::side, "view.side", "View from the side", "4", "Looks along x: y across, time upwards."),
-        Command("view.perspective", "Perspective",
-                "Draws what is farther smaller; without it, equal lengths stay equal.",
-                [](Session& session) {
-                    session.change_view([](ViewState& view) { view.camera.perspective = !view.camera.perspective; });
-                },
-                {.shortcut = "5",
-                 .enabled = may_have_perspective,
-                 .checked = [](const Session& session) { return orientation(session.view().camera).perspective; }}),
+        Command(
+            "view.perspective", "Perspective", "Draws what is farther smaller; without it, equal lengths stay equal.",
+            [](Workspace& workspace) {
+                workspace.change_view([](ViewState& view) { view.camera.perspective = !view.camera.perspective; });
+            },
+            {.shortcut = "5",
+             .enabled = may_have_perspective,
+             .checked = [](const Workspace& workspace) { return orientation(workspace.view().camera).perspective; }}),
         Command(
             "view.frame", "Frame the selection",
             "Brings what is selected into the middle, as large as it fits; without a selection the pair under test, "
@@ -300,24 +297,29 @@ std::vector<Command> direction_commands() {
         Command("view.follow_test", "Follow the test",
                 "Lets the camera go to the pair under test whenever a step's boxes are cut off, lie below a panel, or "
                 "are small in the picture.",
-                [](Session& session) { session.follow_test = !session.follow_test; },
-                {.checked = [](const Session& session) { return session.follow_test; }}),
+                [](Views& views) { views.follow_test = !views.follow_test; },
+                {.checked = [](const Views& views) { return views.follow_test; }}),
     };
     return in_menu("View", rows);
 }
 
 std::vector<Command> movement_commands() {
     const std::vector<Command> rows{
-        Command(
-            "view.zoom", "Zoom by", "Goes nearer by a factor; below 1 farther.",
-            [](Session& session, const std::string& text) { zoom(session, number_in(text, "the factor", 1e-3, 1e3)); },
-            {.menu = kNoMenu, .argument = "FACTOR"}),
-        Command("view.zoom_in", "Zoom in", "Goes nearer.", [](Session& session) { zoom(session, kKeyZoom); },
+        Command("view.zoom", "Zoom by", "Goes nearer by a factor; below 1 farther.",
+                [](Views& views, Workspace& workspace, const std::string& text) {
+                    zoom(views, workspace, number_in(text, "the factor", 1e-3, 1e3));
+                },
+                {.menu = kNoMenu, .argument = "FACTOR"}),
+        Command("view.zoom_in", "Zoom in", "Goes nearer.",
+                [](Views& views, Workspace& workspace) { zoom(views, workspace, kKeyZoom); },
                 {.shortcut = "=", .repeats = true}),
         Command("view.zoom_out", "Zoom out", "Goes farther away.",
-                [](Session& session) { zoom(session, 1 / kKeyZoom); }, {.shortcut = "-", .repeats = true}),
+                [](Views& views, Workspace& workspace) { zoom(views, workspace, 1 / kKeyZoom); },
+                {.shortcut = "-", .repeats = true}),
         Command("view.orbit", "Turn by", "Turns the scene by degrees to the right and downwards.",
-                [](Session& session, const std::string& text) { orbit(session, two_numbers(text, "the angles")); },
+                [](Views& views, Workspace& workspace, const std::string& text) {
+                    orbit(views, workspace, two_numbers(text, "the angles"));
+                },
                 {.menu = kNoMenu, .argument = "DX DY"}),
         orbit_step({-1, 0}, "view.orbit_left", "Turn to the left", "Alt+Left",
                    "Turns the scene to the left by 5 degrees."),
@@ -328,9 +330,9 @@ std::vector<Command> movement_commands() {
         orbit_step({0, 1}, "view.orbit_down", "Tip downwards", "Alt+Down",
                    "Tips the scene downwards by 5 degrees: it is seen more from above."),
         Command("view.pan", "Shift by", "Shifts the scene by pixels to the right and downwards.",
-                [](Session& session, const std::string& text) {
+                [](Views& views, Workspace& workspace, const std::string& text) {
                     const glm::vec2 pixels(two_numbers(text, "the way"));
-                    move_camera(session, [&](const Camera& camera, const PictureFrame& picture) {
+                    move_camera(views, workspace, [&](const Camera& camera, const PictureFrame& picture) {
                         return panned(camera, pixels, picture.size);
                     });
                 },
@@ -351,14 +353,16 @@ std::vector<Command> picture_commands() {
                 toggle_split, {.checked = is_split}),
         Command("view.other", "Go to the other view",
                 "Of a split view: commands and panels are about the next part from now on.",
-                [](Session& session) { session.activate_view((session.active_place() + 1) % session.view_count()); },
+                [](Views& views) { views.activate((views.active() + 1) % views.count()); },
                 {.shortcut = "F6", .enabled = is_split}),
-        Command(
-            "view.link_cameras", "Link cameras",
-            "Of a split view: moving the camera of one part moves that of the other.",
-            [](Session& session) { session.link_cameras(!session.document().linked_cameras); },
-            {.enabled = is_split,
-             .checked = [](const Session& session) { return is_split(session) && session.document().linked_cameras; }}),
+        Command("view.link_cameras", "Link cameras",
+                "Of a split view: moving the camera of one part moves that of the other.",
+                [](Views& views, Workspace& workspace) { views.link_cameras(!workspace.document().linked_cameras); },
+                {.enabled = is_split,
+                 .checked =
+                     [](const Views& views, const Workspace& workspace) {
+                         return is_split(views) && workspace.document().linked_cameras;
+                     }}),
     };
     return in_menu("View", rows);
 }
@@ -380,21 +384,23 @@ std::vector<Command> level_commands() {
                 set_shown_levels,
                 {.menu = kNoMenu,
                  .argument = "N|A:B|leaves",
-                 .present = [](const Session& session) { return to_string(session.view().levels); }}),
+                 .present = [](const Workspace& workspace) { return to_string(workspace.view().levels); }}),
         Command("view.finer", "Finer level", "Shows the boxes one level further down the trees.", finer,
                 {.shortcut = "]", .repeats = true, .enabled = {can_be_finer, why_no_level}}),
         Command("view.coarser", "Coarser level", "Shows the boxes one level nearer to the roots.", coarser,
                 {.shortcut = "[", .repeats = true, .enabled = {can_be_coarser, why_no_level}}),
         Command(
             "view.leaves", "Leaves", "Shows the leaves of the trees, whatever their level; leaves the query in view.",
-            [](Session& session) { set_shown_levels(session, "leaves"); },
+            [](Workspace& workspace) { set_shown_levels(workspace, "leaves"); },
             {.shortcut = "E",
-             .checked = [](const Session& session) { return !session.view().query && session.view().levels.leaves; }}),
-        Command("view.time_height", "Height of a second",
-                "Draws a second so many metres high; auto makes the scene about as tall as wide.", set_time_height,
-                {.menu = kNoMenu,
-                 .argument = "M|auto",
-                 .present = [](const Session& session) { return view_option("time_height").text(session.view()); }}),
+             .checked =
+                 [](const Workspace& workspace) { return !workspace.view().query && workspace.view().levels.leaves; }}),
+        Command(
+            "view.time_height", "Height of a second",
+            "Draws a second so many metres high; auto makes the scene about as tall as wide.", set_time_height,
+            {.menu = kNoMenu,
+             .argument = "M|auto",
+             .present = [](const Workspace& workspace) { return view_option("time_height").text(workspace.view()); }}),
     };
     return in_menu("View/Levels", rows);
 }
@@ -406,23 +412,24 @@ std::vector<Command> window_commands() {
             "Shows how far the selected sample's disk reaches along the axes of its leaf's box, instead of all else.",
             toggle_projection,
             {.menu = "View/Show",
-             .enabled = {[](const Session& session) { return session.view().projection || selected_disk(session); },
-                         [](const Session&) { return std::string_view("no sample in the picture is selected"); }},
-             .checked = [](const Session& session) { return session.view().projection.has_value(); }}),
+             .enabled = {
+                 [](const Workspace& workspace) { return workspace.view().projection || selected_disk(workspace); },
+                 [] { return std::string_view("no sample in the picture is selected"); }},
+             .checked = [](const Workspace& workspace) { return workspace.view().projection.has_value(); }}),
         option_command(view_option("theme")),
         Command("window.scale", "Scale of text and panels", "Makes text and panels so many times as large, 0.5 to 4.",
                 set_scale,
                 {.menu = kNoMenu,
                  .argument = "X",
                  .enabled = always,
-                 .present = [](const Session& session) { return short_double(present_scale(session)); }}),
+                 .present = [](const Session& session) { return short_double(session.ui_scale()); }}),
         Command("window.larger", "Larger text", "Makes text and panels larger.", larger,
                 {.shortcut = "Ctrl+=", .repeats = true, .enabled = always}),
         Command("window.smaller", "Smaller text", "Makes text and panels smaller.", smaller,
                 {.shortcut = "Ctrl+-", .repeats = true, .enabled = always}),
         Command("window.scale_reset", "Usual text size",
                 "Makes text and panels as large as the monitor's scale asks for.",
-                [](Session& session) { session.settings.ui_scale = 0; }, {.shortcut = "Ctrl+0", .enabled = always}),
+                [](Settings& settings) { settings.ui_scale = 0; }, {.shortcut = "Ctrl+0", .enabled = always}),
     };
     return in_menu("View/Window", rows);
 }
@@ -430,38 +437,42 @@ std::vector<Command> window_commands() {
 std::vector<Command> time_commands() {
     const std::vector<Command> rows{
         Command("time.at", "Time cursor at", "Puts the time cursor at a moment, in seconds.",
-                [](Session& session, const std::string& text) {
-                    set_time(session, number_in(text, "the time", -mobb::kMaxTime, mobb::kMaxTime));
+                [](Workspace& workspace, const std::string& text) {
+                    set_time(workspace, number_in(text, "the time", -mobb::kMaxTime, mobb::kMaxTime));
                 },
                 {.menu = kNoMenu,
                  .argument = "S",
                  .present =
-                     [](const Session& session) {
-                         return session.view().time ? short_double(*session.view().time) : std::string();
+                     [](const Workspace& workspace) {
+                         return workspace.view().time ? short_double(*workspace.view().time) : std::string();
                      }}),
         Command(
             "time.clear", "No time cursor", "Takes the time cursor out of the picture.",
-            [](Session& session) {
-                session.stop();
-                session.change_view([](ViewState& view) { view.time.reset(); });
+            [](Playback& playback, Workspace& workspace) {
+                playback.stop();
+                workspace.change_view([](ViewState& view) { view.time.reset(); });
             },
-            {.enabled = [](const Session& session) { return session.view().time.has_value() && !session.crowd(); }}),
+            {.enabled =
+                 [](const Workspace& workspace) { return workspace.view().time.has_value() && !workspace.crowd(); }}),
         Command("time.play", "Play", "Lets the time cursor run, or stops it.", play,
-                {.shortcut = "Space", .checked = [](const Session& session) { return session.playing(); }}),
+                {.shortcut = "Space", .checked = [](const Playback& playback) { return playback.playing(); }}),
         Command("time.start", "To the first moment", "Puts the time cursor where the first path begins.",
-                [](Session& session) { set_time(session, session.time_span().t0); }),
+                [](Workspace& workspace) { set_time(workspace, workspace.time_span().t0); }),
         Command("time.end", "To the last moment", "Puts the time cursor where the last path ends.",
-                [](Session& session) { set_time(session, session.time_span().t1); }),
+                [](Workspace& workspace) { set_time(workspace, workspace.time_span().t1); }),
         Command("time.forward", "A sample on", "Moves the time cursor on by a sample.",
-                [](Session& session) { step_time(session, 1); }, {.shortcut = ".", .repeats = true}),
+                [](Workspace& workspace, Playback& playback) { step_time(workspace, playback, 1); },
+                {.shortcut = ".", .repeats = true}),
         Command("time.back", "A sample back", "Moves the time cursor back by a sample.",
-                [](Session& session) { step_time(session, -1); }, {.shortcut = ",", .repeats = true}),
-        Command(
-            "time.speed", "Speed of playing", "Plays so many seconds of the scene in a second, 0.01 to 100.",
-            [](Session& session, const std::string& text) { session.speed = number_in(text, "the speed", 0.01, 100); },
-            {.argument = "X",
-             .enabled = always,
-             .present = [](const Session& session) { return short_double(session.speed); }}),
+                [](Workspace& workspace, Playback& playback) { step_time(workspace, playback, -1); },
+                {.shortcut = ",", .repeats = true}),
+        Command("time.speed", "Speed of playing", "Plays so many seconds of the scene in a second, 0.01 to 100.",
+                [](Playback& playback, const std::string& text) {
+                    playback.speed = number_in(text, "the speed", 0.01, 100);
+                },
+                {.argument = "X",
+                 .enabled = always,
+                 .present = [](const Playback& playback) { return short_double(playback.speed); }}),
     };
     return in_menu("View/Time", rows);
 }

@@ -1,4 +1,4 @@
-/// The clip that is in the import dialog.
+/// The clip that is in the import dialog, and how its options change.
 #pragma once
 
 #include <scene/clip_import.h>
@@ -27,6 +27,15 @@ struct ClipImport {
     std::map<std::string, RefusedImport> refused{};  ///< by option
     double time = 0;                                 ///< seconds of the clip: of the skeleton in the preview
     std::string search{};                            ///< in an open list of choices
+};
+
+/// A change of an import option that somebody asked for.
+struct ImportChange {
+    int clip = 0;
+    bool whole_file = false;
+    std::string option;
+    std::string text;
+    bool goes_on = false;  ///< with the last edit, as FitEdit has it
 };
 
 }  // namespace mobbscope::app

@@ -76,4 +76,11 @@ class Job {
     std::shared_ptr<Shared> shared_;
 };
 
+/// What a job is for: `opens` replaces the document.
+enum class JobPurpose { other, opens, imports };
+struct RunningJob {
+    std::unique_ptr<Job> job;
+    JobPurpose purpose = JobPurpose::other;
+};
+
 }  // namespace mobbscope::app

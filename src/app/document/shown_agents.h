@@ -1,7 +1,7 @@
 /// Which agents are in the picture: hidden, alone, pinned. By the names that views have for them.
 #pragma once
 
-#include <app/document/session.h>
+#include <app/document/workspace.h>
 
 #include <cstddef>
 #include <string>
@@ -12,17 +12,17 @@ namespace mobbscope::app {
 using AgentNames = std::vector<std::string>;
 
 /// All that can be hidden (names_in_view), in order.
-AgentNames all_agents(const Session& session);
-std::size_t agent_count(const Session& session);  ///< how many
+AgentNames all_agents(const Workspace& workspace);
+std::size_t agent_count(const Workspace& workspace);  ///< how many
 /// Those that play a clip, < scene().clips.size(); in a scene without agents the clip itself. Of a run none.
-AgentNames agents_of_clip(const Session& session, int clip);
-AgentNames agents_of_group(const Session& session, const ClipGroup& group);
+AgentNames agents_of_clip(const Workspace& workspace, int clip);
+AgentNames agents_of_group(const Workspace& workspace, const ClipGroup& group);
 /// The selected agent, or those of the selected clip; none if neither is selected.
-AgentNames selected_agents(const Session& session);
+AgentNames selected_agents(const Workspace& workspace);
 /// Those that a text means: "walk" or "agent:walk" an agent, "clip:walk" those of a clip, "group:short" those of a
 /// group of clips; without a text the selected ones. Throws std::invalid_argument, with the nearest name, if there is
 /// none.
-AgentNames agents_meant(const Session& session, const std::string& text);
+AgentNames agents_meant(const Workspace& workspace, const std::string& text);
 /// The text that means an agent, whatever it is called.
 std::string text_of_agent(const std::string& name);
 inline const std::string kOfAgent = "agent:";
@@ -30,16 +30,16 @@ inline const std::string kOfClip = "clip:";
 inline const std::string kOfGroup = "group:";
 
 /// Whether all of them are hidden; false for none.
-bool are_hidden(const Session& session, const AgentNames& who);
-bool are_pinned(const Session& session, const AgentNames& who);
+bool are_hidden(const Workspace& workspace, const AgentNames& who);
+bool are_pinned(const Workspace& workspace, const AgentNames& who);
 /// Whether they, with what is pinned, are all that is in the picture, and others are not.
-bool are_alone(const Session& session, const AgentNames& who);
+bool are_alone(const Workspace& workspace, const AgentNames& who);
 
 /// Hides them, or shows them if all of them are hidden.
-void toggle_hidden(Session& session, const AgentNames& who);
+void toggle_hidden(Workspace& workspace, const AgentNames& who);
 /// Hides all others but those that are pinned; of those that are alone shows what was in the picture before.
-void toggle_alone(Session& session, const AgentNames& who);
-void toggle_pinned(Session& session, const AgentNames& who);
-void show_all(Session& session);
+void toggle_alone(Workspace& workspace, const AgentNames& who);
+void toggle_pinned(Workspace& workspace, const AgentNames& who);
+void show_all(Workspace& workspace);
 
 }  // namespace mobbscope::app

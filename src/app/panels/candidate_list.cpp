@@ -42,19 +42,19 @@ void fate_line(Ui& ui, ImVec2 corner, CandidateOutcome outcome) {
 }
 
 /// "turn_left, 45": the move's name, and how far it was turned for.
-std::string move_name(const Session& session, const Candidate& candidate) {
-    const GraphMove& move = session.scene().graph->moves[static_cast<std::size_t>(candidate.move)];
-    std::string name = session.scene().clips[static_cast<std::size_t>(move.clip)].name;
+std::string move_name(const Workspace& workspace, const Candidate& candidate) {
+    const GraphMove& move = workspace.scene().graph->moves[static_cast<std::size_t>(candidate.move)];
+    std::string name = workspace.scene().clips[static_cast<std::size_t>(move.clip)].name;
     if (candidate.turn_deg == 0) return name;
     return name + formatted(", %+.0f\u00B0", candidate.turn_deg);
 }
 
-std::string remark_of(const Session& session, const Choice& choice, std::size_t index) {
+std::string remark_of(const Workspace& workspace, const Choice& choice, std::size_t index) {
     const Candidate& candidate = choice.candidates[index];
     const CandidateOutcome outcome = outcome_of(choice, index);
     if (outcome == CandidateOutcome::leaves_floor) return "off floor";
     if (outcome != CandidateOutcome::ruled_out) return std::string(outcome_words(outcome));
-    const std::string& other = session.crowd()->agents[static_cast<std::size_t>(candidate.blocker->agent)].name;
+    const std::string& other = workspace.crowd()->agents[static_cast<std::size_t>(candidate.blocker->agent)].name;
     return shortened(cleaned(other), 16) + (candidate.blocker->planned > 0 ? "'s plan" : "") +
            formatted(" at %.2f s", candidate.blocker->contact.time);
 }
@@ -83,14 +83,14 @@ int rank_of(CandidateOutcome outcome) {
 }
 
 /// Those that the list shows, in its order; candidates that are equal in it stay as they were asked.
-std::vector<ListedCandidate> listed(const Session& session, const Choice& choice) {
-    const CandidateList& list = session.candidates;
+std::vector<ListedCandidate> listed(const CrowdInspector& crowds, const Workspace& workspace, const Choice& choice) {
+    const CandidateList& list = crowds.list;
     std::vector<ListedCandidate> out;
     for (const std::size_t index : shown_candidates(choice)) {
         const Candidate& candidate = choice.candidates[index];
         const bool is_free = candidate.is_free() && outcome_of(choice, index) != CandidateOutcome::no_way_on;
         if (list.which != Which::all && is_free != (list.which == Which::free)) continue;
-        ListedCandidate row{index, move_name(session, candidate), remark_of(session, choice, index),
+        ListedCandidate row{index, move_name(workspace, candidate), remark_of(workspace, choice, index),
                             outcome_of(choice, index)};
         if (candidate.blocker) row.contact = candidate.blocker->contact.time;
         if (has_text(row, list.text)) out.push_back(std::move(row));
@@ -118,13 +118,13 @@ void choice_button(Ui& ui, const std::string& label, const char* id, const std::
     flow(button_width(label.c_str()));
     ImGui::PushStyleColor(ImGuiCol_Text, on ? ui.style.text : ui.style.quiet);
     ImGui::PushStyleColor(ImGuiCol_Button, on ? ui.style.raised : IM_COL32_BLACK_TRANS);
-    if (small_button(ui, label.c_str(), id + ('.' + argument))) invoke(ui.session, id, argument);
+    if (small_button(ui, label.c_str(), id + ('.' + argument))) ui.invoke(id, argument);
     ImGui::PopStyleColor(2);
 }
 
 /// The text to look for, which of them, and the order.
-void list_head(Ui& ui) {
-    CandidateList& list = ui.session.candidates;
+void list_head(Ui& ui, CrowdInspector& crowds) {
+    CandidateList& list = crowds.list;
     ImGui::SetNextItemWidth(-1);
     ImGui::InputTextWithHint("##filter", "Filter", &list.text);
     ui.mark("candidates.filter");
@@ -143,47 +143,45 @@ void list_head(Ui& ui) {
     ImGui::PopStyleVar(2);
 }
 
-void candidate_row(Ui& ui, const Choice& choice, const ListedCandidate& candidate) {
-    Session& session = ui.session;
+void candidate_row(Ui& ui, CrowdInspector& crowds, const Choice& choice, const ListedCandidate& candidate) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const Rgba color = outcome_style_of(candidate.outcome, ui.style.palette).color;
     const std::string index = std::to_string(candidate.index);
-    const bool pointed_out = session.candidate() == static_cast<int>(candidate.index);
+    const bool pointed_out = crowds.candidate() == static_cast<int>(candidate.index);
     if (row(ui, {"candidate." + index, candidate.name, candidate.remark, pointed_out, false, ui.px(26),
                  to_im(readable(color, ui.style.palette))})) {
-        invoke(session, "crowd.candidate", index);
+        ui.invoke("crowd.candidate", index);
     }
-    context_menu(ui, [&] { return candidate_menu(session, static_cast<int>(candidate.index)); });
+    context_menu(ui, [&] { return candidate_menu(crowds, ui.workspace, static_cast<int>(candidate.index)); });
     fate_line(ui, corner, candidate.outcome);
     if (!ImGui::IsItemHovered()) return;
-    ImGui::SetTooltip("%s", candidate_sentence(session.scene(), choice, candidate.index).c_str());
+    ImGui::SetTooltip("%s", candidate_sentence(ui.workspace.scene(), choice, candidate.index).c_str());
     if (candidate.outcome == CandidateOutcome::ruled_out && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-        invoke(session, "crowd.open_candidate", index);
+        ui.invoke("crowd.open_candidate", index);
     }
 }
 
 }  // namespace
 
-void last_choice(Ui& ui) {
-    Session& session = ui.session;
-    const FollowedChoice* followed = session.choice();
+void last_choice(Ui& ui, CrowdInspector& crowds) {
+    const FollowedChoice* followed = crowds.choice();
     if (!followed) {
-        if (!session.view().follow.empty()) words(ui.style.quiet, "No choice yet at this time.");
+        if (!ui.workspace.view().follow.empty()) words(ui.style.quiet, "No choice yet at this time.");
         return;
     }
     const Choice& choice = followed->choice;
     if (!section(ui, "LAST CHOICE", formatted("%.2f s", choice.time))) return;
     if (!followed->comes_out) {
-        words(ui.style.warning, "! " + edited_run_warning(session.scene(), *followed));
+        words(ui.style.warning, "! " + edited_run_warning(ui.workspace.scene(), *followed));
         ui.mark_only("choice.edited");
     }
-    words(ui.style.text, choice_sentence(session.scene(), *followed));
-    list_head(ui);
-    const std::vector<ListedCandidate> all = listed(session, choice);
+    words(ui.style.text, choice_sentence(ui.workspace.scene(), *followed));
+    list_head(ui, crowds);
+    const std::vector<ListedCandidate> all = listed(crowds, ui.workspace, choice);
     if (all.empty()) words(ui.style.quiet, "None of them is as asked for.");
     rows(ui, "##candidates", static_cast<int>(all.size()), kMostCandidateRows,
-         [&](int i) { candidate_row(ui, choice, all[static_cast<std::size_t>(i)]); });
-    const int pointed_out = session.candidate();
+         [&](int i) { candidate_row(ui, crowds, choice, all[static_cast<std::size_t>(i)]); });
+    const int pointed_out = crowds.candidate();
     const bool opens = pointed_out >= 0 && choice.candidates[static_cast<std::size_t>(pointed_out)].blocker;
     ImGui::BeginDisabled(!opens);
     command_button(ui, "open as a scene", "crowd.open_candidate", "crowd.open_candidate");

@@ -80,7 +80,7 @@ const ClearancePiece* piece_at(const Clearance& clearance, double t) {
 
 }  // namespace
 
-void QueryPictures::clearance(Ui& ui, const QueryFindings& findings, float height) {
+void QueryPictures::clearance(Ui& ui, QueryInspector& queries, const QueryFindings& findings, float height) {
     const Clearance& clearance = findings.clearance;
     if (!clearance.least) {
         words(ui.style.quiet, "They share no time, so there is no clearance.");
@@ -99,11 +99,11 @@ void QueryPictures::clearance(Ui& ui, const QueryFindings& findings, float heigh
     const bool hovered = ImGui::IsItemHovered();
     const bool active = ImGui::IsItemActive();
 
-    const mobb::Interval time = ui.session.time_span();
+    const mobb::Interval time = ui.workspace.time_span();
     const float right = at.x + static_cast<float>(width);
     Chart chart{at, {right, at.y + height - label}, time, {time.t0, time.t1, at.x, right}};
     const std::vector<ClearanceColumn>& columns = clearance_.of(
-        ui.session.findings(), width, 0, [&] { return columns_of(clearance, chart.time.t0, chart.time.t1, width); });
+        queries.findings(), width, 0, [&] { return columns_of(clearance, chart.time.t0, chart.time.t1, width); });
     double most = 0;
     for (const ClearanceColumn& column : columns) {
         if (column.any) most = std::max(most, column.most);
@@ -123,7 +123,7 @@ void QueryPictures::clearance(Ui& ui, const QueryFindings& findings, float heigh
             with_unit(most, "m"));
     least_mark(list, ui.style, chart, least);
     chart_ticks(list, ui.style, chart);
-    if (const auto& now = ui.session.view().time; now && *now >= time.t0 && *now <= time.t1) {
+    if (const auto& now = ui.workspace.view().time; now && *now >= time.t0 && *now <= time.t1) {
         list.AddLine({chart.x.pixel(*now), chart.min.y}, {chart.x.pixel(*now), chart.max.y}, ui.style.accent,
                      ui.px(1.5f));
     }
@@ -137,7 +137,7 @@ void QueryPictures::clearance(Ui& ui, const QueryFindings& findings, float heigh
         ImGui::SetTooltip("%s: only one of them is there", with_unit(t, "s").c_str());
     }
     if (!active) return;
-    if (ui.session.view().time != t) invoke(ui.session, "time.at", formatted("%.17g", t));
+    if (ui.workspace.view().time != t) ui.invoke("time.at", formatted("%.17g", t));
 }
 
 }  // namespace mobbscope::app

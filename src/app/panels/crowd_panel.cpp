@@ -18,9 +18,8 @@ std::string at_time(double time) { return formatted("%.2f s", time); }
 
 /// Who is followed, and the way to change that.
 void following(Ui& ui) {
-    const Session& session = ui.session;
-    const std::string& followed = session.view().follow;
-    const std::string who = current_agent(session);
+    const std::string& followed = ui.workspace.view().follow;
+    const std::string who = current_agent(ui.workspace);
     if (who.empty()) {
         words(ui.style.quiet, "Click somebody to follow them.");
         return;
@@ -35,15 +34,14 @@ void following(Ui& ui) {
 }
 
 void plays(Ui& ui) {
-    Session& session = ui.session;
-    const auto run_agent = current_run_agent(session);
+    const auto run_agent = current_run_agent(ui.workspace);
     if (!run_agent) return;
-    const CrowdAgent& agent = session.crowd()->agents[static_cast<std::size_t>(*run_agent)];
-    const std::size_t now = play_at(agent, run_time(session.scene(), session.view()));
+    const CrowdAgent& agent = ui.workspace.crowd()->agents[static_cast<std::size_t>(*run_agent)];
+    const std::size_t now = play_at(agent, run_time(ui.workspace.scene(), ui.workspace.view()));
     if (!section(ui, "PLAYS", cleaned(agent.name) + ", " + std::to_string(agent.plays.size()) + " plays")) return;
     rows(ui, "##plays", static_cast<int>(agent.plays.size()), kMostCrowdRows, [&](int i) {
         const Play& play = agent.plays[static_cast<std::size_t>(i)];
-        const GraphMove& move = session.scene().graph->moves[static_cast<std::size_t>(play.move)];
+        const GraphMove& move = ui.workspace.scene().graph->moves[static_cast<std::size_t>(play.move)];
         const char* kind = play.kind == PlayKind::pivoted  ? "pivoted  "
                            : play.kind == PlayKind::forced ? "forced  "
                                                            : "";
@@ -51,27 +49,27 @@ void plays(Ui& ui) {
         const ImU32 color = play.kind == PlayKind::forced    ? to_im(readable(palette.hit, palette))
                             : play.kind == PlayKind::pivoted ? to_im(readable(palette.overlap, palette))
                                                              : 0;
-        if (row(ui, {"play." + std::to_string(i), session.scene().clips[static_cast<std::size_t>(move.clip)].name,
+        if (row(ui, {"play." + std::to_string(i), ui.workspace.scene().clips[static_cast<std::size_t>(move.clip)].name,
                      kind + at_time(play.placement.start), static_cast<std::size_t>(i) == now, false, 0, color})) {
-            invoke(session, "crowd.play", std::to_string(i));
+            ui.invoke("crowd.play", std::to_string(i));
         }
         context_menu(ui, [&] { return play_menu(i); });
     });
 }
 
 /// When and how deep two overlap, and what a double click does.
-std::string conflict_words(const Session& session, const SceneConflict& conflict) {
+std::string conflict_words(const Workspace& workspace, const SceneConflict& conflict) {
     const auto& worst = conflict.facts.worst();
     std::string text =
         formatted("%.3f m deep, from %.2f to %.2f s", -conflict.facts.deepest.least_clearance, worst.t0, worst.t1);
     if (const std::size_t others = conflict.facts.intervals.size() - 1; others > 0)
         text += "; they meet " + (others == 1 ? "once" : counted(others, "time", "times")) + " more";
-    return text + ".\nDouble-click goes to " + (session.crowd() ? "the forced choice that made it" : "just before it");
+    return text + ".\nDouble-click goes to " +
+           (workspace.crowd() ? "the forced choice that made it" : "just before it");
 }
 
-void conflicts(Ui& ui) {
-    Session& session = ui.session;
-    const std::vector<SceneConflict>* found = session.conflicts();
+void conflicts(Ui& ui, CrowdInspector& crowds) {
+    const std::vector<SceneConflict>* found = crowds.conflicts();
     if (!section(ui, "CONFLICTS", found ? std::to_string(found->size()) : "")) return;
     if (!found) {
         command_button(ui, "find conflicts", "conflicts.find", "conflicts.find");
@@ -81,20 +79,20 @@ void conflicts(Ui& ui) {
         words(to_im(readable(ui.style.palette.separated, ui.style.palette)), "Nobody collides with anybody.");
         return;
     }
-    words(ui.style.quiet, conflict_summary(session) + ", the deepest first");
+    words(ui.style.quiet, crowds.conflict_summary() + ", the deepest first");
     rows(ui, "##conflicts", static_cast<int>(found->size()), kMostCrowdRows, [&](int i) {
         const SceneConflict& conflict = (*found)[static_cast<std::size_t>(i)];
         if (row(ui, {"conflict." + std::to_string(i), conflict.a.name + " and " + conflict.b.name,
                      formatted("%.2f s  %.2f m", conflict.begin(), -conflict.facts.deepest.least_clearance),
-                     session.conflict == i, false, 0, to_im(readable(ui.style.palette.hit, ui.style.palette))})) {
-            session.conflict = i;
+                     ui.workspace.conflict == i, false, 0, to_im(readable(ui.style.palette.hit, ui.style.palette))})) {
+            ui.workspace.conflict = i;
         }
         context_menu(ui, [&] { return conflict_menu(i); });
         if (!ImGui::IsItemHovered()) return;
-        ImGui::SetTooltip("%s", conflict_words(session, conflict).c_str());
-        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) invoke(session, "conflicts.go", std::to_string(i));
+        ImGui::SetTooltip("%s", conflict_words(ui.workspace, conflict).c_str());
+        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) ui.invoke("conflicts.go", std::to_string(i));
     });
-    ImGui::BeginDisabled(session.conflict < 0);
+    ImGui::BeginDisabled(ui.workspace.conflict < 0);
     command_button(ui, "open as a scene", "conflicts.open", "conflicts.open");
     ImGui::EndDisabled();
     flow(button_width("next"));
@@ -103,19 +101,18 @@ void conflicts(Ui& ui) {
 
 }  // namespace
 
-void crowd_panel(Ui& ui) {
-    const Session& session = ui.session;
-    if (section(ui, "CROWD", std::to_string(people_in(session)) + " agents")) {
-        if (session.crowd()) {
+void crowd_panel(Ui& ui, CrowdInspector& crowds) {
+    if (section(ui, "CROWD", std::to_string(people_in(ui.workspace)) + " agents")) {
+        if (ui.workspace.crowd()) {
             words(ui.style.quiet,
-                  formatted("%.2f of %.4g s on %.4g x %.4g m", run_time(session.scene(), session.view()),
-                            session.crowd()->seconds, session.crowd()->area.x, session.crowd()->area.y));
+                  formatted("%.2f of %.4g s on %.4g x %.4g m", run_time(ui.workspace.scene(), ui.workspace.view()),
+                            ui.workspace.crowd()->seconds, ui.workspace.crowd()->area.x, ui.workspace.crowd()->area.y));
         }
         following(ui);
     }
-    if (session.crowd()) last_choice(ui);
-    if (session.crowd()) plays(ui);
-    conflicts(ui);
+    if (ui.workspace.crowd()) last_choice(ui, crowds);
+    if (ui.workspace.crowd()) plays(ui);
+    conflicts(ui, crowds);
 }
 
 }  // namespace mobbscope::app

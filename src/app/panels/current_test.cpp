@@ -20,16 +20,16 @@ void node_line(Ui& ui, const QueryFindings& findings, std::size_t side, int node
     const DrawnAgent& agent = findings.sides[side];
     const mobb::Node& n = agent.placed.node(node);
     const Selection selection{Selection::Kind::node,
-                              agent_in_view(ui.session.fitted(), ui.session.view(), static_cast<int>(side)), node};
+                              agent_in_view(ui.workspace.fitted(), ui.workspace.view(), static_cast<int>(side)), node};
     const std::string samples = std::to_string(n.first) + " .. " + std::to_string(n.end() - 1);
     ImGui::PushID(static_cast<int>(side));
     const float left = ImGui::GetCursorPosX();
     const float room = ImGui::GetContentRegionAvail().x;
-    const bool selected = ui.session.selection == selection;
+    const bool selected = ui.workspace.selection == selection;
     ImGui::PushStyleColor(ImGuiCol_Text, to_im(readable(agent.color, ui.style.palette)));
     const std::string name = node_name(agent, node);
     const float name_width = ImGui::CalcTextSize(name.c_str()).x;
-    if (ImGui::Selectable((name + "##node").c_str(), selected)) ui.session.select(selection);
+    if (ImGui::Selectable((name + "##node").c_str(), selected)) ui.workspace.select(selection);
     ImGui::PopStyleColor();
     ui.mark(side == 0 ? "query.node_a" : "query.node_b");
     if (ImGui::IsItemHovered()) {
@@ -179,7 +179,7 @@ constexpr std::size_t kMostPairs = 100;
 }  // namespace
 
 void current_test(Ui& ui, const QueryFindings& findings) {
-    const mobb::Trace::Event event = ui.session.recorded()->trace[ui.session.step()];
+    const mobb::Trace::Event event = ui.workspace.recorded()->trace[ui.workspace.step()];
     const EventMark mark = mark_of(event.test, event.outcome);
     if (!section(ui, "THIS TEST", "depth " + std::to_string(event.depth))) return;
     framed(ui, mark_color(ui.style, mark, 0.10f), mark_color(ui.style, mark), [&] {
@@ -196,7 +196,7 @@ void current_test(Ui& ui, const QueryFindings& findings) {
 }
 
 void why_axes(Ui& ui, const QueryFindings& findings) {
-    const mobb::Trace::Event event = ui.session.recorded()->trace[ui.session.step()];
+    const mobb::Trace::Event event = ui.workspace.recorded()->trace[ui.workspace.step()];
     if (section(ui, "IN TIME")) draw_row(ui, findings, axis_time_row(ui, findings, event));
     const std::vector<AxisInterval> axes = axis_intervals(findings.sides, event);
     if (axes.empty() || !section(ui, "ALONG EACH AXIS", "gap, m")) return;
@@ -214,7 +214,7 @@ void why_axes(Ui& ui, const QueryFindings& findings) {
 }
 
 void measured_pairs(Ui& ui, const QueryFindings& findings) {
-    const mobb::Trace::Event event = ui.session.recorded()->trace[ui.session.step()];
+    const mobb::Trace::Event event = ui.workspace.recorded()->trace[ui.workspace.step()];
     if (event.test != mobb::TestKind::samples || event.pairs.empty()) return;
     const mobb::PlacedClip& a = findings.sides[0].clip();
     const mobb::PlacedClip& b = findings.sides[1].clip();

@@ -14,25 +14,25 @@ namespace mobbscope::app {
 
 namespace {
 
-void answer(Ui& ui, Session::Unsaved choice) {
-    ui.session.enqueue([&session = ui.session, choice] { session.answer_unsaved(choice); });
+void answer(Ui& ui, Files::Unsaved choice) {
+    ui.session.queue.push([&session = ui.session, choice] { session.files.answer_unsaved(choice); });
 }
 
 void unsaved(Ui& ui) {
     begin_dialog(ui, "unsaved", {440, 150});
     dialog_title(ui, "Save the changes?");
     ImGui::TextWrapped("%s has changes that are not saved. They are lost if you go on without saving.",
-                       ui.session.title().c_str());
+                       ui.session.workspace.title().c_str());
     ImGui::Dummy({0, ui.px(6)});
     if (marked_button(ui, "Save", "unsaved.save", true) || pressed(ImGuiKey_Enter)) {
-        answer(ui, Session::Unsaved::save);
+        answer(ui, Files::Unsaved::save);
     }
     ImGui::SameLine();
     if (marked_button(ui, "Discard", "unsaved.discard") || pressed(Key::d)) {
-        answer(ui, Session::Unsaved::discard);
+        answer(ui, Files::Unsaved::discard);
     }
     ImGui::SameLine();
-    if (marked_button(ui, "Cancel", "unsaved.cancel")) answer(ui, Session::Unsaved::cancel);
+    if (marked_button(ui, "Cancel", "unsaved.cancel")) answer(ui, Files::Unsaved::cancel);
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("Enter, D or Escape");
@@ -43,9 +43,10 @@ void unsaved(Ui& ui) {
 void dropped(Ui& ui) {
     constexpr std::size_t kMostNames = 6;
     Session& session = ui.session;
-    const std::vector<std::filesystem::path>& files = session.input.files;
+    const std::vector<std::filesystem::path>& files = session.dialogs.input.files;
     begin_dialog(ui, "dropped", {480, 150 + 22 * static_cast<float>(std::min(files.size(), kMostNames + 1))});
-    dialog_title(ui, session.may_add() ? "Add to this scene, or open instead?" : "Open in place of what is open?");
+    dialog_title(ui,
+                 session.files.may_add() ? "Add to this scene, or open instead?" : "Open in place of what is open?");
     for (std::size_t i = 0; i < std::min(files.size(), kMostNames); ++i) {
         ImGui::TextUnformatted(fitted_text(own_name(files[i]), ImGui::GetContentRegionAvail().x).c_str());
     }
@@ -54,12 +55,12 @@ void dropped(Ui& ui) {
     }
     ImGui::Dummy({0, ui.px(6)});
     const auto answer = [&](const char* command) {
-        session.enqueue([&session, command, argument = as_argument(files)] {
-            session.close_dialog();
+        session.queue.push([&session, command, argument = as_argument(files)] {
+            session.dialogs.close();
             run_command(session, command, argument);
         });
     };
-    if (!session.may_add()) {
+    if (!session.files.may_add()) {
         if (marked_button(ui, "Open instead", "dropped.open", true) || pressed(ImGuiKey_Enter)) answer("file.open");
     } else {
         if (marked_button(ui, "Add", "dropped.add", true) || pressed(ImGuiKey_Enter)) answer("file.add");
@@ -67,10 +68,10 @@ void dropped(Ui& ui) {
         if (marked_button(ui, "Open instead", "dropped.open") || pressed(Key::o)) answer("file.open");
     }
     ImGui::SameLine();
-    if (marked_button(ui, "Cancel", "dropped.cancel")) session.enqueue([&session] { session.close_dialog(); });
+    if (marked_button(ui, "Cancel", "dropped.cancel")) session.queue.push([&session] { session.dialogs.close(); });
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextDisabled(!session.may_add() ? "Enter or Escape" : "Enter, O or Escape");
+    ImGui::TextDisabled(!session.files.may_add() ? "Enter or Escape" : "Enter, O or Escape");
     end_dialog();
 }
 
@@ -80,9 +81,10 @@ void dialogs(Ui& ui) {
     Session& session = ui.session;
     // Of lists and fields in a dialog Escape closes these first.
     const bool in_popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
-    const bool escape_is_taken = (session.dialog == Dialog::export_picture && in_popup) ||
-                                 (session.dialog == Dialog::import_clip && (in_popup || ImGui::GetIO().WantTextInput));
-    switch (session.dialog) {
+    const bool escape_is_taken =
+        (session.dialogs.now == Dialog::export_picture && in_popup) ||
+        (session.dialogs.now == Dialog::import_clip && (in_popup || ImGui::GetIO().WantTextInput));
+    switch (session.dialogs.now) {
         case Dialog::none:
             return;
         case Dialog::open:
@@ -90,7 +92,7 @@ void dialogs(Ui& ui) {
         case Dialog::save_as:
         case Dialog::export_file:
         case Dialog::review:
-            file_dialog(ui);
+            file_dialog(ui, ui.session.dialogs, ui.session.settings);
             break;
         case Dialog::export_picture:
             export_dialog(ui);
@@ -99,7 +101,7 @@ void dialogs(Ui& ui) {
             unsaved(ui);
             break;
         case Dialog::palette:
-            palette(ui);
+            palette(ui, ui.session.dialogs);
             break;
         case Dialog::help:
             help_sheet(ui);
@@ -111,10 +113,10 @@ void dialogs(Ui& ui) {
             dropped(ui);
             break;
         case Dialog::messages:
-            message_list(ui);
+            message_list(ui, ui.session.dialogs, ui.session.notifications);
             break;
         case Dialog::import_clip:
-            import_dialog(ui);
+            import_dialog(ui, ui.session.imports);
             break;
         case Dialog::history:
             history_list(ui);
@@ -122,7 +124,7 @@ void dialogs(Ui& ui) {
     }
     // A field in it that is typed into is left first.
     const bool typing = ui.field.typing || escape_is_taken;
-    if (pressed(ImGuiKey_Escape) && !typing) session.enqueue([&session] { session.close_dialog(); });
+    if (pressed(ImGuiKey_Escape) && !typing) session.queue.push([&session] { session.dialogs.close(); });
 }
 
 void about(Ui& ui) {

@@ -39,7 +39,7 @@ constexpr int kLongestRest = 400;  // milliseconds that a preview waits for the 
 constexpr int kMostLineRows = 6;   // of the command line, before it scrolls
 
 void set_export(Ui& ui, std::string_view option, const std::string& text) {
-    invoke(ui.session, "picture." + std::string(option), text);
+    ui.invoke("picture." + std::string(option), text);
 }
 
 // --- the file
@@ -51,8 +51,8 @@ struct ExportTarget {
     std::string says, why_not{};
 };
 
-ExportTarget target_of(const Session& session) {
-    ExportTarget out{export_file(session), false, ""};
+ExportTarget target_of(const Workspace& workspace, const Settings& settings, const Dialogs& dialogs) {
+    ExportTarget out{export_file(workspace, settings, dialogs), false, ""};
     const std::filesystem::path& file = out.file;
     const std::filesystem::path folder = file.parent_path().empty() ? "." : file.parent_path();
     std::error_code ignored;
@@ -75,18 +75,17 @@ ExportTarget target_of(const Session& session) {
 }
 
 /// The text has the keys when the dialog opens. Whether Enter was pressed in it.
-bool file_field(Ui& ui, const ExportTarget& target) {
-    Session& session = ui.session;
+bool file_field(Ui& ui, Dialogs& dialogs, const ExportTarget& target) {
     const float browse = button_width("Browse...") + ImGui::GetStyle().ItemSpacing.x;
     ImGui::BeginChild("file", {-browse, ImGui::GetFrameHeight()});
     const FieldEvents events = text_field(ui, "The file to write, a .png", {}, FieldText::file_name);
     ui.mark("export.path");
     ImGui::EndChild();
-    session.exporting.file = session.input.text;
+    dialogs.exporting.file = dialogs.input.text;
     ImGui::SameLine();
-    if (marked_button(ui, "Browse...", "export.browse")) invoke(session, "picture.browse");
+    if (marked_button(ui, "Browse...", "export.browse")) ui.invoke("picture.browse");
     ImGui::PushFont(ui.style.caption);
-    const bool asks = session.input.confirming;
+    const bool asks = dialogs.input.confirming;
     const std::string said = asks ? "This file exists. Enter overwrites it." : target.says;
     const bool refused = !target.why_not.empty();
     text_line(refused ? ui.style.error
@@ -113,9 +112,10 @@ const ExportOption& export_option(std::string_view key) {
 
 /// The choices of an option side by side, the present one filled. `why_not`: why a choice cannot be made, empty where
 /// it can; null: all can.
-void choice_buttons(Ui& ui, std::string_view key, const std::function<std::string(const std::string&)>& why_not = {}) {
+void choice_buttons(Ui& ui, Settings& settings, std::string_view key,
+                    const std::function<std::string(const std::string&)>& why_not = {}) {
     const ExportOption& option = export_option(key);
-    const std::string now = option.text(ui.session.settings.picture_export);
+    const std::string now = option.text(settings.picture_export);
     const float left = ImGui::GetCursorPosX();
     for (std::size_t i = 0; i < option.choices.size(); ++i) {
         const std::string& choice = option.choices[i];
@@ -137,12 +137,11 @@ std::string size_label(const std::string& choice, PictureSize viewport) {
     return size_text(parse_size(choice));
 }
 
-void size_presets(Ui& ui) {
-    Session& session = ui.session;
+void size_presets(Ui& ui, Settings& settings, Views& views) {
     const ExportOption& option = export_option("size");
-    const std::string now = option.text(session.settings.picture_export);
+    const std::string now = option.text(settings.picture_export);
     const bool is_preset = std::ranges::find(option.choices, now) != option.choices.end();
-    const PictureSize viewport = viewport_size(session);
+    const PictureSize viewport = viewport_size(views);
     form_label(ui, "Size", "In pixels");
     if (!begin_dropdown(ui, "export.size", is_preset ? size_label(now, viewport) : "Other", "Size")) return;
     for (const std::string& choice : option.choices) {
@@ -159,10 +158,9 @@ std::pair<double, double> range_of_side(bool keeps, double side, double other) {
     return {std::ceil(kMinSide * std::max(1.0, factor)), std::floor(kMaxSide * std::min(1.0, factor))};
 }
 
-void size_fields(Ui& ui, PictureSize size) {
-    Session& session = ui.session;
-    ExportDialog& dialog = session.exporting;
-    const bool keeps = session.settings.picture_export.keeps_shape;
+void size_fields(Ui& ui, Dialogs& dialogs, Settings& settings, PictureSize size) {
+    ExportDialog& dialog = dialogs.exporting;
+    const bool keeps = settings.picture_export.keeps_shape;
     if (size != dialog.made || !keeps) dialog.shape = dialog.made = size;
     form_label(ui, "", nullptr);
     const float left = ImGui::GetCursorPosX();
@@ -197,11 +195,11 @@ void size_fields(Ui& ui, PictureSize size) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("A side that is changed takes the other one along");
     if (wanted == size) return;
     if (keeps) dialog.made = wanted;
-    invoke(session, "picture.size", size_word(wanted));
+    ui.invoke("picture.size", size_word(wanted));
 }
 
-void scale_field(Ui& ui, const PictureOrder& order) {
-    const double given = ui.session.settings.picture_export.scale;
+void scale_field(Ui& ui, Settings& settings, const PictureOrder& order) {
+    const double given = settings.picture_export.scale;
     form_label(ui, "Text and lines", "How large they are: 1 suits 1280 x 720");
     const float reset = button_width("reset") + ui.px(6);
     ImGui::SetNextItemWidth(given > 0 ? -reset : -1);
@@ -223,22 +221,21 @@ void scale_field(Ui& ui, const PictureOrder& order) {
 }
 
 /// What the picture has, each to be left out of it; what the view does not show either is disabled.
-void shown_boxes(Ui& ui) {
-    Session& session = ui.session;
-    const std::set<std::string>& without = session.settings.picture_export.without;
+void shown_boxes(Ui& ui, Settings& settings) {
+    const std::set<std::string>& without = settings.picture_export.without;
     const float column = ImGui::GetContentRegionAvail().x / 2;
     const float left = ImGui::GetCursorPosX();
     int index = 0;
     for (const ViewOption& option : view_options()) {
-        const bool may_be = option.may_be_seen ? option.may_be_seen(session.view()) : true;
+        const bool may_be = option.may_be_seen ? option.may_be_seen(ui.workspace.view()) : true;
         if (option.without.empty() || !may_be) continue;
         if (index++ % 2 == 1) ImGui::SameLine(left + column);
         const std::string key(option.key);
-        const bool is_seen = can_leave_out(option, session.view());
+        const bool is_seen = can_leave_out(option, ui.workspace.view());
         bool shown = is_seen && !without.contains(key);
         ImGui::BeginDisabled(!is_seen);
         if (ImGui::Checkbox(std::string(option.title).c_str(), &shown)) {
-            PictureExport next = session.settings.picture_export;
+            PictureExport next = settings.picture_export;
             shown ? static_cast<void>(next.without.erase(key)) : static_cast<void>(next.without.insert(key));
             set_export(ui, "without", export_option("without").text(next));
         }
@@ -250,38 +247,38 @@ void shown_boxes(Ui& ui) {
     }
 }
 
-void settings_fields(Ui& ui, const PictureOrder& order, const std::string& why_no_size) {
-    const Session& session = ui.session;
-    size_presets(ui);
-    size_fields(ui, order.options.size);
+void settings_fields(Ui& ui, Settings& settings, Views& views, Dialogs& dialogs, const PictureOrder& order,
+                     const std::string& why_no_size) {
+    size_presets(ui, settings, views);
+    size_fields(ui, dialogs, settings, order.options.size);
     if (!why_no_size.empty()) words(ui.style.error, why_no_size);
-    scale_field(ui, order);
+    scale_field(ui, settings, order);
     form_label(ui, "Samples", "Per pixel: more make smoother edges");
-    choice_buttons(ui, "samples", [&](const std::string& count) {
-        const auto& why_no = session.hooks.why_no_samples;
-        return why_no ? why_no(parse_samples(count)) : "";
+    choice_buttons(ui, settings, "samples", [&](const std::string& count) {
+        return ui.session.picture_maker->why_no_samples(parse_samples(count));
     });
     form_label(ui, "Background", "Transparent: seen through where nothing is drawn");
-    choice_buttons(ui, "background");
+    choice_buttons(ui, settings, "background");
     form_label(ui, "Theme", "Of the picture alone");
-    choice_buttons(ui, "theme");
+    choice_buttons(ui, settings, "theme");
     heading(ui, "IN THE PICTURE");
-    shown_boxes(ui);
+    shown_boxes(ui, settings);
 }
 
 // --- the preview
 
 void make_preview(Session& session) {
-    ExportDialog& dialog = session.exporting;
+    ExportDialog& dialog = session.dialogs.exporting;
     const auto begun = std::chrono::steady_clock::now();
     dialog.shown = dialog.wanted;
     dialog.image.reset();
     dialog.why_not.clear();
     try {
-        if (!session.hooks.draw_coarse_picture) return;
         const int divisor = dialog.shown.divisor;
-        const DrawList list = draw_list_of(session, order_to_export(session));
-        dialog.image = std::make_shared<const Image>(shrunk(session.hooks.draw_coarse_picture(list, divisor), divisor));
+        const DrawList list =
+            draw_list_of(session.workspace, order_to_export(session.settings, session.workspace, session.views));
+        dialog.image =
+            std::make_shared<const Image>(shrunk(session.picture_maker->draw_coarse(list, divisor), divisor));
     } catch (const std::exception& error) {
         dialog.why_not = error.what();
     }
@@ -290,11 +287,10 @@ void make_preview(Session& session) {
 
 /// Has a preview made for so much room, in pixels, if it is not there.
 void want_preview(Ui& ui, const PictureOrder& order, ImVec2 room) {
-    Session& session = ui.session;
-    ExportDialog& dialog = session.exporting;
+    ExportDialog& dialog = ui.session.dialogs.exporting;
     const PictureSize size = order.options.size;
     const double times = std::max(size.width / std::max<double>(room.x, 1), size.height / std::max<double>(room.y, 1));
-    ExportDialog::Preview wanted{session.document().fitted, order.view, order.options,
+    ExportDialog::Preview wanted{ui.workspace.document().fitted, order.view, order.options,
                                  order.select ? text_of(*order.select) : "",
                                  std::max(1, static_cast<int>(std::ceil(times)))};
     if (!wanted.same_picture(dialog.wanted)) {
@@ -302,14 +298,14 @@ void want_preview(Ui& ui, const PictureOrder& order, ImVec2 room) {
         dialog.wanted_since = ui.now;
     }
     if (dialog.wanted.same_picture(dialog.shown)) return;
-    const double wait = session.attended() ? std::min(dialog.seconds, 1e-3 * kLongestRest) : 0;
+    const double wait = ui.session.options.attended ? std::min(dialog.seconds, 1e-3 * kLongestRest) : 0;
     const double due = dialog.wanted_since + wait - ui.now;
     if (due > 0) return ui.want_frame_in(due);
-    session.enqueue([&session] { make_preview(session); });
+    ui.later([](Session& session) { make_preview(session); });
 }
 
-void draw_preview(Ui& ui, const PictureOrder& order, float height) {
-    const ExportDialog& dialog = ui.session.exporting;
+void draw_preview(Ui& ui, Dialogs& dialogs, const PictureOrder& order, float height) {
+    const ExportDialog& dialog = dialogs.exporting;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 room{ImGui::GetContentRegionAvail().x, height};
     want_preview(ui, order, room);
@@ -335,14 +331,14 @@ void draw_preview(Ui& ui, const PictureOrder& order, float height) {
 }
 
 /// What is exported, and as what.
-std::string exported_subject(const Session& session) {
-    std::string out = "What the window shows of " + session.title();
-    if (!session.open_case_name().empty()) out = "The scene of the case " + session.open_case_name();
-    if (session.view_count() < 2) return out;
-    const std::size_t place = session.active_place();
-    const std::string which = place == 0 ? "the left" : place + 1 == session.view_count() ? "the right" : "the middle";
+std::string exported_subject(const Workspace& workspace, const Files& files, const Views& views) {
+    std::string out = "What the window shows of " + workspace.title();
+    if (!files.visited().empty()) out = "The scene of the case " + files.visited();
+    if (views.count() < 2) return out;
+    const std::size_t place = views.active();
+    const std::string which = place == 0 ? "the left" : place + 1 == views.count() ? "the right" : "the middle";
     return out + ", " + which + " view alone (" +
-           std::string(mobb::info(session.document().fitted->options().tree).label) + ")";
+           std::string(mobb::info(workspace.document().fitted->options().tree).label) + ")";
 }
 
 // --- the command line
@@ -372,8 +368,8 @@ std::string in_rows(const std::string& line, std::size_t columns) {
     return out + row;
 }
 
-void command_line(Ui& ui, const PictureOrder& order, const ExportTarget& target) {
-    const auto line = render_line(ui.session, order, target.file.string());
+void command_line(Ui& ui, Files& files, Dialogs& dialogs, const PictureOrder& order, const ExportTarget& target) {
+    const auto line = render_line(ui.workspace, files, dialogs, order, target.file.string());
     const ImVec2 room = ImGui::GetContentRegionAvail();
     if (!line) {
         words(ui.style.quiet,
@@ -399,31 +395,29 @@ float command_line_height() {
 // --- the buttons
 
 void export_now(Ui& ui, const ExportTarget& target) {
-    Session& session = ui.session;
-    if (target.is_there && !session.input.confirming && session.exporting.agreed != target.file) {
-        session.input.confirming = true;
-        session.input.fresh = true;  // another name may be typed
+    if (target.is_there && !ui.session.dialogs.input.confirming && ui.session.dialogs.exporting.agreed != target.file) {
+        ui.session.dialogs.input.confirming = true;
+        ui.session.dialogs.input.fresh = true;  // another name may be typed
         return;
     }
-    session.enqueue([&session, file = target.file] {
+    ui.later([file = target.file](Session& session) {
         try {
             run_command(session, "picture.write", file.string());
-            session.exporting.agreed = file;
-            if (session.dialog == Dialog::export_picture) session.close_dialog();
+            session.dialogs.exporting.agreed = file;
+            if (session.dialogs.now == Dialog::export_picture) session.dialogs.close();
         } catch (const std::exception& error) {
-            session.tell(MessageLevel::error, error.what());
-            session.input.confirming = false;
+            session.notifications.tell(MessageLevel::error, error.what());
+            session.dialogs.input.confirming = false;
         }
     });
 }
 
 /// A button of a command; disabled, it says why.
 void export_command(Ui& ui, const char* label, const char* id, const std::string& why_no_picture) {
-    Session& session = ui.session;
     const Command& command = *find_command(id);
-    const std::string why = why_no_picture.empty() ? std::string(why_not(session, command)) : why_no_picture;
+    const std::string why = why_no_picture.empty() ? std::string(why_not(ui.session, command)) : why_no_picture;
     ImGui::BeginDisabled(!why.empty());
-    if (ImGui::Button(label)) invoke(session, id);
+    if (ImGui::Button(label)) ui.invoke(id);
     ImGui::EndDisabled();
     ui.mark("export" + std::string(id).substr(std::string_view("picture").size()));
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
@@ -432,11 +426,10 @@ void export_command(Ui& ui, const char* label, const char* id, const std::string
 }
 
 /// Whether it is to be exported.
-bool export_buttons(Ui& ui, const std::string& why_no_picture, const std::string& why_not) {
-    Session& session = ui.session;
+bool export_buttons(Ui& ui, Dialogs& dialogs, const std::string& why_no_picture, const std::string& why_not) {
     ImGui::BeginDisabled(!why_not.empty());
     const bool pressed_it =
-        marked_button(ui, session.input.confirming ? "Overwrite" : "Export", "export.ok", why_not.empty());
+        marked_button(ui, dialogs.input.confirming ? "Overwrite" : "Export", "export.ok", why_not.empty());
     ImGui::EndDisabled();
     if (!why_not.empty() && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
         ImGui::SetTooltip("%s", why_not.c_str());
@@ -448,20 +441,19 @@ bool export_buttons(Ui& ui, const std::string& why_no_picture, const std::string
     ImGui::SameLine();
     const float close = button_width("Close");
     ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowContentRegionMax().x - close));
-    if (marked_button(ui, "Close", "export.close")) session.enqueue([&session] { session.close_dialog(); });
+    if (marked_button(ui, "Close", "export.close")) ui.later(&Dialogs::close);
     return pressed_it;
 }
 
 }  // namespace
 
 void export_dialog(Ui& ui) {
-    Session& session = ui.session;
-    if (session.empty()) {
-        session.enqueue([&session] { session.close_dialog(); });  // what was to be exported is closed
+    if (ui.workspace.empty()) {
+        ui.later(&Dialogs::close);  // what was to be exported is closed
         return;
     }
     const bool keys_are_taken = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) || ImGui::GetIO().WantTextInput;
-    const PictureOrder order = order_to_export(session);
+    const PictureOrder order = order_to_export(ui.session.settings, ui.workspace, ui.session.views);
     std::string why_no_size;
     try {
         check(order.options);
@@ -472,26 +464,27 @@ void export_dialog(Ui& ui) {
     text_line(ui.style.text, "Export picture", ui.style.title);
     ImGui::SameLine(0, ui.px(14));
     ImGui::AlignTextToFramePadding();
-    text_line(ui.style.quiet, fitted_text(exported_subject(session), ImGui::GetContentRegionAvail().x));
-    const ExportTarget target = target_of(session);
-    const bool entered = file_field(ui, target);
+    text_line(ui.style.quiet, fitted_text(exported_subject(ui.workspace, ui.session.files, ui.session.views),
+                                          ImGui::GetContentRegionAvail().x));
+    const ExportTarget target = target_of(ui.workspace, ui.session.settings, ui.session.dialogs);
+    const bool entered = file_field(ui, ui.session.dialogs, target);
     const float foot = ImGui::GetFrameHeight() + 3 * ImGui::GetStyle().ItemSpacing.y + ui.px(2);
     const float height = ImGui::GetContentRegionAvail().y - foot;
     const float left = std::min(ui.px(kSettingsWidth), 0.48f * ImGui::GetContentRegionAvail().x);
     ImGui::BeginChild("settings", {left, height});
-    settings_fields(ui, order, why_no_size);
+    settings_fields(ui, ui.session.settings, ui.session.views, ui.session.dialogs, order, why_no_size);
     ImGui::EndChild();
     ImGui::SameLine(0, ui.px(14));
     ImGui::BeginChild("result", {0, height});
     const float caption = ui.style.caption->FontSize + 2 * ImGui::GetStyle().ItemSpacing.y;
     const float lines = std::min(command_line_height(), 0.4f * height);
-    if (why_no_size.empty()) draw_preview(ui, order, std::max(height - lines - caption, ui.px(40)));
+    if (why_no_size.empty()) draw_preview(ui, ui.session.dialogs, order, std::max(height - lines - caption, ui.px(40)));
     text_line(ui.style.quiet, "COMMAND LINE THAT DOES THE SAME", ui.style.caption);
-    if (why_no_size.empty()) command_line(ui, order, target);
+    if (why_no_size.empty()) command_line(ui, ui.session.files, ui.session.dialogs, order, target);
     ImGui::EndChild();
     ImGui::Dummy({0, ui.px(2)});
     const std::string why_not = why_no_size.empty() ? target.why_not : why_no_size;
-    bool wanted = export_buttons(ui, why_no_size, why_not);
+    bool wanted = export_buttons(ui, ui.session.dialogs, why_no_size, why_not);
     wanted |= entered || (pressed(ImGuiKey_Enter) && !keys_are_taken);
     end_dialog();
     if (wanted && why_not.empty()) export_now(ui, target);

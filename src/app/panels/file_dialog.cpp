@@ -77,64 +77,65 @@ bool is_clip(const FileEntry& entry) { return !entry.folder && unpacked_extensio
 /// Pictures that are compared must not change with the dates of files.
 std::string date_text(const Session& session, std::time_t when) {
     std::tm parts{};
-    if (!session.may_write || !::localtime_r(&when, &parts)) return "";
+    if (!session.options.may_write || !::localtime_r(&when, &parts)) return "";
     std::array<char, 32> text{};
     const std::size_t length = std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M", &parts);
     return {text.data(), length};
 }
 
 /// Where one was last; a scene that has a file is saved beside it.
-void begin(Session& session, const Purpose& purpose) {
-    std::filesystem::path folder = session.settings.folder;
-    if (purpose.writes() && session.file()) folder = session.file()->parent_path();
+void begin(Settings& settings, Workspace& workspace, Dialogs& dialogs, const Purpose& purpose) {
+    std::filesystem::path folder = settings.folder;
+    if (purpose.writes() && workspace.file) folder = workspace.file->parent_path();
     if (!folder.empty() && !is_folder(folder)) folder.clear();
-    const std::string open = session.scene().file.filename().string();
-    const bool to_export = session.dialog == Dialog::export_file;
-    const std::filesystem::path exported = to_export ? export_file(session) : std::filesystem::path();
+    const std::string open = workspace.scene().file.filename().string();
+    const bool to_export = dialogs.now == Dialog::export_file;
+    const std::filesystem::path exported =
+        to_export ? export_file(workspace, settings, dialogs) : std::filesystem::path();
     if (to_export && is_folder(exported.parent_path())) folder = exported.parent_path();
-    session.browser.order_by(session.settings.file_order);
-    session.browser.begin(folder, purpose.extensions, open);
-    const std::string stem = std::filesystem::path(session.title()).stem().string();
-    session.input.set_text(to_export ? exported.filename().string() : purpose.writes() ? stem + purpose.extension : "");
+    dialogs.browser.order_by(settings.file_order);
+    dialogs.browser.begin(folder, purpose.extensions, open);
+    const std::string stem = std::filesystem::path(workspace.title()).stem().string();
+    dialogs.input.set_text(to_export ? exported.filename().string() : purpose.writes() ? stem + purpose.extension : "");
 }
 
 /// What was typed led elsewhere; the name of a file that is to be written stays.
-void keep_name(Session& session, const Purpose& purpose) {
-    const std::string& typed = session.input.text;
-    session.input.set_text(purpose.writes() ? typed.substr(typed.rfind('/') + 1) : "");
+void keep_name(Dialogs& dialogs, const Purpose& purpose) {
+    const std::string& typed = dialogs.input.text;
+    dialogs.input.set_text(purpose.writes() ? typed.substr(typed.rfind('/') + 1) : "");
 }
 
-void go_into(Session& session, const Purpose& purpose, const std::filesystem::path& folder) {
-    session.browser.go(folder);
-    keep_name(session, purpose);
+void go_into(Dialogs& dialogs, const Purpose& purpose, const std::filesystem::path& folder) {
+    dialogs.browser.go(folder);
+    keep_name(dialogs, purpose);
 }
 
-void go_up(Session& session, const Purpose& purpose) {
-    session.browser.go_up();
-    keep_name(session, purpose);
+void go_up(Dialogs& dialogs, const Purpose& purpose) {
+    dialogs.browser.go_up();
+    keep_name(dialogs, purpose);
 }
 
 /// Does the dialog's command with files; what goes wrong is said, and the dialog stays.
 void take(Session& session, const Purpose& purpose, const std::vector<std::filesystem::path>& files) {
-    const Dialog dialog = session.dialog;
+    const Dialog dialog = session.dialogs.now;
     try {
         run_command(session, purpose.command, as_argument(files));
-        if (session.dialog == dialog) session.close_dialog();
+        if (session.dialogs.now == dialog) session.dialogs.close();
     } catch (const std::exception& error) {
-        session.tell(MessageLevel::error, error.what());
-        session.input.fresh = true;
+        session.notifications.tell(MessageLevel::error, error.what());
+        session.dialogs.input.fresh = true;
     }
 }
 
 /// A file that is to be written, with the extension that it lacks; asks before another one is overwritten.
 void take_written(Session& session, const Purpose& purpose) {
-    DialogInput& input = session.input;
-    std::filesystem::path path = typed_path(input.text, session.browser.folder());
-    if (is_folder(path)) return go_into(session, purpose, path);
+    DialogInput& input = session.dialogs.input;
+    std::filesystem::path path = typed_path(input.text, session.dialogs.browser.folder());
+    if (is_folder(path)) return go_into(session.dialogs, purpose, path);
     path = with_extension(path, purpose.extension);
     std::error_code ignored;
-    const bool keeps_own = session.dialog == Dialog::save_as && session.file() &&
-                           std::filesystem::equivalent(path, *session.file(), ignored);
+    const bool keeps_own = session.dialogs.now == Dialog::save_as && session.workspace.file &&
+                           std::filesystem::equivalent(path, *session.workspace.file, ignored);
     if (!keeps_own && !input.confirming && std::filesystem::exists(path, ignored)) {
         input.confirming = true;
         input.fresh = true;
@@ -142,28 +143,28 @@ void take_written(Session& session, const Purpose& purpose) {
     }
     const auto pending_goes_on = [&] {
         try {
-            session.save_as(path);  // closes the dialog, and goes on with what waited for it
+            session.files.save_as(path);  // closes the dialog, and goes on with what waited for it
         } catch (const std::exception& error) {
-            session.tell(MessageLevel::error, error.what());
+            session.notifications.tell(MessageLevel::error, error.what());
             input.fresh = true;
         }
     };
     // Who agreed here is not asked again where it is written.
-    if (session.dialog == Dialog::export_file) session.exporting.agreed = input.confirming ? path : "";
-    session.dialog == Dialog::save_as ? pending_goes_on() : take(session, purpose, {path});
+    if (session.dialogs.now == Dialog::export_file) session.dialogs.exporting.agreed = input.confirming ? path : "";
+    session.dialogs.now == Dialog::save_as ? pending_goes_on() : take(session, purpose, {path});
 }
 
 /// What is chosen, which is what was typed where that is listed; a folder is gone into.
 void take_read(Session& session, const Purpose& purpose) {
-    const std::vector<std::filesystem::path> chosen = session.browser.chosen();
-    if (chosen.size() == 1 && is_folder(chosen.front())) return go_into(session, purpose, chosen.front());
+    const std::vector<std::filesystem::path> chosen = session.dialogs.browser.chosen();
+    if (chosen.size() == 1 && is_folder(chosen.front())) return go_into(session.dialogs, purpose, chosen.front());
     if (!chosen.empty()) return take(session, purpose, chosen);
-    const std::string& typed = session.input.text;
-    const std::filesystem::path path = typed_path(typed, session.browser.folder()).lexically_normal();
+    const std::string& typed = session.dialogs.input.text;
+    const std::filesystem::path path = typed_path(typed, session.dialogs.browser.folder()).lexically_normal();
     if (typed.empty()) {
-        session.input.fresh = true;
+        session.dialogs.input.fresh = true;
     } else if (is_folder(path)) {
-        go_into(session, purpose, path);
+        go_into(session.dialogs, purpose, path);
     } else {
         take(session, purpose, {path});  // which says what is wrong with it
     }
@@ -179,16 +180,15 @@ std::filesystem::path folder_of_clips(const FileBrowser& browser) {
 // --- what stands above the list
 
 /// The way to the folder, each step a button.
-void crumbs(Ui& ui, const Purpose& purpose) {
-    Session& session = ui.session;
+void crumbs(Ui& ui, Dialogs& dialogs, const Purpose& purpose) {
     const std::string prefix = purpose.prefix;
     const auto go = [&](const std::filesystem::path& folder) {
-        session.enqueue([&session, purpose, folder] { go_into(session, purpose, folder); });
+        ui.later([&dialogs, purpose, folder] { go_into(dialogs, purpose, folder); });
     };
-    if (ImGui::ArrowButton("##up", ImGuiDir_Up)) session.enqueue([&session, purpose] { go_up(session, purpose); });
+    if (ImGui::ArrowButton("##up", ImGuiDir_Up)) ui.later([&dialogs, purpose] { go_up(dialogs, purpose); });
     ui.mark(prefix + ".up");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("The folder above (Backspace, or Alt+Up)");
-    const std::vector<std::filesystem::path> way = session.browser.way();
+    const std::vector<std::filesystem::path> way = dialogs.browser.way();
     const std::size_t first = way.size() > kMostCrumbs ? way.size() - kMostCrumbs : 0;
     const float room = ImGui::GetContentRegionMax().x / static_cast<float>(kMostCrumbs + 1);
     ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0, 0, 0, 0));
@@ -222,11 +222,11 @@ struct FilePlace {
 };
 
 /// Where files often are.
-std::vector<FilePlace> places(const Session& session) {
+std::vector<FilePlace> places(const Workspace& workspace) {
     std::vector<FilePlace> out;
     const std::string home = expanded("~");
     out.push_back({"Home", home == "~" ? "/" : home});
-    if (session.file()) out.push_back({"This scene's", typed_path(".", session.file()->parent_path())});
+    if (workspace.file) out.push_back({"This scene's", typed_path(".", workspace.file->parent_path())});
     try {
         out.push_back({"Examples", demo_scene_file().parent_path().parent_path()});
     } catch (const MachineError&) {
@@ -235,9 +235,9 @@ std::vector<FilePlace> places(const Session& session) {
     return out;
 }
 
-std::vector<FilePlace> recent_folders(const Session& session) {
+std::vector<FilePlace> recent_folders(const Settings& settings) {
     std::vector<FilePlace> out;
-    for (const std::filesystem::path& file : session.settings.recent) {
+    for (const std::filesystem::path& file : settings.recent) {
         const std::filesystem::path folder = file.has_extension() ? file.parent_path() : file;
         const bool known = std::ranges::any_of(out, [&](const FilePlace& place) { return place.folder == folder; });
         if (!known) out.push_back({folder.filename().string(), folder});
@@ -246,15 +246,14 @@ std::vector<FilePlace> recent_folders(const Session& session) {
     return out;
 }
 
-void place_list(Ui& ui, const Purpose& purpose) {
-    Session& session = ui.session;
+void place_list(Ui& ui, Settings& settings, const Purpose& purpose) {
     const auto list = [&](const std::vector<FilePlace>& all, const std::string& mark) {
         for (std::size_t i = 0; i < all.size(); ++i) {
             const FilePlace& place = all[i];
             ImGui::PushID(static_cast<int>(i));
             ImGui::PushID(mark.c_str());
             if (ImGui::Selectable(fitted_text(place.name, ImGui::GetContentRegionAvail().x).c_str())) {
-                session.enqueue([&session, purpose, to = place.folder] { go_into(session, purpose, to); });
+                ui.later([purpose, to = place.folder](Dialogs& dialogs) { go_into(dialogs, purpose, to); });
             }
             ImGui::PopID();
             ImGui::PopID();
@@ -263,8 +262,8 @@ void place_list(Ui& ui, const Purpose& purpose) {
         }
     };
     text_line(ui.style.quiet, "PLACES", ui.style.caption);
-    list(places(session), ".place.");
-    const std::vector<FilePlace> recent = recent_folders(session);
+    list(places(ui.workspace), ".place.");
+    const std::vector<FilePlace> recent = recent_folders(settings);
     if (recent.empty()) return;
     ImGui::Dummy({0, ui.px(6)});
     text_line(ui.style.quiet, "RECENT", ui.style.caption);
@@ -290,26 +289,25 @@ Columns columns_of(const Ui& ui, float width) {
 }
 
 /// Orders by a column, or the other way round if it is ordered by it already.
-void order_by(Session& session, const std::string& column) {
-    std::string& now = session.settings.file_order;
+void order_by(Settings& settings, Dialogs& dialogs, const std::string& column) {
+    std::string& now = settings.file_order;
     // Who orders by date or size looks for the latest or largest.
     const std::string first = column == "name" ? column : "-" + column;
     const std::string other = column == "name" ? "-" + column : column;
     now = now == first ? other : first;
-    session.browser.order_by(now);
+    dialogs.browser.order_by(now);
 }
 
 /// The heads of the columns; a click orders by one, the next one the other way round.
-void column_heads(Ui& ui, const Purpose& purpose, const Columns& columns) {
-    Session& session = ui.session;
-    const std::string& now = session.settings.file_order;
+void column_heads(Ui& ui, Settings& settings, Dialogs& dialogs, const Purpose& purpose, const Columns& columns) {
+    const std::string& now = settings.file_order;
     const ImVec2 at = ImGui::GetCursorPos();
     const auto head = [&](const char* label, const std::string& order, float from, float to) {
         const bool first_to_last = now == order;
         const bool last_to_first = now == "-" + order;
         ImGui::SetCursorPos({at.x + from, at.y});
         const float height = ImGui::GetTextLineHeight() + ui.px(6);
-        if (ImGui::InvisibleButton(order.c_str(), {to - from, height})) order_by(session, order);
+        if (ImGui::InvisibleButton(order.c_str(), {to - from, height})) order_by(settings, dialogs, order);
         ui.mark(purpose.prefix + (".order." + order));
         const bool hovered = ImGui::IsItemHovered();
         if (hovered) ImGui::SetTooltip("Orders by it: Ctrl+1 the name, Ctrl+2 the size, Ctrl+3 the date");
@@ -335,8 +333,8 @@ void column_heads(Ui& ui, const Purpose& purpose, const Columns& columns) {
 }
 
 /// One line of the list; returns whether it was clicked.
-bool file_row(Ui& ui, const FileEntry& entry, std::size_t index, const Columns& columns) {
-    const FileBrowser& browser = ui.session.browser;
+bool file_row(Ui& ui, Dialogs& dialogs, const FileEntry& entry, std::size_t index, const Columns& columns) {
+    const FileBrowser& browser = dialogs.browser;
     const float height = ImGui::GetTextLineHeight() + ui.px(6);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::PushID(static_cast<int>(index));
@@ -364,27 +362,28 @@ bool file_row(Ui& ui, const FileEntry& entry, std::size_t index, const Columns& 
 /// A click on an entry; whether it is taken.
 bool clicked_entry(Session& session, const Purpose& purpose, std::size_t index) {
     const ImGuiIO& io = ImGui::GetIO();
-    const FileEntry& entry = session.browser.entries()[index];
-    session.input.fresh = true;  // keys go on in the field
-    session.browser.choose(index, io.KeyShift && !purpose.writes()  ? Choose::range
-                                  : io.KeyCtrl && !purpose.writes() ? Choose::toggle
-                                                                    : Choose::only);
+    const FileEntry& entry = session.dialogs.browser.entries()[index];
+    session.dialogs.input.fresh = true;  // keys go on in the field
+    session.dialogs.browser.choose(index, io.KeyShift && !purpose.writes()  ? Choose::range
+                                          : io.KeyCtrl && !purpose.writes() ? Choose::toggle
+                                                                            : Choose::only);
     const bool twice = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
     if (purpose.writes()) {
         if (entry.folder && twice) {
-            session.enqueue(
-                [&session, purpose, to = session.browser.listed() / entry.name] { go_into(session, purpose, to); });
+            session.queue.push([&session, purpose, to = session.dialogs.browser.listed() / entry.name] {
+                go_into(session.dialogs, purpose, to);
+            });
         }
         // The name of a file that is there may be meant for the new one.
-        if (!entry.folder) session.input.set_text(entry.name);
+        if (!entry.folder) session.dialogs.input.set_text(entry.name);
         return twice && !entry.folder;
     }
     return twice;
 }
 
 /// The keys that move through the list while the field has the others.
-bool keys_in_list(Session& session, const Purpose& purpose) {
-    FileBrowser& browser = session.browser;
+bool keys_in_list(Dialogs& dialogs, Settings& settings, const Purpose& purpose) {
+    FileBrowser& browser = dialogs.browser;
     const ImGuiIO& io = ImGui::GetIO();
     if (browser.entries().empty() || io.KeyAlt) return false;
     int at = static_cast<int>(browser.cursor());
@@ -398,26 +397,25 @@ bool keys_in_list(Session& session, const Purpose& purpose) {
     constexpr std::array<std::pair<Key, const char*>, 3> kOrders{
         {{Key::n1, "name"}, {Key::n2, "size"}, {Key::n3, "date"}}};
     for (const auto& [key, column] : kOrders) {
-        if (io.KeyCtrl && pressed(key)) order_by(session, column);
+        if (io.KeyCtrl && pressed(key)) order_by(settings, dialogs, column);
     }
     if (several && io.KeyCtrl && pressed(ImGuiKey_Space)) browser.choose(browser.cursor(), Choose::toggle);
-    if (several && io.KeyCtrl && pressed(ImGuiKey_A) && session.input.text.empty()) browser.choose_all();
+    if (several && io.KeyCtrl && pressed(ImGuiKey_A) && dialogs.input.text.empty()) browser.choose_all();
     return moved;
 }
 
 /// Whether an entry was taken by a double click.
-bool listing(Ui& ui, const Purpose& purpose, bool moved) {
-    Session& session = ui.session;
-    const FileBrowser& browser = session.browser;
+bool listing(Ui& ui, Dialogs& dialogs, Settings& settings, const Purpose& purpose, bool moved) {
+    const FileBrowser& browser = dialogs.browser;
     const Columns columns = columns_of(ui, ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize);
-    column_heads(ui, purpose, columns);
+    column_heads(ui, settings, dialogs, purpose, columns);
     ImGui::BeginChild("entries", {0, 0}, false);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     if (!browser.error().empty()) {
         words(ui.style.error, browser.error());
     } else if (browser.entries().empty()) {
         words(ui.style.quiet, purpose.writes()             ? "No such file is here yet."
-                              : session.input.text.empty() ? "There is nothing here that can be opened."
+                              : dialogs.input.text.empty() ? "There is nothing here that can be opened."
                                                            : "No name here holds what is typed.");
     }
     std::optional<std::size_t> clicked;
@@ -428,34 +426,34 @@ bool listing(Ui& ui, const Purpose& purpose, bool moved) {
     while (clipper.Step()) {
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
             const auto index = static_cast<std::size_t>(i);
-            if (file_row(ui, browser.entries()[index], index, columns)) clicked = index;
+            if (file_row(ui, dialogs, browser.entries()[index], index, columns)) clicked = index;
             ui.mark_only(std::string(purpose.prefix) + ".entry." + browser.entries()[index].name);
             if (moved && i == cursor) ImGui::SetScrollHereY();
         }
     }
     ImGui::PopStyleVar();
     ImGui::EndChild();
-    return clicked && clicked_entry(session, purpose, *clicked);
+    return clicked && clicked_entry(ui.session, purpose, *clicked);
 }
 
 // --- what a file holds
 
-const FileSummary* summary_at_cursor(Ui& ui) {
-    Session& session = ui.session;
-    const FileBrowser& browser = session.browser;
+const FileSummary* summary_at_cursor(Ui& ui, Dialogs& dialogs) {
+    const FileBrowser& browser = dialogs.browser;
     if (browser.entries().empty()) return nullptr;
     const std::filesystem::path file = browser.listed() / browser.entries()[browser.cursor()].name;
-    const FileSummary* summary = session.preview.ask(file, ui.now, !session.attended(), session.hooks.wake);
-    if (!summary) ui.want_frame_in(session.preview.ask_again_in(ui.now));
+    const FileSummary* summary =
+        dialogs.preview.ask(file, ui.now, !ui.session.options.attended, [&at = *ui.session.desktop] { at.wake(); });
+    if (!summary) ui.want_frame_in(dialogs.preview.ask_again_in(ui.now));
     return summary;
 }
 
-void preview(Ui& ui) {
-    const FileBrowser& browser = ui.session.browser;
+void preview(Ui& ui, Dialogs& dialogs) {
+    const FileBrowser& browser = dialogs.browser;
     if (browser.entries().empty()) return;
     const FileEntry& entry = browser.entries()[browser.cursor()];
     ImGui::TextUnformatted(fitted_text(entry.name, ImGui::GetContentRegionAvail().x).c_str());
-    const FileSummary* summary = summary_at_cursor(ui);
+    const FileSummary* summary = summary_at_cursor(ui, dialogs);
     if (!summary) return text_line(ui.style.quiet, "Reading\u2026");
     words(summary->readable ? ui.style.quiet : ui.style.error, summary->title);
     ImGui::Dummy({0, ui.px(4)});
@@ -481,10 +479,10 @@ void preview(Ui& ui) {
 }
 
 /// In a line, where there is no room beside the list.
-std::string in_a_line(Ui& ui, bool has_preview) {
-    const FileBrowser& browser = ui.session.browser;
+std::string in_a_line(Ui& ui, Dialogs& dialogs, bool has_preview) {
+    const FileBrowser& browser = dialogs.browser;
     if (browser.chosen_count() > 1) return counted(browser.chosen_count(), "entry", "entries") + " chosen";
-    const FileSummary* summary = has_preview ? nullptr : summary_at_cursor(ui);
+    const FileSummary* summary = has_preview ? nullptr : summary_at_cursor(ui, dialogs);
     return summary ? summary->title : "";
 }
 
@@ -498,19 +496,18 @@ bool flowing_button(Ui& ui, const char* label, const std::string& mark, const ch
 
 }  // namespace
 
-void file_dialog(Ui& ui) {
-    Session& session = ui.session;
-    DialogInput& input = session.input;
-    FileBrowser& browser = session.browser;
-    const Purpose purpose = purpose_of(session.dialog);
+void file_dialog(Ui& ui, Dialogs& dialogs, Settings& settings) {
+    DialogInput& input = dialogs.input;
+    FileBrowser& browser = dialogs.browser;
+    const Purpose purpose = purpose_of(dialogs.now);
     const std::string prefix = purpose.prefix;
     const auto enqueue = [&](void (*what)(Session&, const Purpose&)) {
-        session.enqueue([&session, purpose, what] { what(session, purpose); });
+        ui.later([purpose, what](Session& session) { what(session, purpose); });
     };
-    if (input.generation == 0) begin(session, purpose);
+    if (input.generation == 0) begin(settings, ui.workspace, dialogs, purpose);
     begin_dialog(ui, "file", {kDialogWidth, kDialogHeight});
     dialog_title(ui, purpose.title);
-    crumbs(ui, purpose);
+    crumbs(ui, dialogs, purpose);
 
     // Backspace leads up where there is nothing to delete.
     const bool up =
@@ -523,40 +520,40 @@ void file_dialog(Ui& ui) {
                                    : text_field(ui, "A part of a name, or a path; Tab completes it", complete);
     ui.mark(prefix + ".path");
     browser.follow(input.text, !purpose.writes());
-    session.settings.folder = session.attended() ? browser.way().back() : browser.folder();
-    const bool moved = keys_in_list(session, purpose);
+    settings.folder = ui.session.options.attended ? browser.way().back() : browser.folder();
+    const bool moved = keys_in_list(dialogs, settings, purpose);
     if (ImGui::GetIO().KeyCtrl && pressed(Key::h)) browser.show_hidden(!browser.shows_hidden());
 
     const float room = ImGui::GetContentRegionAvail().x;
     const bool has_places = room >= ui.px(kPlacesWidth + kLeastList);
     const float preview_room = room - (has_places ? ui.px(kPlacesWidth) : 0);
     const bool has_preview =
-        !purpose.writes() && session.dialog != Dialog::review && preview_room >= ui.px(kPreviewWidth + kLeastList);
+        !purpose.writes() && dialogs.now != Dialog::review && preview_room >= ui.px(kPreviewWidth + kLeastList);
     const bool one_line = room >= ui.px(600);
     const float foot = (one_line ? 1.0f : 2.0f) * ImGui::GetFrameHeightWithSpacing() + ui.px(4);
     if (has_places) {
         ImGui::BeginChild("places", {ui.px(kPlacesWidth) - ui.px(12), -foot}, false);
-        place_list(ui, purpose);
+        place_list(ui, settings, purpose);
         ImGui::EndChild();
         ImGui::SameLine(0, ui.px(12));
     }
     ImGui::BeginChild("files", {has_preview ? -ui.px(kPreviewWidth) : 0, -foot}, false);
-    bool accepted = listing(ui, purpose, moved) || events.entered;
+    bool accepted = listing(ui, dialogs, settings, purpose, moved) || events.entered;
     ImGui::EndChild();
     if (has_preview) {
         ImGui::SameLine(0, ui.px(12));
         ImGui::BeginChild("preview", {0, -foot}, false);
-        preview(ui);
+        preview(ui, dialogs);
         ImGui::EndChild();
     }
 
-    const bool of_folder = session.dialog == Dialog::review;
+    const bool of_folder = dialogs.now == Dialog::review;
     const bool agreed =
         marked_button(ui, input.confirming ? "Overwrite" : purpose.button, (prefix + ".ok").c_str(), true);
     accepted |= agreed && !of_folder;
     ImGui::SameLine();
     if (marked_button(ui, "Cancel", (prefix + ".cancel").c_str())) {
-        session.enqueue([&session] { session.close_dialog(); });
+        ui.later(&Dialogs::close);
     }
     bool as_clips = agreed && of_folder;
     if (!purpose.writes() && !of_folder) {
@@ -576,7 +573,7 @@ void file_dialog(Ui& ui) {
     const std::string line = input.confirming   ? "This file exists. Enter overwrites it."
                              : purpose.writes() ? ""
                              : of_folder        ? "Enter goes into a folder; the button takes it."
-                                                : in_a_line(ui, has_preview);
+                                                : in_a_line(ui, dialogs, has_preview);
     if (!line.empty()) {
         if (one_line) ImGui::SameLine();
         ImGui::AlignTextToFramePadding();
@@ -585,11 +582,11 @@ void file_dialog(Ui& ui) {
     }
     end_dialog();
     if (as_clips) {
-        session.enqueue([&session, purpose] { take(session, purpose, {folder_of_clips(session.browser)}); });
+        ui.later([purpose](Session& session) { take(session, purpose, {folder_of_clips(session.dialogs.browser)}); });
     } else if (accepted) {
         enqueue(purpose.writes() ? take_written : take_read);
     } else if (up) {
-        enqueue(go_up);
+        ui.later([&dialogs, purpose] { go_up(dialogs, purpose); });
     }
 }
 

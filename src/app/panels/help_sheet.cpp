@@ -179,9 +179,9 @@ bool help_row(Ui& ui, const Line& line, const HelpColumns& columns, std::size_t 
 
 void run_from_help(Session& session, const Command& command) {
     if (!command.enabled(session)) return;
-    session.enqueue([&session, &command] {
+    session.queue.push([&session, &command] {
         // Through the dialog that it may lie over.
-        while (session.dialog != Dialog::none) session.close_dialog();
+        while (session.dialogs.now != Dialog::none) session.dialogs.close();
         if (command.needs_argument() || command.choices) {
             ask_for_argument(session, command);
         } else {
@@ -215,7 +215,7 @@ std::span<const std::pair<const char*, const char*>> mouse_help() { return kMous
 
 void help_sheet(Ui& ui) {
     Session& session = ui.session;
-    DialogInput& input = session.input;
+    DialogInput& input = session.dialogs.input;
     begin_dialog(ui, "help", {980, 680});
     dialog_title(ui, "Help");
     const FieldEvents events = text_field(ui, "Search commands and keys");
@@ -244,7 +244,7 @@ void help_sheet(Ui& ui) {
     if (taken >= 0 && taken < static_cast<int>(lines.size())) {
         if (const Command* command = lines[static_cast<std::size_t>(taken)].command) run_from_help(session, *command);
     }
-    if (marked_button(ui, "Close", "help.close")) session.enqueue([&session] { session.close_dialog(); });
+    if (marked_button(ui, "Close", "help.close")) session.queue.push([&session] { session.dialogs.close(); });
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("Up and Down go through the list; Enter does what is picked.");

@@ -19,11 +19,11 @@ std::string name_of_state(const History& history, std::size_t state) {
 }
 
 void state_row(Ui& ui, std::size_t state) {
-    const History& history = ui.session.history();
+    const History& history = ui.workspace.history;
     const std::size_t now = history.place();
     const std::string remark = state == now ? "now" : state < now ? "undo to here" : "redo to here";
     if (row(ui, {"history." + std::to_string(state), name_of_state(history, state), remark, state == now})) {
-        invoke(ui.session, "edit.go_to", std::to_string(state));
+        ui.invoke("edit.go_to", std::to_string(state));
     }
 }
 
@@ -33,11 +33,11 @@ void history_list(Ui& ui) {
     begin_dialog(ui, "history", {420, 440});
     dialog_title(ui, "History");
     words(ui.style.quiet, "A click, Up or Down goes there; what comes later stays until something else is done.");
-    const History& history = ui.session.history();
+    const History& history = ui.workspace.history;
     const int count = static_cast<int>(history.count());
     int now = static_cast<int>(history.place());
     const bool moved = move_picked(now, count);
-    if (moved) invoke(ui.session, "edit.go_to", std::to_string(now));
+    if (moved) ui.invoke("edit.go_to", std::to_string(now));
     const float height = ImGui::GetFrameHeight();
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), 0});
     ImGui::BeginChild("states", {0, ImGui::GetContentRegionAvail().y - height - ui.px(12)});

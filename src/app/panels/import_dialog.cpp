@@ -36,7 +36,7 @@ struct ImportField {
 
 void set_option(Ui& ui, const ImportField& field, const std::string& text) {
     if (text == field.text()) return;
-    invoke(ui.session, "clip.set", std::string(field.option.key) + ' ' + text);
+    ui.invoke("clip.set", std::string(field.option.key) + ' ' + text);
 }
 
 std::string label_of(const ImportField& field, const std::string& value) {
@@ -66,8 +66,8 @@ bool choice_row(Ui& ui, const ImportField& field, const std::string& label, cons
 
 /// What the file has to choose from, searched by a few letters where it is much; a unit or a radius may be any number
 /// too.
-void offered_choices(Ui& ui, const ImportField& field) {
-    std::string& search = ui.session.importing.search;
+void offered_choices(Ui& ui, Imports& imports, const ImportField& field) {
+    std::string& search = imports.edited.search;
     if (ImGui::IsWindowAppearing()) search.clear();
     const std::vector<OfferedChoice>& all = field.offer->choices;
     const bool is_unit = field.option.key == std::string_view("unit");
@@ -115,7 +115,7 @@ void offered_choices(Ui& ui, const ImportField& field) {
     if (pressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
 }
 
-void choice_field(Ui& ui, const ImportField& field) {
+void choice_field(Ui& ui, Imports& imports, const ImportField& field) {
     const float width = ImGui::CalcItemWidth();
     const std::string now = field.given() ? label_of(field, field.text()) : label_of_default(field);
     const float room = width - ImGui::GetFrameHeight() - 2 * ImGui::GetStyle().FramePadding.x;
@@ -124,7 +124,7 @@ void choice_field(Ui& ui, const ImportField& field) {
     if (!begin_dropdown(ui, field.mark(), fitted_text(now, room), field.option.label, ImGuiComboFlags_HeightLargest)) {
         return;
     }
-    offered_choices(ui, field);
+    offered_choices(ui, imports, field);
     ImGui::EndCombo();
 }
 
@@ -141,8 +141,8 @@ void number_option(Ui& ui, const ImportField& field) {
     if (wanted) set_option(ui, field, formatted("%.6g", *wanted));
 }
 
-void trim_field(Ui& ui, const ImportField& field) {
-    const double seconds = ui.session.importing.offer ? ui.session.importing.offer->seconds : 0;
+void trim_field(Ui& ui, Imports& imports, const ImportField& field) {
+    const double seconds = imports.edited.offer ? imports.edited.offer->seconds : 0;
     const auto [begin, end] = field.clip.options.trim.value_or(std::pair(0.0, seconds));
     const float spacing = ui.px(6);
     const float width = (ImGui::CalcItemWidth() - spacing) / 2;
@@ -166,7 +166,7 @@ void trim_field(Ui& ui, const ImportField& field) {
 }
 
 /// Why the file alone leads to what is taken, what looks wrong with it, and what was refused.
-void field_remarks(Ui& ui, const ImportField& field, float left) {
+void field_remarks(Ui& ui, Imports& imports, const ImportField& field, float left) {
     const auto line = [&](ImU32 color, const std::string& text) {
         ImGui::SetCursorPosX(left);
         words(color, text);
@@ -184,16 +184,16 @@ void field_remarks(Ui& ui, const ImportField& field, float left) {
         line(ui.style.warning, "! " + said(warning));
         ui.mark(field.mark() + ".warning");
     }
-    const auto refused = ui.session.importing.refused.find(field.option.key);
-    if (refused != ui.session.importing.refused.end()) {
+    const auto refused = imports.edited.refused.find(field.option.key);
+    if (refused != imports.edited.refused.end()) {
         line(ui.style.error, "\u00D7 " + refused->second.text + ": " + refused->second.why);
         ui.mark(field.mark() + ".error");
     }
     ImGui::PopFont();
 }
 
-void import_field(Ui& ui, const ImportField& field) {
-    ClipImport& now = ui.session.importing;
+void import_field(Ui& ui, Imports& imports, const ImportField& field) {
+    ClipImport& now = imports.edited;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const bool asked_for = now.field == field.option.key;
     ImGui::PushID(field.option.key);
@@ -204,14 +204,14 @@ void import_field(Ui& ui, const ImportField& field) {
     const float reset = button_width("reset") + ui.px(6);
     ImGui::SetNextItemWidth(-reset);
     if (field.option.key == std::string_view("trim")) {
-        trim_field(ui, field);
+        trim_field(ui, imports, field);
     } else if (field.option.is_number() && (!field.offer || field.offer->choices.empty())) {
         number_option(ui, field);
     } else if (field.option.key == std::string_view("columns")) {
         if (const std::optional<std::string> typed = text_edit(ui, field.mark(), field.text()))
             set_option(ui, field, *typed);
     } else {
-        choice_field(ui, field);
+        choice_field(ui, imports, field);
     }
     if (field.given() && !(field.offer && field.offer->required)) {
         ImGui::SameLine(0, ui.px(6));
@@ -219,7 +219,7 @@ void import_field(Ui& ui, const ImportField& field) {
         ui.mark(field.mark() + ".reset");
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("As the file says");
     }
-    field_remarks(ui, field, left);
+    field_remarks(ui, imports, field, left);
     ImGui::PopStyleVar();
     ImGui::Dummy({0, ui.px(1)});
     ImGui::PopID();
@@ -237,14 +237,14 @@ void import_field(Ui& ui, const ImportField& field) {
 
 /// A clip of the scene to go on with.
 void clip_chooser(Ui& ui, int index) {
-    const auto& clips = ui.session.scene().clips;
+    const auto& clips = ui.workspace.scene().clips;
     form_label(ui, "Clip", "Which clip of the scene");
     if (!begin_dropdown(ui, "import.clip", clips[static_cast<std::size_t>(index)].name, "Clip")) return;
     clipped_rows(ui, "clips", static_cast<int>(clips.size()), ImGui::GetTextLineHeightWithSpacing(), [&](int i) {
         const SceneClip& clip = clips[static_cast<std::size_t>(i)];
         ImGui::PushID(i);
         ImGui::BeginDisabled(!clip.source);
-        if (ImGui::Selectable(clip.name.c_str(), i == index)) invoke(ui.session, "clip.import", clip.name);
+        if (ImGui::Selectable(clip.name.c_str(), i == index)) ui.invoke("clip.import", clip.name);
         ImGui::EndDisabled();
         ImGui::PopID();
         ui.mark("import.clip." + std::to_string(i), OwnKeys::none, clip.name);
@@ -254,11 +254,10 @@ void clip_chooser(Ui& ui, int index) {
     ImGui::EndCombo();
 }
 
-void whole_file(Ui& ui, int index) {
-    const std::size_t clips = clips_of_same_source(ui.session.scene(), index).size();
+void whole_file(Ui& ui, Imports& imports, int index) {
+    const std::size_t clips = clips_of_same_source(ui.workspace.scene(), index).size();
     if (clips < 2) return;
-    ImGui::Checkbox(("for all " + std::to_string(clips) + " clips of this file").c_str(),
-                    &ui.session.importing.whole_file);
+    ImGui::Checkbox(("for all " + std::to_string(clips) + " clips of this file").c_str(), &imports.edited.whole_file);
     ui.mark("import.whole_file");
     if (ImGui::IsItemHovered()) {
         ImGui::SetTooltip(
@@ -266,10 +265,10 @@ void whole_file(Ui& ui, int index) {
     }
 }
 
-void fields(Ui& ui, const SceneClip& clip, int index) {
-    const ClipImport& now = ui.session.importing;
-    if (ui.session.scene().clips.size() > 1) clip_chooser(ui, index);
-    whole_file(ui, index);
+void fields(Ui& ui, Imports& imports, const SceneClip& clip, int index) {
+    const ClipImport& now = imports.edited;
+    if (ui.workspace.scene().clips.size() > 1) clip_chooser(ui, index);
+    whole_file(ui, imports, index);
     if (!now.offer) {
         words(now.unreadable.empty() ? ui.style.quiet : ui.style.error,
               now.unreadable.empty() ? "Reading the file..." : now.unreadable);
@@ -280,7 +279,7 @@ void fields(Ui& ui, const SceneClip& clip, int index) {
         const ImportField field{option, now.offer->find(option.key), clip};
         if (!field.offer && !field.given()) continue;
         shown.push_back(option.key);
-        import_field(ui, field);
+        import_field(ui, imports, field);
     }
     for (const ImportWarning& warning : clip.facts.warnings) {
         if (std::ranges::find(shown, warning.option) == shown.end()) words(ui.style.warning, "! " + said(warning));
@@ -298,13 +297,12 @@ std::string said_of(const SceneClip& clip) {
 
 }  // namespace
 
-void import_dialog(Ui& ui) {
-    Session& session = ui.session;
-    const int index = session.importing.clip;
-    const auto& clips = session.scene().clips;
+void import_dialog(Ui& ui, Imports& imports) {
+    const int index = imports.edited.clip;
+    const auto& clips = ui.workspace.scene().clips;
     const bool is_there = index >= 0 && static_cast<std::size_t>(index) < clips.size();
     if (!is_there || !clips[static_cast<std::size_t>(index)].source) {
-        session.enqueue([&session] { session.close_dialog(); });  // the clip, or that it has a file, was undone
+        ui.later(&Dialogs::close);  // the clip, or that it has a file, was undone
         return;
     }
     const SceneClip& clip = clips[static_cast<std::size_t>(index)];
@@ -320,11 +318,11 @@ void import_dialog(Ui& ui) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(8), ui.px(2)});
     ImGui::PushID(index);  // what is half typed into a field is no other clip's
     ImGui::BeginChild("fields", {left, height}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
-    fields(ui, clip, index);
+    fields(ui, imports, clip, index);
     ImGui::EndChild();
     ImGui::SameLine();
     ImGui::BeginChild("preview", {0, height}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
-    import_preview(ui, clip);
+    import_preview(ui, imports, clip);
     ImGui::EndChild();
     ImGui::PopID();
     ImGui::PopStyleVar();
@@ -336,7 +334,7 @@ void import_dialog(Ui& ui) {
     const float close = button_width("Close");
     ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - close);
     if (marked_button(ui, "Close", "import.close", true) || (pressed(ImGuiKey_Enter) && !keys_are_taken)) {
-        session.enqueue([&session] { session.close_dialog(); });
+        ui.later(&Dialogs::close);
     }
     end_dialog();
 }

@@ -99,7 +99,7 @@ void heading_arrow(Ui& ui, ImVec2 from, glm::dvec2 heading) {
 }
 
 /// The way over the floor from above, to scale, with the disk of the moment.
-void path_from_above(Ui& ui, const mobb::Clip& clip, ImVec2 size) {
+void path_from_above(Ui& ui, Imports& imports, const mobb::Clip& clip, ImVec2 size) {
     const Plot in = plot(ui, size, "import.path");
     const std::span<const mobb::Disk> samples = clip.samples();
     glm::dvec2 low(std::numeric_limits<double>::max());
@@ -126,7 +126,7 @@ void path_from_above(Ui& ui, const mobb::Clip& clip, ImVec2 size) {
     std::vector<ImVec2> line;
     thinned(samples.size(), kMostPoints, [&](std::size_t i) { line.push_back(at(samples[i].x, samples[i].y)); });
     list.AddPolyline(line.data(), static_cast<int>(line.size()), ui.style.text, 0, ui.px(1.5f));
-    const mobb::Disk& now = samples[static_cast<std::size_t>(sample_at(clip, ui.session.importing.time))];
+    const mobb::Disk& now = samples[static_cast<std::size_t>(sample_at(clip, imports.edited.time))];
     list.AddCircle(at(now.x, now.y), static_cast<float>(now.r * scale), ui.style.accent, 0, ui.px(2));
     list.AddCircleFilled(at(now.x, now.y), ui.px(3), ui.style.accent);
     const ImVec2 start = at(samples.front().x, samples.front().y);
@@ -163,7 +163,7 @@ BodySize size_of(const Skeleton& skeleton, const std::vector<bool>& inside, int 
 }
 
 /// The bones at the moment from the side and from the front, on one floor, beside a person's height.
-void body(Ui& ui, const SceneClip& clip, ImVec2 size) {
+void body(Ui& ui, Imports& imports, const SceneClip& clip, ImVec2 size) {
     const Plot in = plot(ui, size, "import.body");
     const Skeleton& skeleton = *clip.skeleton;
     const std::vector<bool> inside = subtree(skeleton.joints, skeleton.root);
@@ -185,7 +185,7 @@ void body(Ui& ui, const SceneClip& clip, ImVec2 size) {
                  to_im(with_alpha(ui.style.palette.text, 0.18f)), ui.px(1));
     const std::optional<glm::dvec2> heading = heading_of(clip.clip->samples());
     const glm::dvec2 ahead = heading.value_or(glm::dvec2(1, 0));
-    const auto positions = skeleton.at(sample_at(*clip.clip, ui.session.importing.time));
+    const auto positions = skeleton.at(sample_at(*clip.clip, imports.edited.time));
     for (int view = 0; view < 2; ++view) {
         const glm::dvec2 across = view == 0 ? ahead : glm::dvec2(ahead.y, -ahead.x);
         const float middle = in.min.x + ruler + room * (static_cast<float>(view) + 0.5f);
@@ -209,12 +209,12 @@ void body(Ui& ui, const SceneClip& clip, ImVec2 size) {
 }
 
 /// The clip's moment under the mouse, while a button holds it there.
-void scrub(Ui& ui, const ChartAxis& x, double duration) {
+void scrub(Imports& imports, const ChartAxis& x, double duration) {
     if (!ImGui::IsItemActive()) return;
-    ui.session.importing.time = std::clamp(x.value(ImGui::GetIO().MousePos.x), 0.0, duration);
+    imports.edited.time = std::clamp(x.value(ImGui::GetIO().MousePos.x), 0.0, duration);
 }
 
-void radius_over_time(Ui& ui, const mobb::Clip& clip, const PathFigures& figures, ImVec2 size) {
+void radius_over_time(Ui& ui, Imports& imports, const mobb::Clip& clip, const PathFigures& figures, ImVec2 size) {
     const Plot in = plot(ui, size, "import.radius_chart");
     const float caption = ui.style.caption->FontSize;
     const std::pair<std::string, double> levels[] = {
@@ -228,7 +228,7 @@ void radius_over_time(Ui& ui, const mobb::Clip& clip, const PathFigures& figures
     const ChartAxis y{0, top, in.max.y - ui.px(4), in.min.y + caption + ui.px(6)};
     ImGui::SetCursorScreenPos(in.min);
     ImGui::InvisibleButton("radius", size);
-    scrub(ui, x, clip.duration());
+    scrub(imports, x, clip.duration());
     ImDrawList& list = *ImGui::GetWindowDrawList();
     // Labels one below the other, however near the values are.
     float least = in.min.y;
@@ -247,15 +247,15 @@ void radius_over_time(Ui& ui, const mobb::Clip& clip, const PathFigures& figures
         curve.push_back({x.pixel((static_cast<double>(i) + 0.5) * clip.dt()), y.pixel(samples[i].r)});
     });
     list.AddPolyline(curve.data(), static_cast<int>(curve.size()), ui.style.text, 0, ui.px(1.5f));
-    const float now = x.pixel(ui.session.importing.time);
+    const float now = x.pixel(imports.edited.time);
     list.AddLine({now, in.min.y}, {now, in.max.y}, ui.style.accent, ui.px(1.5f));
     note(ui, {in.min.x + ui.px(10), in.min.y + ui.px(3)}, ui.style.quiet, "radius over time");
 }
 
 /// The file's time with the part that is taken, and the moment that is shown: a bar to scrub on, and below it a handle
 /// at each end of the part.
-void time_bar(Ui& ui, const SceneClip& clip, double seconds) {
-    ClipImport& now = ui.session.importing;
+void time_bar(Ui& ui, Imports& imports, const SceneClip& clip, double seconds) {
+    ClipImport& now = imports.edited;
     const auto trim = clip.options.trim;
     const double begin = trim ? trim->first : 0;
     const double end = trim ? std::min(trim->second, seconds) : seconds;
@@ -307,7 +307,7 @@ void time_bar(Ui& ui, const SceneClip& clip, double seconds) {
     ImGui::Dummy({width, caption + ui.style.caption->FontSize - corner.y});
     if (first == begin && last == end) return;
     const bool all = first <= 0 && last >= seconds;
-    invoke(ui.session, "clip.set", all ? "trim" : formatted("trim %.6g %.6g", std::max(first, 0.0), last));
+    ui.invoke("clip.set", all ? "trim" : formatted("trim %.6g %.6g", std::max(first, 0.0), last));
 }
 
 void figures_of_clip(Ui& ui, const mobb::Clip& clip, const PathFigures& figures) {
@@ -332,8 +332,8 @@ void figures_of_clip(Ui& ui, const mobb::Clip& clip, const PathFigures& figures)
 
 }  // namespace
 
-void import_preview(Ui& ui, const SceneClip& clip) {
-    ClipImport& now = ui.session.importing;
+void import_preview(Ui& ui, Imports& imports, const SceneClip& clip) {
+    ClipImport& now = imports.edited;
     const PathFigures figures = figures_of(*clip.clip);
     now.time = std::clamp(now.time, 0.0, clip.clip->duration());
     const ImVec2 room = ImGui::GetContentRegionAvail();
@@ -343,14 +343,14 @@ void import_preview(Ui& ui, const SceneClip& clip) {
     const float chart = std::clamp(0.22f * room.y, ui.px(48), ui.px(104));
     const float height = std::max(ui.px(80), room.y - bar - words - chart - 4 * gap);
     const float half = std::floor((room.x - gap) / 2);
-    path_from_above(ui, *clip.clip, {clip.skeleton ? half : room.x, height});
+    path_from_above(ui, imports, *clip.clip, {clip.skeleton ? half : room.x, height});
     if (clip.skeleton) {
         ImGui::SameLine(0, gap);
-        body(ui, clip, {room.x - half - gap, height});
+        body(ui, imports, clip, {room.x - half - gap, height});
     }
-    radius_over_time(ui, *clip.clip, figures, {room.x, chart});
+    radius_over_time(ui, imports, *clip.clip, figures, {room.x, chart});
     const double seconds = now.offer && now.offer->find("trim") ? now.offer->seconds : 0;
-    if (seconds > 0) time_bar(ui, clip, seconds);
+    if (seconds > 0) time_bar(ui, imports, clip, seconds);
     figures_of_clip(ui, *clip.clip, figures);
 }
 

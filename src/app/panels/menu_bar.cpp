@@ -64,7 +64,7 @@ void search(Ui& ui, float left, float right) {
     const std::string key(first_shortcut(*find_command("go.palette")));
     const float key_width = text_size(*ui.style.mono, key).x;
     const float y = (min.y + max.y - ui.style.body->FontSize) / 2;
-    const char* all = ui.session.reviewing() ? "Search commands, cases" : "Search commands, agents, nodes";
+    const char* all = ui.session.reviews.shown() ? "Search commands, cases" : "Search commands, agents, nodes";
     for (const char* text : {all, "Search commands", "Search"}) {
         if (ImGui::CalcTextSize(text).x + key_width + 3 * pad > width) continue;
         draw.AddText({min.x + pad, y}, ui.style.quiet, text);
@@ -91,7 +91,8 @@ float file_title(Ui& ui, float left, float right) {
     ImGui::InvisibleButton("##title", {width + dot, ImGui::GetFrameHeight()});
     ui.mark_only("menu.title");
     if (ImGui::IsItemHovered()) {
-        const std::string file = session.file() && !session.reviewing() ? session.file()->string() : title;
+        const std::string file =
+            session.workspace.file && !session.reviews.shown() ? session.workspace.file->string() : title;
         ImGui::SetTooltip("%s%s", file.c_str(), modified ? "\nnot saved" : "");
     }
     draw.PushClipRect({x, 0}, {x + width, 2 * middle}, true);
@@ -116,7 +117,7 @@ void menu_bar(Ui& ui) {
         ImGui::EndMenu();
     }
     const float left = ImGui::GetCursorPosX();
-    const float right = file_title(ui, left, message_bell(ui));
+    const float right = file_title(ui, left, message_bell(ui, ui.session.notifications));
     search(ui, left, right);
     ImGui::EndMainMenuBar();
 }

@@ -46,11 +46,11 @@ struct MessagePlace {
     float width;
 };
 
-MessagePlace place_of(const Ui& ui) {
+MessagePlace place_of(const Ui& ui, Dialogs& dialogs) {
     const ImVec2 room = ImGui::GetIO().DisplaySize;
     const float gap = ui.px(12);
     // Below what a dialog says and asks.
-    if (ui.session.dialog != Dialog::none) {
+    if (dialogs.now != Dialog::none) {
         const float width = std::min(room.x - 2 * gap, ui.px(kWidest));
         return {{(room.x + width) / 2, room.y - gap}, width};
     }
@@ -75,19 +75,18 @@ float buttons_width(const Ui& ui, const Message& message) {
 }
 
 Wish buttons(Ui& ui, const Message& message, const std::string& mark) {
-    Session& session = ui.session;
     if (message.offer) {
         if (small_button(ui, message.offer->label.c_str(), mark + ".offer")) {
-            session.enqueue([&session, offer = *message.offer] {
-                if (session.dialog == Dialog::messages) session.close_dialog();
-                session.put_messages_away();
+            ui.later([offer = *message.offer](Session& session) {
+                if (session.dialogs.now == Dialog::messages) session.dialogs.close();
+                session.notifications.put_away();
                 run_command(session, offer.command, offer.argument);
             });
         }
         ImGui::SameLine();
     }
-    if (small_button(ui, "Copy", mark + ".copy", "Copy the text") && session.hooks.set_clipboard) {
-        session.hooks.set_clipboard(message.text);
+    if (small_button(ui, "Copy", mark + ".copy", "Copy the text")) {
+        ui.session.desktop->set_clipboard(message.text);
     }
     ImGui::SameLine();
     return small_button(ui, "x", mark + ".dismiss", "Take it off the list") ? Wish::dismiss : Wish::nothing;
@@ -144,17 +143,16 @@ void draw_bell(ImDrawList& draw, ImVec2 middle, float height, ImU32 color) {
 
 }  // namespace
 
-void messages(Ui& ui) {
-    Session& session = ui.session;
+void messages(Ui& ui, Notifications& notifications, Dialogs& dialogs) {
     std::vector<std::size_t> up;
-    for (std::size_t i = session.messages().size(); i-- > 0;) {
-        if (session.messages()[i].up) up.push_back(i);
+    for (std::size_t i = notifications.all().size(); i-- > 0;) {
+        if (notifications.all()[i].up) up.push_back(i);
     }
     if (up.empty()) return;
     const std::size_t shown = std::min(up.size(), kMostUp);
     float needed = 0;
-    for (std::size_t i = 0; i < shown; ++i) needed = std::max(needed, width_of(ui, session.messages()[up[i]]));
-    MessagePlace place = place_of(ui);
+    for (std::size_t i = 0; i < shown; ++i) needed = std::max(needed, width_of(ui, notifications.all()[up[i]]));
+    MessagePlace place = place_of(ui, dialogs);
     place.width = std::min(place.width, needed);
     ImGui::SetNextWindowPos(place.corner, ImGuiCond_Always, {1, 1});
     ImGui::SetNextWindowSizeConstraints({place.width, 0}, {place.width, ImGui::GetIO().DisplaySize.y / 2});
@@ -171,7 +169,7 @@ void messages(Ui& ui) {
     std::optional<std::size_t> gone;
     // The latest at the bottom, where the eye goes first.
     for (std::size_t i = shown; i-- > 0;) {
-        const Message& message = session.messages()[up[i]];
+        const Message& message = notifications.all()[up[i]];
         if (draw_message(ui, message, "message." + std::to_string(up[i]), "", true) == Wish::dismiss) gone = up[i];
     }
     if (up.size() > shown) {
@@ -179,13 +177,12 @@ void messages(Ui& ui) {
     }
     const bool held = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
     ImGui::End();
-    ui.want_frame_in(session.age_messages(ui.now, held));
-    if (gone) session.enqueue([&session, index = *gone] { session.dismiss(index); });
+    ui.want_frame_in(notifications.age(ui.now, held));
+    if (gone) ui.later([&notifications, index = *gone] { notifications.dismiss(index); });
 }
 
-float message_bell(Ui& ui) {
-    Session& session = ui.session;
-    const std::size_t unread = session.unread();
+float message_bell(Ui& ui, Notifications& notifications) {
+    const std::size_t unread = notifications.unread();
     const std::string count = unread > 0 ? std::to_string(unread) : "";
     const float pad = ui.px(10);
     const float height = ImGui::GetFrameHeight();
@@ -194,17 +191,17 @@ float message_bell(Ui& ui) {
     const float width = bell + number + pad;
     const float x = ImGui::GetWindowWidth() - width - ui.px(4);
     ImGui::SetCursorPos({x, 0});
-    if (ImGui::InvisibleButton("##bell", {width, height})) invoke(session, "help.messages");
+    if (ImGui::InvisibleButton("##bell", {width, height})) ui.invoke("help.messages");
     ui.mark("menu.bell");
     const bool hovered = ImGui::IsItemHovered();
     if (hovered) {
         const std::string key(first_shortcut(*find_command("help.messages")));
-        const std::string text = unread > 0                   ? counted(unread, "unread message", "unread messages")
-                                 : session.messages().empty() ? std::string("No messages")
-                                                              : std::string("Messages");
+        const std::string text = unread > 0                    ? counted(unread, "unread message", "unread messages")
+                                 : notifications.all().empty() ? std::string("No messages")
+                                                               : std::string("Messages");
         ImGui::SetTooltip("%s (%s)", text.c_str(), key.c_str());
     }
-    const bool error = std::ranges::any_of(session.messages(), [](const Message& message) {
+    const bool error = std::ranges::any_of(notifications.all(), [](const Message& message) {
         return !message.read && message.level == MessageLevel::error;
     });
     const ImU32 color = unread > 0 ? (error ? ui.style.error : ui.style.warning)
@@ -220,15 +217,14 @@ float message_bell(Ui& ui) {
     return x;
 }
 
-void message_list(Ui& ui) {
-    Session& session = ui.session;
-    DialogInput& input = session.input;
+void message_list(Ui& ui, Dialogs& dialogs, Notifications& notifications) {
+    DialogInput& input = dialogs.input;
     begin_dialog(ui, "message list", {kListWidth, kListHeight});
     dialog_title(ui, "Messages");
     const float foot = ImGui::GetFrameHeightWithSpacing() + ui.px(4);
     ImGui::BeginChild("list", {0, -foot}, false);
     ImGui::Dummy({0, ui.px(2)});
-    const std::vector<Message>& all = session.messages();
+    const std::vector<Message>& all = notifications.all();
     const int count = static_cast<int>(all.size());
     if (all.empty()) ImGui::TextDisabled("Nothing was said yet.");
     const bool moved = move_picked(input.picked, count);
@@ -255,21 +251,21 @@ void message_list(Ui& ui) {
     const auto index = all.size() - 1 - static_cast<std::size_t>(input.picked);
     const Message* picked = all.empty() ? nullptr : &all[index];
     if (picked && pressed(ImGuiKey_Delete)) gone = index;
-    if (picked && ImGui::GetIO().KeyCtrl && pressed(ImGuiKey_C) && session.hooks.set_clipboard) {
-        session.hooks.set_clipboard(picked->text);
+    if (picked && ImGui::GetIO().KeyCtrl && pressed(ImGuiKey_C)) {
+        ui.session.desktop->set_clipboard(picked->text);
     }
     if (marked_button(ui, "Close", "messages.close", true) || pressed(ImGuiKey_Enter)) {
-        session.enqueue([&session] { session.close_dialog(); });
+        ui.later(&Dialogs::close);
     }
     if (!all.empty()) {
         ImGui::SameLine();
-        if (marked_button(ui, "Clear", "messages.clear")) invoke(session, "help.clear_messages");
+        if (marked_button(ui, "Clear", "messages.clear")) ui.invoke("help.clear_messages");
         ImGui::SameLine();
         ImGui::AlignTextToFramePadding();
         ImGui::TextDisabled("Up and Down choose, Ctrl+C copies, Delete takes it off the list");
     }
     end_dialog();
-    if (gone) session.enqueue([&session, which = *gone] { session.dismiss(which); });
+    if (gone) ui.later([&notifications, which = *gone] { notifications.dismiss(which); });
     ui.want_frame_in(1);  // the ages go on
 }
 

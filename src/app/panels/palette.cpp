@@ -38,11 +38,11 @@ bool palette_row(Ui& ui, int index, bool picked, const std::string& text, const 
 }
 
 void run(Session& session, const Command& command, const std::string& argument) {
-    session.enqueue([&session, &command, argument] {
+    session.queue.push([&session, &command, argument] {
         if (argument.empty() && (command.needs_argument() || command.choices)) {
             return ask_for_argument(session, command);
         }
-        session.close_dialog();
+        session.dialogs.close();
         run_command(session, command.id, argument);
     });
 }
@@ -69,13 +69,12 @@ int pick_from_list(DialogInput& input, int count, bool entered, const Draw& draw
     return taken;
 }
 
-void all(Ui& ui) {
-    Session& session = ui.session;
-    DialogInput& input = session.input;
+void all(Ui& ui, Dialogs& dialogs) {
+    DialogInput& input = dialogs.input;
     const bool entered = text_field(ui, "Search commands, agents, clips, queries, nodes (A 2.1)").entered;
     ui.mark("palette.input");
     ImGui::Dummy({0, ui.px(2)});
-    const std::vector<PaletteEntry> entries = palette_entries(session, input.text);
+    const std::vector<PaletteEntry> entries = palette_entries(ui.session, input.text);
     if (entries.empty()) ImGui::TextDisabled("Nothing is called so.");
     const auto draw = [&](int i, bool picked) {
         const PaletteEntry& entry = entries[static_cast<std::size_t>(i)];
@@ -90,43 +89,42 @@ void all(Ui& ui) {
         return;
     }
     const PaletteEntry& entry = entries[static_cast<std::size_t>(taken)];
-    run(session, *entry.command, entry.argument);
+    run(ui.session, *entry.command, entry.argument);
 }
 
 /// The second step: what the command is to be done with.
-void argument(Ui& ui, const Command& command) {
-    Session& session = ui.session;
-    DialogInput& input = session.input;
+void argument(Ui& ui, Dialogs& dialogs, const Command& command) {
+    DialogInput& input = dialogs.input;
     ImGui::TextUnformatted(std::string(command.title).c_str());
     const bool entered = text_field(ui, std::string(command.argument).c_str()).entered;
     ui.mark("palette.input");
     ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
     ImGui::TextWrapped("%s", std::string(command.doc).c_str());
     ImGui::PopStyleColor();
-    const std::vector<std::string> choices = matching_choices(session, command, input.text);
+    const std::vector<std::string> choices = matching_choices(ui.session, command, input.text);
     const auto draw = [&](int i, bool picked) {
         const std::string& choice = choices[static_cast<std::size_t>(i)];
-        const bool chosen = command.chosen && command.chosen(session, choice);
+        const bool chosen = command.chosen && command.chosen(ui.session, choice);
         return palette_row(ui, i, picked, title_of_choice(command, choice), chosen ? "now" : "", "", true);
     };
     const int taken = pick_from_list(input, static_cast<int>(choices.size()), entered, draw);
-    if (taken >= 0) return run(session, command, choices[static_cast<std::size_t>(taken)]);
+    if (taken >= 0) return run(ui.session, command, choices[static_cast<std::size_t>(taken)]);
     if (!entered) return;
     if (input.text.empty()) {
         input.fresh = true;
         return;
     }
-    run(session, command, input.text);
+    run(ui.session, command, input.text);
 }
 
 }  // namespace
 
-void palette(Ui& ui) {
-    const Command* command = find_command(ui.session.input.command);
+void palette(Ui& ui, Dialogs& dialogs) {
+    const Command* command = find_command(dialogs.input.command);
     // A number needs no list.
     const bool has_list = !command || command->choices;
     begin_dialog(ui, "palette", {560, has_list ? 420.0f : 130.0f}, 0.25f);
-    command ? argument(ui, *command) : all(ui);
+    command ? argument(ui, dialogs, *command) : all(ui, dialogs);
     end_dialog();
 }
 

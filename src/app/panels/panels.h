@@ -15,41 +15,44 @@
 namespace mobbscope::app {
 
 void menu_bar(Ui& ui);
-void scene_panel(Ui& ui);                           ///< agents, clips, queries
-float placement_height(const Ui& ui);               ///< pixels; 0: nobody is selected who can be placed
-void placement_panel(Ui& ui);                       ///< the selected agent by numbers; else nothing
-void tree_panel(Ui& ui);                            ///< how trees are fitted and how tight they are
-void query_panel(Ui& ui, QueryPictures& pictures);  ///< the answer, and why
-void crowd_panel(Ui& ui);                           ///< who is followed, its last choice, its plays, and who collides
-void last_choice(Ui& ui);                           ///< of who is followed in a run, with its candidates
-void selection_panel(Ui& ui);                       ///< all numbers of what is selected
-void timeline(Ui& ui, QueryPictures& pictures);     ///< two clocks: time and step
+void scene_panel(Ui& ui, QueryInspector& queries);             ///< agents, clips, queries
+float placement_height(const Ui& ui, Settings& settings);      ///< pixels; 0: nobody is selected who can be placed
+void placement_panel(Ui& ui);                                  ///< the selected agent by numbers; else nothing
+void tree_panel(Ui& ui, Jobs& jobs, QueryInspector& queries);  ///< how trees are fitted and how tight they are
+void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures);  ///< the answer, and why
+void crowd_panel(Ui& ui, CrowdInspector& crowds);  ///< who is followed, its last choice, its plays, and who collides
+void last_choice(Ui& ui, CrowdInspector& crowds);  ///< of who is followed in a run, with its candidates
+void selection_panel(Ui& ui);                      ///< all numbers of what is selected
+void timeline(Ui& ui, Playback& playback, QueryInspector& queries,
+              QueryPictures& pictures);  ///< two clocks: time and step
 // Picture tests, which take the place of the scene's panels.
 void review_list(Ui& ui);                                           ///< the cases and what came of them
 std::optional<glm::ivec2> review_pictures(Ui& ui);                  ///< returns the pixel under the mouse
 void review_facts(Ui& ui, const std::optional<glm::ivec2>& pixel);  ///< what differs, files, what can be done
 void review_way_back(Ui& ui);                                       ///< over the scene of a case
 
-void dialogs(Ui& ui);                  ///< open, save, palette, help, unsaved changes, messages
-void messages(Ui& ui);                 ///< those over the picture
-float message_bell(Ui& ui);            ///< at the menu bar's right end; returns where it begins
-float status_height(const Ui& ui);     ///< pixels
-void status_bar(Ui& ui, ImVec2 size);  ///< how many there are of what, what is under the mouse, work under way
+void dialogs(Ui& ui);  ///< open, save, palette, help, unsaved changes, messages
+void messages(Ui& ui, Notifications& notifications, Dialogs& dialogs);  ///< those over the picture
+float message_bell(Ui& ui, Notifications& notifications);  ///< at the menu bar's right end; returns where it begins
+float status_height(const Ui& ui);                         ///< pixels
+void status_bar(Ui& ui, Jobs& jobs, QueryInspector& queries,
+                ImVec2 size);  ///< how many there are of what, what is under the mouse, work under way
 
 /// The whole window: panels with movable borders between them.
 void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pictures);
 
 // The dialogs, one function each; dialogs() calls the one that is open.
-void palette(Ui& ui);
-void file_dialog(Ui& ui);  ///< open, add, save as, where to export: a path is asked for
+void palette(Ui& ui, Dialogs& dialogs);
+void file_dialog(Ui& ui, Dialogs& dialogs,
+                 Settings& settings);  ///< open, add, save as, where to export: a path is asked for
 void help_sheet(Ui& ui);
 /// What the mouse does, as the help sheet says it; README says the same.
 std::span<const std::pair<const char*, const char*>> mouse_help();
 void about(Ui& ui);
-void message_list(Ui& ui);
-void import_dialog(Ui& ui);  ///< how a clip is read from its file
+void message_list(Ui& ui, Dialogs& dialogs, Notifications& notifications);
+void import_dialog(Ui& ui, Imports& imports);  ///< how a clip is read from its file
 /// The clip in the import dialog as it is: path, skeleton, radius over time, trim.
-void import_preview(Ui& ui, const SceneClip& clip);
+void import_preview(Ui& ui, Imports& imports, const SceneClip& clip);
 void export_dialog(Ui& ui);  ///< how a picture is exported: size, background, what is left out, a preview, the command
 void history_list(Ui& ui);   ///< what can be undone and redone, and the way there
 

@@ -28,12 +28,12 @@ void rename_agent(Ui& ui, int agent, const std::string& name) {
     form_label(ui, "Name", "What the agent is called in queries and pictures");
     const std::optional<std::string> text = text_edit(ui, "agent.name", name);
     if (!text) return;
-    ui.session.enqueue([&session = ui.session, agent, text = *text] { session.rename_agent(agent, text); });
+    ui.later([agent, text = *text](Edits& edits) { edits.rename_agent(agent, text); });
 }
 
 void color_field(Ui& ui, const PlacedAgent& who, int index) {
     form_label(ui, "Colour", nullptr);
-    const Rgba now = agent_color(ui.session.scene(), who, index);
+    const Rgba now = agent_color(ui.workspace.scene(), who, index);
     std::array<float, 3> rgb{now.r, now.g, now.b};
     const bool changed =
         ImGui::ColorEdit3("##agent.color", rgb.data(), ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel);
@@ -44,32 +44,31 @@ void color_field(Ui& ui, const PlacedAgent& who, int index) {
     if (!changed) return;
     const auto byte = [](float c) { return static_cast<std::uint8_t>(std::lround(255 * c)); };
     const Color wanted{byte(rgb[0]), byte(rgb[1]), byte(rgb[2])};
-    ui.session.enqueue([&session = ui.session, who, wanted] {
-        session.edit({"colouring " + who.name + ": " + to_string(wanted), "color"},
-                     [&](Scene& scene) { scene.agents.at(static_cast<std::size_t>(who.agent)).color = wanted; });
+    ui.later([who, wanted](Workspace& workspace) {
+        workspace.edit({"colouring " + who.name + ": " + to_string(wanted), "color"},
+                       [&](Scene& scene) { scene.agents.at(static_cast<std::size_t>(who.agent)).color = wanted; });
     });
 }
 
 /// The selected one, also by a node or a sample; none in a run, whose agents stand where they were simulated.
-std::optional<PlacedAgent> agent_to_place(const Session& session) {
-    if (session.crowd() || !session.selection.on_path()) return std::nullopt;
-    const auto who = placed_agent_of(session.fitted(), session.selection.path);
+std::optional<PlacedAgent> agent_to_place(const Workspace& workspace) {
+    if (workspace.crowd() || !workspace.selection.on_path()) return std::nullopt;
+    const auto who = placed_agent_of(workspace.fitted(), workspace.selection.path);
     return who && who->agent >= 0 ? who : std::nullopt;
 }
 
 }  // namespace
 
-float placement_height(const Ui& ui) {
-    if (!agent_to_place(ui.session)) return 0;
+float placement_height(const Ui& ui, Settings& settings) {
+    if (!agent_to_place(ui.workspace)) return 0;
     const float spacing = ui.px(5);
     const float around = 2 * ImGui::GetStyle().WindowPadding.y + ui.px(6) + spacing + ui.style.caption->FontSize;
-    if (is_folded(ui.session, "placement")) return around;
+    if (is_folded(settings, "placement")) return around;
     const float fields = 6 * (ImGui::GetFrameHeight() + spacing);
     return around + spacing + fields + ImGui::GetTextLineHeight();
 }
 
 void placement_panel(Ui& ui) {
-    Session& session = ui.session;
     const ImVec2 corner = ImGui::GetWindowPos();
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImVec2 end{corner.x + ImGui::GetWindowWidth(), corner.y + ui.px(1)};
@@ -77,7 +76,7 @@ void placement_panel(Ui& ui) {
     draw.AddRectFilled(corner, end, ui.style.border);
     draw.PopClipRect();
     // A list above may have selected something else in this frame.
-    const auto who = agent_to_place(session);
+    const auto who = agent_to_place(ui.workspace);
     if (!who || !section(ui, "PLACEMENT", cleaned(who->name))) return;
     // Of this agent: what is half typed into a field is no other's.
     ImGui::PushID(who->agent);
@@ -113,16 +112,16 @@ void placement_panel(Ui& ui) {
                                  .least = -mobb::kMaxTime,
                                  .most = mobb::kMaxTime},
                                 "Global time at which the clip begins");
-    color_field(ui, *who, session.selection.path.agent);
+    color_field(ui, *who, ui.workspace.selection.path.agent);
     if (changed) {
-        session.enqueue([&session, who = *who, placement] {
-            session.edit(name_of_placing(who.name, who.placement, placement),
-                         [&](Scene& scene) { place_agent(scene, who.agent, placement); });
+        ui.later([who = *who, placement](Workspace& workspace) {
+            workspace.edit(name_of_placing(who.name, who.placement, placement),
+                           [&](Scene& scene) { place_agent(scene, who.agent, placement); });
         });
     }
-    if (small_button(ui, "Duplicate", "agent.duplicate")) invoke(session, "agent.duplicate");
+    if (small_button(ui, "Duplicate", "agent.duplicate")) ui.invoke("agent.duplicate");
     ImGui::SameLine();
-    if (small_button(ui, "Remove", "agent.remove")) invoke(session, "agent.remove");
+    if (small_button(ui, "Remove", "agent.remove")) ui.invoke("agent.remove");
     ImGui::PopID();
 }
 

@@ -15,8 +15,8 @@ namespace {
 
 /// Which of the queries is in view, and the ways to the others.
 void query_header(Ui& ui) {
-    const std::size_t count = ui.session.fitted().queries().size();
-    const std::string which = std::to_string(*ui.session.view().query + 1) + " / " + std::to_string(count);
+    const std::size_t count = ui.workspace.fitted().queries().size();
+    const std::string which = std::to_string(*ui.workspace.view().query + 1) + " / " + std::to_string(count);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(6), ui.px(1)});
     ImGui::AlignTextToFramePadding();
     text_line(ui.style.quiet, count == 1 ? "Query" : "Query " + which);
@@ -28,7 +28,7 @@ void query_header(Ui& ui) {
     }
     flow(button_width("close"));
     query_button(ui, "close", "query.none");
-    if (ui.session.in_excerpt()) {
+    if (ui.workspace.in_excerpt()) {
         flow(button_width("back to the crowd"));
         command_button(ui, "back to the crowd", "crowd.back", "crowd.back");
     }
@@ -52,11 +52,11 @@ void answer_sign(Ui& ui, bool collide, ImU32 color) {
     if (ImGui::GetContentRegionAvail().x >= ui.px(kLeastWords)) ImGui::SameLine(0, ui.px(8));
 }
 
-void expectation(Ui& ui) {
-    const auto index = static_cast<std::size_t>(*ui.session.view().query);
-    const SceneQuery query = ui.session.fitted().queries()[index];
+void expectation(Ui& ui, QueryInspector& queries) {
+    const auto index = static_cast<std::size_t>(*ui.workspace.view().query);
+    const SceneQuery query = ui.workspace.fitted().queries()[index];
     if (query.expect) {
-        const auto wrong = disagreement(query, ui.session.answer_of(index));
+        const auto wrong = disagreement(query, queries.answer_of(index));
         if (!wrong) {
             words(ui.style.quiet, "As the scene expects.");
             return;
@@ -87,10 +87,9 @@ void right_aligned(const std::string& text, float right, ImU32 color) {
 
 /// What to do to see one.
 void no_query(Ui& ui) {
-    const Session& session = ui.session;
     if (!section(ui, "QUERY")) return;
-    const char* what = session.empty() ? "Open a scene to ask whether two agents collide."
-                       : session.fitted().queries().empty()
+    const char* what = ui.workspace.empty() ? "Open a scene to ask whether two agents collide."
+                       : ui.workspace.fitted().queries().empty()
                            ? "A query asks whether two agents ever collide. Make or add agents at the left: every "
                              "pair of them is asked by itself."
                            : "Choose a query at the left to see why the two collide, or why not.";
@@ -104,11 +103,11 @@ void query_button(Ui& ui, const char* label, const char* command) {
     command_button(ui, label, command, "query." + id.substr(id.find('.') + 1));
 }
 
-void query_panel(Ui& ui, QueryPictures& pictures) {
-    const std::shared_ptr<const QueryFindings> findings = ui.session.findings();
+void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures) {
+    const std::shared_ptr<const QueryFindings> findings = queries.findings();
     if (!findings) return no_query(ui);
     query_header(ui);
-    query_answer(ui, *findings);
+    query_answer(ui, queries, *findings);
     if (!findings->recursion.pairs.empty()) {
         step_transport(ui);
         current_test(ui, *findings);
@@ -116,14 +115,14 @@ void query_panel(Ui& ui, QueryPictures& pictures) {
         measured_pairs(ui, *findings);
         query_counters(ui, *findings);
         if (section(ui, "RECURSION: TIME OF A BY TIME OF B")) {
-            pictures.square(ui, *findings);
+            pictures.square(ui, queries, *findings);
             outcome_legend(ui);
         }
     }
-    if (section(ui, "CLEARANCE OVER TIME")) pictures.clearance(ui, *findings, ui.px(110));
+    if (section(ui, "CLEARANCE OVER TIME")) pictures.clearance(ui, queries, *findings, ui.px(110));
 }
 
-void query_answer(Ui& ui, const QueryFindings& findings) {
+void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings) {
     const bool collide = findings.clearance.contact.has_value();
     const EventMark mark = collide ? EventMark::hit : EventMark::separated;
     framed(ui, mark_color(ui.style, mark, 0.10f), mark_color(ui.style, mark), [&] {
@@ -136,11 +135,11 @@ void query_answer(Ui& ui, const QueryFindings& findings) {
         }
     });
     ui.mark("query.answer");
-    if (const auto& contact = ui.session.recorded()->contact) {
+    if (const auto& contact = ui.workspace.recorded()->contact) {
         contact_rows(ui, findings, *contact);
         query_button(ui, "Go to contact", "go.contact");
     }
-    expectation(ui);
+    expectation(ui, queries);
 }
 
 void query_counters(Ui& ui, const QueryFindings& findings) {
@@ -148,7 +147,7 @@ void query_counters(Ui& ui, const QueryFindings& findings) {
     const StepCounts total = findings.recursion.total();
     const StepCounts now = findings.recursion.so_far.empty()
                                ? StepCounts{}
-                               : findings.recursion.so_far[static_cast<std::size_t>(ui.session.step())];
+                               : findings.recursion.so_far[static_cast<std::size_t>(ui.workspace.step())];
     const float left = ImGui::GetCursorPosX();
     const float room = ImGui::GetContentRegionAvail().x;
     const float first = left + 0.68f * room;

@@ -19,7 +19,7 @@ namespace mobbscope::app {
 void query_button(Ui& ui, const char* label, const char* command);
 
 // These need a query in the view and its findings.
-void query_answer(Ui& ui, const QueryFindings& findings);
+void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings);
 void query_counters(Ui& ui, const QueryFindings& findings);
 /// Buttons that step, and the slider over the trace.
 void step_transport(Ui& ui);
@@ -34,14 +34,14 @@ void measured_pairs(Ui& ui, const QueryFindings& findings);
 class QueryPictures {
   public:
     /// A's time by B's: every pair of nodes that was tested.
-    void square(Ui& ui, const QueryFindings& findings);
+    void square(Ui& ui, QueryInspector& queries, const QueryFindings& findings);
     /// How far A and B are apart at each moment.
-    void clearance(Ui& ui, const QueryFindings& findings, float height);
+    void clearance(Ui& ui, QueryInspector& queries, const QueryFindings& findings, float height);
     /// The events of the trace as a strip, the present one marked; click and drag set the step. Nothing without a query
     /// in the view.
-    void strip(Ui& ui, float width, float height);
+    void strip(Ui& ui, QueryInspector& queries, float width, float height);
     /// The recursion, depth downwards; a click steps to a pair's first event. Nothing without a query in the view.
-    void icicle(Ui& ui, ImVec2 size);
+    void icicle(Ui& ui, QueryInspector& queries, ImVec2 size);
 
   private:
     template <class Cell>

@@ -37,13 +37,14 @@ bool contains(const PairCell& cell, ImVec2 at, ImVec2 mouse) {
 }
 
 /// The last cell that the mouse was in when the menu of the last widget was opened, with its tests.
-void cell_menu(Ui& ui, const Recursion& recursion, const std::vector<PairCell>& cells, ImVec2 at) {
+void cell_menu(Ui& ui, QueryInspector& queries, const Recursion& recursion, const std::vector<PairCell>& cells,
+               ImVec2 at) {
     context_menu(ui, [&]() -> std::vector<MenuEntry> {
         const ImVec2 mouse = ImGui::GetMousePosOnOpeningCurrentPopup();
         const auto under =
             std::find_if(cells.rbegin(), cells.rend(), [&](const PairCell& cell) { return contains(cell, at, mouse); });
-        if (under == cells.rend()) return test_menu(ui.session, ui.session.step());
-        return test_menu(ui.session, recursion.pairs[static_cast<std::size_t>(under->pair)].last);
+        if (under == cells.rend()) return test_menu(ui.workspace, queries, ui.workspace.step());
+        return test_menu(ui.workspace, queries, recursion.pairs[static_cast<std::size_t>(under->pair)].last);
     });
 }
 
@@ -130,7 +131,7 @@ std::string tooltip(const QueryFindings& findings, const mobb::Trace& trace, con
 
 }  // namespace
 
-void QueryPictures::square(Ui& ui, const QueryFindings& findings) {
+void QueryPictures::square(Ui& ui, QueryInspector& queries, const QueryFindings& findings) {
     const Recursion& recursion = findings.recursion;
     const float caption = ui.style.caption->FontSize;
     const float label = caption + ui.px(5);
@@ -146,11 +147,11 @@ void QueryPictures::square(Ui& ui, const QueryFindings& findings) {
     const bool clicked = ImGui::IsItemClicked();
 
     const std::vector<PairCell>& cells = square_.of(
-        ui.session.findings(), size, size, [&] { return square_cells(recursion, square.a, square.b, size, size); });
-    cell_menu(ui, recursion, cells, square.min);
+        queries.findings(), size, size, [&] { return square_cells(recursion, square.a, square.b, size, size); });
+    cell_menu(ui, queries, recursion, cells, square.min);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(square.min, square.max, ui.style.raised);
-    const int step = ui.session.step();
+    const int step = ui.workspace.step();
     const int present = recursion.pair_of[static_cast<std::size_t>(step)];
     // Later cells lie in earlier ones: the last that the mouse is in is the smallest.
     const PairCell* under = draw_cells(
@@ -181,13 +182,13 @@ void QueryPictures::square(Ui& ui, const QueryFindings& findings) {
     const RecursionPair& pair = recursion.pairs[static_cast<std::size_t>(under->pair)];
     const std::string more =
         under->merged > 1 ? "\nand " + std::to_string(under->merged - 1) + " smaller pairs here" : "";
-    ImGui::SetTooltip("%s%s", step_sentence(findings.sides, ui.session.recorded()->trace, pair.last).c_str(),
+    ImGui::SetTooltip("%s%s", step_sentence(findings.sides, ui.workspace.recorded()->trace, pair.last).c_str(),
                       more.c_str());
-    if (clicked) invoke(ui.session, "step.to", std::to_string(pair.last));
+    if (clicked) ui.invoke("step.to", std::to_string(pair.last));
 }
 
-void QueryPictures::icicle(Ui& ui, ImVec2 size) {
-    const std::shared_ptr<const QueryFindings> findings = ui.session.findings();
+void QueryPictures::icicle(Ui& ui, QueryInspector& queries, ImVec2 size) {
+    const std::shared_ptr<const QueryFindings> findings = queries.findings();
     const int width = static_cast<int>(size.x);
     if (!findings || findings->recursion.pairs.empty() || width < 1) return;
     const Recursion& recursion = findings->recursion;
@@ -199,10 +200,10 @@ void QueryPictures::icicle(Ui& ui, ImVec2 size) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::InvisibleButton("icicle", size);
     ui.mark_only("query.icicle");
-    cell_menu(ui, recursion, cells, at);
+    cell_menu(ui, queries, recursion, cells, at);
     const bool hovered = ImGui::IsItemHovered();
     const bool clicked = ImGui::IsItemClicked();
-    const int step = ui.session.step();
+    const int step = ui.workspace.step();
     const int present = recursion.pair_of[static_cast<std::size_t>(step)];
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.PushClipRect(at, {at.x + size.x, at.y + size.y}, true);
@@ -232,16 +233,16 @@ void QueryPictures::icicle(Ui& ui, ImVec2 size) {
     const RecursionPair& pair = recursion.pairs[static_cast<std::size_t>(under->pair)];
     const std::string more = under->merged > 1 ? "\nand " + std::to_string(under->merged - 1) + " more pairs here" : "";
     ImGui::SetTooltip("%s\n%d events here and below%s",
-                      step_sentence(findings->sides, ui.session.recorded()->trace, pair.last).c_str(),
+                      step_sentence(findings->sides, ui.workspace.recorded()->trace, pair.last).c_str(),
                       pair.end - pair.first, more.c_str());
-    if (clicked) invoke(ui.session, "step.to", std::to_string(pair.first));
+    if (clicked) ui.invoke("step.to", std::to_string(pair.first));
 }
 
-void QueryPictures::strip(Ui& ui, float width, float height) {
-    const std::shared_ptr<const QueryFindings> findings = ui.session.findings();
+void QueryPictures::strip(Ui& ui, QueryInspector& queries, float width, float height) {
+    const std::shared_ptr<const QueryFindings> findings = queries.findings();
     const int columns = static_cast<int>(width);
     if (!findings || findings->recursion.pairs.empty() || columns < 1) return;
-    const mobb::Trace& trace = ui.session.recorded()->trace;
+    const mobb::Trace& trace = ui.workspace.recorded()->trace;
     const std::vector<StripCell>& cells = strip_.of(findings, columns, 0, [&] { return strip_cells(trace, columns); });
 
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -252,8 +253,10 @@ void QueryPictures::strip(Ui& ui, float width, float height) {
         const auto index = static_cast<std::size_t>(inside / width * static_cast<float>(cells.size()));
         return cells[std::min<std::size_t>(index, cells.size() - 1)];
     };
-    context_menu(ui, [&] { return test_menu(ui.session, cell_at(ImGui::GetMousePosOnOpeningCurrentPopup().x).first); });
-    const int step = ui.session.step();
+    context_menu(ui, [&] {
+        return test_menu(ui.workspace, queries, cell_at(ImGui::GetMousePosOnOpeningCurrentPopup().x).first);
+    });
+    const int step = ui.workspace.step();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(at, {at.x + width, at.y + height}, ui.style.raised);
     const float room = height - ui.px(4);  // the rest is for the marker
@@ -271,7 +274,7 @@ void QueryPictures::strip(Ui& ui, float width, float height) {
     if (!active && !ImGui::IsItemHovered()) return;
     const StripCell cell = cell_at(ImGui::GetIO().MousePos.x);
     ImGui::SetTooltip("%s", tooltip(*findings, trace, cell).c_str());
-    if (active && (step < cell.first || step >= cell.end)) invoke(ui.session, "step.to", std::to_string(cell.first));
+    if (active && (step < cell.first || step >= cell.end)) ui.invoke("step.to", std::to_string(cell.first));
 }
 
 }  // namespace mobbscope::app

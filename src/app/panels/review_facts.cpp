@@ -227,7 +227,7 @@ void path_of_file(Ui& ui, const char* label, const std::string& path) {
     text_line(ui.style.text, shown);
     if (!ImGui::IsItemHovered()) return;
     ImGui::SetTooltip("%s\nClick to copy", path.c_str());
-    if (ImGui::IsItemClicked() && ui.session.hooks.set_clipboard) ui.session.hooks.set_clipboard(path);
+    if (ImGui::IsItemClicked()) ui.session.desktop->set_clipboard(path);
 }
 
 void files(Ui& ui, const Review& review, const ReviewCase& one, const ReviewPictures& pictures) {
@@ -252,7 +252,7 @@ void files(Ui& ui, const Review& review, const ReviewCase& one, const ReviewPict
 }  // namespace
 
 void review_facts(Ui& ui, const std::optional<glm::ivec2>& pixel) {
-    Review& review = *ui.session.review();
+    Review& review = *ui.session.reviews.review();
     const ReviewCase& one = review.shown();
     const ReviewPictures& pictures = review.pictures();
     heading(ui, "CASE", std::to_string(review.current() + 1) + " of " + std::to_string(review.cases().size()));

@@ -187,7 +187,7 @@ void order_and_filter(Ui& ui, const Review& review) {
 }  // namespace
 
 void review_list(Ui& ui) {
-    const Review& review = *ui.session.review();
+    const Review& review = *ui.session.reviews.review();
     heading(ui, "PICTURE TESTS", counted(review.cases().size(), "case", "cases"));
     words(ui.style.quiet, sum_of(review));
     ui.mark_only("review.sum");
@@ -216,7 +216,7 @@ void review_list(Ui& ui) {
 }
 
 void review_way_back(Ui& ui) {
-    const std::string& name = ui.session.open_case_name();
+    const std::string& name = ui.session.files.visited();
     if (name.empty()) return;
     heading(ui, "PICTURE TEST");
     words(ui.style.text, name);

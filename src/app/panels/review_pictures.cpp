@@ -243,8 +243,8 @@ void draw_view(Ui& ui, const ReviewLook& look, const PictureView& view, const Pi
 /// Changes how the pictures are looked at once the frame is drawn.
 template <class Change>
 void change_look(Ui& ui, const Change& change) {
-    ui.session.enqueue([&session = ui.session, change] {
-        if (session.review()) change(session.review()->look);
+    ui.session.queue.push([&session = ui.session, change] {
+        if (session.reviews.review()) change(session.reviews.review()->look);
     });
 }
 
@@ -284,7 +284,7 @@ void drag_pictures(Ui& ui, const ReviewLook& look, const PictureView& view, cons
 }  // namespace
 
 std::optional<glm::ivec2> review_pictures(Ui& ui) {
-    Review& review = *ui.session.review();
+    Review& review = *ui.session.reviews.review();
     const ReviewPictures& pictures = review.pictures();
     mode_buttons(ui, review);
     const ImVec2 min = ImGui::GetCursorScreenPos();

@@ -27,8 +27,8 @@ constexpr int kMostSceneRows = 9;
 
 /// Of which items the filter of the lists leaves some.
 template <class NameOf>
-std::vector<int> filtered(const Session& session, int count, const NameOf& name_of) {
-    const std::string wanted = lower(session.filter);
+std::vector<int> filtered(const Workspace& workspace, int count, const NameOf& name_of) {
+    const std::string wanted = lower(workspace.filter);
     std::vector<int> out;
     for (int i = 0; i < count; ++i) {
         if (wanted.empty() || lower(name_of(i)).find(wanted) != std::string::npos) out.push_back(i);
@@ -41,32 +41,31 @@ std::string count_text(std::size_t shown, std::size_t all) {
 }
 
 void filter_field(Ui& ui) {
-    Session& session = ui.session;
-    const std::size_t longest = std::max(agent_count(session), session.scene().clips.size());
-    if (longest <= static_cast<std::size_t>(kMostSceneRows) && session.filter.empty()) return;
+    const std::size_t longest = std::max(agent_count(ui.workspace), ui.workspace.scene().clips.size());
+    if (longest <= static_cast<std::size_t>(kMostSceneRows) && ui.workspace.filter.empty()) return;
     ImGui::Dummy({0, ui.px(2)});
     ImGui::SetNextItemWidth(-1);
-    ImGui::InputTextWithHint("##filter", "Filter the lists by name", &session.filter);
+    ImGui::InputTextWithHint("##filter", "Filter the lists by name", &ui.workspace.filter);
     ui.mark("scene.filter");
 }
 
 /// The right-click menu of a row, which is selected by it.
 void row_menu(Ui& ui, const Selection& self) {
     context_menu(ui, [&] {
-        ui.session.select(self);
+        ui.workspace.select(self);
         return selection_menu(ui.session);
     });
 }
 
 /// Of a row that is selected by a click: arrows through the list select too, so that keys are about what has the ring.
 void row_keys(Ui& ui, const Selection& self) {
-    if (ui.focus.arrived_at_last()) ui.session.select(self);
+    if (ui.focus.arrived_at_last()) ui.workspace.select(self);
     row_menu(ui, self);
 }
 
 /// What stands beside an agent: how long its clip is; of a run which move it plays.
-std::string clip_remark(const Session& session, const SceneClip& clip) {
-    return session.crowd() ? fitted_text(clip.name, 90) : formatted("%.1f s", clip.clip->duration());
+std::string clip_remark(const Workspace& workspace, const SceneClip& clip) {
+    return workspace.crowd() ? fitted_text(clip.name, 90) : formatted("%.1f s", clip.clip->duration());
 }
 
 /// A row with the buttons of its agents; `about` draws what belongs to the row itself, which is the last item then.
@@ -75,7 +74,7 @@ bool agents_row(Ui& ui, Row shown, const ListedAgents& listed, const std::functi
     const ImVec2 end{corner.x + ImGui::GetContentRegionAvail().x, corner.y + ImGui::GetFrameHeight()};
     const bool lit = ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(corner, end);
     shown.hovered = shown.hovered || lit;
-    shown.quiet = shown.quiet || are_hidden(ui.session, listed.who);
+    shown.quiet = shown.quiet || are_hidden(ui.workspace, listed.who);
     if (!listed.who.empty()) {
         shown.buttons = agent_buttons_width(ui);
         shown.right = lit ? shown.buttons : shown_buttons_width(ui, listed);
@@ -90,14 +89,13 @@ bool agents_row(Ui& ui, Row shown, const ListedAgents& listed, const std::functi
 
 /// One of what is seen: an agent, or in a scene without agents a clip where it is.
 void path_row(Ui& ui, const FittedScene& fitted, int index) {
-    Session& session = ui.session;
     const PlacedAgent& who = fitted.placed_agents()[static_cast<std::size_t>(index)];
     const Selection self{Selection::Kind::path, {index, -1, 0}, -1};
     const auto on_it = [&](const Selection& s) { return s.on_path() && s.path == self.path; };
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const SceneClip& clip = fitted.scene().clips[static_cast<std::size_t>(who.clip)];
     const ListedAgents listed{text_of_agent(who.name), {who.name}};
-    const bool hidden = are_hidden(session, listed.who);
+    const bool hidden = are_hidden(ui.workspace, listed.who);
     const auto about = [&] {
         row_keys(ui, self);
         const float side = ui.px(10);
@@ -112,73 +110,71 @@ void path_row(Ui& ui, const FittedScene& fitted, int index) {
         }
         if (!ImGui::IsItemHovered()) return;
         ui.hovered = self;
-        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) invoke(session, "view.frame");
+        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) ui.invoke("view.frame");
     };
     const bool clicked = agents_row(ui,
                                     {.mark = "agent." + std::to_string(index),
                                      .name = who.name,
-                                     .remark = clip_remark(session, clip),
-                                     .selected = on_it(session.selection),
-                                     .hovered = on_it(session.hovered),
+                                     .remark = clip_remark(ui.workspace, clip),
+                                     .selected = on_it(ui.workspace.selection),
+                                     .hovered = on_it(ui.workspace.hovered),
                                      .indent = ui.px(18)},
                                     listed, about);
-    if (clicked) session.select(self);
+    if (clicked) ui.workspace.select(self);
 }
 
 /// What the picture does not show as the scene has it, and the way back.
 void shown_buttons(Ui& ui) {
-    Session& session = ui.session;
-    const std::size_t hidden = session.view().hidden.size();
+    const std::size_t hidden = ui.workspace.view().hidden.size();
     if (hidden > 0) {
         const std::string label = "show " + std::to_string(hidden) + " hidden";
         // Of a run it stands there by itself.
-        if (!session.crowd()) flow(button_width(label.c_str()));
+        if (!ui.workspace.crowd()) flow(button_width(label.c_str()));
         if (small_button(ui, label.c_str(), "scene.show_all", "Bring everybody back into the picture  (Shift+V)")) {
-            invoke(session, "agent.show_all");
+            ui.invoke("agent.show_all");
         }
     }
-    if (session.crowd() || session.fitted().placed_agents().size() < 2) return;
-    const bool in_grid = session.view().arrange == Arrange::grid;
+    if (ui.workspace.crowd() || ui.workspace.fitted().placed_agents().size() < 2) return;
+    const bool in_grid = ui.workspace.view().arrange == Arrange::grid;
     const char* label = in_grid ? "where they are" : "in a grid";
     flow(button_width(label));
     if (small_button(ui, label, "scene.arrange",
                      in_grid ? "Draw them where they are"
                              : "Draw them apart from one another, with names; queries are asked where they are")) {
-        invoke(session, "view.arrange");
+        ui.invoke("view.arrange");
     }
-    if (in_grid && session.view().query) {
+    if (in_grid && ui.workspace.view().query) {
         words(ui.style.quiet, "A query is shown where the two are, not in the grid.");
     }
 }
 
 void agents(Ui& ui) {
-    Session& session = ui.session;
-    const FittedScene& fitted = session.fitted();
+    const FittedScene& fitted = ui.workspace.fitted();
     const bool has_agents = !fitted.scene().agents.empty();
     // Of a run its people; what they play before and after now is theirs.
     const auto count =
-        static_cast<int>(session.crowd() ? session.crowd()->agents.size() : fitted.placed_agents().size());
-    const std::vector<int> shown = filtered(session, count, [&](int i) -> const std::string& {
+        static_cast<int>(ui.workspace.crowd() ? ui.workspace.crowd()->agents.size() : fitted.placed_agents().size());
+    const std::vector<int> shown = filtered(ui.workspace, count, [&](int i) -> const std::string& {
         return fitted.placed_agents()[static_cast<std::size_t>(i)].name;
     });
-    const bool in_grid = is_in_grid(fitted.scene(), session.view());
+    const bool in_grid = is_in_grid(fitted.scene(), ui.workspace.view());
     const char* title = has_agents ? "AGENTS" : in_grid ? "CLIPS IN A GRID" : "CLIPS WHERE THEY ARE";
     if (!section(ui, title, count_text(shown.size(), static_cast<std::size_t>(count)))) return;
     rows(ui, "##agents", static_cast<int>(shown.size()), kMostSceneRows,
          [&](int i) { path_row(ui, fitted, shown[static_cast<std::size_t>(i)]); });
-    if (shows_bare_clips(session)) {
+    if (shows_bare_clips(ui.workspace)) {
         if (small_button(ui, "make these agents", "scene.make_agents",
                          "An agent for every clip, where it is: agents can be placed and asked")) {
-            invoke(session, "agent.make");
+            ui.invoke("agent.make");
         }
-    } else if (!session.crowd()) {
+    } else if (!ui.workspace.crowd()) {
         if (small_button(ui, "+ agent", "scene.add_agent", "Add an agent that plays one of the clips")) {
             ImGui::OpenPopup("add agent");
         }
         if (ImGui::BeginPopup("add agent")) {
             for (const SceneClip& clip : fitted.scene().clips) {
                 ImGui::PushID(&clip);  // names may look alike to ImGui
-                if (ImGui::MenuItem(clip.name.c_str())) invoke(session, "agent.add", clip.name);
+                if (ImGui::MenuItem(clip.name.c_str())) ui.invoke("agent.add", clip.name);
                 ImGui::PopID();
                 ui.mark("scene.add_agent." + clip.name, OwnKeys::none, clip.name);
             }
@@ -189,17 +185,16 @@ void agents(Ui& ui) {
 }
 
 void clip_row(Ui& ui, int index, float indent) {
-    Session& session = ui.session;
-    const SceneClip& clip = session.scene().clips[static_cast<std::size_t>(index)];
+    const SceneClip& clip = ui.workspace.scene().clips[static_cast<std::size_t>(index)];
     const Selection self{Selection::Kind::clip, {}, index};
     const bool warned = !clip.facts.warnings.empty();
-    const ListedAgents listed{kOfClip + clip.name, agents_of_clip(session, index)};
+    const ListedAgents listed{kOfClip + clip.name, agents_of_clip(ui.workspace, index)};
     const auto about = [&] {
         row_keys(ui, self);
         if (ImGui::IsItemHovered()) ui.hovered = self;
         if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) &&
-            find_command("clip.import")->enabled(session)) {
-            invoke(session, "clip.import", clip.name);
+            find_command("clip.import")->enabled(ui.session)) {
+            ui.invoke("clip.import", clip.name);
         }
         if (ImGui::IsItemHovered() && warned) {
             ImGui::SetTooltip("%s\n%s", clip.name.c_str(), said(clip.facts.warnings.front()).c_str());
@@ -209,12 +204,12 @@ void clip_row(Ui& ui, int index, float indent) {
                                     {.mark = "clip." + std::to_string(index),
                                      .name = clip.name,
                                      .remark = (warned ? "! " : "") + formatted("%.1f s", clip.clip->duration()),
-                                     .selected = session.selection == self,
-                                     .hovered = session.hovered == self,
+                                     .selected = ui.workspace.selection == self,
+                                     .hovered = ui.workspace.hovered == self,
                                      .indent = indent,
                                      .remark_color = warned ? ui.style.warning : 0},
                                     listed, about);
-    if (clicked) session.select(self);
+    if (clicked) ui.workspace.select(self);
 }
 
 /// A line of the list of clips: a clip, or the heading of a group.
@@ -224,8 +219,8 @@ struct ClipLine {
 };
 
 /// The lines that the filter leaves; a group that is folded has its heading alone.
-std::vector<ClipLine> clip_lines(const Session& session, const std::vector<int>& shown) {
-    const std::vector<ClipGroup>& groups = session.clip_groups();
+std::vector<ClipLine> clip_lines(const Workspace& workspace, const std::vector<int>& shown) {
+    const std::vector<ClipGroup>& groups = workspace.clip_groups();
     std::vector<ClipLine> out;
     if (groups.empty()) {
         for (const int clip : shown) out.push_back({-1, clip});
@@ -237,20 +232,19 @@ std::vector<ClipLine> clip_lines(const Session& session, const std::vector<int>&
         std::ranges::set_intersection(group.clips, shown, std::back_inserter(in_group));
         if (in_group.empty()) continue;
         out.push_back({g, -1});
-        if (session.folded_groups.contains(group.title)) continue;
+        if (workspace.folded_groups.contains(group.title)) continue;
         for (const int clip : in_group) out.push_back({g, clip});
     }
     return out;
 }
 
 void group_row(Ui& ui, int index) {
-    Session& session = ui.session;
-    const ClipGroup& group = session.clip_groups()[static_cast<std::size_t>(index)];
-    const ListedAgents listed{kOfGroup + group.title, agents_of_group(session, group)};
-    const bool folded = session.folded_groups.contains(group.title);
+    const ClipGroup& group = ui.workspace.clip_groups()[static_cast<std::size_t>(index)];
+    const ListedAgents listed{kOfGroup + group.title, agents_of_group(ui.workspace, group)};
+    const bool folded = ui.workspace.folded_groups.contains(group.title);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const auto about = [&] {
-        if (!listed.who.empty()) context_menu(ui, [&] { return shown_menu(session, listed); });
+        if (!listed.who.empty()) context_menu(ui, [&] { return shown_menu(ui.workspace, listed); });
         if (ImGui::IsItemHovered())
             ImGui::SetTooltip("%s\nClick to %s", group.title.c_str(), folded ? "unfold" : "fold");
         const float side = ui.px(3.5f);
@@ -271,47 +265,45 @@ void group_row(Ui& ui, int index) {
                                      .indent = ui.px(12)},
                                     listed, about);
     if (!clicked) return;
-    session.enqueue([&session, title = group.title] {
-        if (session.folded_groups.erase(title) == 0) session.folded_groups.insert(title);
+    ui.later([title = group.title](Workspace& workspace) {
+        if (workspace.folded_groups.erase(title) == 0) workspace.folded_groups.insert(title);
     });
 }
 
 void clips(Ui& ui) {
-    Session& session = ui.session;
-    const auto& all = session.scene().clips;
-    const std::vector<int> shown = filtered(session, static_cast<int>(all.size()), [&](int i) -> const std::string& {
-        return all[static_cast<std::size_t>(i)].name;
-    });
+    const auto& all = ui.workspace.scene().clips;
+    const std::vector<int> shown =
+        filtered(ui.workspace, static_cast<int>(all.size()),
+                 [&](int i) -> const std::string& { return all[static_cast<std::size_t>(i)].name; });
     if (!section(ui, "CLIPS", count_text(shown.size(), all.size()))) return;
-    const std::vector<ClipLine> lines = clip_lines(session, shown);
+    const std::vector<ClipLine> lines = clip_lines(ui.workspace, shown);
     rows(ui, "##clips", static_cast<int>(lines.size()), kMostSceneRows, [&](int i) {
         const ClipLine& line = lines[static_cast<std::size_t>(i)];
         line.clip < 0 ? group_row(ui, line.group) : clip_row(ui, line.clip, line.group < 0 ? 0 : ui.px(12));
     });
-    if (session.crowd()) return;
+    if (ui.workspace.crowd()) return;
     if (small_button(ui, "+ files", "scene.add_files", "Add clips, or the clips and agents of another scene")) {
-        invoke(session, "file.add");
+        ui.invoke("file.add");
     }
 }
 
-void queries(Ui& ui) {
-    Session& session = ui.session;
-    const auto count = static_cast<int>(session.fitted().queries().size());
-    const bool all_pairs = session.scene().queries.empty() && count > 1;
+void query_list(Ui& ui, QueryInspector& queries) {
+    const auto count = static_cast<int>(ui.workspace.fitted().queries().size());
+    const bool all_pairs = ui.workspace.scene().queries.empty() && count > 1;
     if (!section(ui, "QUERIES", (all_pairs ? "all pairs, " : "") + std::to_string(count))) return;
     rows(ui, "##queries", count, kMostSceneRows, [&](int i) {
-        const SceneQuery query = session.fitted().queries()[static_cast<std::size_t>(i)];
-        const Answer& answer = session.answer_of(static_cast<std::size_t>(i));
+        const SceneQuery query = ui.workspace.fitted().queries()[static_cast<std::size_t>(i)];
+        const Answer& answer = queries.answer_of(static_cast<std::size_t>(i));
         const Selection self{Selection::Kind::query, {}, i};
         const bool hit = answer.contact.has_value();
         const bool unexpected = query.expect && query.expect->collides != hit;
         const Palette& palette = ui.style.palette;
         const std::string found = hit ? formatted("hit %.2f s", answer.contact->time) : "miss";
         if (row(ui, {"query." + std::to_string(i), query.a.name + " against " + query.b.name,
-                     (unexpected ? "! " : "") + found, session.view().query == i, session.hovered == self, 0,
+                     (unexpected ? "! " : "") + found, ui.workspace.view().query == i, ui.workspace.hovered == self, 0,
                      to_im(readable(hit ? palette.hit : palette.separated, palette))})) {
-            invoke(session, session.view().query == i ? "query.none" : "query.select",
-                   session.view().query == i ? "" : std::to_string(i));
+            ui.invoke(ui.workspace.view().query == i ? "query.none" : "query.select",
+                      ui.workspace.view().query == i ? "" : std::to_string(i));
         }
         row_menu(ui, self);
         if (!ImGui::IsItemHovered()) return;
@@ -321,13 +313,13 @@ void queries(Ui& ui) {
     });
     if (count == 0)
         words(ui.style.quiet,
-              session.scene().agents.empty() ? "agents are asked, bare clips are not" : "needs two agents");
+              ui.workspace.scene().agents.empty() ? "agents are asked, bare clips are not" : "needs two agents");
 }
 
 }  // namespace
 
-void scene_panel(Ui& ui) {
-    if (ui.session.empty()) {
+void scene_panel(Ui& ui, QueryInspector& queries) {
+    if (ui.workspace.empty()) {
         words(ui.style.quiet, "Nothing is open");
         return;
     }
@@ -335,21 +327,20 @@ void scene_panel(Ui& ui) {
     agents(ui);
     clips(ui);
     // A run is asked for its conflicts.
-    if (!ui.session.crowd()) queries(ui);
+    if (!ui.workspace.crowd()) query_list(ui, queries);
 }
 
 void selection_panel(Ui& ui) {
-    const Session& session = ui.session;
-    if (session.empty()) return;
+    if (ui.workspace.empty()) return;
     if (!section(ui, "SELECTION")) return;
-    if (session.selection.kind == Selection::Kind::none || session.selection.kind == Selection::Kind::query) {
+    if (ui.workspace.selection.kind == Selection::Kind::none || ui.workspace.selection.kind == Selection::Kind::query) {
         words(ui.style.quiet,
               "Click a disk, a box or a name; click again for what lies behind.\n\nDrag to turn the view, Shift-drag "
               "to move it, "
               "roll the wheel to zoom. F1 says what can be done.");
         return;
     }
-    const Described what = describe(session.fitted(), session.selection);
+    const Described what = describe(ui.workspace.fitted(), ui.workspace.selection);
     ImGui::TextWrapped("%s", what.name.c_str());
     for (const auto& [key, value] : what.facts) {
         form_label(ui, key.c_str(), nullptr);

@@ -24,38 +24,38 @@ constexpr double kSweep = 1.6;               // seconds that the bar takes where
 
 /// "2 agents, 2 clips, 62 nodes, 21 tests": all of the scene, and the tests of the query in view. Of picture tests what
 /// came of them.
-std::string counts(const Session& session) {
-    if (session.reviewing()) {
-        const Review& review = *session.review();
+std::string counts(const Reviews& reviews, const Workspace& workspace) {
+    if (reviews.shown()) {
+        const Review& review = *reviews.review();
         return counted(review.cases().size(), "picture test", "picture tests") + ": " + sum_of(review);
     }
-    if (session.empty()) return "";
-    const FittedScene& fitted = *session.document().fitted;
-    const std::size_t agents = session.crowd() ? session.crowd()->agents.size() : session.scene().agents.size();
+    if (workspace.empty()) return "";
+    const FittedScene& fitted = *workspace.document().fitted;
+    const std::size_t agents = workspace.crowd() ? workspace.crowd()->agents.size() : workspace.scene().agents.size();
     std::size_t nodes = 0;
-    for (int clip = 0; clip < static_cast<int>(session.scene().clips.size()); ++clip) {
+    for (int clip = 0; clip < static_cast<int>(workspace.scene().clips.size()); ++clip) {
         nodes += fitted.tree(clip).nodes().size();
     }
     std::string out = agents > 0 ? counted(agents, "agent", "agents") + ", " : "";
-    out += counted(session.scene().clips.size(), "clip", "clips") + ", " + counted(nodes, "node", "nodes");
-    if (const RecordedQuery* recorded = session.recorded()) {
+    out += counted(workspace.scene().clips.size(), "clip", "clips") + ", " + counted(nodes, "node", "nodes");
+    if (const RecordedQuery* recorded = workspace.recorded()) {
         out += ", " + counted(recorded->trace.size(), "test", "tests");
     }
     return out;
 }
 
 /// What is under the mouse, as short as it can be said.
-std::string hover_facts(const Session& session) {
-    const Selection& what = session.hovered;
-    if (session.reviewing()) return "";
-    if (what.kind == Selection::Kind::none || !exists(session.fitted(), what)) return "";
+std::string hover_facts(const Workspace& workspace, const Reviews& reviews, const QueryInspector& queries) {
+    const Selection& what = workspace.hovered;
+    if (reviews.shown()) return "";
+    if (what.kind == Selection::Kind::none || !exists(workspace.fitted(), what)) return "";
     if (what.kind == Selection::Kind::query) {
         const auto index = static_cast<std::size_t>(what.index);
-        return sentence(session.fitted().queries()[index], session.answer_of(index).contact);
+        return sentence(workspace.fitted().queries()[index], queries.answer_of(index).contact);
     }
     constexpr std::array<std::string_view, 7> kFacts{"clip",  "samples",   "time", "radius",
                                                      "speed", "tightness", "lasts"};
-    const Described described = describe(session.fitted(), what);
+    const Described described = describe(workspace.fitted(), what);
     std::string out = cleaned(described.name);
     for (const auto& [key, value] : described.facts) {
         if (std::ranges::find(kFacts, key) != kFacts.end()) out += "   " + key + ' ' + cleaned(value);
@@ -64,22 +64,21 @@ std::string hover_facts(const Session& session) {
 }
 
 /// The work under way: jobs of the scene, the oldest first, and behind them the run of picture tests.
-std::vector<const Job*> work_under_way(const Session& session) {
+std::vector<const Job*> work_under_way(const Jobs& jobs, const Reviews& reviews) {
     std::vector<const Job*> out;
-    for (std::size_t i = 0; i < session.job_count(); ++i) out.push_back(&session.job(i));
-    if (session.review() && session.review()->drawing()) out.push_back(session.review()->run());
+    for (std::size_t i = 0; i < jobs.count(); ++i) out.push_back(&jobs.job(i));
+    if (reviews.review() && reviews.review()->drawing()) out.push_back(reviews.review()->run());
     return out;
 }
 
 /// Ends the first of it.
-void cancel_first(Session& session) {
-    if (session.job()) return session.cancel_job(0);
-    session.cancel_review_run();
+void cancel_first(Jobs& jobs, Reviews& reviews) {
+    if (jobs.job()) return jobs.cancel(0);
+    reviews.cancel_run();
 }
 
 /// The work under way from `right` to the left; returns where it begins.
 float job_part(Ui& ui, const std::vector<const Job*>& work, float right) {
-    Session& session = ui.session;
     const Job& job = *work.front();
     ui.want_frame_in(kProgressFrame);
     std::string title = job.title();
@@ -111,7 +110,8 @@ float job_part(Ui& ui, const std::vector<const Job*>& work, float right) {
     ImGui::Dummy({width, line});
     ui.mark("job.0.bar");
     ImGui::SetCursorPos({right - button, y});
-    if (small_button(ui, "Cancel", "job.0.cancel")) session.enqueue([&session] { cancel_first(session); });
+    if (small_button(ui, "Cancel", "job.0.cancel"))
+        ui.later([](Jobs& jobs, Reviews& reviews) { cancel_first(jobs, reviews); });
     return left;
 }
 
@@ -119,7 +119,7 @@ float job_part(Ui& ui, const std::vector<const Job*>& work, float right) {
 
 float status_height(const Ui& ui) { return std::floor(ui.style.caption->FontSize + ui.px(6)); }
 
-void status_bar(Ui& ui, ImVec2 size) {
+void status_bar(Ui& ui, Jobs& jobs, QueryInspector& queries, ImVec2 size) {
     ImGui::SetCursorScreenPos({0, ImGui::GetIO().DisplaySize.y - size.y});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::BeginChild("status", size, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
@@ -141,15 +141,15 @@ void status_bar(Ui& ui, ImVec2 size) {
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("What the last frame took");
     }
     ImGui::SetCursorPosY(y);
-    const std::vector<const Job*> work = work_under_way(ui.session);
+    const std::vector<const Job*> work = work_under_way(jobs, ui.session.reviews);
     if (!work.empty()) right = job_part(ui, work, right) - pad;
     // What there is least room for is what is under the mouse: its tooltip says it too.
-    const std::string all = fitted_text(counts(ui.session), std::max(right - pad, 0.0f));
+    const std::string all = fitted_text(counts(ui.session.reviews, ui.workspace), std::max(right - pad, 0.0f));
     ImGui::SetCursorPos({pad, y});
     ImGui::TextUnformatted(all.c_str());
     ui.mark("status.counts");
     const float left = pad + ImGui::CalcTextSize(all.c_str()).x + 2 * pad;
-    const std::string facts = hover_facts(ui.session);
+    const std::string facts = hover_facts(ui.workspace, ui.session.reviews, queries);
     if (!facts.empty() && right - left > ui.px(40)) {
         ImGui::SetCursorPos({left, y});
         text_line(ui.style.text, fitted_text(facts, right - left));

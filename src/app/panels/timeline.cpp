@@ -51,18 +51,17 @@ void time_ticks(Ui& ui, ImVec2 corner, float width, const mobb::Interval& span) 
 
 /// What the agent in question plays, move after move, and of everybody what was forced.
 void play_bars(Ui& ui, ImVec2 corner, ImVec2 size, const ChartAxis& time) {
-    const Session& session = ui.session;
-    const CrowdRun& crowd = *session.crowd();
+    const CrowdRun& crowd = *ui.workspace.crowd();
     const Palette& palette = ui.style.palette;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
     const auto until_next = [&](const Play& play) {
-        const GraphMove& move = session.scene().graph->moves[static_cast<std::size_t>(play.move)];
-        return session.scene().clips[static_cast<std::size_t>(move.clip)].clip->until_next();
+        const GraphMove& move = ui.workspace.scene().graph->moves[static_cast<std::size_t>(play.move)];
+        return ui.workspace.scene().clips[static_cast<std::size_t>(move.clip)].clip->until_next();
     };
-    if (const auto run_agent = current_run_agent(session)) {
+    if (const auto run_agent = current_run_agent(ui.workspace)) {
         PlacedAgent who;
-        const Rgba own = agent_color(session.fitted().scene(), who, *run_agent);
+        const Rgba own = agent_color(ui.workspace.fitted().scene(), who, *run_agent);
         const float gap = ui.px(1);
         for (const Play& play : crowd.agents[static_cast<std::size_t>(*run_agent)].plays) {
             const float left = time.pixel(play.placement.start);
@@ -83,45 +82,44 @@ void play_bars(Ui& ui, ImVec2 corner, ImVec2 size, const ChartAxis& time) {
 }
 
 /// Who is hidden has no bar.
-std::vector<DrawnAgent> shown_paths(const Session& session) {
-    std::vector<DrawnAgent> out = drawn_agents(session.fitted(), session.view());
+std::vector<DrawnAgent> shown_paths(const Workspace& workspace) {
+    std::vector<DrawnAgent> out = drawn_agents(workspace.fitted(), workspace.view());
     std::erase_if(out, [](const DrawnAgent& agent) { return agent.hidden; });
     return out;
 }
 
 /// When each path is there, as a bar in its colour, with the time cursor over all of them; drag to scrub.
 void time_bars(Ui& ui, float width, float height) {
-    Session& session = ui.session;
-    const mobb::Interval span = session.time_span();
+    const mobb::Interval span = ui.workspace.time_span();
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ChartAxis axis = time_axis(span, corner.x, width);
     ImGui::InvisibleButton("##time", {width, height});
     ui.mark("timeline.time", OwnKeys::left_right);
     for (const Chord& chord : ui.focus.take("timeline.time")) {
-        if (chord.key != Key::enter) invoke(session, chord.key == Key::right ? "time.forward" : "time.back");
+        if (chord.key != Key::enter) ui.invoke(chord.key == Key::right ? "time.forward" : "time.back");
     }
-    const float cursor = axis.pixel(session.view().time.value_or(0.5 * (axis.from + axis.to)));
+    const float cursor = axis.pixel(ui.workspace.view().time.value_or(0.5 * (axis.from + axis.to)));
     context_menu(
         ui,
         [&] {
             const float x = ImGui::GetMousePosOnOpeningCurrentPopup().x;
-            return time_menu(session, axis.value(std::clamp(x, corner.x, corner.x + width)));
+            return time_menu(ui.session, axis.value(std::clamp(x, corner.x, corner.x + width)));
         },
         ImVec2{std::clamp(cursor, corner.x, corner.x + width), corner.y + 0.5f * height});
     if (ImGui::IsItemActive()) {
         const double at = axis.value(std::clamp(ImGui::GetIO().MousePos.x, corner.x, corner.x + width));
-        session.enqueue([&session, at] {
-            session.stop();
-            session.change_view([&](ViewState& view) { view.time = at; });
+        ui.later([at](Playback& playback, Workspace& workspace) {
+            playback.stop();
+            workspace.change_view([&](ViewState& view) { view.time = at; });
         });
     }
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(corner, {corner.x + width, corner.y + height}, ui.style.window, ui.px(3));
     std::vector<DrawnAgent> paths;
-    if (session.crowd()) {
+    if (ui.workspace.crowd()) {
         play_bars(ui, corner, {width, height}, axis);
     } else {
-        paths = shown_paths(session);
+        paths = shown_paths(ui.workspace);
     }
     // Of a crowd the bars melt together; they still say when somebody is there.
     const float each = height / static_cast<float>(std::max<std::size_t>(paths.size(), 1));
@@ -139,7 +137,7 @@ void time_bars(Ui& ui, float width, float height) {
             contrast(paths[i].color, Rgba(0, 0, 0, 1)) > contrast(paths[i].color, Rgba(1)) ? Rgba(0, 0, 0, 1) : Rgba(1);
         draw.AddText({left + ui.px(6), y + 0.5f * (each - font)}, to_im(ink), name.c_str());
     }
-    if (const auto time = session.view().time; time && *time >= span.t0 && *time <= span.t1) {
+    if (const auto time = ui.workspace.view().time; time && *time >= span.t0 && *time <= span.t1) {
         const float x = axis.pixel(*time);
         draw.AddLine({x, corner.y - ui.px(3)}, {x, corner.y + height + ui.px(3)}, ui.style.text, ui.px(2));
     }
@@ -147,12 +145,11 @@ void time_bars(Ui& ui, float width, float height) {
 }
 
 /// The first clock. `tall`: nothing stands below it.
-void time_row(Ui& ui, bool tall) {
-    Session& session = ui.session;
-    const mobb::Interval span = session.time_span();
-    command_button(ui, session.playing() ? "Pause" : "Play", "time.play", "timeline.time.play");
+void time_row(Ui& ui, Playback& playback, bool tall) {
+    const mobb::Interval span = ui.workspace.time_span();
+    command_button(ui, playback.playing() ? "Pause" : "Play", "time.play", "timeline.time.play");
     ImGui::SameLine();
-    const auto time = session.view().time;
+    const auto time = ui.workspace.view().time;
     ImGui::AlignTextToFramePadding();
     text_line(time ? ui.style.text : ui.style.quiet, time ? formatted("%7.3f s", *time) : "   off   ", ui.style.mono);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("The time cursor: who is where at this moment");
@@ -162,7 +159,7 @@ void time_row(Ui& ui, bool tall) {
     const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x - clear - ui.px(8));
     const float below = ui.px(24);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const std::size_t lanes = session.crowd() ? 1 : shown_paths(session).size();
+    const std::size_t lanes = ui.workspace.crowd() ? 1 : shown_paths(ui.workspace).size();
     const auto paths = static_cast<float>(lanes);
     const float most =
         std::clamp(paths * ui.px(kMostBar), clear, std::max(clear, ImGui::GetContentRegionAvail().y - below));
@@ -170,18 +167,18 @@ void time_row(Ui& ui, bool tall) {
     time_bars(ui, width, height);
     if (tall) time_ticks(ui, {corner.x, corner.y + height}, width, span);
     ImGui::SameLine();
-    ImGui::BeginDisabled(!session.view().time || session.crowd());
-    if (ImGui::Button("\u00D7", {clear, clear})) invoke(session, "time.clear");
+    ImGui::BeginDisabled(!ui.workspace.view().time || ui.workspace.crowd());
+    if (ImGui::Button("\u00D7", {clear, clear})) ui.invoke("time.clear");
     ImGui::EndDisabled();
     ui.mark("timeline.clear");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Hide the time cursor");
 }
 
 /// The second clock: where in the trace we stand.
-void step_row(Ui& ui, QueryPictures& pictures) {
+void step_row(Ui& ui, QueryInspector& queries, QueryPictures& pictures) {
     ImGui::AlignTextToFramePadding();
-    const mobb::Trace& trace = ui.session.recorded()->trace;
-    const std::string step = step_of(ui.session.step(), trace);
+    const mobb::Trace& trace = ui.workspace.recorded()->trace;
+    const std::string step = step_of(ui.workspace.step(), trace);
     text_line(ui.style.text, step, ui.style.mono);
     // The strip begins where it begins at the last step, whose number is the longest.
     const float longest = text_size(*ui.style.mono, step_of(trace.size() - 1, trace)).x;
@@ -189,7 +186,7 @@ void step_row(Ui& ui, QueryPictures& pictures) {
     ImGui::Dummy({longest - text_size(*ui.style.mono, step).x, 0});
     const float least = ui.px(kLeastStrip);
     flow(least);
-    pictures.strip(ui, std::max(least, ImGui::GetContentRegionAvail().x), ImGui::GetFrameHeight());
+    pictures.strip(ui, queries, std::max(least, ImGui::GetContentRegionAvail().x), ImGui::GetFrameHeight());
 }
 
 /// A bar, a triangle or both, on the last button.
@@ -231,21 +228,21 @@ void text_button(Ui& ui, const char* label, const char* id) {
 
 }  // namespace
 
-void timeline(Ui& ui, QueryPictures& pictures) {
-    if (ui.session.empty()) return;
+void timeline(Ui& ui, Playback& playback, QueryInspector& queries, QueryPictures& pictures) {
+    if (ui.workspace.empty()) return;
     ImGui::PushID("timeline");
-    const bool steps = ui.session.recorded() != nullptr;
-    time_row(ui, !steps);
+    const bool steps = ui.workspace.recorded() != nullptr;
+    time_row(ui, playback, !steps);
     if (steps) {
-        step_row(ui, pictures);
+        step_row(ui, queries, pictures);
         const ImVec2 room = ImGui::GetContentRegionAvail();
-        if (room.y > ui.px(24)) pictures.icicle(ui, room);
+        if (room.y > ui.px(24)) pictures.icicle(ui, queries, room);
     }
     ImGui::PopID();
 }
 
 void step_transport(Ui& ui) {
-    const int last = ui.session.recorded()->trace.size() - 1;
+    const int last = ui.workspace.recorded()->trace.size() - 1;
     if (!section(ui, "STEPS")) return;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(4), ui.px(4)});
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(6), ui.px(4)});
@@ -269,12 +266,12 @@ void step_transport(Ui& ui) {
     ImGui::SetNextItemWidth(-1);
     const auto wanted = number_field(ui, {.mark = "query.step",
                                           .what = "The step",
-                                          .now = static_cast<double>(ui.session.step()),
+                                          .now = static_cast<double>(ui.workspace.step()),
                                           .before = "step ",
                                           .unit = "of 0.." + std::to_string(last),
                                           .least = 0,
                                           .most = static_cast<double>(last)});
-    if (wanted) invoke(ui.session, "step.to", formatted("%.0f", *wanted));
+    if (wanted) ui.invoke("step.to", formatted("%.0f", *wanted));
 }
 
 }  // namespace mobbscope::app

@@ -54,7 +54,7 @@ void choose(Ui& ui, const char* label, const char* id, Enum now, const char* hel
     for (const std::string& choice : find_command(id)->choices(ui.session)) {
         const auto value = static_cast<Enum>(index++);
         const ChoiceWords words = choice_words(value);
-        if (ImGui::Selectable(words.label.c_str(), value == now)) invoke(ui.session, id, choice);
+        if (ImGui::Selectable(words.label.c_str(), value == now)) ui.invoke(id, choice);
         ui.mark(std::string(id) + "." + choice, OwnKeys::none, words.label);
         if (value == now) ui.focus.begin_here();
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", words.help.c_str());
@@ -63,19 +63,20 @@ void choose(Ui& ui, const char* label, const char* id, Enum now, const char* hel
 }
 
 /// A whole number. While fits take long it counts once the drag is over.
-void whole(Ui& ui, const char* label, const char* command, const char* what, int now, int least, const char* help) {
+void whole(Ui& ui, Jobs& jobs, const char* label, const char* command, const char* what, int now, int least,
+           const char* help) {
     form_label(ui, label, help);
     const auto wanted = number_field(ui, {.mark = command,
                                           .what = what,
                                           .now = static_cast<double>(now),
                                           .least = static_cast<double>(least),
                                           .most = std::numeric_limits<int>::max(),
-                                          .live = !ui.session.job()});
-    if (wanted) invoke(ui.session, command, formatted("%.0f", *wanted));
+                                          .live = !jobs.job()});
+    if (wanted) ui.invoke(command, formatted("%.0f", *wanted));
 }
 
-void time_scale(Ui& ui) {
-    const mobb::FitOptions& fit = ui.session.fitted().options();
+void time_scale(Ui& ui, Jobs& jobs) {
+    const mobb::FitOptions& fit = ui.workspace.fitted().options();
     form_label(ui, "Time scale", "Metres per second that mix time with space in free boxes (w); no other boxes use it");
     ImGui::BeginDisabled(!mobb::info(fit.tree).uses_time_scale());
     const auto wanted = number_field(ui, {.mark = "tree.time_scale",
@@ -85,16 +86,16 @@ void time_scale(Ui& ui) {
                                           .least = 1 / mobb::kMaxTimeScale,
                                           .most = mobb::kMaxTimeScale,
                                           .by_factors = true,
-                                          .live = !ui.session.job()});
+                                          .live = !jobs.job()});
     ImGui::EndDisabled();
-    if (wanted) invoke(ui.session, "tree.time_scale", short_double(*wanted));
+    if (wanted) ui.invoke("tree.time_scale", short_double(*wanted));
 }
 
 constexpr float kLeastCell = 10.5f;  // pixels at scale 1: a level's number
 
 /// Left and Right go to the next level; with Shift they make a range longer or shorter.
 void level_keys(Ui& ui, int depth) {
-    LevelRange wanted = ui.session.view().levels;
+    LevelRange wanted = ui.workspace.view().levels;
     for (const Chord& chord : ui.focus.take("view.level")) {
         if (chord.key == Key::enter) continue;
         const int way = chord.key == Key::right ? 1 : -1;
@@ -102,12 +103,12 @@ void level_keys(Ui& ui, int depth) {
         const int next = std::clamp(last + way, 0, depth - 1);
         wanted = {chord.shift && !wanted.leaves ? std::min(wanted.first, next) : next, next, false};
     }
-    if (wanted != ui.session.view().levels) invoke(ui.session, "view.level", to_string(wanted));
+    if (wanted != ui.workspace.view().levels) ui.invoke("view.level", to_string(wanted));
 }
 
 /// Which levels are drawn: a cell for each, lit where it is. A click shows one level, a drag or Shift a range.
 void shown_levels(Ui& ui, int depth) {
-    const LevelRange shown = ui.session.view().levels;
+    const LevelRange shown = ui.workspace.view().levels;
     form_label(ui, "Show", "Which boxes are drawn: click a level; drag over several, or Shift-click, for a range");
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 padding = ImGui::GetStyle().FramePadding;
@@ -126,7 +127,7 @@ void shown_levels(Ui& ui, int depth) {
         const int here = level_at(io.MousePos.x);
         const int from = io.KeyShift && !shown.leaves ? shown.first : level_at(io.MouseClickedPos[0].x);
         const LevelRange wanted{std::min(from, here), std::max(from, here), false};
-        if (wanted != shown) invoke(ui.session, "view.level", to_string(wanted));
+        if (wanted != shown) ui.invoke("view.level", to_string(wanted));
     }
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, ui.style.window, ui.px(4));
@@ -134,7 +135,7 @@ void shown_levels(Ui& ui, int depth) {
     for (int level = 0; level < depth; ++level) {
         const ImVec2 min{corner.x + cell * static_cast<float>(level) + 1, corner.y + 1};
         const ImVec2 max{corner.x + cell * static_cast<float>(level + 1) - 1, corner.y + size.y - 1};
-        const bool lit = !shown.leaves && !ui.session.view().query && level >= std::min(shown.first, depth - 1) &&
+        const bool lit = !shown.leaves && !ui.workspace.view().query && level >= std::min(shown.first, depth - 1) &&
                          level <= shown.last;
         if (lit || level == over)
             draw.AddRectFilled(min, max, lit ? to_im(with_alpha(ui.style.palette.accent, 0.45f)) : ui.style.raised,
@@ -153,36 +154,36 @@ void shown_levels(Ui& ui, int depth) {
     } else {
         ImGui::SetCursorScreenPos({corner.x, ImGui::GetCursorScreenPos().y});
     }
-    const bool on = shown.leaves && !ui.session.view().query;
+    const bool on = shown.leaves && !ui.workspace.view().query;
     ImGui::PushStyleColor(ImGuiCol_Button, on ? to_im(with_alpha(ui.style.palette.accent, 0.45f)) : ui.style.window);
-    if (ImGui::Button("leaves")) invoke(ui.session, "view.leaves");
+    if (ImGui::Button("leaves")) ui.invoke("view.leaves");
     ImGui::PopStyleColor();
     ui.mark("view.leaves");
 }
 
 /// The clip of the document that one plays: of a run that of the play, which is drawn as one that runs on.
-int clip_of(const Session& session, const PlacedAgent& who) {
-    if (!session.crowd()) return who.clip;
-    const Agent& agent = session.fitted().scene().agents[static_cast<std::size_t>(who.agent)];
-    const CrowdAgent& person = session.crowd()->agents[static_cast<std::size_t>(agent.run_agent)];
+int clip_of(const Workspace& workspace, const PlacedAgent& who) {
+    if (!workspace.crowd()) return who.clip;
+    const Agent& agent = workspace.fitted().scene().agents[static_cast<std::size_t>(who.agent)];
+    const CrowdAgent& person = workspace.crowd()->agents[static_cast<std::size_t>(agent.run_agent)];
     const int move = person.plays[static_cast<std::size_t>(agent.play)].move;
-    return session.scene().graph->moves[static_cast<std::size_t>(move)].clip;
+    return workspace.scene().graph->moves[static_cast<std::size_t>(move)].clip;
 }
 
 /// The tree that the bars are about: of what is selected, else the first that is seen.
-int clip_in_focus(const Session& session) {
-    if (session.selection.kind == Selection::Kind::clip) return session.selection.index;
-    if (session.selection.on_path()) {
-        if (const auto who = placed_agent_of(session.fitted(), session.selection.path)) return clip_of(session, *who);
+int clip_in_focus(const Workspace& workspace) {
+    if (workspace.selection.kind == Selection::Kind::clip) return workspace.selection.index;
+    if (workspace.selection.on_path()) {
+        if (const auto who = placed_agent_of(workspace.fitted(), workspace.selection.path))
+            return clip_of(workspace, *who);
     }
-    return clip_of(session, session.fitted().placed_agents().front());
+    return clip_of(workspace, workspace.fitted().placed_agents().front());
 }
 
 /// Volume of each level as a bar, and how much of it the disks fill.
-void level_bars(Ui& ui, int clip) {
-    const Session& session = ui.session;
-    const auto& figures = session.figures_of(clip);
-    if (!section(ui, "VOLUME BY LEVEL", session.scene().clips[static_cast<std::size_t>(clip)].name)) return;
+void level_bars(Ui& ui, QueryInspector& queries, int clip) {
+    const auto& figures = queries.figures_of(clip);
+    if (!section(ui, "VOLUME BY LEVEL", ui.workspace.scene().clips[static_cast<std::size_t>(clip)].name)) return;
     // Free boxes may take more room the finer they are: their fits overlap.
     double most = 1e-300;
     for (const mobb::LevelFigures& level : figures) most = std::max(most, level.volume);
@@ -194,11 +195,11 @@ void level_bars(Ui& ui, int clip) {
         const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x);
         const bool clicked = ImGui::InvisibleButton(("level" + std::to_string(i)).c_str(), {width, height});
         ui.mark("level." + std::to_string(i));
-        if (session.view().levels.first == level.level) ui.focus.begin_here();
+        if (ui.workspace.view().levels.first == level.level) ui.focus.begin_here();
         const bool over = ImGui::IsItemHovered();
-        const LevelRange shown = session.view().levels;
+        const LevelRange shown = ui.workspace.view().levels;
         const bool drawn =
-            !shown.leaves && !session.view().query && level.level >= shown.first && level.level <= shown.last;
+            !shown.leaves && !ui.workspace.view().query && level.level >= shown.first && level.level <= shown.last;
         const bool large = level.volume >= 100 && level.volume < 1e6;
         const char* format = large ? (level.tightness ? "%.0f  %3.0f%%" : "%.0f      ")
                                    : (level.tightness ? "%.3g  %3.0f%%" : "%.3g      ");
@@ -221,7 +222,7 @@ void level_bars(Ui& ui, int clip) {
         draw.AddRectFilled(start, {start.x + long_bar * static_cast<float>(level.tightness.value_or(0)), y1},
                            to_im(accent), ui.px(2));
         draw_text(draw, mono, {corner.x + width - text_size(mono, text).x, text_y}, ui.style.quiet, text);
-        if (clicked) invoke(ui.session, "view.level", std::to_string(level.level));
+        if (clicked) ui.invoke("view.level", std::to_string(level.level));
         if (over) {
             std::string figures_of_level;
             for (const mobb::LevelColumn& column : mobb::kLevelColumns) {
@@ -243,34 +244,32 @@ void level_bars(Ui& ui, int clip) {
 }
 
 /// How the trees are fitted, and which of their boxes are shown.
-void fit_fields(Ui& ui) {
-    const Session& session = ui.session;
-    const mobb::FitOptions fit = session.fitted().options();
+void fit_fields(Ui& ui, Jobs& jobs) {
+    const mobb::FitOptions fit = ui.workspace.fitted().options();
     choose(ui, "Kind", "tree.kind", fit.tree, "What bounds the disks");
     ImGui::BeginDisabled(!mobb::info(fit.tree).splits());
-    whole(ui, "Leaf samples", "tree.leaf", "The number of samples of a leaf", fit.leaf, 1,
+    whole(ui, jobs, "Leaf samples", "tree.leaf", "The number of samples of a leaf", fit.leaf, 1,
           "n_min: a node of at most so many samples is a leaf");
     ImGui::EndDisabled();
     ImGui::BeginDisabled(!mobb::info(fit.tree).chooses_axes());
     choose(ui, "Axes", "tree.axes", fit.axes, "How boxes are turned");
     ImGui::EndDisabled();
     ImGui::BeginDisabled(!mobb::info(fit.tree).splits());
-    whole(ui, "Levels", "tree.levels", "The number of levels", fit.levels, 0,
+    whole(ui, jobs, "Levels", "tree.levels", "The number of levels", fit.levels, 0,
           "0: all; 1 is the paper's \"1 level\" tree");
     ImGui::EndDisabled();
-    time_scale(ui);
-    shown_levels(ui, session.fitted().tree(clip_in_focus(session)).depth());
-    choose(ui, "Colour by", "view.color_by", session.view().color_by, "What the boxes' colours mean");
+    time_scale(ui, jobs);
+    shown_levels(ui, ui.workspace.fitted().tree(clip_in_focus(ui.workspace)).depth());
+    choose(ui, "Colour by", "view.color_by", ui.workspace.view().color_by, "What the boxes' colours mean");
 }
 
 }  // namespace
 
-void tree_panel(Ui& ui) {
-    const Session& session = ui.session;
-    if (session.empty()) return;
+void tree_panel(Ui& ui, Jobs& jobs, QueryInspector& queries) {
+    if (ui.workspace.empty()) return;
     ImGui::PushID("tree");
-    if (section(ui, "TREE")) fit_fields(ui);
-    level_bars(ui, clip_in_focus(session));
+    if (section(ui, "TREE")) fit_fields(ui, jobs);
+    level_bars(ui, queries, clip_in_focus(ui.workspace));
     ImGui::PopID();
 }
 

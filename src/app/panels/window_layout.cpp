@@ -33,10 +33,10 @@ template <class Draw>
 void panel(Ui& ui, const std::string& name, ImVec2 size, const Draw& draw) {
     const Session& session = ui.session;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), ui.px(5)});
-    ImGui::BeginChild((session.in_excerpt() ? name + " of excerpt" : name).c_str(), size, false,
+    ImGui::BeginChild((session.workspace.in_excerpt() ? name + " of excerpt" : name).c_str(), size, false,
                       ImGuiWindowFlags_AlwaysUseWindowPadding);
     int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("opening"));
-    if (std::exchange(shown, session.opening()) != session.opening()) ImGui::SetScrollY(0);
+    if (std::exchange(shown, session.workspace.opening()) != session.workspace.opening()) ImGui::SetScrollY(0);
     ui.focus.panel(name);
     draw();
     ImGui::EndChild();
@@ -94,15 +94,15 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     const auto spacing = [] { ImGui::SameLine(0, 0); };
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
 
-    const bool reviewing = ui.session.reviewing();
+    const bool reviewing = ui.session.reviews.shown();
     // The placement stands below the lists: they stay where they are when somebody is selected.
-    const float placement = reviewing ? 0 : std::min(placement_height(ui), 0.5f * room.y);
+    const float placement = reviewing ? 0 : std::min(placement_height(ui, ui.session.settings), 0.5f * room.y);
     ImGui::BeginGroup();
     panel(ui, reviewing ? "cases" : "left", {left, room.y - placement}, [&] {
         if (reviewing) return review_list(ui);
         review_way_back(ui);
-        scene_panel(ui);
-        tree_panel(ui);
+        scene_panel(ui, ui.session.queries);
+        tree_panel(ui, ui.session.jobs, ui.session.queries);
     });
     if (placement > 0) panel(ui, "placement", {left, placement}, [&] { placement_panel(ui); });
     ImGui::EndGroup();
@@ -122,7 +122,8 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
         draw_views(ui, viewports);
         ImGui::EndChild();
         settings.bottom_height -= splitter(ui, "splitter.bottom", {middle, bar}, false) / ui.style.scale;
-        panel(ui, "timeline", {middle, bottom}, [&] { timeline(ui, pictures); });
+        panel(ui, "timeline", {middle, bottom},
+              [&] { timeline(ui, ui.session.playback, ui.session.queries, pictures); });
     }
     ImGui::EndGroup();
     spacing();
@@ -130,15 +131,15 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     spacing();
     panel(ui, reviewing ? "facts" : "right", {right, room.y}, [&] {
         if (reviewing) return review_facts(ui, pixel);
-        if (ui.session.is_crowd() && !ui.session.view().query) {
-            crowd_panel(ui);
+        if (ui.session.workspace.is_crowd() && !ui.session.workspace.view().query) {
+            crowd_panel(ui, ui.session.crowds);
         } else {
-            query_panel(ui, pictures);
+            query_panel(ui, ui.session.queries, pictures);
         }
         selection_panel(ui);
     });
-    ui.session.hovered = ui.hovered;
-    status_bar(ui, {io.DisplaySize.x, status});
+    ui.session.workspace.hovered = ui.hovered;
+    status_bar(ui, ui.session.jobs, ui.session.queries, {io.DisplaySize.x, status});
     ImGui::PopStyleVar();
     ImGui::End();
 
@@ -149,7 +150,7 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     ui.focus.panel("dialog");
     dialogs(ui);
     ui.focus.panel("messages");
-    messages(ui);
+    messages(ui, ui.session.notifications, ui.session.dialogs);
 }
 
 }  // namespace mobbscope::app

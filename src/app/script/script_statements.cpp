@@ -303,7 +303,7 @@ std::optional<std::string> await(ScriptRun& run, const Check& check, double seco
     run.clicked = false;
     std::optional<std::string> instead = check(run);
     const int looks = static_cast<int>(std::ceil(seconds / kLookAgain));
-    for (int i = 0; i < looks && instead && !run.session.closed(); ++i) {
+    for (int i = 0; i < looks && instead && !run.session.files.closed(); ++i) {
         run.host.run_for(kLookAgain);
         instead = check(run);
     }

@@ -1,7 +1,7 @@
 /// The statements of scripts, one maker each.
 #pragma once
 
-#include <app/document/session.h>
+#include <app/session/session.h>
 #include <app/window/shell.h>
 #include <base/text.h>
 

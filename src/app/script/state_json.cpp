@@ -51,15 +51,15 @@ Json view_json(const ViewState& view) {
     return Json::parse(text.str());
 }
 
-std::string name_of(const Session& session, const Selection& selection) {
+std::string name_of(const Workspace& workspace, const Selection& selection) {
     const auto index = static_cast<std::size_t>(selection.index);
     switch (selection.kind) {
         case Selection::Kind::none:
             return "";
         case Selection::Kind::clip:
-            return session.scene().clips[index].name;
+            return workspace.scene().clips[index].name;
         case Selection::Kind::query: {
-            const SceneQuery query = session.fitted().queries()[index];
+            const SceneQuery query = workspace.fitted().queries()[index];
             return query.a.name + " against " + query.b.name;
         }
         case Selection::Kind::path:
@@ -67,14 +67,14 @@ std::string name_of(const Session& session, const Selection& selection) {
         case Selection::Kind::sample:
             break;
     }
-    return placed_agent_of(session.fitted(), selection.path)->name;
+    return placed_agent_of(workspace.fitted(), selection.path)->name;
 }
 
-Json selection_json(const Session& session, const Selection& selection) {
+Json selection_json(const Workspace& workspace, const Selection& selection) {
     constexpr std::array<const char*, 6> kSelectionKinds{"none", "path", "node", "sample", "clip", "query"};
     Json json{{"kind", kSelectionKinds[static_cast<std::size_t>(selection.kind)]}};
-    if (selection.kind == Selection::Kind::none || !exists(session.fitted(), selection)) return json;
-    json["name"] = name_of(session, selection);
+    if (selection.kind == Selection::Kind::none || !exists(workspace.fitted(), selection)) return json;
+    json["name"] = name_of(workspace, selection);
     if (selection.on_path()) {
         const AgentRef& path = selection.path;
         json["path"] = {{"participant", path.agent}, {"query", path.query}, {"side", path.side}};
@@ -83,51 +83,51 @@ Json selection_json(const Session& session, const Selection& selection) {
     return json;
 }
 
-Json query_json(const Session& session) {
-    const RecordedQuery* recorded = session.recorded();
+Json query_json(const Workspace& workspace) {
+    const RecordedQuery* recorded = workspace.recorded();
     if (!recorded) return nullptr;
-    const int index = *session.view().query;
-    const SceneQuery query = session.fitted().queries()[static_cast<std::size_t>(index)];
+    const int index = *workspace.view().query;
+    const SceneQuery query = workspace.fitted().queries()[static_cast<std::size_t>(index)];
     Json tests = Json::object();
     for (const mobb::TestKind test : mobb::kTestKinds)
         if (recorded->tests[test] > 0) tests[mobb::name(test)] = recorded->tests[test];
-    const mobb::Trace::Event event = recorded->trace[session.step()];
-    const std::vector<DrawnAgent> sides = drawn_agents(session.fitted(), session.view());
+    const mobb::Trace::Event event = recorded->trace[workspace.step()];
+    const std::vector<DrawnAgent> sides = drawn_agents(workspace.fitted(), workspace.view());
     return {{"index", index},
             {"a", query.a.name},
             {"b", query.b.name},
             {"collides", recorded->contact.has_value()},
             {"contact_time", recorded->contact ? Json(recorded->contact->time) : Json(nullptr)},
-            {"step", session.step()},
+            {"step", workspace.step()},
             {"steps", recorded->trace.size()},
             {"tests", std::move(tests)},
             {"outcome", mobb::name(event.outcome)},
-            {"sentence", step_sentence(sides, recorded->trace, session.step())}};
+            {"sentence", step_sentence(sides, recorded->trace, workspace.step())}};
 }
 
-Json crowd_json(const Session& session) {
-    if (!session.is_crowd()) return nullptr;
-    Json json{{"following", text_or_null(session.view().follow)}, {"choice", nullptr}, {"conflicts", nullptr}};
-    if (const FollowedChoice* followed = session.choice()) {
+Json crowd_json(const Workspace& workspace, const CrowdInspector& crowds) {
+    if (!workspace.is_crowd()) return nullptr;
+    Json json{{"following", text_or_null(workspace.view().follow)}, {"choice", nullptr}, {"conflicts", nullptr}};
+    if (const FollowedChoice* followed = crowds.choice()) {
         const Choice& choice = followed->choice;
         json["choice"] = {{"play", followed->play},
                           {"time", choice.time},
                           {"candidates", choice.candidates.size()},
                           {"taken", choice.taken},
                           {"comes_out", followed->comes_out},
-                          {"pointed_out", session.candidate()},
-                          {"sentence", choice_sentence(session.scene(), *followed)}};
+                          {"pointed_out", crowds.candidate()},
+                          {"sentence", choice_sentence(workspace.scene(), *followed)}};
     }
-    if (const auto* conflicts = session.conflicts()) {
-        json["conflicts"] = {{"count", conflicts->size()}, {"shown", session.conflict}};
+    if (const auto* conflicts = crowds.conflicts()) {
+        json["conflicts"] = {{"count", conflicts->size()}, {"shown", workspace.conflict}};
     }
     return json;
 }
 
-Json messages_json(const Session& session) {
+Json messages_json(const Notifications& notifications) {
     constexpr std::array<const char*, 3> kLevels{"info", "warning", "error"};
     Json json = Json::array();
-    for (const Message& message : session.messages()) {
+    for (const Message& message : notifications.all()) {
         Json one{{"level", kLevels[static_cast<std::size_t>(message.level)]}, {"text", message.text}};
         if (message.offer) one["offer"] = message.offer->command;
         if (!message.up) one["put_away"] = true;
@@ -137,15 +137,15 @@ Json messages_json(const Session& session) {
 }
 
 /// The clip in the import dialog: what is taken of its file by itself, and what was refused.
-Json import_json(const Session& session) {
-    const ClipImport& now = session.importing;
+Json import_json(const Imports& imports, const Workspace& workspace) {
+    const ClipImport& now = imports.edited;
     Json taken = Json::object();
     if (now.offer) {
         for (const OptionOffer& option : now.offer->options) taken[option.key] = text_or_null(option.taken);
     }
     Json refused = Json::object();
     for (const auto& [option, refusal] : now.refused) refused[option] = refusal.why;
-    return {{"clip", session.scene().clips[static_cast<std::size_t>(now.clip)].name},
+    return {{"clip", workspace.scene().clips[static_cast<std::size_t>(now.clip)].name},
             {"field", text_or_null(now.field)},
             {"whole_file", now.whole_file},
             {"taken", std::move(taken)},
@@ -160,17 +160,17 @@ std::string_view kind_name(Dialog dialog) {
 }
 
 /// The export dialog: what it is asked for, by the options' keys, and the file.
-Json export_json(const Session& session) {
-    Json json{{"file", session.exporting.file}};
+Json export_json(const Dialogs& dialogs, const Settings& settings) {
+    Json json{{"file", dialogs.exporting.file}};
     for (const ExportOption& option : export_options()) {
-        json[option.key] = option.text(session.settings.picture_export);
+        json[option.key] = option.text(settings.picture_export);
     }
-    if (session.exporting.aside) json["scene_aside"] = session.exporting.aside->file.string();
+    if (dialogs.exporting.aside) json["scene_aside"] = dialogs.exporting.aside->file.string();
     return json;
 }
 
-Json review_json(const Session& session) {
-    const Review& review = *session.review();
+Json review_json(const Reviews& reviews, const Files& files) {
+    const Review& review = *reviews.review();
     const ReviewLook& look = review.look;
     const ReviewCase& shown = review.shown();
     const auto state_of = [](const ReviewCase& one) -> Json {
@@ -183,7 +183,7 @@ Json review_json(const Session& session) {
     for (const std::size_t index : review.listed()) listed.push_back(review.cases()[index].file.name);
     Json marked = Json::array();
     for (const std::size_t index : review.marked()) marked.push_back(review.cases()[index].file.name);
-    return {{"shown", session.reviewing()},
+    return {{"shown", reviews.shown()},
             {"folder", review.folder().string()},
             {"cases", std::move(cases)},
             {"listed", std::move(listed)},
@@ -201,7 +201,7 @@ Json review_json(const Session& session) {
             {"drawing", review.drawing()},
             {"undo", text_or_null(review.undo_title())},
             {"redo", text_or_null(review.redo_title())},
-            {"open_case", text_or_null(session.open_case_name())}};
+            {"open_case", text_or_null(files.visited())}};
 }
 
 // --- what is expected of it
@@ -278,35 +278,35 @@ std::string instead(const std::string& pointer, const Json& is, const std::strin
 
 Json state_json(const Session& session) {
     Json json;
-    json["title"] = session.title();
-    json["file"] = session.file() ? Json(session.file()->string()) : Json(nullptr);
-    json["modified"] = session.modified();
-    json["empty"] = session.empty();
-    json["scene"] = scene_json(session.scene());
-    json["view"] = view_json(session.view());
-    json["selection"] = selection_json(session, session.selection);
-    json["hovered"] = selection_json(session, session.hovered);
-    json["query"] = query_json(session);
-    json["crowd"] = crowd_json(session);
-    json["excerpt"] = session.in_excerpt();
-    json["time"] = or_null(session.view().time);
-    json["playing"] = session.playing();
-    json["dialog"] = kind_name(session.dialog);
-    if (!session.focus.empty()) json["focus"] = session.focus;
-    json["messages"] = messages_json(session);
-    if (session.unread() > 0) json["unread"] = session.unread();
-    json["undo"] = text_or_null(session.history().undo_title());
-    json["redo"] = text_or_null(session.history().redo_title());
+    json["title"] = session.workspace.title();
+    json["file"] = session.workspace.file ? Json(session.workspace.file->string()) : Json(nullptr);
+    json["modified"] = session.workspace.modified();
+    json["empty"] = session.workspace.empty();
+    json["scene"] = scene_json(session.workspace.scene());
+    json["view"] = view_json(session.workspace.view());
+    json["selection"] = selection_json(session.workspace, session.workspace.selection);
+    json["hovered"] = selection_json(session.workspace, session.workspace.hovered);
+    json["query"] = query_json(session.workspace);
+    json["crowd"] = crowd_json(session.workspace, session.crowds);
+    json["excerpt"] = session.workspace.in_excerpt();
+    json["time"] = or_null(session.workspace.view().time);
+    json["playing"] = session.playback.playing();
+    json["dialog"] = kind_name(session.dialogs.now);
+    if (!session.keys.focus.empty()) json["focus"] = session.keys.focus;
+    json["messages"] = messages_json(session.notifications);
+    if (session.notifications.unread() > 0) json["unread"] = session.notifications.unread();
+    json["undo"] = text_or_null(session.workspace.history.undo_title());
+    json["redo"] = text_or_null(session.workspace.history.redo_title());
     json["job"] = nullptr;
-    if (const Job* job = session.job()) json["job"] = {{"title", job->title()}, {"progress", job->progress()}};
-    if (session.dialog == Dialog::import_clip) json["import"] = import_json(session);
-    if (session.dialog == Dialog::export_picture) json["export"] = export_json(session);
-    if (session.review()) json["review"] = review_json(session);
-    if (session.view_count() > 1) {
+    if (const Job* job = session.jobs.job()) json["job"] = {{"title", job->title()}, {"progress", job->progress()}};
+    if (session.dialogs.now == Dialog::import_clip) json["import"] = import_json(session.imports, session.workspace);
+    if (session.dialogs.now == Dialog::export_picture) json["export"] = export_json(session.dialogs, session.settings);
+    if (session.reviews.review()) json["review"] = review_json(session.reviews, session.files);
+    if (session.views.count() > 1) {
         json["views"] = Json::array();
-        for (std::size_t place = 0; place < session.view_count(); ++place) {
-            const SceneView seen = session.view_at(place);
-            json["views"].push_back({{"active", place == session.active_place()},
+        for (std::size_t place = 0; place < session.views.count(); ++place) {
+            const SceneView seen = session.views.at(place);
+            json["views"].push_back({{"active", place == session.views.active()},
                                      {"fit", seen.fitted->fits()[seen.fitted->fit_in_use()]->name},
                                      {"tree", mobb::name(seen.fitted->options().tree)},
                                      {"view", view_json(seen.view)}});

@@ -18,7 +18,7 @@
 /// "zoom", "middle", "failed_only", "order", "drawing", "undo", "redo", "open_case"}.
 #pragma once
 
-#include <app/document/session.h>
+#include <app/session/session.h>
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -57,7 +57,7 @@ ButtonPlace agent_button(Ui& ui, const std::string& mark, const char* id, const 
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 size{ui.px(kButton), ImGui::GetFrameHeight()};
     ImGui::PushID(mark.c_str());
-    if (ImGui::InvisibleButton("##icon", size)) invoke(ui.session, id, argument);
+    if (ImGui::InvisibleButton("##icon", size)) ui.invoke(id, argument);
     ImGui::PopID();
     ui.mark(mark);
     const bool hovered = ImGui::IsItemHovered();
@@ -73,23 +73,22 @@ ButtonPlace agent_button(Ui& ui, const std::string& mark, const char* id, const 
 float agent_buttons_width(const Ui& ui) { return 3 * ui.px(kButton); }
 
 float shown_buttons_width(const Ui& ui, const ListedAgents& listed) {
-    if (are_alone(ui.session, listed.who)) return agent_buttons_width(ui);
-    return (are_pinned(ui.session, listed.who) ? 2 : 1) * ui.px(kButton);
+    if (are_alone(ui.workspace, listed.who)) return agent_buttons_width(ui);
+    return (are_pinned(ui.workspace, listed.who) ? 2 : 1) * ui.px(kButton);
 }
 
 void agent_buttons(Ui& ui, const std::string& mark, const ListedAgents& listed, bool lit) {
-    const Session& session = ui.session;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const bool alone = are_alone(session, listed.who);
+    const bool alone = are_alone(ui.workspace, listed.who);
     const ButtonPlace of_alone = agent_button(ui, mark + ".solo", "agents.solo", listed.text,
                                               alone ? "Show what was in the picture before" : "Show alone", alone);
     if (lit || alone) draw_alone(draw, of_alone.middle, ui.px(1), of_alone.color);
-    const bool pinned = are_pinned(session, listed.who);
+    const bool pinned = are_pinned(ui.workspace, listed.who);
     const ButtonPlace of_pin =
         agent_button(ui, mark + ".pin", "agents.pin", listed.text,
                      pinned ? "Unpin" : "Pin: stays when another is shown alone, and keeps its colour", pinned);
     if (lit || pinned) draw_pin(draw, of_pin.middle, ui.px(1), of_pin.color, pinned);
-    const bool hidden = are_hidden(session, listed.who);
+    const bool hidden = are_hidden(ui.workspace, listed.who);
     const ButtonPlace of_eye =
         agent_button(ui, mark + ".eye", "agents.hide", listed.text, hidden ? "Show" : "Hide", false);
     draw_eye(draw, of_eye.middle, ui.px(1), of_eye.color, !hidden);

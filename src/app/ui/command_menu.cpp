@@ -14,18 +14,18 @@ namespace {
 constexpr std::size_t kMostChoices = 40;  // more than these are found by the palette
 
 /// "Undo moving A".
-std::string title_of(const Session& session, const Command& command) {
+std::string title_of(const Files& files, const Workspace& workspace, const Reviews& reviews, const Command& command) {
     std::string title(command.title);
-    if (command.id == "file.reopen_last" && session.has_last()) title += ": " + session.last_title();
-    if (command.id == "edit.undo" && session.history().can_undo()) title += ' ' + session.history().undo_title();
-    if (command.id == "edit.redo" && session.history().can_redo()) title += ' ' + session.history().redo_title();
-    if (command.id == "review.undo") title += ' ' + session.review()->undo_title();
-    if (command.id == "review.redo") title += ' ' + session.review()->redo_title();
+    if (command.id == "file.reopen_last" && files.has_last()) title += ": " + files.last_title();
+    if (command.id == "edit.undo" && workspace.history.can_undo()) title += ' ' + workspace.history.undo_title();
+    if (command.id == "edit.redo" && workspace.history.can_redo()) title += ' ' + workspace.history.redo_title();
+    if (command.id == "review.undo") title += ' ' + reviews.review()->undo_title();
+    if (command.id == "review.redo") title += ' ' + reviews.review()->redo_title();
     return title;
 }
 
 void ask(Session& session, const Command& command) {
-    session.enqueue([&session, &command] { ask_for_argument(session, command); });
+    session.queue.push([&session, &command] { ask_for_argument(session, command); });
 }
 
 /// Why the last item cannot be done, under the mouse; nothing for one that can.
@@ -36,20 +36,19 @@ void reason(const Session& session, const Command& command) {
 }
 
 void choices_item(Ui& ui, const Command& command, const std::string& title, const std::string& mark) {
-    Session& session = ui.session;
-    const std::vector<std::string> all = command.choices(session);
-    if (!begin_menu(ui, title, mark, command.enabled(session) && !all.empty())) return reason(session, command);
+    const std::vector<std::string> all = command.choices(ui.session);
+    if (!begin_menu(ui, title, mark, command.enabled(ui.session) && !all.empty())) return reason(ui.session, command);
     for (std::size_t i = 0; i < std::min(all.size(), kMostChoices); ++i) {
-        const bool chosen = command.chosen && command.chosen(session, all[i]);
+        const bool chosen = command.chosen && command.chosen(ui.session, all[i]);
         ImGui::PushID(static_cast<int>(i));
         const std::string choice = title_of_choice(command, all[i]);
-        if (ImGui::MenuItem(choice.c_str(), nullptr, chosen)) invoke(session, command.id, all[i]);
+        if (ImGui::MenuItem(choice.c_str(), nullptr, chosen)) ui.invoke(command.id, all[i]);
         ImGui::PopID();
         ui.mark(mark + '.' + all[i], OwnKeys::none, choice);
         if (chosen) ui.focus.begin_here();
     }
     if (all.size() > kMostChoices) {
-        if (ImGui::MenuItem("More...")) ask(session, command);
+        if (ImGui::MenuItem("More...")) ask(ui.session, command);
         ui.mark(mark + "...", OwnKeys::none, "More");
     }
     ImGui::EndMenu();
@@ -128,21 +127,21 @@ bool begin_menu(Ui& ui, const std::string& title, const std::string& mark, bool 
 }
 
 void command_item(Ui& ui, const MenuEntry& entry, const std::string& mark) {
-    Session& session = ui.session;
     const Command& command = command_named(entry.id);
-    const std::string title = entry.title.empty() ? title_of(session, command) : entry.title;
+    const std::string title =
+        entry.title.empty() ? title_of(ui.session.files, ui.workspace, ui.session.reviews, command) : entry.title;
     if (command.choices && entry.argument.empty()) return choices_item(ui, command, title, mark);
     // With an argument its own key would do something else, and what is on is not said.
     const std::string shortcut(!entry.like.empty()      ? first_shortcut(command_named(entry.like))
                                : entry.argument.empty() ? first_shortcut(command)
                                                         : "");
-    const bool checked = entry.argument.empty() && command.checked && command.checked(session);
-    if (ImGui::MenuItem(title.c_str(), shortcut.c_str(), checked, command.enabled(session))) {
+    const bool checked = entry.argument.empty() && command.checked && command.checked(ui.session);
+    if (ImGui::MenuItem(title.c_str(), shortcut.c_str(), checked, command.enabled(ui.session))) {
         const bool asks = command.needs_argument() && entry.argument.empty();
-        asks ? ask(session, command) : invoke(session, command.id, entry.argument);
+        asks ? ask(ui.session, command) : ui.invoke(command.id, entry.argument);
     }
     ui.mark(mark, OwnKeys::none, title);
-    reason(session, command);
+    reason(ui.session, command);
 }
 
 void open_menu_at(ImGuiID menu, ImVec2 place) {

@@ -94,7 +94,7 @@ bool marked_button(Ui& ui, const char* label, const char* mark, bool is_default)
 
 void close_button(Ui& ui, const char* mark) {
     if (marked_button(ui, "Close", mark, true) || pressed(ImGuiKey_Enter)) {
-        ui.session.enqueue([&session = ui.session] { session.close_dialog(); });
+        ui.later(&Dialogs::close);
     }
 }
 
@@ -118,7 +118,7 @@ bool move_picked(int& picked, int count) {
 
 FieldEvents text_field(Ui& ui, const char* hint, const std::function<std::string(const std::string&)>& complete,
                        FieldText what) {
-    DialogInput& input = ui.session.input;
+    DialogInput& input = ui.session.dialogs.input;
     FieldWithCompletion field{input, complete, what};
     ImGuiInputTextFlags flags = ImGuiInputTextFlags_CallbackAlways | ImGuiInputTextFlags_EnterReturnsTrue;
     // Where there is nothing to complete Tab goes on to the next widget.

@@ -70,7 +70,7 @@ Rect rect_of(ImVec2 min, ImVec2 max) { return {{min.x, min.y}, {max.x, max.y}}; 
 bool Focus::reachable(const Stop& stop) const {
     if (stop.level != level()) return false;
     // A dialog takes all keys; what went wrong in it is said beside it.
-    return level() > 0 || session_.dialog == Dialog::none || stop.panel == kDialog || stop.panel == kMessages;
+    return level() > 0 || session_.dialogs.now == Dialog::none || stop.panel == kDialog || stop.panel == kMessages;
 }
 
 const Focus::Stop* Focus::find(std::string_view name) const {
@@ -106,7 +106,7 @@ void Focus::leave() {
 
 void Focus::done_with(const std::string& name) {
     // Picture tests have no arrows that step: there one goes on where one is.
-    if (entered_ == name && level() == 0 && session_.dialog == Dialog::none && !session_.reviewing()) leave();
+    if (entered_ == name && level() == 0 && session_.dialogs.now == Dialog::none && !session_.reviews.shown()) leave();
 }
 
 void Focus::press_stop(const Stop& stop) {
@@ -223,7 +223,7 @@ bool Focus::in_window(const Chord& chord) {
         tab(chord.shift);
         return true;
     }
-    const bool in_menu_bar = chord.alt && !chord.ctrl && !chord.shift && session_.dialog == Dialog::none;
+    const bool in_menu_bar = chord.alt && !chord.ctrl && !chord.shift && session_.dialogs.now == Dialog::none;
     if (const std::string_view key = name(chord.key); in_menu_bar && key.size() == 1) {
         const auto menu = std::find_if(stops_.begin(), stops_.end(), [&](const Stop& stop) {
             return stop.panel == kMenuBar && stop.own == OwnKeys::menu &&
@@ -247,7 +247,7 @@ bool Focus::in_window(const Chord& chord) {
     }
     if (chord.key == Key::escape) {
         // A dialog is left as a whole.
-        if (session_.dialog != Dialog::none) return false;
+        if (session_.dialogs.now != Dialog::none) return false;
         leave();
         return true;
     }
@@ -311,7 +311,7 @@ void Focus::open_menus() {
 
 /// Of what has the focus, else of the picture.
 void Focus::ask_for_menu() {
-    if (level() > 0 || session_.dialog != Dialog::none) return;
+    if (level() > 0 || session_.dialogs.now != Dialog::none) return;
     const Stop* stop = visible_ ? here() : nullptr;
     if (!visible_) leave();
     show();
@@ -331,7 +331,7 @@ bool Focus::opens_menu_of_last() {
 }
 
 void Focus::follow_commands() {
-    switch (std::exchange(session_.focus_move, FocusMove::none)) {
+    switch (std::exchange(session_.keys.move, FocusMove::none)) {
         case FocusMove::none:
             return;
         case FocusMove::next_panel:
@@ -344,7 +344,7 @@ void Focus::follow_commands() {
             return ask_for_menu();
         case FocusMove::picture:
             behind_dialog_ = {};
-            if (visible_ && level() == 0 && session_.dialog == Dialog::none) leave();
+            if (visible_ && level() == 0 && session_.dialogs.now == Dialog::none) leave();
             return;
     }
 }
@@ -571,7 +571,7 @@ void Focus::end_frame(const Style& style) {
     }
     follow_popups();
     follow_dialog();
-    if (std::exchange(opening_, session_.opening()) != session_.opening()) {
+    if (std::exchange(opening_, session_.workspace.opening()) != session_.workspace.opening()) {
         close_popups_from(0);
         at_ = {""};
         left_.clear();
@@ -580,7 +580,7 @@ void Focus::end_frame(const Style& style) {
     }
     const bool shown = (visible_ || typing_) && here();
     if (const Stop* stop = here(); stop && stop->level == 0) order_ = static_cast<std::size_t>(stop - stops_.data());
-    session_.focus = shown ? at_.back() : "";
+    session_.keys.focus = shown ? at_.back() : "";
     reveals_ = false;
     entered_.clear();
     arrived_.clear();
@@ -606,7 +606,7 @@ void Focus::follow_popups() {
 
 /// ... and so does a dialog.
 void Focus::follow_dialog() {
-    const Dialog before = std::exchange(dialog_, session_.dialog);
+    const Dialog before = std::exchange(dialog_, session_.dialogs.now);
     if (before == dialog_) return;
     if (before == Dialog::none) behind_dialog_ = {at_.front(), visible_};
     order_ = 0;

@@ -3,8 +3,8 @@
 /// the arrows that step through a query.
 #pragma once
 
-#include <app/document/session.h>
 #include <app/input/key.h>
+#include <app/session/session.h>
 #include <app/ui/style.h>
 #include <render/drawlist/draw_list.h>
 

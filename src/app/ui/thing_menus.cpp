@@ -49,27 +49,28 @@ void append(std::vector<MenuEntry>& menu, const std::vector<MenuEntry>& more) {
 
 /// What can be done with the agent that the selection is of.
 void append_agent(std::vector<MenuEntry>& menu, const Session& session) {
-    const auto who = placed_agent_of(session.fitted(), session.selection.path);
-    if (who && session.selection.kind != Selection::Kind::path) {
+    const auto who = placed_agent_of(session.workspace.fitted(), session.workspace.selection.path);
+    if (who && session.workspace.selection.kind != Selection::Kind::path) {
         append(menu, {{"go.agent", who->name, "Select all of " + shortened(cleaned(who->name), 30)}});
     }
     if (who) {
-        const std::string& name = name_in_view(session.fitted().scene(), *who);
-        append(menu, shown_menu(session, {text_of_agent(name), {name}}));
+        const std::string& name = name_in_view(session.workspace.fitted().scene(), *who);
+        append(menu, shown_menu(session.workspace, {text_of_agent(name), {name}}));
     }
-    if (session.is_crowd()) append(menu, entries_of(kInCrowd));
-    if (shows_bare_clips(session)) {
+    if (session.workspace.is_crowd()) append(menu, entries_of(kInCrowd));
+    if (shows_bare_clips(session.workspace)) {
         append(menu, {{"agent.make"}});
-    } else if (!session.crowd()) {
+    } else if (!session.workspace.crowd()) {
         append(menu, entries_of(kAgent));
     }
 }
 
 std::vector<MenuEntry> node_menu(const Session& session) {
     std::vector<MenuEntry> menu = entries_of(kNode);
-    const auto who = placed_agent_of(session.fitted(), session.selection.path);
+    const auto who = placed_agent_of(session.workspace.fitted(), session.workspace.selection.path);
     if (who) {
-        const std::string level = std::to_string(session.fitted().tree(who->clip).level(session.selection.index));
+        const std::string level =
+            std::to_string(session.workspace.fitted().tree(who->clip).level(session.workspace.selection.index));
         menu.push_back({"view.level", level, "Show level " + level + " alone"});
     }
     append_agent(menu, session);
@@ -78,16 +79,17 @@ std::vector<MenuEntry> node_menu(const Session& session) {
 
 std::vector<MenuEntry> sample_menu(const Session& session) {
     std::vector<MenuEntry> menu = entries_of(kSample);
-    if (const auto who = placed_agent_of(session.fitted(), session.selection.path)) {
-        const double time = session.fitted().placed(*who).placed_clip().time(session.selection.index);
+    if (const auto who = placed_agent_of(session.workspace.fitted(), session.workspace.selection.path)) {
+        const double time =
+            session.workspace.fitted().placed(*who).placed_clip().time(session.workspace.selection.index);
         menu.push_back({"time.at", short_double(time), formatted("Time cursor to %.3f s", time)});
     }
     append_agent(menu, session);
     return menu;
 }
 
-std::vector<MenuEntry> query_menu(const Session& session) {
-    const std::string query = std::to_string(session.selection.index);
+std::vector<MenuEntry> query_menu(const Workspace& workspace) {
+    const std::string query = std::to_string(workspace.selection.index);
     std::vector<MenuEntry> menu{{"query.select", query, "Show this query"},
                                 {"query.copy_answer", query},
                                 {"query.copy_command", query, "Copy as command"},
@@ -96,47 +98,49 @@ std::vector<MenuEntry> query_menu(const Session& session) {
     return menu;
 }
 
-std::vector<MenuEntry> clip_menu(const Session& session) {
+std::vector<MenuEntry> clip_menu(const Workspace& workspace) {
     std::vector<MenuEntry> menu;
-    const std::string& name = session.scene().clips[static_cast<std::size_t>(session.selection.index)].name;
-    if (shows_bare_clips(session)) {
+    const std::string& name = workspace.scene().clips[static_cast<std::size_t>(workspace.selection.index)].name;
+    if (shows_bare_clips(workspace)) {
         menu.push_back({"agent.make"});
-    } else if (!session.crowd()) {
+    } else if (!workspace.crowd()) {
         menu.push_back({"agent.add", name, "Add an agent that plays it"});
     }
     menu.push_back({"clip.import", name, "How it is read..."});
     menu.push_back({"edit.copy_figures"});
-    const AgentNames who = agents_of_clip(session, session.selection.index);
-    if (!who.empty()) append(menu, shown_menu(session, {kOfClip + name, who}));
+    const AgentNames who = agents_of_clip(workspace, workspace.selection.index);
+    if (!who.empty()) append(menu, shown_menu(workspace, {kOfClip + name, who}));
     return menu;
 }
 
 }  // namespace
 
-std::vector<MenuEntry> shown_menu(const Session& session, const ListedAgents& listed) {
+std::vector<MenuEntry> shown_menu(const Workspace& workspace, const ListedAgents& listed) {
     // The keys are about what is selected.
-    const bool has_keys = listed.who == selected_agents(session);
+    const bool has_keys = listed.who == selected_agents(workspace);
     const auto like = [&](std::string_view id) { return has_keys ? id : std::string_view(); };
-    return {{"agents.hide", listed.text, are_hidden(session, listed.who) ? "Show" : "Hide", like("agent.hide")},
-            {"agents.solo", listed.text, are_alone(session, listed.who) ? "Show what was there before" : "Show alone",
+    return {{"agents.hide", listed.text, are_hidden(workspace, listed.who) ? "Show" : "Hide", like("agent.hide")},
+            {"agents.solo", listed.text, are_alone(workspace, listed.who) ? "Show what was there before" : "Show alone",
              like("agent.solo")},
-            {"agents.pin", listed.text, are_pinned(session, listed.who) ? "Unpin" : "Pin", like("agent.pin")},
+            {"agents.pin", listed.text, are_pinned(workspace, listed.who) ? "Unpin" : "Pin", like("agent.pin")},
             {"agent.show_all"}};
 }
 
 std::vector<MenuEntry> picture_menu(const Session&) {
     std::vector<MenuEntry> menu;
     for (const std::string_view id : kPicture) {
-        if (id != kTogglesAtHand) menu.push_back({id});
-        if (id == kTogglesAtHand)
-            for (const ViewOption& option : view_options())
-                if (option.at_hand) menu.push_back({option.command});
+        if (id != kTogglesAtHand) {
+            menu.push_back({id});
+            continue;
+        }
+        for (const ViewOption& option : view_options())
+            if (option.at_hand) menu.push_back({option.command});
     }
     return menu;
 }
 
 std::vector<MenuEntry> selection_menu(const Session& session) {
-    switch (session.selection.kind) {
+    switch (session.workspace.selection.kind) {
         case Selection::Kind::none:
             return {};
         case Selection::Kind::path: {
@@ -149,17 +153,17 @@ std::vector<MenuEntry> selection_menu(const Session& session) {
         case Selection::Kind::sample:
             return sample_menu(session);
         case Selection::Kind::clip:
-            return clip_menu(session);
+            return clip_menu(session.workspace);
         case Selection::Kind::query:
-            return query_menu(session);
+            return query_menu(session.workspace);
     }
     return {};
 }
 
-std::vector<MenuEntry> test_menu(const Session& session, int event) {
-    const mobb::Trace::Event& test = session.recorded()->trace[event];
+std::vector<MenuEntry> test_menu(const Workspace& workspace, const QueryInspector& queries, int event) {
+    const mobb::Trace::Event& test = workspace.recorded()->trace[event];
     std::vector<MenuEntry> menu{{"step.to", std::to_string(event), "Go to this test, " + std::to_string(event)}};
-    const std::vector<DrawnAgent>& sides = session.findings()->sides;
+    const std::vector<DrawnAgent>& sides = queries.findings()->sides;
     for (const auto& [side, node] : {std::pair(&sides[0], test.a), std::pair(&sides[1], test.b)}) {
         menu.push_back({"go.node", side->name + ' ' + std::to_string(node), "Select " + node_name(*side, node)});
     }
@@ -173,14 +177,14 @@ std::vector<MenuEntry> time_menu(const Session&, double time) {
     return menu;
 }
 
-std::vector<MenuEntry> candidate_menu(const Session& session, int candidate) {
+std::vector<MenuEntry> candidate_menu(const CrowdInspector& crowds, const Workspace& workspace, int candidate) {
     const std::string index = std::to_string(candidate);
     std::vector<MenuEntry> menu{{"crowd.candidate", index, "Point it out"}};
-    const FollowedChoice* followed = session.choice();
+    const FollowedChoice* followed = crowds.choice();
     if (!followed) return menu;
     const auto& blocker = followed->choice.candidates[static_cast<std::size_t>(candidate)].blocker;
     if (!blocker) return menu;
-    const std::string& other = session.crowd()->agents[static_cast<std::size_t>(blocker->agent)].name;
+    const std::string& other = workspace.crowd()->agents[static_cast<std::size_t>(blocker->agent)].name;
     menu.push_back({"crowd.open_candidate", index});
     menu.push_back({"crowd.follow", other, "Follow " + other + ", who rules it out"});
     return menu;

@@ -1,7 +1,8 @@
 /// What panels are drawn with: one frame of Dear ImGui over the session.
 #pragma once
 
-#include <app/document/session.h>
+#include <app/commands/command.h>
+#include <app/session/session.h>
 #include <app/ui/focus.h>
 #include <app/ui/style.h>
 #include <render/drawlist/draw_list.h>
@@ -13,6 +14,8 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace mobbscope::app {
 
@@ -61,7 +64,8 @@ struct FieldInput {
 
 /// All that a panel gets.
 struct Ui {
-    Session& session;
+    Session& session;      ///< for commands
+    Workspace& workspace;  ///< what is shown; changed by commands and by `later` alone
     const Style& style;
     Marks& marks;
     Focus& focus;
@@ -86,6 +90,12 @@ struct Ui {
         const ImVec2 min = ImGui::GetItemRectMin();
         const ImVec2 max = ImGui::GetItemRectMax();
         return {{min.x, min.y}, {max.x, max.y}};
+    }
+    /// Runs a command once the frame is drawn.
+    void invoke(std::string_view id, const std::string& argument = "") const { app::invoke(session, id, argument); }
+    /// Does it once the frame is drawn, with the parts of the session that it names. What it throws becomes a message.
+    void later(Action action) const {
+        session.queue.push([&at = session, action = std::move(action)] { action(at); });
     }
     void want_frame_in(double seconds) { next_frame = next_frame < seconds ? next_frame : seconds; }
     float px(float at_scale_1) const { return at_scale_1 * style.scale; }

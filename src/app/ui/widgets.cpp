@@ -95,14 +95,14 @@ void heading(Ui& ui, const char* text, const std::string& right) {
     ImGui::PopFont();
 }
 
-bool is_folded(const Session& session, const std::string& title) {
-    const auto known = session.settings.folded.find(title);
-    return known != session.settings.folded.end() && known->second;
+bool is_folded(const Settings& settings, const std::string& title) {
+    const auto known = settings.folded.find(title);
+    return known != settings.folded.end() && known->second;
 }
 
 bool section(Ui& ui, const std::string& title, const std::string& right) {
     const std::string id = lower(title);
-    const bool open = !is_folded(ui.session, id);
+    const bool open = !is_folded(ui.session.settings, id);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     heading(ui, title.c_str(), right);
     const ImVec2 below = ImGui::GetCursorScreenPos();
@@ -189,7 +189,7 @@ void number(Ui& ui, const std::string& shown, double value, const char* unit, Im
     if (!ImGui::IsItemHovered()) return;
     const std::string digits = formatted("%.17g", value);
     ImGui::SetTooltip("%s %s\nClick to copy", digits.c_str(), unit);
-    if (ImGui::IsItemClicked() && ui.session.hooks.set_clipboard) ui.session.hooks.set_clipboard(digits);
+    if (ImGui::IsItemClicked()) ui.session.desktop->set_clipboard(digits);
 }
 
 void number_row(Ui& ui, const char* label, const std::string& shown, double value, const char* unit) {
@@ -263,7 +263,7 @@ void command_button(Ui& ui, const char* label, const char* id, const std::string
     }
     if (!pressed) return;
     ui.focus.done_with(mark);
-    invoke(ui.session, id);
+    ui.invoke(id);
 }
 
 bool small_button(Ui& ui, const char* label, const std::string& mark, const char* help) {
@@ -364,15 +364,16 @@ std::optional<double> typed_number(Ui& ui, const NumberField& field, std::string
     const std::optional<double> value = parse_double(text);
     const std::string unit = field.unit.empty() ? "" : (field.unit == "\u00B0" ? "" : " ") + field.unit;
     if (!value || !std::isfinite(*value)) {
-        ui.session.tell(MessageLevel::warning, in_quotes(text) + " is no number; " + field.what + " stays " +
-                                                   number_text(field, field.now) + unit);
+        ui.session.notifications.tell(MessageLevel::warning, in_quotes(text) + " is no number; " + field.what +
+                                                                 " stays " + number_text(field, field.now) + unit);
         return std::nullopt;
     }
     const double within = whole_or_not(field, *value);
     if (*value < field.least || *value > field.most) {
         const bool low = *value < field.least;
-        ui.session.tell(MessageLevel::info, field.what + (low ? " is at least " : " is at most ") +
-                                                number_text(field, low ? field.least : field.most) + unit);
+        ui.session.notifications.tell(MessageLevel::info, field.what + (low ? " is at least " : " is at most ") +
+                                                              number_text(field, low ? field.least : field.most) +
+                                                              unit);
     }
     return within;
 }
@@ -442,14 +443,14 @@ std::optional<double> number_keys(Ui& ui, const NumberField& field) {
         const double next = whole_or_not(field, stepped(field, value, chord.key == Key::up ? steps : -steps));
         if (next == value) {
             const bool low = chord.key == Key::down;
-            ui.session.tell(MessageLevel::info,
-                            field.what + (low ? " is at least " : " is at most ") + number_text(field, next));
+            ui.session.notifications.tell(
+                MessageLevel::info, field.what + (low ? " is at least " : " is at most ") + number_text(field, next));
         }
         value = next;
     }
     if (value == field.now) return std::nullopt;
     // However often a key is pressed, the number is changed once.
-    ui.session.enqueue([&session = ui.session] { session.reopen_group(); });
+    ui.later([](Workspace& workspace) { workspace.history.reopen_group(); });
     return value;
 }
 

@@ -15,7 +15,7 @@ namespace mobbscope::app {
 void heading(Ui& ui, const char* text, const std::string& right = "");
 
 /// Whether the section with that title in small letters is folded.
-bool is_folded(const Session& session, const std::string& title);
+bool is_folded(const Settings& settings, const std::string& title);
 /// A heading that folds what stands below it at a click: whether that is to be drawn. Settings remember it by the
 /// title, which is not made of names that change; `section.<title in small letters>` for scripts.
 [[nodiscard]] bool section(Ui& ui, const std::string& title, const std::string& right = "");

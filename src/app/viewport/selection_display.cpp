@@ -13,36 +13,38 @@ using Role = HighlightLine::Role;
 
 constexpr double kNearConflict = 2;  // seconds around a conflict in which its other one is pointed out
 
-bool is_hidden(const Session& session, const PlacedAgent& who) {
-    if (who.agent < 0 && !session.scene().agents.empty()) return false;
-    return are_hidden(session, {name_in_view(session.fitted().scene(), who)});
+bool is_hidden(const Workspace& workspace, const PlacedAgent& who) {
+    if (who.agent < 0 && !workspace.scene().agents.empty()) return false;
+    return are_hidden(workspace, {name_in_view(workspace.fitted().scene(), who)});
 }
 
 void add_highlight_of(DrawList& list, const Session& session, const Selection& what, Role role, float scale) {
-    if (!what.on_path() || !index_in_view(session.fitted(), session.view(), what.path)) return;
-    const FittedScene& fitted = session.fitted();
+    if (!what.on_path() || !index_in_view(session.workspace.fitted(), session.workspace.view(), what.path)) return;
+    const FittedScene& fitted = session.workspace.fitted();
     const auto who = placed_agent_of(fitted, what.path);
-    if (!who || is_hidden(session, *who)) return;
+    if (!who || is_hidden(session.workspace, *who)) return;
     DrawnAgent drawn = drawn_agent_of(fitted, *who);
-    drawn.placed = {fitted.tree(who->clip), shown_placement(fitted, session.view(), *who)};
+    drawn.placed = {fitted.tree(who->clip), shown_placement(fitted, session.workspace.view(), *who)};
     add_highlight(list, drawn, what.part(), role, scale);
 }
 
 void add_candidate(DrawList& list, const Session& session, float scale) {
-    const FollowedChoice* followed = session.choice();
-    if (!followed || !session.view().candidates || session.candidate() < 0) return;
-    const Candidate& candidate = followed->choice.candidates[static_cast<std::size_t>(session.candidate())];
+    const FollowedChoice* followed = session.crowds.choice();
+    if (!followed || !session.workspace.view().candidates || session.crowds.candidate() < 0) return;
+    const Candidate& candidate = followed->choice.candidates[static_cast<std::size_t>(session.crowds.candidate())];
     add_way_highlight(list, mobb::PlacedClip(*candidate.clip, candidate.placement), Role::candidate, scale);
 }
 
 void add_other_of_conflict(DrawList& list, const Session& session, float scale) {
-    const std::vector<SceneConflict>* found = session.conflicts();
-    if (!found || session.conflict < 0 || session.view().follow.empty() || !session.view().time) return;
-    const SceneConflict& conflict = (*found)[static_cast<std::size_t>(session.conflict)];
-    const ConflictPlace place = conflict_place(session, conflict);
-    const double time = *session.view().time;
+    const std::vector<SceneConflict>* found = session.crowds.conflicts();
+    if (!found || session.workspace.conflict < 0 || session.workspace.view().follow.empty() ||
+        !session.workspace.view().time)
+        return;
+    const SceneConflict& conflict = (*found)[static_cast<std::size_t>(session.workspace.conflict)];
+    const ConflictPlace place = conflict_place(session.workspace, conflict);
+    const double time = *session.workspace.view().time;
     if (time < place.time - kNearConflict || time > conflict.begin() + kNearConflict) return;
-    if (place.followed.name != session.view().follow) return;
+    if (place.followed.name != session.workspace.view().follow) return;
     const Selection other{Selection::Kind::path, {place.other.agent, -1, 0}, -1};
     add_highlight_of(list, session, other, Role::conflict, scale);
 }
@@ -50,9 +52,9 @@ void add_other_of_conflict(DrawList& list, const Session& session, float scale) 
 }  // namespace
 
 void add_highlights(DrawList& list, const Session& session, float scale) {
-    add_highlight_of(list, session, session.selection, Role::selection, scale);
-    if (session.hovered != session.selection) {
-        add_highlight_of(list, session, session.hovered, Role::hover, scale);
+    add_highlight_of(list, session, session.workspace.selection, Role::selection, scale);
+    if (session.workspace.hovered != session.workspace.selection) {
+        add_highlight_of(list, session, session.workspace.hovered, Role::hover, scale);
     }
     add_candidate(list, session, scale);
     add_other_of_conflict(list, session, scale);

@@ -1,7 +1,7 @@
 /// What is selected, under the mouse and the like, highlighted in the picture.
 #pragma once
 
-#include <app/document/session.h>
+#include <app/session/session.h>
 #include <render/drawlist/draw_list.h>
 
 namespace mobbscope::app {

@@ -1,4 +1,3 @@
-#include <app/commands/camera_commands.h>
 #include <app/commands/command.h>
 #include <app/document/described.h>
 #include <app/document/edit_names.h>
@@ -117,9 +116,9 @@ std::optional<OverlayClick> overlay_click(const DrawList& list, glm::vec2 pixel)
     return OverlayClick{*overlay->more, "view.whole_legend", "Show all rows, or six"};
 }
 
-Selection selection_of(const Session& session, const ObjectId& id) {
+Selection selection_of(const Workspace& workspace, const ObjectId& id) {
     return {id.kind == ObjectId::Kind::box ? Selection::Kind::node : Selection::Kind::sample,
-            agent_in_view(session.fitted(), session.view(), id.agent), id.index};
+            agent_in_view(workspace.fitted(), workspace.view(), id.agent), id.index};
 }
 
 /// Nothing is open: what to do.
@@ -134,14 +133,14 @@ void welcome(Ui& ui) {
     ImGui::TextUnformatted(openable_files_in_short().c_str());
     ImGui::PopStyleColor();
     ImGui::Dummy({0, ui.px(6)});
-    if (ImGui::Button("Open...")) invoke(ui.session, "file.open");
+    if (ImGui::Button("Open...")) ui.invoke("file.open");
     ui.mark("welcome.open");
     ImGui::SameLine();
-    if (ImGui::Button("Open the demo")) invoke(ui.session, "file.demo");
+    if (ImGui::Button("Open the demo")) ui.invoke("file.demo");
     ui.mark("welcome.demo");
-    if (ui.session.has_last()) {
-        if (ImGui::Button(("Reopen last session: " + ui.session.last_title()).c_str())) {
-            invoke(ui.session, "file.reopen_last");
+    if (ui.session.files.has_last()) {
+        if (ImGui::Button(("Reopen last session: " + ui.session.files.last_title()).c_str())) {
+            ui.invoke("file.reopen_last");
         }
         ui.mark("welcome.reopen");
     }
@@ -149,11 +148,11 @@ void welcome(Ui& ui) {
 }
 
 /// The selected agent, where it changes the picture.
-std::string standing_out(const Session& session) {
-    if (session.view().query || !session.selection.on_path() || names_fit(agent_count(session))) {
+std::string standing_out(const Workspace& workspace) {
+    if (workspace.view().query || !workspace.selection.on_path() || names_fit(agent_count(workspace))) {
         return "";
     }
-    const AgentNames selected = selected_agents(session);
+    const AgentNames selected = selected_agents(workspace);
     return selected.empty() ? "" : selected.front();
 }
 
@@ -183,8 +182,9 @@ Camera Viewport::shown_camera() const { return list_ ? list_->camera : key_->vie
 
 /// The camera has jumped, by a command or by undo: it flies there instead, if somebody is looking.
 void Viewport::take_off(Ui& ui, const Key& next) {
-    const bool jumped = key_ && list_ && ui.session.attended() && drag_ == Drag::none && key_->fitted == next.fitted &&
-                        key_->size == next.size && !(key_->view.camera == next.view.camera);
+    const bool jumped = key_ && list_ && ui.session.options.attended && drag_ == Drag::none &&
+                        key_->fitted == next.fitted && key_->size == next.size &&
+                        !(key_->view.camera == next.view.camera);
     if (!jumped) {
         if (!key_ || key_->fitted != next.fitted || key_->size != next.size) flight_.reset();
         return;
@@ -204,23 +204,20 @@ void Viewport::take_off(Ui& ui, const Key& next) {
 Viewport::Key Viewport::wanted(const Ui& ui, PictureSize size, const FollowedChoice* choice) const {
     // Text follows the panels where they are made larger than the picture would have it by itself.
     const double words = ui.style.scale > 1 ? std::max<double>(ui.style.scale, metrics_of(size).scale) : 0;
-    const SceneView seen = ui.session.view_at(view_place_);
+    const SceneView seen = ui.session.views.at(view_place_);
     return {seen.fitted,
             seen.view,
             size,
             words,
             choice ? std::pair(choice->agent, choice->play) : std::pair(-1, -1),
-            is_active(ui) ? standing_out(ui.session) : ""};
+            is_active(ui) ? standing_out(ui.workspace) : ""};
 }
 
 /// Gives the view a camera that stands.
-void Viewport::settle(Ui& ui, Key& next) {
+void Viewport::stand(Ui& ui, Key& next) {
     Camera& camera = next.view.camera;
-    Session& session = ui.session;
-    const std::optional<PictureSize> before = session.picture_size();
-    if (is_active(ui) && before != next.size) {
-        session.enqueue([&session, to = next.size] { session.resize_pictures(to); });
-    }
+    const std::optional<PictureSize> before = ui.workspace.picture_size;
+    if (is_active(ui) && before != next.size) laid_out_.size = next.size;
     if (camera.target) {
         if (before && before->height != next.size.height) camera = resized(camera, *before, next.size);
         return;
@@ -233,18 +230,17 @@ void Viewport::settle(Ui& ui, Key& next) {
         // Targets are measured in it.
         const double height = framed.moment ? 0 : framed.space.time_height;
         if (height > 0) next.view.time_height = height;
-        session.enqueue(
-            [&session, place = view_place_, camera, height] { session.settle_camera(place, camera, height); });
+        laid_out_.framed = std::pair(camera, height);
     } catch (const std::invalid_argument&) {
         // Nothing can be drawn; build says why.
     }
 }
 
 void Viewport::update_picture(Ui& ui, PictureSize size) {
-    const Session& session = ui.session;
-    const FollowedChoice* choice = is_active(ui) && session.view().candidates ? session.choice() : nullptr;
+    const FollowedChoice* choice =
+        is_active(ui) && ui.workspace.view().candidates ? ui.session.crowds.choice() : nullptr;
     Key next = wanted(ui, size, choice);
-    settle(ui, next);
+    stand(ui, next);
     if (key_ && *key_ == next && !flight_) return;
     if (!(key_ && *key_ == next)) take_off(ui, next);
     key_ = next;
@@ -261,21 +257,26 @@ void Viewport::update_picture(Ui& ui, PictureSize size) {
 
 /// Lets the camera go to another step's pair, if it is to and the pair is not well seen beside the panels.
 void Viewport::follow_test(Ui& ui) {
-    const Session& session = ui.session;
-    const bool put_back = std::exchange(times_put_back_, session.times_put_back()) != session.times_put_back();
-    if (!session.follow_test || !session.recorded()) return test_looked_for_.reset();
-    const std::pair test(*session.view().query, session.step());
+    const bool put_back = std::exchange(times_put_back_, ui.session.counts.put_back) != ui.session.counts.put_back;
+    if (!ui.session.views.follow_test || !ui.workspace.recorded()) return test_looked_for_.reset();
+    const std::pair test(*ui.workspace.view().query, ui.workspace.step());
     // The camera was put back too.
     if (put_back) test_looked_for_ = test;
     if (flight_ || test_looked_for_ == test) return;
     test_looked_for_ = test;
-    const std::optional<TestCorners> boxes = corners_of_test(session);
+    const std::optional<TestCorners> boxes = corners_of_test(ui.workspace);
     std::vector<Rect> panels;
     for (const Overlay& overlay : list_->overlays) panels.push_back(overlay.rect);
     if (!boxes || is_well_seen(*boxes, *list_, panels)) return;
-    ui.session.enqueue([&session = ui.session, boxes = *boxes, part = free_part(list_->size, panels)] {
-        go_along_with(session, boxes, part);
-    });
+    laid_out_.to_see = std::pair(*boxes, free_part(list_->size, panels));
+}
+
+bool Viewport::settle(Views& views, Workspace& workspace) {
+    const LaidOut laid_out = std::exchange(laid_out_, {});
+    if (laid_out.size) views.resize_pictures(*laid_out.size);
+    if (laid_out.framed) views.settle_camera(view_place_, laid_out.framed->first, laid_out.framed->second);
+    if (laid_out.to_see) go_along_with(views, workspace, laid_out.to_see->first, laid_out.to_see->second);
+    return laid_out.size || laid_out.framed || laid_out.to_see;
 }
 
 /// Sets what is pointed out in the list, which is not built anew for that.
@@ -283,7 +284,7 @@ void Viewport::update_highlights(const Ui& ui) {
     const std::vector<HighlightLine> shown = std::exchange(list_->highlights, {});
     if (is_active(ui)) {
         const float scale = metrics_of(list_->size, key_->scale).scale;
-        const FittedScene& fitted = ui.session.fitted();
+        const FittedScene& fitted = ui.workspace.fitted();
         if (drag_ == Drag::handle && moved_) {
             if (const auto held = placed_agent_of(fitted, {handle_drag_.agent, -1, 0})) {
                 const mobb::PlacedTree before(fitted.tree(held->clip), handle_drag_.start);
@@ -296,9 +297,9 @@ void Viewport::update_highlights(const Ui& ui) {
 }
 
 void Viewport::show(Ui& ui, ImVec2 corner) {
-    const Painter::Hand hand = !ui.session.attended() ? Painter::Hand::away
-                               : drag_ == Drag::none  ? Painter::Hand::rests
-                                                      : Painter::Hand::drags;
+    const Painter::Hand hand = !ui.session.options.attended ? Painter::Hand::away
+                               : drag_ == Drag::none        ? Painter::Hand::rests
+                                                            : Painter::Hand::drags;
     const Painter::Shown shown =
         ui.painter.picture(view_place_, std::exchange(unpainted_, Changed::nothing), hand, ui.now);
     const ImVec2 end{corner.x + static_cast<float>(list_->size.width),
@@ -326,7 +327,7 @@ void Viewport::draw(Ui& ui, std::size_t place) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 room = ImGui::GetContentRegionAvail();
     const PictureSize size{static_cast<int>(room.x), static_cast<int>(room.y)};
-    if (ui.session.empty()) {
+    if (ui.workspace.empty()) {
         list_.reset();
         key_.reset();
         welcome(ui);
@@ -334,10 +335,7 @@ void Viewport::draw(Ui& ui, std::size_t place) {
     }
     if (size.width < kMinSide || size.height < kMinSide) return;
     update_picture(ui, size);
-    if (is_active(ui)) {
-        ui.session.hooks.viewport_size = [size] { return size; };
-        ui.session.hooks.viewport_scale = [scale = key_->scale] { return scale; };
-    }
+    if (is_active(ui)) ui.session.views.picture = {size, key_->scale};
     if (!list_) {
         ImGui::TextWrapped("%s", why_not_.c_str());
         return;
@@ -353,12 +351,12 @@ void Viewport::draw(Ui& ui, std::size_t place) {
     show(ui, corner);
     if (is_active(ui)) decorate(ui, {*list_, corner});
     if (is_active(ui) && ui.focus.opens_menu_of_picture()) {
-        over_nothing_ = ui.session.selection.kind == Selection::Kind::none;
+        over_nothing_ = ui.workspace.selection.kind == Selection::Kind::none;
         open_menu_at(ImGui::GetID("what is here"), place_of_selection(ui.session, {*list_, corner}));
     }
     context_menu(ui, "what is here",
                  [&] { return over_nothing_ ? picture_menu(ui.session) : selection_menu(ui.session); });
-    if (ui.session.view_count() > 1) name_trees(ui, corner);
+    if (ui.session.views.count() > 1) name_trees(ui, corner);
 }
 
 /// The kind of trees of a view in its lower right corner, which no overlay takes; a frame in the accent's colour around
@@ -384,8 +382,8 @@ void Viewport::name_trees(const Ui& ui, ImVec2 corner) const {
 void Viewport::move_camera(Ui& ui, const Camera& camera) {
     // The camera stands in a scene whose time is drawn so high.
     const std::optional<double> height = list_->moment ? std::nullopt : std::optional<double>(list_->space.time_height);
-    ui.session.enqueue([&session = ui.session, camera, height] {
-        session.change_view([&](ViewState& view) {
+    ui.later([camera, height](Workspace& workspace) {
+        workspace.change_view([&](ViewState& view) {
             view.camera = camera;
             if (height) view.time_height = *height;
         });
@@ -398,7 +396,7 @@ void Viewport::mouse(Ui& ui, const ShownPicture& picture) {
     const bool over = ImGui::IsItemHovered();
     const bool turned = over && ImGui::GetIO().MouseWheel != 0;
     if (!is_active(ui) && (turned || ImGui::IsItemActivated())) {
-        ui.session.enqueue([&session = ui.session, place = view_place_] { session.activate_view(place); });
+        ui.later([place = view_place_](Views& views) { views.activate(place); });
     }
     if (turned) wheel(ui, pixel);
     if (ImGui::IsItemActivated()) press(ui, picture, pixel);
@@ -426,17 +424,18 @@ void Viewport::wheel(Ui& ui, glm::vec2 pixel) {
 }
 
 std::optional<Viewport::Handles> Viewport::handles(Ui& ui, const ShownPicture& picture) {
-    const Session& session = ui.session;
     // They stand where a path begins, in space-time.
-    if (picture.list.moment || !session.selection.on_path() || session.crowd()) return std::nullopt;
+    if (picture.list.moment || !ui.workspace.selection.on_path() || ui.workspace.crowd()) return std::nullopt;
     // In a grid an agent is not where it is, and who is hidden is not to be seen.
-    if (is_in_grid(session.scene(), session.view()) || are_hidden(session, selected_agents(session))) {
+    if (is_in_grid(ui.workspace.scene(), ui.workspace.view()) ||
+        are_hidden(ui.workspace, selected_agents(ui.workspace))) {
         return std::nullopt;
     }
-    const auto who = placed_agent_of(session.fitted(), session.selection.path);
-    const bool in_view = index_in_view(session.fitted(), session.view(), session.selection.path).has_value();
+    const auto who = placed_agent_of(ui.workspace.fitted(), ui.workspace.selection.path);
+    const bool in_view =
+        index_in_view(ui.workspace.fitted(), ui.workspace.view(), ui.workspace.selection.path).has_value();
     if (!who || who->agent < 0 || !in_view) return std::nullopt;
-    const mobb::PlacedTree placed = session.fitted().placed(*who);
+    const mobb::PlacedTree placed = ui.workspace.fitted().placed(*who);
     return Handles{*who, handle_places(ui, picture, placed.placed_clip())};
 }
 
@@ -468,7 +467,7 @@ void Viewport::press(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) {
         lit_ = hold->handle;
     } else if (on_overlay) {
         drag_ = Drag::none;
-        if (on_overlay->command) invoke(ui.session, on_overlay->command);
+        if (on_overlay->command) ui.invoke(on_overlay->command);
     }
 }
 
@@ -485,9 +484,9 @@ void Viewport::drag(Ui& ui, glm::vec2 pixel) {
     if (!placement) return;
     const Camera camera = shown_camera();
     const double height = list_->space.time_height;
-    ui.session.enqueue([&session = ui.session, drag = handle_drag_, placement, camera, height] {
-        const std::string& name = session.scene().agents.at(static_cast<std::size_t>(drag.agent)).name;
-        session.edit({name_of_placing(name, drag.start, *placement).title, "drag"}, [&](Scene& scene) {
+    ui.later([drag = handle_drag_, placement, camera, height](Workspace& workspace) {
+        const std::string& name = workspace.scene().agents.at(static_cast<std::size_t>(drag.agent)).name;
+        workspace.edit({name_of_placing(name, drag.start, *placement).title, "drag"}, [&](Scene& scene) {
             place_agent(scene, drag.agent, *placement);
             scene.view.camera = camera;
             scene.view.time_height = height;
@@ -500,7 +499,7 @@ void Viewport::release(Ui& ui, glm::vec2 pixel) {
     const bool was_click = !moved_ && drag_ != Drag::pan && !ImGui::IsAnyMouseDown();
     const bool asked = !moved_ && asks_ && !ImGui::IsAnyMouseDown();
     drag_ = Drag::none;
-    ui.session.enqueue([&session = ui.session] { session.close_group(); });
+    ui.later(&Workspace::close_group);
     if (was_click && list_ && is_active(ui)) click(ui, pixel);
     if (asked && list_ && is_active(ui)) ask(ui, pixel);
 }
@@ -508,16 +507,15 @@ void Viewport::release(Ui& ui, glm::vec2 pixel) {
 /// A right click: a menu of what is there, which is selected; what is selected already stays so, also behind something.
 void Viewport::ask(Ui& ui, glm::vec2 pixel) {
     if (overlay_at(*list_, pixel)) return;
-    Session& session = ui.session;
     std::optional<Selection> nearest;
     bool stays = false;
     for (const Pick& hit : picks(*list_, pixel, ui.px(kClickReach))) {
-        const Selection here = selection_of(session, hit.id);
+        const Selection here = selection_of(ui.workspace, hit.id);
         if (!nearest) nearest = here;
-        stays = stays || here == session.selection;
+        stays = stays || here == ui.workspace.selection;
     }
     over_nothing_ = !nearest;
-    if (nearest && !stays) session.select(*nearest);
+    if (nearest && !stays) ui.workspace.select(*nearest);
     ImGui::OpenPopup("what is here");
 }
 
@@ -525,8 +523,9 @@ void Viewport::ask(Ui& ui, glm::vec2 pixel) {
 ImVec2 Viewport::place_of_selection(const Session& session, const ShownPicture& picture) const {
     const glm::vec2 size(picture.list.size.width, picture.list.size.height);
     glm::vec2 at = 0.5f * size;
-    const bool is_something = session.selection.kind != Selection::Kind::none;
-    if (const std::optional<Bounds> box = is_something ? box_of(session, session.selection) : std::nullopt) {
+    const bool is_something = session.workspace.selection.kind != Selection::Kind::none;
+    if (const std::optional<Bounds> box =
+            is_something ? box_of(session.workspace, session.workspace.selection) : std::nullopt) {
         const glm::dvec3 middle = box->middle();
         const auto pixel = picture.list.projection.project(picture.list.space.point(middle.x, middle.y, middle.z));
         if (pixel) at = glm::clamp(*pixel, glm::vec2(0), size);
@@ -535,38 +534,35 @@ ImVec2 Viewport::place_of_selection(const Session& session, const ShownPicture& 
 }
 
 void Viewport::hover(Ui& ui, glm::vec2 pixel) {
-    Session& session = ui.session;
     const std::vector<Pick> hits = picks(*list_, pixel, ui.px(kClickReach));
     place_.reset();
     if (hits.empty()) return;
     const ObjectId& id = hits.front().id;
     place_ = hits.front().place;
-    ui.hovered = selection_of(session, id);
+    ui.hovered = selection_of(ui.workspace, id);
 }
 
 /// The first click takes what is in front, one more at the same place what lies behind it; on nothing, nothing.
 void Viewport::click(Ui& ui, glm::vec2 pixel) {
-    Session& session = ui.session;
     if (overlay_at(*list_, pixel)) return;
     const std::vector<Pick> hits = picks(*list_, pixel, ui.px(kClickReach));
     const bool again = glm::length(pixel - clicked_at_) <= ui.px(kClickReach);
     depth_ = again ? depth_ + 1 : 0;
     clicked_at_ = pixel;
     if (hits.empty()) {
-        session.select({});
+        ui.workspace.select({});
         return;
     }
     const ObjectId& id = hits[depth_ % hits.size()].id;
-    session.select(selection_of(session, id));
-    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) invoke(session, "view.frame");
+    ui.workspace.select(selection_of(ui.workspace, id));
+    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) ui.invoke("view.frame");
 }
 
 // --- over the picture
 
 void Viewport::tooltip(Ui& ui) const {
-    const Session& session = ui.session;
-    if (!place_ || session.hovered.kind == Selection::Kind::none) return;
-    const Described what = describe(session.fitted(), session.hovered);
+    if (!place_ || ui.workspace.hovered.kind == Selection::Kind::none) return;
+    const Described what = describe(ui.workspace.fitted(), ui.workspace.hovered);
     ImGui::BeginTooltip();
     ImGui::TextUnformatted(what.name.c_str());
     ImGui::PushFont(ui.style.mono);
@@ -575,8 +571,8 @@ void Viewport::tooltip(Ui& ui) const {
         if (key == "samples" || key == "time" || key == "radius") ImGui::Text("%-8s%s", key.c_str(), value.c_str());
     }
     glm::dvec3 place = *place_;
-    if (const auto who = placed_agent_of(session.fitted(), session.hovered.path)) {
-        const mobb::Placement shown = shown_placement(session.fitted(), session.view(), *who);
+    if (const auto who = placed_agent_of(ui.workspace.fitted(), ui.workspace.hovered.path)) {
+        const mobb::Placement shown = shown_placement(ui.workspace.fitted(), ui.workspace.view(), *who);
         place -= glm::dvec3(shown.translate - who->placement.translate, 0);
     }
     const char* here = list_->moment ? "%-8s%.3f, %.3f m, %.3f m high" : "%-8s%.3f, %.3f m at %.3f s";

@@ -1,6 +1,8 @@
 /// The picture in the middle of the window, and what the mouse does in it.
 #pragma once
 
+#include <app/commands/camera_commands.h>
+#include <app/document/views.h>
 #include <app/ui/ui.h>
 #include <app/viewport/agent_handles.h>
 #include <app/viewport/flight.h>
@@ -10,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace mobbscope::app {
 
@@ -19,6 +22,11 @@ class Viewport {
     /// handles and what is under the mouse too. A press makes a view the active one. A camera that is to frame the
     /// scene by itself does so here, once, and stands from then on; a picture of another height keeps its scale.
     void draw(Ui& ui, std::size_t place);
+
+    /// What the last frame's layout has found out goes into the document: the size of the pictures, a camera that
+    /// framed the scene by itself, and the way to a pair under test. Between frames. Returns whether there was
+    /// anything.
+    bool settle(Views& views, Workspace& workspace);
 
     /// What it showed last, as `render` would draw it but for a flight under way and what is pointed out; null for an
     /// empty scene.
@@ -37,11 +45,17 @@ class Viewport {
     };
     enum class Drag { none, orbit, pan, handle };
 
-    bool is_active(const Ui& ui) const { return view_place_ == ui.session.active_place(); }
+    struct LaidOut {
+        std::optional<PictureSize> size;
+        std::optional<std::pair<Camera, double>> framed;     ///< and how high a second is
+        std::optional<std::pair<TestCorners, Rect>> to_see;  ///< in that part of the picture
+    };
+
+    bool is_active(const Ui& ui) const { return view_place_ == ui.session.views.active(); }
     void name_trees(const Ui& ui, ImVec2 corner) const;
     void update_picture(Ui& ui, PictureSize size);
     Key wanted(const Ui& ui, PictureSize size, const FollowedChoice* choice) const;
-    void settle(Ui& ui, Key& next);
+    void stand(Ui& ui, Key& next);
     void follow_test(Ui& ui);
     KeptPaths& paths_of(const Key& key);
     void build(const Key& key, const FollowedChoice* choice);
@@ -82,6 +96,8 @@ class Viewport {
     Changed unpainted_ = Changed::nothing;                ///< what has changed since the painter was told
     std::optional<std::pair<int, int>> test_looked_for_;  ///< query and step whose test the camera has followed to
     int times_put_back_ = 0;                              ///< Session's, when that was asked
+
+    LaidOut laid_out_;  ///< not settled yet
 
     Drag drag_ = Drag::none;
     HandleDrag handle_drag_;

@@ -259,10 +259,11 @@ float distance_to_rounded_square(glm::vec2 p, float radius) {
 
 bool has_display() { return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY"); }
 
-struct GlfwWindow::State {
+struct GlfwWindow::State final : Desktop {
     /// A size that was asked for holds this once, and so it goes where the display puts it.
     State(Session& of, std::optional<PictureSize> size)
         : session(of),
+          desktop_before(of.desktop),
           place(size ? std::nullopt : place_on_monitors(of.settings.window)),
           keeps_place(!size),
           window(open_window(
@@ -275,24 +276,22 @@ struct GlfwWindow::State {
         if (place) glfwSetWindowPos(window, place->x, place->y);
         set_icon();
         set_callbacks();
-        session.hooks.wake = [] { glfwPostEmptyEvent(); };
-        session.hooks.set_clipboard = [this](const std::string& text) { glfwSetClipboardString(window, text.c_str()); };
-        session.hooks.clipboard = [this]() -> std::string {
-            const char* text = glfwGetClipboardString(window);
-            return text ? text : "";
-        };
-        session.hooks.set_clipboard_picture = copy_picture_to_clipboard;
-        session.hooks.why_no_clipboard_picture = why_no_picture_clipboard;
+        session.desktop = this;
     }
-    ~State() {
+    ~State() override {
         session.end_work();  // it would wake a window that is gone
-        session.hooks.wake = nullptr;
-        session.hooks.set_clipboard = nullptr;
-        session.hooks.clipboard = nullptr;
-        session.hooks.set_clipboard_picture = nullptr;
-        session.hooks.why_no_clipboard_picture = nullptr;
+        session.desktop = desktop_before;
         for (const auto& [shape, cursor] : cursors) glfwDestroyCursor(cursor);
     }
+
+    void wake() override { glfwPostEmptyEvent(); }
+    void set_clipboard(const std::string& text) override { glfwSetClipboardString(window, text.c_str()); }
+    std::optional<std::string> clipboard() override {
+        const char* text = glfwGetClipboardString(window);
+        return text ? text : "";
+    }
+    void set_clipboard_picture(std::string_view png) override { copy_picture_to_clipboard(png); }
+    std::string_view why_no_clipboard_picture() override { return why_no_picture_clipboard(); }
 
     static State& state_of(GLFWwindow* of) { return *static_cast<State*>(glfwGetWindowUserPointer(of)); }
     static Shell& shell_of(GLFWwindow* of) { return state_of(of).shell; }
@@ -425,6 +424,7 @@ struct GlfwWindow::State {
 
     Library library;
     Session& session;
+    Desktop* desktop_before;
     std::optional<WindowPlace> place;  ///< as settings have it; none: it was nowhere yet
     bool keeps_place;
     bool moved = true;  ///< or resized, since its place was noted
@@ -444,7 +444,7 @@ GlfwWindow::GlfwWindow(Session& session, std::optional<PictureSize> size)
 GlfwWindow::~GlfwWindow() = default;
 
 void GlfwWindow::run() {
-    while (!state_->session.closed()) {
+    while (!state_->session.files.closed()) {
         state_->wait(std::numeric_limits<double>::infinity());
         state_->draw();
     }
@@ -458,7 +458,7 @@ void GlfwWindow::frame() {
 }
 
 void GlfwWindow::run_for(double seconds) {
-    for (const double end = glfwGetTime() + seconds; glfwGetTime() < end && !state_->session.closed();) {
+    for (const double end = glfwGetTime() + seconds; glfwGetTime() < end && !state_->session.files.closed();) {
         state_->wait(end - glfwGetTime());
         state_->draw();
     }

@@ -202,24 +202,39 @@ class TexturePainter final : public Painter {
 
 }  // namespace
 
-struct Shell::State {
+struct Shell::State final : PictureMaker {
     State(std::unique_ptr<GlContext> context, Session& of, double wanted_scale, Clock measures)
         : session(of),
           clock(std::move(measures)),
           imgui(make_imgui()),
           renderer(std::move(context)),
           drawn(std::make_unique<Drawn>(renderer, clock)),
-          own_scale(wanted_scale) {
+          maker_before(of.picture_maker) {
+        session.window_scale = wanted_scale;
         ImGuiIO& io = ImGui::GetIO();
         io.UserData = this;
         io.ClipboardUserData = this;
         io.SetClipboardTextFn = [](void* self, const char* text) { static_cast<State*>(self)->copy(text); };
         io.GetClipboardTextFn = [](void* self) { return static_cast<State*>(self)->paste(); };
     }
-    ~State() {
+    ~State() override {
         ImGui::SetCurrentContext(imgui.get());
         // The names would be deleted in whichever context is current; see Renderer.
         if (!renderer.context().try_make_current()) static_cast<void>(drawn.release());
+    }
+
+    Image draw(const DrawList& list, int samples) override {
+        renderer.check_samples(samples);
+        return renderer.draw(list, samples);
+    }
+    Image draw_coarse(const DrawList& list, int divisor) override { return renderer.draw_coarse(list, divisor); }
+    std::string why_no_samples(int samples) override {
+        try {
+            renderer.check_samples(samples);
+            return "";
+        } catch (const MachineError& error) {
+            return error.what();
+        }
     }
 
     /// What is made in the context.
@@ -232,10 +247,10 @@ struct Shell::State {
 
     void copy(const char* text) {
         clipboard = text;
-        if (session.hooks.set_clipboard) session.hooks.set_clipboard(clipboard);
+        session.desktop->set_clipboard(clipboard);
     }
     const char* paste() {
-        if (session.hooks.clipboard) clipboard = session.hooks.clipboard();
+        if (std::optional<std::string> there = session.desktop->clipboard()) clipboard = std::move(*there);
         return clipboard.c_str();
     }
 
@@ -250,22 +265,23 @@ struct Shell::State {
         if (focus.press(chord, repeated)) return Taken::opened;
         const Command* command = command_for(session, chord);
         if (!command || (repeated && !command->repeats)) return Taken::nobodys;
-        if (!works_under(session.dialog, *command)) return Taken::nobodys;
+        if (!works_under(session.dialogs.now, *command)) return Taken::nobodys;
         if (ImGui::GetIO().WantTextInput && edits_text(chord)) return Taken::nobodys;
         const bool busy = ImGui::IsAnyItemActive() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
         if (busy && !chord.ctrl && edits_text(chord)) return Taken::nobodys;
         // Each press is undone by itself, also of those that one frame takes in.
-        if (!ImGui::IsAnyItemActive()) session.close_group();
+        if (!ImGui::IsAnyItemActive()) session.workspace.close_group();
         if (command->enabled(session)) {
             invoke(session, command->id);
-        } else if (const std::string_view why = why_not(session, *command); !session.empty() && why != kNotNow) {
+        } else if (const std::string_view why = why_not(session, *command);
+                   !session.workspace.empty() && why != kNotNow) {
             std::string title(command->title);
             if (title.ends_with("...")) title.resize(title.size() - 3);
-            session.tell(MessageLevel::info, title.append(": ").append(why));
+            session.notifications.tell(MessageLevel::info, title.append(": ").append(why));
         }
         // No panel is being drawn: what comes next from the keyboard meets what this one has done.
-        session.run_queue();
-        const bool opened = session.dialog != Dialog::none || session.focus_move != FocusMove::none;
+        session.queue.run();
+        const bool opened = session.dialogs.now != Dialog::none || session.keys.move != FocusMove::none;
         return opened ? Taken::opened : Taken::command;
     }
 
@@ -284,17 +300,17 @@ struct Shell::State {
     }
 
     void drop(const Drop& dropped) {
-        session.enqueue([this, dropped] { session.drop(dropped.paths); });
-        session.run_queue();
+        session.queue.push([this, dropped] { session.files.drop(dropped.paths); });
+        session.queue.run();
     }
 
     /// A dialog has opened whose field does not have the keys yet: what is typed meanwhile is meant for it.
     bool waits_for_field() {
-        const Dialog open = session.dialog;
+        const Dialog open = session.dialogs.now;
         const bool has_field = open == Dialog::open || open == Dialog::add || open == Dialog::save_as ||
                                open == Dialog::export_picture || open == Dialog::export_file ||
                                open == Dialog::review || open == Dialog::palette || open == Dialog::help;
-        if (!has_field || !session.input.fresh)
+        if (!has_field || !session.dialogs.input.fresh)
             waited = 0;
         else if (++waited <= kFramesToFocus)
             return true;
@@ -306,7 +322,7 @@ struct Shell::State {
         if (waits_for_field()) return;
         input.feed(ImGui::GetIO(),
                    {[this](const Chord& chord, bool repeated) { return press(chord, repeated); },
-                    [this](const Drop& dropped) { drop(dropped); }, [this] { session.request_close(); }});
+                    [this](const Drop& dropped) { drop(dropped); }, [this] { session.files.request_close(); }});
         follow_drag();
     }
 
@@ -315,18 +331,13 @@ struct Shell::State {
         time = now;
         // Dear ImGui wants time to pass.
         ImGui::GetIO().DeltaTime = std::max(static_cast<float>(passed), 1e-5f);
-        if (std::exchange(was_playing, session.playing()) && session.playing()) {
-            session.advance(std::min(passed, kLongestStep));
+        if (std::exchange(was_playing, session.playback.playing()) && session.playback.playing()) {
+            session.playback.advance(std::min(passed, kLongestStep));
         }
     }
 
-    double scale() const {
-        return std::clamp(session.settings.ui_scale > 0 ? session.settings.ui_scale : own_scale, kLeastUiScale,
-                          kMostUiScale);
-    }
-
     void follow_look() {
-        const auto wanted = std::pair(session.view().theme, static_cast<float>(scale()));
+        const auto wanted = std::pair(session.workspace.view().theme, static_cast<float>(session.ui_scale()));
         if (look_made_for == wanted) return;
         style = make_style(wanted.first, wanted.second);
         drawn->ui.upload(*ImGui::GetIO().Fonts);
@@ -336,12 +347,12 @@ struct Shell::State {
 
     double lay_out(double now) {
         marks.clear();
-        Ui ui{session, style, marks, focus, field, drawn->painter, now, kNever};
-        if (session.attended()) ui.frame_seconds = frame_seconds;
+        Ui ui{session, session.workspace, style, marks, focus, field, drawn->painter, now, kNever};
+        if (session.options.attended) ui.frame_seconds = frame_seconds;
         focus.follow_commands();
         ImGui::NewFrame();
         focus.begin_frame();
-        viewports.resize(session.view_count());
+        viewports.resize(session.views.count());
         window_layout(ui, viewports, pictures);
         focus.end_frame(style);
         const ImGuiIO& io = ImGui::GetIO();
@@ -364,11 +375,11 @@ struct Shell::State {
     /// Whether another frame would show nothing new, but for what is being painted.
     bool only_paints(PictureSize wanted_size, double now) const {
         return fine_due(now).first <= 0 && now < laid_out_until && input.empty() && settling == 0 &&
-               wanted_size == size && !session.playing() && !session.job();
+               wanted_size == size && !session.playback.playing() && !session.jobs.job();
     }
 
     /// The last frame, once somebody looks at it.
-    void draw() {
+    void draw_frame() {
         ImGui::SetCurrentContext(imgui.get());
         renderer.context().make_current();
         if (!std::exchange(undrawn, false)) return;
@@ -410,7 +421,7 @@ struct Shell::State {
     Marks marks;
     Style style{};
     std::optional<std::pair<Theme, float>> look_made_for;
-    double own_scale;
+    PictureMaker* maker_before;
     std::optional<double> time;
     std::string clipboard;
     int settling = kFramesToSettle;
@@ -426,32 +437,13 @@ double Shell::steady_seconds() {
 
 Shell::Shell(std::unique_ptr<GlContext> context, Session& session, double scale, Clock clock)
     : state_(std::make_unique<State>(std::move(context), session, scale, std::move(clock))) {
-    session.hooks.draw_picture = [this](const DrawList& list, int samples) {
-        state_->renderer.check_samples(samples);
-        return state_->renderer.draw(list, samples);
-    };
-    session.hooks.draw_coarse_picture = [this](const DrawList& list, int divisor) {
-        return state_->renderer.draw_coarse(list, divisor);
-    };
-    session.hooks.why_no_samples = [this](int samples) -> std::string {
-        try {
-            state_->renderer.check_samples(samples);
-            return "";
-        } catch (const MachineError& error) {
-            return error.what();
-        }
-    };
-    session.hooks.ui_scale = [this] { return state_->scale(); };
+    session.picture_maker = state_.get();
 }
 
 Shell::~Shell() {
-    Hooks& hooks = state_->session.hooks;
-    hooks.draw_picture = nullptr;
-    hooks.draw_coarse_picture = nullptr;
-    hooks.why_no_samples = nullptr;
-    hooks.ui_scale = nullptr;
-    hooks.viewport_size = nullptr;
-    hooks.viewport_scale = nullptr;
+    Session& session = state_->session;
+    if (session.picture_maker == state_.get()) session.picture_maker = state_->maker_before;
+    session.views.picture.reset();
 }
 
 void Shell::feed(const InputEvent& event) { state_->input.push(event); }
@@ -469,9 +461,9 @@ double Shell::frame(PictureSize size, double now) {
         s.settling = kFramesToSettle;
     }
     s.follow_time(now);
-    const std::size_t jobs = s.session.job_count();
+    const std::size_t jobs = s.session.jobs.count();
     s.session.poll();
-    if (s.session.job_count() != jobs) s.settling = kFramesToSettle;
+    if (s.session.jobs.count() != jobs) s.settling = kFramesToSettle;
     s.feed();
     s.follow_look();
     const double began = s.clock();
@@ -479,12 +471,14 @@ double Shell::frame(PictureSize size, double now) {
     s.laid_out_in = s.clock() - began;
     s.size = size;
     s.laid_out_until = now + std::min(wanted, kSignFrame);
-    if (s.session.run_queue()) s.settling = kFramesToSettle;
-    if (!ImGui::IsAnyItemActive() && !s.input.any_button_down()) s.session.close_group();
+    bool changed = false;
+    for (Viewport& viewport : s.viewports) changed |= viewport.settle(s.session.views, s.session.workspace);
+    if (s.session.queue.run() || changed) s.settling = kFramesToSettle;
+    if (!ImGui::IsAnyItemActive() && !s.input.any_button_down()) s.session.workspace.close_group();
     s.cursor = ImGui::GetMouseCursor();
     if (s.settling > 0) --s.settling;
     s.settled = s.input.empty() && s.settling == 0 && wanted > 0;
-    return s.session.playing() || !s.settled ? 0 : std::min(wanted, s.fine_due(now).first);
+    return s.session.playback.playing() || !s.settled ? 0 : std::min(wanted, s.fine_due(now).first);
 }
 
 bool Shell::settled() const { return state_->settled; }
@@ -495,7 +489,7 @@ Shell::Painted Shell::painted() const { return state_->drawn->painter.painted();
 
 Image Shell::read_back() {
     State& s = *state_;
-    s.draw();
+    s.draw_frame();
     Image image = s.drawn->target->read();
     s.renderer.context().check("reading the window");
     return image;
@@ -503,7 +497,7 @@ Image Shell::read_back() {
 
 void Shell::present() {
     State& s = *state_;
-    s.draw();
+    s.draw_frame();
     s.drawn->target->present();
     s.renderer.context().check("showing the window");
 }
@@ -511,7 +505,7 @@ void Shell::present() {
 const Marks& Shell::marks() const { return state_->marks; }
 
 const DrawList* Shell::shown() const {
-    const std::size_t place = state_->session.active_place();
+    const std::size_t place = state_->session.views.active();
     return place < state_->viewports.size() ? state_->viewports[place].shown() : nullptr;
 }
 
@@ -525,7 +519,7 @@ Image Shell::viewport_picture() {
     return state_->renderer.draw(picture);
 }
 
-void Shell::set_scale(double scale) { state_->own_scale = scale; }
+void Shell::set_scale(double scale) { state_->session.window_scale = scale; }
 
 ImGuiMouseCursor Shell::cursor() const { return state_->cursor; }
 

@@ -2,8 +2,8 @@
 /// `render --ui` all run this.
 #pragma once
 
-#include <app/document/session.h>
 #include <app/input/input.h>
+#include <app/session/session.h>
 #include <app/ui/ui.h>
 #include <render/drawlist/draw_list.h>
 #include <render/gl/gl_context.h>
@@ -19,10 +19,6 @@ struct DrawStatistics;  // render/gl/gl_objects.h
 
 namespace mobbscope::app {
 
-/// Of text and panels.
-inline constexpr double kLeastUiScale = 0.5;
-inline constexpr double kMostUiScale = 4;
-
 class Shell {
   public:
     /// Seconds, never less than before: what painting takes is measured by it.
@@ -30,7 +26,7 @@ class Shell {
     static double steady_seconds();
 
     /// `scale`: of text and panels where the settings say none; either is brought within kLeastUiScale..kMostUiScale.
-    /// Takes over the session's hooks about the picture and the scale. Throws MachineError if OpenGL fails.
+    /// It is the session's PictureMaker. Throws MachineError if OpenGL fails.
     Shell(std::unique_ptr<GlContext> context, Session& session, double scale, Clock clock = steady_seconds);
     ~Shell();
     Shell(const Shell&) = delete;

@@ -1,0 +1,32 @@
+/// Queries of the scene, and the trees behind them: answers, findings, figures. Kept until the scene changes.
+#pragma once
+
+#include <app/document/workspace.h>
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace mobbscope::app {
+
+class QueryInspector {
+  public:
+    explicit QueryInspector(Workspace& workspace) : workspace_(workspace) {}
+
+    /// Shows a query, at that step; none: at the one where it was left with this kind of trees, or its end.
+    void show(int query, std::optional<Step> step = {});
+    /// The step of the query in view where the last jump or run of single steps began; none: there was none.
+    std::optional<Step> step_before() const;
+    /// What follows from Workspace::recorded; null if no query is in the view.
+    std::shared_ptr<const QueryFindings> findings() const;
+    /// The first contact of any query, with what it cost.
+    const Answer& answer_of(std::size_t query) const;
+    /// Figures of a clip's tree.
+    const std::vector<mobb::LevelFigures>& figures_of(int clip) const;
+
+  private:
+    Workspace& workspace_;
+};
+
+}  // namespace mobbscope::app

@@ -1,0 +1,209 @@
+#include <app/document/edit_names.h>
+#include <app/document/workspace.h>
+#include <explain/query_progress.h>
+#include <scene/crowd_scene.h>
+#include <scene/scene_edits.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+
+namespace mobbscope::app {
+
+namespace {
+
+/// Agents whose pairs are still listed one by one.
+constexpr std::size_t kFewAgents = 12;
+
+}  // namespace
+
+std::shared_ptr<const FittedScene> ShownRun::at(const SceneView& seen) {
+    const std::shared_ptr<const FittedScene>& whole = seen.fitted;
+    const ViewState& view = seen.view;
+    if (!is_run(whole->scene())) return whole;
+    const double now = run_time(whole->scene(), view);
+    if (of != whole || time != now || window != view.time_window || show != view.show) {
+        *this = {whole, now, view.time_window, view.show, std::make_shared<const FittedScene>(fitted_at(*whole, view))};
+    }
+    return fitted;
+}
+
+Workspace::Workspace(Settings& settings)
+    : history(document_of({}, nullptr)),
+      saved(document().fitted),
+      settings_(&settings),
+      pointed_into_(document().fitted) {}
+
+bool Workspace::modified() const {
+    // Views of one scene share it, whichever fit they use.
+    const auto differ = [](const auto& a, const auto& b) { return &a->scene() != &b->scene(); };
+    const std::shared_ptr<const ExcerptSource>& origin = document().excerpt_of;
+    if (!origin) return differ(document().fitted, saved);
+    return differ(origin->fitted, saved) || differ(document().fitted, origin->saved);
+}
+
+std::string Workspace::title() const {
+    if (in_excerpt()) {
+        std::string title = scene().agents.empty() ? "excerpt" : scene().agents.front().name;
+        if (scene().agents.size() > 1) title += " and " + scene().agents[1].name;
+        return title + " of " + (file ? file->filename().string() : "a crowd");
+    }
+    if (file) return file->filename().string();
+    return scene().file.empty() ? "untitled" : scene().file.stem().string();
+}
+
+bool Workspace::is_crowd() const {
+    return crowd() ||
+           (scene().queries.empty() && !scene().agents.empty() && fitted().placed_agents().size() > kFewAgents);
+}
+
+mobb::Interval Workspace::time_span() const {
+    if (crowd()) return {0, crowd()->seconds};
+    mobb::Interval span{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
+    for_each_agent_in_view(fitted(), view(), [&](const PlacedAgent& who) {
+        const mobb::PlacedTree tree = fitted().placed(who);
+        const mobb::PlacedClip& clip = tree.placed_clip();
+        span.t0 = std::min(span.t0, clip.time(0));
+        span.t1 = std::max(span.t1, clip.time(clip.count()));
+    });
+    return span.t0 <= span.t1 ? span : mobb::Interval{0, 0};
+}
+
+const std::vector<ClipGroup>& Workspace::clip_groups() const {
+    Derived& d = derived();
+    if (!d.groups) d.groups = app::clip_groups(scene());
+    return *d.groups;
+}
+
+const RecordedQuery* Workspace::recorded() const {
+    if (!view().query) return nullptr;
+    Derived& d = derived();
+    if (!d.recorded || d.recorded->first != *view().query) {
+        d.findings.reset();
+        d.recorded.emplace(*view().query,
+                           record(fitted(), fitted().queries()[static_cast<std::size_t>(*view().query)]));
+    }
+    return &d.recorded->second;
+}
+
+int Workspace::step() const { return event_of(view().step, recorded()->trace); }
+
+Scene Workspace::changed_scene(const std::function<void(Scene&)>& change) const {
+    Scene next = scene();
+    next.view = view();
+    next.fit = document().fitted->options();
+    change(next);
+    mobb::check(next.fit);
+    if (next.fit != document().fitted->options()) drop_traces(next);
+    return next;
+}
+
+void Workspace::edit(const EditName& name, const std::function<void(Scene&)>& change) {
+    change_document(with_scene(document(), changed_scene(change)), name);
+}
+
+void Workspace::change_view(const std::function<void(ViewState&)>& change, const std::optional<EditName>& name) {
+    Document next = document();
+    change(next.view);
+    next.view = fitting(next.view, *next.fitted);
+    if (next.view == view()) return;
+    if (next.view.theme != view().theme) settings_->theme = next.view.theme;
+    remember_step(next);
+    const EditName as = name ? *name : name_of_looking(document(), next.view);
+    history.change_view(std::move(next), as);
+    changed();
+}
+
+void Workspace::change_document(Document next, const EditName& name) {
+    // A node of a tree that was fitted anew is another one, or none.
+    if (next.view.projection && !has_projection(*next.fitted, next.view)) next.view.projection.reset();
+    next.view = fitting(next.view, *next.fitted);
+    for (SceneView& other : next.beside) other.view = fitting(other.view, *other.fitted);
+    remember_step(next);
+    history.change(std::move(next), name);
+    changed();
+}
+
+void Workspace::amend(const std::function<void(Document&)>& change) {
+    Document next = document();
+    change(next);
+    history.amend(std::move(next));
+    changed();
+}
+
+/// All views show one time, and of linked cameras what the active view's shows.
+void Workspace::share_time_and_camera() {
+    Document next = document();
+    for (SceneView& other : next.beside) {
+        ViewState view = other.view;
+        view.time = next.view.time;
+        view.theme = next.view.theme;
+        // Heights mean something else in the picture of a moment.
+        if (next.linked_cameras && view.show == next.view.show) {
+            view.camera = next.view.camera;
+            view.time_height = next.view.time_height;
+            view.follow = next.view.follow;
+        }
+        other.view = fitting(view, *other.fitted);
+    }
+    if (!next.beside.empty()) history.amend(std::move(next));
+}
+
+void Workspace::changed() {
+    share_time_and_camera();
+    selection = still(selection, *pointed_into_, fitted());
+    hovered = still(hovered, *pointed_into_, fitted());
+    pointed_into_ = shown();
+    const RecordedQuery* query = recorded();
+    if (query && view().step.unit == Step::Unit::event && view().step.value >= query->trace.size()) {
+        Document next = document();
+        next.view.step = {Step::Unit::end, 0};
+        history.amend(std::move(next));
+    }
+}
+
+void Workspace::remember_step(Document& next) {
+    if (!view().query) return;
+    const StepKey from = step_key(*document().fitted, *view().query);
+    std::optional<StepKey> to;
+    if (next.view.query) to = step_key(*next.fitted, *next.view.query);
+    if (from != to) {
+        next.steps[from].left = view().step;
+        if (!to || from.first != to->first) return;
+        const auto left = next.steps.find(*to);
+        if (left != next.steps.end()) {
+            next.view.step = left->second.left;
+        } else if (view().step.unit == Step::Unit::event && recorded()->trace.size() > 1) {
+            // Other trees take other tests: as far on in theirs.
+            next.view.step = {Step::Unit::percent, 100.0 * step() / (recorded()->trace.size() - 1)};
+        }
+        return;
+    }
+    if (next.view.step == view().step) return;
+    const mobb::Trace& trace = recorded()->trace;
+    const int was = step();
+    const int is = event_of(next.view.step, trace);
+    QuerySteps& looked_at = next.steps[from];
+    const bool by_one = std::abs(is - was) == 1;
+    const bool goes_on = std::exchange(stepping_, true) || (by_one && looked_at.by_one);
+    // A run that comes back to where it began has turned round somewhere: that was seen before.
+    if (!goes_on || !looked_at.before || event_of(*looked_at.before, trace) == is) looked_at.before = view().step;
+    looked_at.by_one = by_one;
+}
+
+Workspace::Derived& Workspace::derived() const {
+    if (derived_.of != document().fitted) {
+        derived_ = {};
+        derived_.of = document().fitted;
+    }
+    return derived_;
+}
+
+void Workspace::close_group() {
+    history.close_group();
+    stepping_ = false;
+}
+
+void Workspace::select(const Selection& selected) { selection = exists(fitted(), selected) ? selected : Selection{}; }
+
+}  // namespace mobbscope::app

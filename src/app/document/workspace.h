@@ -1,0 +1,179 @@
+/// What is open: the document with its past, its file, what is selected, where its cameras stand, and the work that is
+/// under way for it. Moved whole when something else is opened in its place for a while.
+#pragma once
+
+#include <app/document/clip_groups.h>
+#include <app/document/clip_import.h>
+#include <app/document/history.h>
+#include <app/document/job.h>
+#include <app/document/selection.h>
+#include <app/document/settings.h>
+#include <conflicts/conflicts.h>
+#include <crowd/simulation/choice.h>
+#include <explain/query_findings.h>
+#include <mobb/level_figures.h>
+#include <render/drawlist/camera.h>
+#include <render/drawlist/draw_list.h>
+#include <scene/answer.h>
+#include <scene/crowd_run.h>
+
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace mobbscope::app {
+
+/// Counted over all that was ever open, so that each value is met once.
+struct Counts {
+    int openings = 0;  ///< of files and excerpts
+    /// How often what is seen was put back as it had been: by undo and redo, when a drag is given up, and on the way
+    /// back from an excerpt or the scene of a case. Nothing follows it.
+    int put_back = 0;
+    int arrivals = 0;  ///< documents that were opened, and jobs that were done
+};
+
+/// What showing some agents alone has hidden, and what was hidden before.
+struct Alone {
+    std::vector<std::string> hidden, before;
+};
+
+/// A run at the time of a view; kept until that changes.
+struct ShownRun {
+    std::shared_ptr<const FittedScene> of;
+    double time = 0;
+    double window = 0;
+    Show show = Show::space_time;
+    std::shared_ptr<const FittedScene> fitted;
+
+    /// What is drawn: the view's scene; of a run what it is at the view's time (fitted_at).
+    std::shared_ptr<const FittedScene> at(const SceneView& seen);
+};
+
+class Workspace {
+  public:
+    /// An empty scene. `settings` outlive it.
+    explicit Workspace(Settings& settings);
+
+    History history;
+    std::shared_ptr<const FittedScene> saved;                  ///< as the file has it
+    std::optional<std::filesystem::path> file;                 ///< where Save writes; none: Save asks
+    std::optional<std::filesystem::file_time_type> file_time;  ///< of it, when it was opened or saved
+    std::vector<std::filesystem::path> opened;                 ///< what it is made of; empty for the demo, and at first
+
+    Selection selection;  ///< always of something that exists
+    Selection hovered;    ///< under the mouse in any panel
+
+    std::optional<Alone> alone;           ///< since agents were shown alone
+    std::string filter;                   ///< lists show what has this text in its name; empty: all
+    std::set<std::string> folded_groups;  ///< of clips, by title
+
+    /// Of which size the pictures are that cameras stand for; none: nothing was drawn since the scene was opened.
+    std::optional<PictureSize> picture_size;
+    /// Cameras of the pictures that are not shown now, by what they are of: "space-time", "moment", "disk".
+    std::map<std::string_view, Camera> cameras_aside;
+    double settled_height = 0;  ///< metres a second, of the last framing
+
+    /// A candidate of a choice that is pointed out.
+    struct PointedOut {
+        int agent = -1, play = -1;  ///< of the choice
+        int candidate = -1;         ///< -1: none
+    } pointed_out;
+    struct FoundConflicts {
+        std::shared_ptr<const FittedScene> in;
+        std::vector<SceneConflict> conflicts;
+    };
+    std::optional<FoundConflicts> found;  ///< none: nobody has looked yet
+    int conflict = -1;                    ///< that was gone to last; -1: none
+
+    std::vector<RunningJob> jobs;                   ///< the oldest first
+    std::deque<ImportChange> import_changes;        ///< not begun yet
+    std::shared_ptr<const SourceFile> import_file;  ///< that was read last
+
+    // What it is now.
+    const Document& document() const { return history.now(); }
+    /// What is edited and saved.
+    const Scene& scene() const { return document().fitted->scene(); }
+    /// What is drawn and pointed at: the document's scene; of a run what it is at the view's time.
+    std::shared_ptr<const FittedScene> shown() const { return shown_.at({document().fitted, view()}); }
+    const FittedScene& fitted() const { return *shown(); }
+    const ViewState& view() const { return document().view; }
+    bool empty() const { return scene().clips.empty(); }
+    /// Which opening of files or of an excerpt the present scene is of; each has a number of its own, and coming back
+    /// to one finds its number again.
+    int opening() const { return document().opening; }
+    bool in_excerpt() const { return document().excerpt_of != nullptr; }
+    /// What the document's agents play, if it is a run; else null.
+    const CrowdRun* crowd() const { return scene().crowd.get(); }
+    /// Whether there are so many that they are a crowd: a run, or more agents than lists of pairs are made for. Clips
+    /// without agents are none.
+    bool is_crowd() const;
+    /// The scene differs from what is in the file. How it is seen does not count.
+    bool modified() const;
+    /// The file's name, or what stands for it.
+    std::string title() const;
+    /// First and last moment of the paths in view, global seconds; 0..0 for an empty scene.
+    mobb::Interval time_span() const;
+    /// The document's clips by folder and rig; kept until the scene changes.
+    const std::vector<ClipGroup>& clip_groups() const;
+    /// What is asked in the view, recorded; null if no query is in the view.
+    const RecordedQuery* recorded() const;
+    /// The event of the trace that the view shows; requires recorded().
+    int step() const;
+
+    // Changes.
+    /// The scene after `change`, which may change `view` and `fit` along. Throws what `change` throws, and
+    /// std::invalid_argument for options of the fit that are out of range.
+    Scene changed_scene(const std::function<void(Scene&)>& change) const;
+    /// Changes the scene at once. Throws as changed_scene does: nothing is changed then.
+    void edit(const EditName& name, const std::function<void(Scene&)>& change);
+    /// Changes how it is seen; undo takes back looking of one kind (see History::change_view) in one go. No name: as
+    /// what it changes says.
+    void change_view(const std::function<void(ViewState&)>& change, const std::optional<EditName>& name = {});
+    /// The next document of the history.
+    void change_document(Document next, const EditName& name);
+    /// Changes the present state in place: no step of its own for undo.
+    void amend(const std::function<void(Document&)>& change);
+    /// After every change of the history: nothing points at what is gone, and the step is one of the trace.
+    void changed();
+    /// An interaction has ended: what follows is undone apart from it.
+    void close_group();
+    void select(const Selection& selected);
+    /// The history was brought back with what was selected then.
+    void point_into_present() { pointed_into_ = shown(); }
+
+    /// What is computed from the present scene when asked for.
+    struct Derived {
+        std::shared_ptr<const FittedScene> of;
+        std::optional<std::pair<int, RecordedQuery>> recorded{};
+        std::shared_ptr<const QueryFindings> findings{};  ///< of `recorded`
+        std::map<std::size_t, Answer> answers{};
+        std::map<int, std::vector<mobb::LevelFigures>> figures{};
+        std::optional<std::vector<ClipGroup>> groups{};
+        std::unique_ptr<MoveSet> moves{};    ///< of a run
+        std::pair<int, int> chosen{-1, -1};  ///< agent and play of `choice`
+        std::optional<FollowedChoice> choice{};
+    };
+    Derived& derived() const;
+
+  private:
+    /// `next` follows the present document: it remembers which steps were looked at, and a query that is seen with
+    /// another kind of trees goes on where it was left with that.
+    void remember_step(Document& next);
+    void share_time_and_camera();
+
+    Settings* settings_;
+    std::shared_ptr<const FittedScene> pointed_into_;  ///< what selection and hovered are of
+    bool stepping_ = false;                            ///< the step was changed in the present interaction
+    mutable Derived derived_;
+    mutable ShownRun shown_;  ///< of the active view
+};
+
+}  // namespace mobbscope::app

@@ -1,0 +1,110 @@
+#include <app/session/excerpts.h>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace mobbscope::app {
+
+namespace {
+
+/// What is played on the way to a clip.
+SceneClip joint_to(const SceneClip& to, const mobb::ClipPtr& joint) {
+    return {"joint to " + to.name, std::nullopt, {}, joint};
+}
+
+}  // namespace
+
+void Excerpts::open(const PlacedAgent& a, const PlacedAgent& b) {
+    const auto side = [&](const PlacedAgent& who) {
+        return Side{who.name, workspace_.fitted().scene().clips[static_cast<std::size_t>(who.clip)], who.placement};
+    };
+    open(side(a), side(b));
+}
+
+void Excerpts::open_conflict(const SceneConflict& of) {
+    const auto side = [&](const PlacedAgent& who, const mobb::ClipPtr& joint) {
+        const SceneClip& clip = workspace_.scene().clips[static_cast<std::size_t>(who.clip)];
+        return Side{who.name, joint ? joint_to(clip, joint) : clip, who.placement};
+    };
+    open(side(of.a, of.a_joint), side(of.b, of.b_joint));
+}
+
+void Excerpts::open_candidate(int candidate) {
+    const FollowedChoice* followed = crowds_.choice();
+    const std::vector<Candidate> none;
+    const std::vector<Candidate>& asked_for = followed ? followed->choice.candidates : none;
+    if (candidate < 0 || candidate >= static_cast<int>(asked_for.size()) ||
+        !asked_for[static_cast<std::size_t>(candidate)].blocker) {
+        throw std::invalid_argument("nobody rules this candidate out: take one that meets somebody");
+    }
+    const Candidate& asked = asked_for[static_cast<std::size_t>(candidate)];
+    const Blocker& blocker = *asked.blocker;
+    // Moves that are turned but not played are none of the run's graph.
+    const auto [scene, index] = workspace_.derived().moves->extended(std::array{asked.played, blocker.move});
+    const auto clip_of = [&, &run = scene, &at = index](int move) {
+        const int clip = run.graph->moves[static_cast<std::size_t>(at[static_cast<std::size_t>(move)])].clip;
+        return run.clips[static_cast<std::size_t>(clip)];
+    };
+    Side a{workspace_.view().follow, clip_of(asked.played), asked.placement};
+    if (blocker.before_candidate) {
+        a.clip = joint_to(a.clip, asked.joint->clip);
+        a.placement = asked.joint->placement;
+    }
+    Side b{workspace_.crowd()->agents[static_cast<std::size_t>(blocker.agent)].name, clip_of(blocker.move),
+           blocker.placement};
+    if (blocker.is_joint) b.clip = joint_to(b.clip, blocker.clip);
+    open(std::move(a), std::move(b));
+}
+
+void Excerpts::open(Side a, Side b) {
+    jobs_.require_none();
+    const bool same_clip = a.clip.clip == b.clip.clip;
+    if (b.name == a.name) b.name += " (2)";
+    // Of a run two plays of one move may run on to different ones.
+    if (b.clip.name == a.clip.name) b.clip.name += " (2)";
+    Scene excerpt;
+    excerpt.file = workspace_.scene().file;
+    excerpt.fit = workspace_.document().fitted->options();
+    excerpt.agents.push_back({a.name, 0, a.placement, std::nullopt});
+    excerpt.agents.push_back({b.name, same_clip ? 0 : 1, b.placement, std::nullopt});
+    excerpt.clips.push_back(std::move(a.clip));
+    if (!same_clip) excerpt.clips.push_back(std::move(b.clip));
+    excerpt.view.theme = workspace_.view().theme;
+    excerpt.view.query = 0;
+    Document next = document_of(std::move(excerpt), workspace_.document().fitted.get());
+    const Document& now = workspace_.document();
+    // An excerpt of an excerpt is of the same whole.
+    ExcerptSource source =
+        now.excerpt_of ? *now.excerpt_of : ExcerptSource{now.fitted, now.view, {}, now.steps, now.opening};
+    source.saved = next.fitted;
+    next.excerpt_of = std::make_shared<const ExcerptSource>(std::move(source));
+    next.opening = ++counts_.openings;
+    turn_away();
+    workspace_.history.change(std::move(next), {"opening " + a.name + " against " + b.name, ""});
+    workspace_.changed();
+}
+
+void Excerpts::turn_away() {
+    playback_.stop();
+    workspace_.selection = workspace_.hovered = {};
+    workspace_.filter.clear();
+    workspace_.cameras_aside.clear();
+}
+
+void Excerpts::leave() {
+    jobs_.require_none();
+    const std::shared_ptr<const ExcerptSource> origin = workspace_.document().excerpt_of;
+    turn_away();
+    Document whole{origin->fitted, origin->view};
+    whole.steps = origin->steps;
+    whole.opening = origin->opening;
+    workspace_.history.change(std::move(whole), {"going back to the whole", ""});
+    ++counts_.put_back;
+    workspace_.changed();
+}
+
+}  // namespace mobbscope::app

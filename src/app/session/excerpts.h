@@ -1,0 +1,41 @@
+/// Two paths of what is drawn as a scene of their own, with the query between them. Undo leads back, and so does
+/// `leave`.
+#pragma once
+
+#include <app/session/crowd_inspector.h>
+#include <app/session/playback.h>
+
+#include <string>
+
+namespace mobbscope::app {
+
+class Excerpts {
+  public:
+    Excerpts(Workspace& workspace, Jobs& jobs, Playback& playback, CrowdInspector& crowds, Counts& counts)
+        : workspace_(workspace), jobs_(jobs), playback_(playback), crowds_(crowds), counts_(counts) {}
+
+    // All throw std::invalid_argument while a job is under way.
+    void open(const PlacedAgent& a, const PlacedAgent& b);
+    /// The two of a conflict.
+    void open_conflict(const SceneConflict& of);
+    /// A candidate of the choice and who rules it out. Throws std::invalid_argument if nobody does.
+    void open_candidate(int candidate);
+    void leave();
+
+  private:
+    struct Side {
+        std::string name;
+        SceneClip clip;
+        mobb::Placement placement;
+    };
+    void open(Side a, Side b);
+    void turn_away();
+
+    Workspace& workspace_;
+    Jobs& jobs_;
+    Playback& playback_;
+    CrowdInspector& crowds_;
+    Counts& counts_;
+};
+
+}  // namespace mobbscope::app

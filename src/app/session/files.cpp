@@ -1,0 +1,341 @@
+#include <app/session/files.h>
+#include <base/error.h>
+#include <base/file.h>
+#include <base/text.h>
+#include <scene/arrangement.h>
+#include <scene/load_files.h>
+#include <scene/scene_edits.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+namespace mobbscope::app {
+
+namespace {
+
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::error_code ignored;
+    return std::filesystem::equivalent(a, b, ignored);
+}
+
+/// "crossing.json", or "3 files".
+std::string title_of_files(const std::vector<std::filesystem::path>& files) {
+    if (files.size() != 1) return counted(files.size(), "file", "files");
+    return own_name(files.front());
+}
+
+/// When a file was written last; none: there is none, or nobody can say.
+std::optional<std::filesystem::file_time_type> time_of(const std::optional<std::filesystem::path>& file) {
+    std::error_code error;
+    if (!file) return std::nullopt;
+    const auto time = std::filesystem::last_write_time(*file, error);
+    return error ? std::nullopt : std::optional(time);
+}
+
+/// The first that is not there; null: all are.
+const std::filesystem::path* missing_of(const std::vector<std::filesystem::path>& files) {
+    const auto missing = std::ranges::find_if(files, [](const std::filesystem::path& file) {
+        std::error_code ignored;
+        return !std::filesystem::exists(file, ignored);
+    });
+    return missing == files.end() ? nullptr : &*missing;
+}
+
+}  // namespace
+
+void Files::turn_away() {
+    parts_.dialogs.close_those_about_scene();
+    parts_.screen = nullptr;
+    parts_.playback.stop();
+    ++parts_.counts.arrivals;
+    // What was offered for the last scene is over with it; before the first one files were named.
+    if (parts_.counts.openings > 0) parts_.notifications.withdraw_offers();
+    parts_.notifications.retire();
+}
+
+void Files::replace(Document document, const std::vector<std::filesystem::path>& opened) {
+    turn_away();
+    document.view = fitting(document.view, *document.fitted);
+    document.excerpt_of = nullptr;
+    document.opening = ++parts_.counts.openings;
+    Workspace next(parts_.settings);
+    next.saved = document.fitted;
+    next.file = scene_file_of(opened);
+    next.file_time = time_of(next.file);
+    next.opened = opened;
+    remember(opened);
+    // One that says no theme is seen in the person's.
+    const std::optional<Theme>& theme = parts_.settings.theme;
+    if (parts_.options.attended && theme && document.view.theme == Theme{}) document.view.theme = *theme;
+    next.history.reset(std::move(document));
+    next.point_into_present();
+    next.changed();
+    // No case of picture tests is open any more; who opens one says so afterwards.
+    aside_.reset();
+    visited_.clear();
+    parts_.workspace = std::move(next);
+    parts_.imports.tell_of_warnings(0);
+}
+
+void Files::load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files,
+                 const std::optional<ViewState>& view) {
+    const auto begin = [this, title, load_all, files, view] {
+        // What is opened last is meant.
+        parts_.jobs.drop(JobPurpose::opens);
+        const auto work = [this, load_all, files, view,
+                           present = parts_.workspace.document().fitted](JobControl& control) -> Job::Finish {
+            Document document = document_of(load_all(control), nullptr, progress_of(control));
+            if (view) {
+                document.view = *view;
+                // The file may have changed since.
+                if (view->projection && !has_projection(*document.fitted, *view)) document.view.projection.reset();
+            }
+            return [this, document = std::move(document), files, present] {
+                const auto put_in = [this, document, files] { replace(document, files); };
+                // It takes the place of what was open before the picture tests.
+                if (aside_) return come_back([this, put_in] { after_asking(put_in); });
+                // Who edited meanwhile is asked again.
+                &parts_.workspace.scene() == &present->scene() ? put_in() : after_asking(put_in);
+            };
+        };
+        parts_.jobs.start(title, work, JobPurpose::opens);
+    };
+    // The scene of a case stays until the file is known to load: what is open before and after is asked for then.
+    aside_ ? begin() : after_asking(begin);
+}
+
+bool Files::complain_of_missing(const std::vector<std::filesystem::path>& files) {
+    const std::filesystem::path* missing = missing_of(files);
+    if (missing) parts_.notifications.tell(MessageLevel::error, missing->string() + ": no such file; check the path");
+    return missing;
+}
+
+void Files::open(const std::vector<std::filesystem::path>& files) {
+    // Nobody is asked about unsaved changes for nothing.
+    if (complain_of_missing(files)) return;
+    load(
+        "Opening " + title_of_files(files),
+        [files](JobControl& control) { return load_files(files, {}, progress_of(control)); }, files);
+}
+
+void Files::remember(const std::vector<std::filesystem::path>& files) {
+    if (files.empty()) return;
+    if (parts_.options.attended) {
+        // The first of them comes first.
+        for (auto file = files.rbegin(); file != files.rend(); ++file) parts_.settings.remember(*file);
+    }
+    std::error_code error;
+    const std::filesystem::path& first = files.front();
+    std::filesystem::path folder = std::filesystem::is_directory(first, error) ? first : first.parent_path();
+    if (folder.empty()) folder = ".";
+    // Scripts and pictures find the same wherever they run.
+    parts_.settings.folder =
+        parts_.options.attended ? std::filesystem::absolute(folder, error).lexically_normal() : folder;
+}
+
+bool Files::opened_by_person() const {
+    if (parts_.workspace.empty()) return false;
+    if (parts_.workspace.file || parts_.workspace.modified() || parts_.workspace.in_excerpt()) return true;
+    try {
+        return parts_.workspace.scene().file != demo_scene_file();
+    } catch (const MachineError&) {
+        return true;
+    }
+}
+
+void Files::drop(const std::vector<std::filesystem::path>& files) {
+    if (files.empty()) return;
+    if (complain_of_missing(files)) return;
+    if (!opened_by_person() && !parts_.screen) return open(files);
+    parts_.dialogs.open(Dialog::dropped, {.text = "", .files = files});
+}
+
+void Files::note_session() {
+    if (parts_.workspace.opened.empty()) return;
+    parts_.settings.last = {
+        {}, parts_.workspace.in_excerpt() ? parts_.workspace.document().excerpt_of->view : parts_.workspace.view()};
+    for (const std::filesystem::path& file : parts_.workspace.opened) {
+        std::error_code error;
+        parts_.settings.last.files.push_back(std::filesystem::absolute(file, error).lexically_normal());
+    }
+}
+
+bool Files::has_last() const { return !parts_.settings.last.files.empty() && !missing_of(parts_.settings.last.files); }
+
+std::string Files::last_title() const { return title_of_files(parts_.settings.last.files); }
+
+void Files::reopen_last() {
+    const LastSession last = parts_.settings.last;
+    if (complain_of_missing(last.files)) return;
+    load(
+        "Opening " + last_title(),
+        [last](JobControl& control) { return load_files(last.files, {}, progress_of(control)); }, last.files,
+        last.view);
+}
+
+void Files::open_scene(const Scene& scene, const std::vector<std::filesystem::path>& files) {
+    load(
+        "Opening " + scene.file.filename().string(), [scene](JobControl&) { return scene; }, files);
+}
+
+void Files::open_demo() {
+    load("Opening the demo", [](JobControl&) { return demo_scene(); }, {});
+}
+
+void Files::add(const std::vector<std::filesystem::path>& files) {
+    if (parts_.workspace.empty()) return open(files);
+    if (complain_of_missing(files)) return;
+    if (!may_add()) {
+        throw InputError(parts_.workspace.crowd() ? "a run stands alone: open the files by themselves"
+                                                  : "picture tests are shown: leave them first, or open the files");
+    }
+    parts_.jobs.start("Adding files", [this, files](JobControl& control) -> Job::Finish {
+        const auto read = std::make_shared<const Scene>(load_files(files, {}, progress_of(control)));
+        return [this, read, files] {
+            remember(files);
+            parts_.edits.edit({.name = {"adding " + title_of_files(files), ""},
+                               .change =
+                                   [read](Scene& scene) {
+                                       const bool was_one = scene.clips.size() == 1;
+                                       merge(scene, *read);
+                                       if (was_one) lay_out_clips(scene);
+                                   },
+                               .then =
+                                   [this, read] {
+                                       parts_.imports.tell_of_warnings(parts_.workspace.scene().clips.size() -
+                                                                       read->clips.size());
+                                   }});
+        };
+    });
+}
+
+void Files::save() {
+    if (!parts_.workspace.file || parts_.workspace.in_excerpt()) {
+        parts_.dialogs.ask_where_to_save();
+        return;
+    }
+    save_as(*parts_.workspace.file);
+}
+
+void Files::check_may_write(const std::filesystem::path& file) const {
+    if (parts_.options.may_write) return;
+    throw InputError(file.string(), "",
+                     "nothing is written here: a picture test only looks; remove this from its script");
+}
+
+void Files::save_as(const std::filesystem::path& file) {
+    check_may_write(file);
+    if (parts_.workspace.empty()) throw InputError("there is nothing to save: open a scene or a clip first");
+    check_file_name(file);
+    if (lower_extension(file) != ".json") {
+        throw InputError(file.string(), "", "scenes are written as .json; rename the output");
+    }
+    if (parts_.workspace.in_excerpt() && parts_.workspace.file && same_file(file, *parts_.workspace.file)) {
+        throw InputError(file.string(), "", "this is what the two were taken from; save them under another name");
+    }
+    if (parts_.workspace.file && same_file(file, *parts_.workspace.file) &&
+        std::exchange(parts_.workspace.file_time, time_of(file)) != time_of(file)) {
+        throw InputError(file.string(), "",
+                         "another program has written it since it was opened: save under another name, or once more "
+                         "to overwrite it");
+    }
+    for (const SceneClip& clip : parts_.workspace.scene().clips) {
+        if (!clip.source || !same_file(file, source_path(parts_.workspace.scene(), clip))) continue;
+        throw InputError(file.string(), "",
+                         "clip " + in_quotes(clip.name) + " comes from this file; save under another name");
+    }
+    Scene saved = parts_.workspace.scene();
+    saved.view = parts_.workspace.view();
+    saved.fit = parts_.workspace.document().fitted->options();
+    move_to_file(saved, file);
+    write_file(file, to_json(saved));
+    if (parts_.workspace.in_excerpt()) {
+        // The whole stays what is open; the excerpt has a file of its own.
+        Document now = parts_.workspace.document();
+        now.excerpt_of = std::make_shared<const ExcerptSource>(ExcerptSource{
+            now.excerpt_of->fitted, now.excerpt_of->view, now.fitted, now.excerpt_of->steps, now.excerpt_of->opening});
+        parts_.workspace.history.amend(std::move(now));
+    } else {
+        // The document is the file's now: messages and further sources refer to it.
+        parts_.workspace.history.amend(with_scene(parts_.workspace.document(), std::move(saved)));
+        parts_.workspace.saved = parts_.workspace.document().fitted;
+        parts_.workspace.file = file;
+        parts_.workspace.file_time = time_of(file);
+        parts_.workspace.opened = {file};
+    }
+    remember({file});
+    parts_.notifications.tell(MessageLevel::info, "Saved " + file.string());
+    tell_of_lost_sources();
+    if (parts_.dialogs.now == Dialog::save_as || parts_.dialogs.now == Dialog::unsaved)
+        parts_.dialogs.now = Dialog::none;
+    if (const auto then = parts_.dialogs.take_waiting()) then();
+}
+
+void Files::tell_of_lost_sources() {
+    for (const SceneClip& clip : parts_.workspace.scene().clips) {
+        std::error_code ignored;
+        if (!clip.source || std::filesystem::exists(source_path(parts_.workspace.scene(), clip), ignored)) continue;
+        parts_.notifications.tell(MessageLevel::warning,
+                                  "The scene refers to " + source_path(parts_.workspace.scene(), clip).string() +
+                                      ", which is not there any more: put it back before the scene is opened again");
+        return;
+    }
+}
+
+void Files::request_close() {
+    if (aside_) return come_back([this] { request_close(); });
+    after_asking([this] { closed_ = true; });
+}
+
+void Files::after_asking(const std::function<void()>& then) {
+    if (!parts_.workspace.modified()) return then();
+    parts_.dialogs.ask_about_unsaved(then);
+}
+
+void Files::answer_unsaved(Unsaved choice) {
+    if (choice == Unsaved::save) return save();
+    const auto then = parts_.dialogs.take_waiting();
+    parts_.dialogs.close();
+    if (choice == Unsaved::discard && then) then();
+}
+
+void Files::visit(Document document, const std::string& name) {
+    // Another one may be in its place.
+    come_back([this, document = std::move(document), name] {
+        Workspace before = std::move(parts_.workspace);
+        replace(document, {});
+        aside_ = std::move(before);
+        visited_ = name;
+    });
+}
+
+void Files::come_back(const std::function<void()>& then) {
+    if (!aside_) return then();
+    after_asking([this, then] {
+        turn_away();
+        Workspace before = std::move(*aside_);
+        aside_.reset();
+        visited_.clear();
+        // What is being opened goes on: it is about no scene that is open.
+        for (RunningJob& running : parts_.workspace.jobs) {
+            if (running.purpose == JobPurpose::opens) before.jobs.push_back(std::move(running));
+        }
+        parts_.workspace = std::move(before);
+        parts_.workspace.hovered = {};
+        parts_.workspace.point_into_present();
+        ++parts_.counts.put_back;
+        parts_.workspace.changed();
+        then();
+    });
+}
+
+void Files::end_work() {
+    parts_.workspace.jobs.clear();
+    parts_.workspace.import_changes.clear();
+    if (aside_) aside_->jobs.clear();
+}
+
+}  // namespace mobbscope::app

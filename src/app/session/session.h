@@ -1,0 +1,113 @@
+/// The program behind the window, in parts with one job each. Panels show them, commands change them; they know
+/// neither.
+#pragma once
+
+#include <app/document/query_inspector.h>
+#include <app/document/views.h>
+#include <app/session/excerpts.h>
+#include <app/session/reviews.h>
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+namespace mobbscope::app {
+
+/// What is done between frames: panels may keep references into the document while they are drawn.
+class CommandQueue {
+  public:
+    explicit CommandQueue(Notifications& notifications) : notifications_(notifications) {}
+
+    /// Does `something` once the frame is drawn. What it throws becomes a message.
+    void push(std::function<void()> something) { queue_.push_back(std::move(something)); }
+    /// Does what was enqueued, in order, and what that enqueues; whether there was anything. Not while panels are
+    /// drawn.
+    bool run();
+
+  private:
+    Notifications& notifications_;
+    std::deque<std::function<void()>> queue_;
+};
+
+/// Where a command sends the keys.
+/// `menu_of_this`: what has the focus, or else what is selected in the picture, opens its menu; `picture`: they go back
+/// to the picture, where arrows step.
+enum class FocusMove { none, next_panel, previous_panel, menu_bar, menu_of_this, picture };
+struct Keys {
+    std::string focus;                 ///< the widget that has them, by its mark; empty: the viewport
+    FocusMove move = FocusMove::none;  ///< asked for, and done in the next frame
+};
+
+/// Of text and panels.
+inline constexpr double kLeastUiScale = 0.5;
+inline constexpr double kMostUiScale = 4;
+
+class Session {
+  public:
+    explicit Session(bool attended, Settings settings = {});
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    SessionOptions options;
+    Settings settings;
+    Desktop* desktop;             ///< never null
+    PictureMaker* picture_maker;  ///< likewise
+    double window_scale = 1;      ///< of text and panels where the settings say none
+    Screen* screen = nullptr;     ///< shown in place of the scene; null: the scene is shown
+    Counts counts;
+
+    Workspace workspace{settings};
+    Views views{workspace};
+    QueryInspector queries{workspace};
+    Notifications notifications;
+    CommandQueue queue{notifications};
+    Keys keys;
+    Dialogs dialogs;
+    Jobs jobs{workspace, notifications, counts, options, desktop};
+    Playback playback{workspace};
+    Edits edits{workspace, jobs, playback, counts};
+    Imports imports{workspace, jobs, edits, dialogs, notifications};
+    CrowdInspector crowds{workspace, jobs, notifications};
+    Excerpts excerpts{workspace, jobs, playback, crowds, counts};
+    Files files{{workspace, jobs, edits, imports, dialogs, notifications, playback, settings, counts, options, screen}};
+    Reviews reviews{files, jobs, playback, notifications, options, desktop, screen};
+
+    /// All parts, for what takes some of them (OfParts).
+    template <class AnySession>
+    static auto parts(AnySession& s) {
+        return std::tie(s.options, s.settings, s.workspace, s.views, s.queries, s.notifications, s.queue, s.keys,
+                        s.dialogs, s.jobs, s.playback, s.edits, s.imports, s.crowds, s.excerpts, s.files, s.reviews);
+    }
+
+    /// Of text and panels, kLeastUiScale..kMostUiScale.
+    double ui_scale() const;
+    /// What the window shows, for its title.
+    std::string shown_title() const { return screen ? screen->title() : workspace.title(); }
+    /// Whether it has changes that are not saved.
+    bool shows_unsaved() const { return !screen && workspace.modified(); }
+
+    /// Takes in what was done beside the window. Call it before each frame.
+    void poll();
+    /// Ends all work beside the window: nothing calls Desktop::wake any more, unless other work is begun.
+    void end_work();
+
+    /// What a drag may change, as it is now.
+    struct BeforeDrag {
+        History history;
+        Settings settings;
+        int arrivals = 0;
+        std::optional<PictureSize> picture_size;
+        std::map<std::string_view, Camera> cameras_aside;
+        std::optional<ReviewLook> look;  ///< of picture tests, while they are shown
+    };
+    BeforeDrag before_drag() const;
+    /// Brings it back, as if nothing had been dragged; not where a job or another document has come meanwhile.
+    void restore(BeforeDrag before);
+};
+
+}  // namespace mobbscope::app

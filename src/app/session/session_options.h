@@ -1,0 +1,19 @@
+/// For whom a session works.
+#pragma once
+
+#include <chrono>
+
+namespace mobbscope::app {
+
+struct SessionOptions {
+    /// False for scripts and pictures. Jobs are then waited for, nothing is animated, and no settings of the person are
+    /// read or written.
+    bool attended = false;
+    /// Whether the scene and pictures of it may be written: not where a window is only looked at.
+    bool may_write = true;
+    /// Shorter work of an attended window is waited for: one that flickers is worse than one that is late by this. With
+    /// 0 no work is, however short.
+    std::chrono::milliseconds patience{80};
+};
+
+}  // namespace mobbscope::app
