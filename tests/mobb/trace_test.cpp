@@ -184,7 +184,8 @@ class Replay {
                 const double nearest = nearest_time(a, b);
                 a = at_time(a, nearest);
                 b = at_time(b, nearest);
-                axes = {b.center - a.center};
+                const glm::dvec3 way = b.center - a.center;
+                axes = {glm::length(way) > 0 ? glm::normalize(way) : way};
                 break;
             }
             case BoxAxes::space_time:
