@@ -36,27 +36,28 @@ void write_vector(JsonWriter& out, const glm::dvec3& v, int count) {
 void write_node(JsonWriter& out, const mobb::Tree& tree, int index) {
     const mobb::Node& node = tree.node(index);
     const mobb::Box box = tree.box(index);
-    const int dimensions = mobb::info(box.kind).axes == mobb::BoxAxes::space_time ? 3 : 2;
+    const mobb::BoxInfo& shape = mobb::info(box.kind);
+    const int dimensions = shape.axes == mobb::BoxAxes::space_time ? 3 : 2;
     out.begin_object(Layout::row);
     out.members("index", index, "parent", tree.parent(index), "level", tree.level(index));
     out.members("first", node.first, "count", node.count, "leaf", tree.is_leaf(index));
-    out.member("kind", mobb::info(box.kind).name);
+    out.member("kind", shape.name);
     out.key("center");
-    // A moving box has its centre in the middle of its time; files give it at t0.
+    // A box that moves has its centre in the middle of its time; files give it at t0.
     write_vector(out, box.center - glm::dvec3(box.drift, 0), dimensions);
     out.begin_array("axes");
     for (int i = 0; i < dimensions; ++i) write_vector(out, box.axes[static_cast<std::size_t>(i)], dimensions);
     out.end_array();
     out.key("half");
     write_vector(out, box.half, dimensions);
-    if (box.kind == mobb::BoxKind::block) {
+    if (shape.round) {
         // Its disk at t0 and at t1: x, y, r.
         out.begin_array("bounds");
         for (const double side : {-1.0, 1.0})
             out.tuple(box.center.x + side * box.drift.x, box.center.y + side * box.drift.y, box.half.x);
         out.end_array();
     }
-    if (box.kind == mobb::BoxKind::moving || box.kind == mobb::BoxKind::block) {
+    if (shape.moves) {
         out.member("velocity", 2.0 * box.drift / (tree.t1(node) - tree.t0(node)));
     }
     out.members("t0", tree.t0(node), "t1", tree.t1(node));
