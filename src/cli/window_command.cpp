@@ -16,7 +16,6 @@
 #include <cstdlib>
 #include <iostream>
 #include <memory>
-#include <string>
 #include <system_error>
 #include <variant>
 
@@ -123,6 +122,21 @@ int show(const Named& named, const WindowArguments& arguments) {
     return kDone;
 }
 
+/// Bad input is told before there is a window.
+int review(const WindowArguments& arguments) {
+    return show(app::find_review(arguments.cases, arguments.output), arguments);
+}
+
+void add_review_options(Command& command, WindowArguments& arguments) {
+    command.add_option("DIR", arguments.cases, "The folder of the cases, NAME.case.json").required();
+    add_parsed(command, "--output", arguments.output, parse_file_name,
+               "Look at what mobbscope test left, the folder of its --output or the page of its --html; without "
+               "it, all cases are drawn",
+               "REPORT");
+    add_backend_name(command, arguments.backend, "OpenGL that draws the cases: auto, osmesa or egl");
+    add_common_options(command, arguments);
+}
+
 }  // namespace
 
 void add_window_options(Command& program, WindowArguments& arguments) {
@@ -130,29 +144,9 @@ void add_window_options(Command& program, WindowArguments& arguments) {
     add_common_options(program, arguments);
 }
 
-void add_review_command(Command& program, int& status) {
-    program.add_subcommand(
-        "review", "Look at picture tests in the window: what differs, and take it or not", [&status](Command& command) {
-            const auto arguments = std::make_shared<WindowArguments>();
-            command.add_option("DIR", arguments->cases, "The folder of the cases, NAME.case.json").required();
-            add_parsed(
-                command, "--output", arguments->output, parse_file_name,
-                "Look at what mobbscope test left, the folder of its --output or the page of its --html; without "
-                "it, all cases are drawn",
-                "REPORT");
-            add_parsed(
-                command, "--backend", arguments->backend,
-                [](const std::string& text) {
-                    static_cast<void>(one_of(backend_from_name, "auto, osmesa, egl")(text));
-                    return text;
-                },
-                "OpenGL that draws the cases: auto, osmesa or egl", "NAME");
-            add_common_options(command, *arguments);
-            command.callback([arguments, &status] {
-                // Bad input is told before there is a window.
-                status = show(app::find_review(arguments->cases, arguments->output), *arguments);
-            });
-        });
+void add_review_command(Command& program) {
+    program.add_subcommand("review", "Look at picture tests in the window: what differs, and take it or not",
+                           add_review_options, review);
 }
 
 void check_not_before_command(const Command& program) {

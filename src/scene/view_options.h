@@ -39,6 +39,13 @@ struct ShortForm {
     std::string_view value{};
 };
 
+/// What a toggle shows or leaves out: the rest of the picture stays as it is.
+enum class DrawnPart {
+    agents,        ///< what lies where an agent is when it is there; of a hidden one nothing
+    surroundings,  ///< what stands around, with its words
+    words,         ///< text, and the panels that it stands on
+};
+
 struct ViewOption {
     std::string_view key;  ///< of the view's JSON: ViewState's name for it
     std::string_view
@@ -59,6 +66,9 @@ struct ViewOption {
     std::string_view title{};
     std::string_view menu{};
     std::string_view shortcut{};
+    bool at_hand = false;  ///< of a toggle: in the toolbar and the menu of the picture, too
+
+    DrawnPart draws = DrawnPart::agents;  ///< of a toggle
 
     // Where an exported picture can be without it.
     std::string_view without{};  ///< the text that leaves it out; empty: it stays

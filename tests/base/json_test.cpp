@@ -107,11 +107,11 @@ TEST(Json, WriterMakesWhatAnIndependentParserReads) {
     out.end_array();
     out.key("rows");
     out.begin_array();
-    out.numbers({1, -0.5});
+    out.tuple(1, -0.5);
     out.begin_object(JsonWriter::Layout::row);
     out.key("inner");
     out.begin_array();
-    out.numbers({2});
+    out.tuple(2);
     out.end_array();
     out.end_object();
     out.end_array();

@@ -1,5 +1,6 @@
 #include <explain/axis_intervals.h>
 #include <explain/query_sentence.h>
+#include <mobb/random_motion.h>
 #include <mobb/separation.h>
 
 #include "render/scenes.h"
@@ -31,13 +32,14 @@ Counts check_all(const FittedScene& fitted) {
         for (int step = 0; step < recorded.trace.size(); ++step) {
             const mobb::Trace::Event event = recorded.trace[step];
             const std::vector<AxisInterval> intervals = axis_intervals(sides, event);
-            const bool is_3d = event.test == mobb::BoxKind::obb3d;
             if (!event.test.is_box()) {
                 EXPECT_TRUE(intervals.empty());
                 continue;
             }
+            const mobb::BoxInfo& shape = mobb::info(event.test.box());
+            const bool is_3d = shape.axes == mobb::BoxAxes::space_time;
             // Of moving boxes more than enough: theirs depends on how fast they are.
-            const double slack = is_3d ? frame.slack3d() : event.test == mobb::BoxKind::moving ? 1e-7 : frame.slack2d();
+            const double slack = is_3d ? frame.slack3d() : shape.moves ? 1e-7 : frame.slack2d();
             const auto most = static_cast<std::size_t>(mobb::axis_count(event.test));
             EXPECT_LE(intervals.size(), most);
             EXPECT_GE(intervals.size(), is_3d ? 6u : most);
@@ -70,8 +72,7 @@ Counts check_all(const FittedScene& fitted) {
 TEST(AxisIntervals, SayWhatTheTestsOfTheDemoScenesSaid) {
     Counts all;
     for (const char* name : {"crossing", "collision"}) {
-        for (const mobb::TreeKind kind : {mobb::TreeKind::mobb, mobb::TreeKind::umobb, mobb::TreeKind::hybrid1,
-                                          mobb::TreeKind::moving, mobb::TreeKind::aabb}) {
+        for (const mobb::TreeKind kind : mobb::test::kFittedTrees) {
             Scene scene = load_scene(std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/scenes" /
                                      (std::string(name) + ".json"));
             mobb::FitOptions options = scene.fit;
@@ -107,8 +108,8 @@ TEST(AxisIntervals, HoldAcrossEdgesAndFarAway) {
     EXPECT_GT(all.across, 5);
 }
 
-TEST(AxisIntervals, HoldForMovingAndAlignedBoxesFarAway) {
-    for (const mobb::TreeKind kind : {mobb::TreeKind::moving, mobb::TreeKind::aabb}) {
+TEST(AxisIntervals, HoldForEveryKindFarAway) {
+    for (const mobb::TreeKind kind : mobb::test::kFittedTrees) {
         std::vector<mobb::Placement> placements;
         for (int i = 0; i < 24; ++i) {
             const glm::dvec2 at(1.4 * std::cos(1.9 * i), 1.4 * std::sin(1.9 * i));

@@ -88,8 +88,9 @@ Json query_json(const Workspace& workspace) {
     if (!recorded) return nullptr;
     const int index = *workspace.view().query;
     const SceneQuery query = workspace.fitted().queries()[static_cast<std::size_t>(index)];
-    Json tests;
-    for (const mobb::TestKind test : mobb::kTestKinds) tests[mobb::name(test)] = recorded->tests[test];
+    Json tests = Json::object();
+    for (const mobb::TestKind test : mobb::kTestKinds)
+        if (recorded->tests[test] > 0) tests[mobb::name(test)] = recorded->tests[test];
     const mobb::Trace::Event event = recorded->trace[workspace.step()];
     const std::vector<DrawnAgent> sides = drawn_agents(workspace.fitted(), workspace.view());
     return {{"index", index},

@@ -173,7 +173,7 @@ void write_box(JsonWriter& out, const BoxInstance& box, const Objects& objects, 
     const std::optional<ObjectId> id = box.pickable ? std::optional(box.id) : std::nullopt;
     write_object(out, objects, id, "node");
     members(out, "level", box.order.level, "state", name_in(kBoxStates, box.state), "center", box.center);
-    out.list("extents", box.extents, [&](const glm::vec3& e) { out.numbers({e.x, e.y, e.z}); });
+    out.list("extents", box.extents, [&](const glm::vec3& e) { out.value(e); });
     members(out, "fill", color_text(box.fill), "edge", color_text(box.edge), "width", box.width, "dash", box.dash);
     write_seen(out, objects, id, on_screen(projection, box_corners(box)));
 }

@@ -1,4 +1,4 @@
-/// How far disks reach along directions on the floor. Internal to the library's sources.
+/// What fitting boxes is made of. Internal to the library's sources.
 #pragma once
 
 #include <mobb/clip.h>
@@ -6,6 +6,7 @@
 #include <mobb/tree.h>
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <array>
@@ -55,5 +56,21 @@ class BoundedDisks {
     std::span<const Node> nodes_;
     int node_ = -1;  ///< -1: all disks are looked at
 };
+
+/// The unit direction of largest variance on the floor, x >= 0; +x where no direction has more than another. At least
+/// one disk.
+glm::dvec2 principal_axis(std::span<const Disk> disks);
+
+struct PrincipalAxes {
+    std::array<glm::dvec3, 3> axes;  ///< orthonormal, right-handed, largest variance first, the first never downwards
+    bool is_line = false;            ///< all variance lies along the first: the direction of the others is rounding
+};
+
+/// Of the points (x, y, i*height), i counted from the first disk.
+PrincipalAxes principal_axes(std::span<const Disk> disks, double height);
+
+/// fit() of a node's samples to the last bit, of an upright kind, where all nodes below it have their boxes and these
+/// are upright too: most samples are not looked at. `nodes`: the tree's, as far as they are built.
+Rectangle fit_node(BoxKind kind, const Clip& clip, std::span<const Node> nodes, int node, Axes axes);
 
 }  // namespace mobb
