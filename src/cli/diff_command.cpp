@@ -103,7 +103,7 @@ void add_diff_options(Command& command, DiffCommandArguments& arguments) {
                "X");
     add_parsed(
         command, "--allowed", arguments.options,
-        [arguments](const std::string& text) {
+        [&arguments](const std::string& text) {
             DiffOptions options = arguments.options;
             set_allowance(options, text);
             return options;

@@ -56,19 +56,19 @@ void GlContext::make_current() {
 }
 
 void GlContext::check(std::string_view doing) {
-    std::vector<std::string> errors;
-    for (GLenum error = glGetError(); error != GL_NO_ERROR; error = glGetError()) {
-        errors.push_back("OpenGL error " + std::to_string(error));
-    }
-    // The driver says more than the number, but it may be late, or silent.
     std::vector<std::string> told;
     {
         const std::lock_guard lock(telling_);
         told.swap(complaints_);
     }
-    if (errors.empty()) return;
+    // The driver says more than the number, but it may be late, or silent.
+    const bool silent = told.empty();
+    for (GLenum error = glGetError(); error != GL_NO_ERROR; error = glGetError()) {
+        if (silent) told.push_back("OpenGL error " + std::to_string(error));
+    }
+    if (told.empty()) return;
     std::string text;
-    for (const std::string& error : told.empty() ? errors : told) text += (text.empty() ? "" : "; ") + error;
+    for (const std::string& error : told) text += (text.empty() ? "" : "; ") + error;
     throw MachineError(std::string(name()) + ", " + std::string(doing) + ": " + text);
 }
 
