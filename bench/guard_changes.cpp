@@ -17,7 +17,7 @@
 #include <picture_tests/picture_maker.h>
 #include <picture_tests/run_cases.h>
 #include <picture_tests/test_case.h>
-#include <render/drawlist/draw_list_compare.h>
+#include <render/compare/draw_list_compare.h>
 #include <render/image/image_diff.h>
 #include <render/image/png.h>
 
@@ -206,7 +206,8 @@ void draw_all(const Options& options) {
     const std::filesystem::path out = options.words.front();
     std::filesystem::create_directories(out);
     PictureMaker maker(*backend_from_name(options["--backend"]));
-    std::cout << maker.backend() << ", " << maker.renderer().version() << ", " << maker.renderer().device() << '\n';
+    std::cout << maker.backend() << ", " << maker.renderer().context().version() << ", "
+              << maker.renderer().context().device() << '\n';
     for (NamedShot& one : read_shots(std::span(options.words).subspan(1))) {
         if (options["--panels"] == "no" && one.shot.panels.size() > 1) continue;
         Shot shot = options["--text"] == "no" ? without_text(std::move(one.shot)) : std::move(one.shot);

@@ -357,8 +357,7 @@ void add_asked(const std::string& label, const MakeWorkload& workload, Make make
 void add_queries(const std::string& length, const MakeWorkload& workload) {
     add_asked("direct/" + length, workload, [](const std::vector<ClipPtr>& clips) { return DirectSearch(clips); });
     add_asked("blocks/" + length, workload, [](const std::vector<ClipPtr>& clips) { return BlockTrees(clips); });
-    for (const TreeKind kind : kTreeKinds) {
-        if (kind == TreeKind::blocks) continue;  // asked above, by its blocks
+    for (const TreeKind kind : test::kFittedTrees) {
         for (const int levels : {1, 0}) {
             const FitOptions options{.tree = kind, .levels = levels};
             add_asked(std::string(name(kind)) + (levels ? "_1level/" : "/") + length, workload,
@@ -385,7 +384,7 @@ Blocks blocks_of(const ClipPtr& clip) { return Blocks(clip); }
 
 void add_fits(const std::string& length, const MakeWorkload& workload) {
     for (const Axes axes : {Axes::endpoints, Axes::covariance, Axes::minarea}) {
-        for (const TreeKind kind : {TreeKind::mobb, TreeKind::umobb, TreeKind::moving, TreeKind::aabb}) {
+        for (const TreeKind kind : test::kFittedTrees) {
             const std::string label = std::string(name(kind)) + "/" + std::string(name(axes)) + "/" + length;
             add_fit("fit/" + label, workload, tree_of({.tree = kind, .axes = axes}));
         }

@@ -67,7 +67,7 @@ FbxFile fbx_file(const std::string& bytes) {
     try {
         FbxDocument document(bytes, "fuzz.fbx");
         out.version = document.version();
-        document.each_top([&](FbxDocument::Index at) {
+        document.each_inside(FbxDocument::kFile, [&](FbxDocument::Index at) {
             if (document.record(at).name != "FBXHeaderExtension") out.records.push_back(written(document, at));
         });
     } catch (const InputError&) {

@@ -24,7 +24,7 @@
 #include <mobb/tree.h>
 #include <picture_tests/reference.h>
 #include <picture_tests/shot.h>
-#include <render/drawlist/draw_list_compare.h>
+#include <render/compare/draw_list_compare.h>
 #include <render/image/png.h>
 #include <scene/fitted_scene.h>
 #include <scene/scene.h>

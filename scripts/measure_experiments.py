@@ -29,8 +29,6 @@ NAMES = {
     "umobb": "UMOBB",
     "hybrid1": "Hybrid 1",
     "hybrid2": "Hybrid 2",
-    "moving": "moving (ours)",
-    "aabb": "aabb (ours)",
 }
 SEEDS = [1, 2, 3, 4, 5]
 AHEAD = [0, 1, 2.5, 5]
@@ -150,7 +148,16 @@ CROWDS = [
     ("graph of the short recordings", "graph_short"),
     ("graph of `assets/clips`", "graph_clips"),
 ]
-TESTS = {"obb2d": "2D box", "obb3d": "3D box", "moving": "moving box", "aabb": "AABB", "sample_pair": "pair of samples"}
+TESTS = {"obb2d": "2D box", "obb3d": "3D box", "sample_pair": "pair of samples"}
+
+
+def label_of(method):
+    return NAMES.get(method, f"{method} (ours)")
+
+
+def beyond_the_paper(rows):
+    """The kinds of trees that are in no table of the paper."""
+    return [method for method in rows if method not in NAMES and "_" not in method]
 
 
 def methods(result, key="rows"):
@@ -167,14 +174,13 @@ def main_table(result):
     base = rows["mobb_1level"]
     yield head("", "2D boxes", "3D boxes", "samples", "pairs", "ns a query", "times as fast", "paper: 2D", "3D",
             "samples", "µs", "times as fast")
-    for method, label in NAMES.items():
-        each = rows[method]
+    for method, each in rows.items():
         paper = each["paper"]
         two, three = number(each["obb2d"]), number(each["obb3d"])
-        for kind in ("moving", "aabb"):
-            if each[kind]:
+        for kind in result["test_ns"]:
+            if kind not in TESTS and each[kind]:
                 two = f"{number(each[kind])} {kind}"
-        cells = [label, two, three, number(each["sample_steps"]), number(each["samples"]), number(each["time_ns"]),
+        cells = [label_of(method), two, three, number(each["sample_steps"]), number(each["samples"]), number(each["time_ns"]),
                  *speedups(rows, [method])]
         cells += [""] * 5 if not paper else [number(paper["obb2d"]), number(paper["obb3d"]), number(paper["samples"]),
                                              f'{paper["time_ns"] / 1000:g}',
@@ -183,7 +189,7 @@ def main_table(result):
     spread = max((each["time_ns_quartiles"][1] - each["time_ns_quartiles"][0]) / each["time_ns"]
             for each in rows.values())
     yield ""
-    costs = [f"{words} {result['test_ns'][test]:.1f}" for test, words in TESTS.items() if result["test_ns"][test]]
+    costs = [f"{TESTS.get(test, test)} {cost:.1f}" for test, cost in result["test_ns"].items() if cost]
     yield f'{100 * result["positive"]:.1f} % collide; {100 * result["root_rejected"]:.1f} % end at the MOBB roots. ' + \
         f"The quartiles of a time are at most {100 * spread:.0f} % of it apart. " + \
         "Many times over, one test costs in ns: " + ", ".join(costs) + "."
@@ -193,7 +199,7 @@ def comparison_table(results):
     kinds = ["brute", "umobb_1level", "mobb", "umobb", "hybrid2", "moving"]
     yield head("", "end at the roots", "collide", "samples, 1 level", "samples, MOBB", "2D boxes, MOBB",
             "ns, 1 level", "times as fast: direct search",
-               *(NAMES[kind] for kind in kinds[1:]))
+               *(label_of(kind) for kind in kinds[1:]))
     for label, result in results:
         rows = methods(result)
         one, mobb = rows["mobb_1level"], rows["mobb"]
@@ -207,7 +213,7 @@ def spread_table(results):
     kinds = ["brute", "umobb_1level", "mobb", "umobb", "hybrid2", "moving"]
     yield head("", "end at the roots, %", "collide, %", "samples, 1 level", "samples, MOBB", "2D boxes, MOBB",
             "times as fast: direct search",
-               *(NAMES[kind] for kind in kinds[1:]))
+               *(label_of(kind) for kind in kinds[1:]))
     for label, runs in results:
         tables = [methods(run) for run in runs]
         figures = [[100 * run["root_rejected"] for run in runs], [100 * run["positive"] for run in runs],
@@ -232,7 +238,7 @@ def leaves(result):
 
 def leaf_table(results):
     by = [swept(result) for _, result in results]
-    first = [f"{label}: {NAMES[kind]}" if kind == LEAF_KINDS[0] else NAMES[kind]
+    first = [f"{label}: {label_of(kind)}" if kind == LEAF_KINDS[0] else label_of(kind)
              for label, _ in results for kind in LEAF_KINDS]
     yield head("n_min", *first)
     for leaf in leaves(results[0][1]):
@@ -244,7 +250,7 @@ def leaf_table(results):
 
 
 def best_table(results):
-    yield head("", *(f"best n_min, {NAMES[kind]}" for kind in LEAF_KINDS),
+    yield head("", *(f"best n_min, {label_of(kind)}" for kind in LEAF_KINDS),
             "MOBB at its best, times as fast as 1 level", "as n_min = 10")
     for label, result in results:
         by = swept(result)
@@ -321,9 +327,9 @@ def volume_table(results):
     yield head("volume, MOBB = 1", *(f"level {i}" for i in range(10)))
     for label, result in results:
         rows = methods(result)
-        for kind in ("umobb", "moving", "aabb"):
+        for kind in ["umobb", *beyond_the_paper(rows)]:
             cells = [f"{a / b:.2f}" for a, b in zip(rows[kind]["volumes"], rows["mobb"]["volumes"])]
-            yield row(f"{label}: {NAMES[kind]}", *cells, *[""] * (10 - len(cells)))
+            yield row(f"{label}: {label_of(kind)}", *cells, *[""] * (10 - len(cells)))
 
 
 def level_table(results):
@@ -338,8 +344,8 @@ def level_table(results):
 
 
 def tree_table(results):
-    kinds = ["mobb", "umobb", "moving", "aabb"]
-    yield head("", "s a clip", "levels", "nodes", "bytes", *(f"{NAMES[kind]}: µs to build" for kind in kinds))
+    kinds = ["mobb", "umobb", *beyond_the_paper(methods(results[0][1]))]
+    yield head("", "s a clip", "levels", "nodes", "bytes", *(f"{label_of(kind)}: µs to build" for kind in kinds))
     for label, result in results:
         rows = methods(result)
         tree = rows["mobb"]

@@ -265,6 +265,14 @@ void add_blocks(std::vector<Row>& rows, const Workload& w) {
 }
 #endif
 
+/// All that this state of the library has but those of blocks, which have rows of their own.
+std::vector<TreeKind> fitted_kinds() {
+    std::vector<TreeKind> out;
+    for (const std::string_view kind : tree_kind_names())
+        if (kind != "blocks" && kind != "production") out.push_back(*tree_kind_from_name(kind));
+    return out;
+}
+
 std::vector<Row> rows_of(const Workload& w) {
     std::vector<Row> rows;
     rows.push_back(pair_row<PlacedClip, ClipPtr>(
@@ -275,14 +283,13 @@ std::vector<Row> rows_of(const Workload& w) {
     for (const int leaf : {10, 20, 30, 50}) {
         add_tree(rows, w, "mobb leaf " + std::to_string(leaf), options_of(TreeKind::mobb, leaf));
     }
-    for (const TreeKind kind :
-         {TreeKind::umobb, TreeKind::hybrid1, TreeKind::hybrid2, TreeKind::moving, TreeKind::aabb}) {
-        add_tree(rows, w, std::string(name(kind)) + " leaf 10", options_of(kind, 10));
+    for (const TreeKind kind : fitted_kinds()) {
+        if (kind != TreeKind::mobb) add_tree(rows, w, std::string(name(kind)) + " leaf 10", options_of(kind, 10));
     }
 #ifdef COMPARE_BLOCKS
     add_blocks(rows, w);
 #endif
-    for (const TreeKind kind : {TreeKind::mobb, TreeKind::umobb, TreeKind::moving, TreeKind::aabb}) {
+    for (const TreeKind kind : fitted_kinds()) {
         rows.push_back(fit_row("fit " + std::string(name(kind)), w,
                                [kind](const ClipPtr& clip) { return Tree(clip, options_of(kind, 10)).depth() > 0; }));
     }

@@ -1,6 +1,5 @@
 #include <base/base64.h>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -15,9 +14,7 @@ std::string base64(std::string_view bytes) {
             return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u;
         };
         const unsigned group = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for (unsigned k = 0; k < 4; ++k) {
-            out += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
-        }
+        for (unsigned k = 0; k < 4; ++k) out += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
     }
     return out;
 }

@@ -18,6 +18,7 @@ class InputError : public std::runtime_error {
     InputError(const std::string& file, const std::string& place, const std::string& message)
         : std::runtime_error((file == "-" ? "standard input" : cleaned(file)) + ": " +
                              (place.empty() ? "" : place + ": ") + message) {}
+    InputError(const std::string& file, const std::string& message) : InputError(file, "", message) {}
 };
 
 /// What `work` gives. A std::invalid_argument that it throws becomes an InputError at this place of the file.

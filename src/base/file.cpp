@@ -10,7 +10,6 @@
 #include <cstdio>
 #include <memory>
 #include <system_error>
-#include <vector>
 
 namespace mobbscope {
 
@@ -23,10 +22,9 @@ constexpr std::string_view kPackedMark = "\x1f\x8b";
 constexpr std::uintmax_t kMostGrowth = 200;
 constexpr std::uintmax_t kAlwaysUnpacked = std::uintmax_t{64} << 20;  // bytes
 
-struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
+std::unique_ptr<std::FILE, int (*)(std::FILE*)> opened(const std::filesystem::path& file) {
+    return {std::fopen(file.c_str(), "rbe"), std::fclose};
+}
 
 std::string system_message(int error) { return std::generic_category().message(error); }
 
@@ -40,14 +38,14 @@ bool read_on(std::FILE* in, std::string& bytes) {
 }
 
 void check_size(std::uintmax_t size, const std::string& name) {
-    if (size > kLargestFile) throw InputError(name, "", "is larger than 2 GiB; split it");
+    if (size > kLargestFile) throw InputError(name, "is larger than 2 GiB; split it");
 }
 
 /// Read at its first use: there is no second time.
 const std::string& standard_input() {
     static const std::string bytes = [] {
         std::string read;
-        if (!read_on(stdin, read)) throw InputError("-", "", "cannot be read: " + system_message(errno));
+        if (!read_on(stdin, read)) throw InputError("-", "cannot be read: " + system_message(errno));
         check_size(read.size(), "-");
         return read;
     }();
@@ -74,25 +72,24 @@ std::string unpacked(std::string_view packed, const std::string& name, std::uint
         const std::uintmax_t taken = packed.size() - stream.avail_in;
         const std::uintmax_t limit = std::min(kLargestFile, std::max(kAlwaysUnpacked, kMostGrowth * taken));
         if (out.size() > limit) {
-            throw InputError(name, "",
-                             "unpacks to more than " + bytes_text(limit) +
-                                 ", which no table of this size does; unpack it by hand if that is right");
+            throw InputError(name, "unpacks to more than " + bytes_text(limit) +
+                                       ", which no table of this size does; unpack it by hand if that is right");
         }
         if (status == Z_STREAM_END) {
             const std::string_view left = packed.substr(packed.size() - stream.avail_in);
             // What is padded to whole blocks ends in zeros.
             if (left.find_first_not_of('\0') == std::string_view::npos) return out;
             if (!left.starts_with(kPackedMark)) {
-                throw InputError(name, "", "other bytes follow what gzip packed; pack the file again");
+                throw InputError(name, "other bytes follow what gzip packed; pack the file again");
             }
             inflateReset(&stream);
         } else if (status == Z_BUF_ERROR || (status == Z_OK && stream.avail_in == 0 && stream.avail_out > 0)) {
             if (most < UINTMAX_MAX) return out;
-            throw InputError(name, "", "ends within what gzip packed; get the whole file");
+            throw InputError(name, "ends within what gzip packed; get the whole file");
         } else if (status == Z_MEM_ERROR) {
             throw std::bad_alloc();
         } else if (status != Z_OK) {
-            throw InputError(name, "", "what gzip packed is damaged; get the file again");
+            throw InputError(name, "what gzip packed is damaged; get the file again");
         }
     }
 }
@@ -102,7 +99,7 @@ std::string unpacked(std::string_view packed, const std::string& name, std::uint
 void check_file_name(const std::filesystem::path& file) {
     if (file.empty()) throw InputError("the name of a file is empty; give one");
     if (file.native().find('\0') != std::string::npos)
-        throw InputError(in_quotes(file.native()), "", "the name of a file holds a NUL byte; remove it");
+        throw InputError(in_quotes(file.native()), "the name of a file holds a NUL byte; remove it");
 }
 
 std::string read_file(const std::filesystem::path& file) {
@@ -110,19 +107,17 @@ std::string read_file(const std::filesystem::path& file) {
     const std::string name = file.string();
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(file, error);
-    if (status.type() == std::filesystem::file_type::not_found) {
-        throw InputError(name, "", "no such file; check the path");
-    }
-    if (error) throw InputError(name, "", "cannot be read: " + error.message());
+    if (status.type() == std::filesystem::file_type::not_found) throw InputError(name, "no such file; check the path");
+    if (error) throw InputError(name, "cannot be read: " + error.message());
     if (status.type() == std::filesystem::file_type::directory) {
-        throw InputError(name, "", "is a directory; give a file in it");
+        throw InputError(name, "is a directory; give a file in it");
     }
     // Devices and pipes may never end.
     if (status.type() != std::filesystem::file_type::regular) {
-        throw InputError(name, "", "is no regular file; save the data to a file first");
+        throw InputError(name, "is no regular file; save the data to a file first");
     }
-    const OpenFile in(std::fopen(file.c_str(), "rbe"));
-    if (!in) throw InputError(name, "", "cannot be read: " + system_message(errno));
+    const auto in = opened(file);
+    if (!in) throw InputError(name, "cannot be read: " + system_message(errno));
     note_read(file);
 
     std::string bytes;
@@ -132,7 +127,7 @@ std::string read_file(const std::filesystem::path& file) {
         // In one piece: as it grew, memory would be asked for again and again.
         bytes.reserve(static_cast<std::size_t>(size));
     }
-    if (!read_on(in.get(), bytes)) throw InputError(name, "", "cannot be read: " + system_message(errno));
+    if (!read_on(in.get(), bytes)) throw InputError(name, "cannot be read: " + system_message(errno));
     check_size(bytes.size(), name);  // it may have grown meanwhile
     return bytes;
 }
@@ -151,7 +146,7 @@ std::string read_beginning(const std::filesystem::path& file, std::size_t most) 
     } else {
         std::error_code ignored;
         if (!std::filesystem::is_regular_file(file, ignored)) return "";
-        const OpenFile in(std::fopen(file.c_str(), "rbe"));
+        const auto in = opened(file);
         if (!in) return "";
         bytes.resize(most);
         bytes.resize(std::fread(bytes.data(), 1, most, in.get()));

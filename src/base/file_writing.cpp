@@ -155,10 +155,6 @@ bool is_unfinished_name(std::string_view name) {
            name.find_first_not_of("-0123456789") == std::string_view::npos;
 }
 
-struct CloseFolder {
-    void operator()(DIR* folder) const { ::closedir(folder); }
-};
-
 /// Whether nobody writes it any more: who does holds a lock, on whatever machine, until its process ends.
 bool is_left_behind(int folder, const char* name) {
     struct stat status {};
@@ -176,7 +172,7 @@ void remove_left_behind(const fs::path& folder) {
         const std::lock_guard lock(mutex);
         if (!seen.insert(folder).second) return;
     }
-    const std::unique_ptr<DIR, CloseFolder> listed(::opendir(folder.c_str()));
+    const std::unique_ptr<DIR, int (*)(DIR*)> listed(::opendir(folder.c_str()), ::closedir);
     if (!listed) return;
     const int descriptor = ::dirfd(listed.get());
     while (const dirent* entry = ::readdir(listed.get())) {
@@ -342,7 +338,7 @@ std::vector<fs::path> take_files_read() {
 void check_not_read(const fs::path& file) {
     const std::optional<fs::path> read = name_when_read(file);
     if (!read) return;
-    throw InputError(file.string(), "",
+    throw InputError(file,
                      "would replace " + in_quotes(read->string()) + ", which it is made from; give another output");
 }
 
@@ -363,7 +359,7 @@ void check_stays_in_folder(const fs::path& file) {
     const fs::path target = meant(file);
     const fs::path folder = meant(file.has_parent_path() ? file.parent_path() : ".");
     if (target.parent_path() == folder) return;
-    throw InputError(file.string(), "",
+    throw InputError(file,
                      "is a link that leads out of its folder, to " + in_quotes(target.string()) + "; remove the link");
 }
 

@@ -198,15 +198,7 @@ class ValueBuilder : public nlohmann::json_sax<nlohmann::json> {
 
 std::string pointer_token(std::string_view key) {
     std::string out = "/";
-    for (const char c : shortened(key, kLongestToken)) {
-        if (c == '~') {
-            out += "~0";
-        } else if (c == '/') {
-            out += "~1";
-        } else {
-            out += c;
-        }
-    }
+    for (const char c : shortened(key, kLongestToken)) out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
     return out;
 }
 

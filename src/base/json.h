@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -52,6 +53,15 @@ class JsonPlace {
     std::string description() const;
     /// Throws InputError for this place.
     [[noreturn]] void fail(const std::string& message) const;
+    /// What `work` gives. A std::invalid_argument that it throws becomes an InputError for this place.
+    template <class Work>
+    auto attempt(const Work& work) const {
+        try {
+            return work();
+        } catch (const std::invalid_argument& error) {
+            fail(error.what());
+        }
+    }
 
     bool is_null() const { return std::holds_alternative<std::nullptr_t>(value_->data); }
     bool is_string() const { return std::holds_alternative<std::string>(value_->data); }
@@ -70,6 +80,15 @@ class JsonPlace {
     int size() const;
     JsonPlace operator[](int index) const&;
     JsonPlace operator[](int index) const&& = delete;  // the element would refer to a place that is gone
+    template <class Visit>
+    void each(const Visit& visit) const {
+        for (int i = 0; i < size(); ++i) visit((*this)[i]);
+    }
+    std::vector<std::string> strings() const {
+        std::vector<std::string> out;
+        each([&](const JsonPlace& element) { out.push_back(element.string()); });
+        return out;
+    }
     /// An array of exactly `count` elements.
     void require_size(int count, const char* what) const;
     /// An array of a vector's coordinates, each within [-most, most]; `what` says what to give.

@@ -1,6 +1,8 @@
 /// JSON text, written as it goes: whatever the size, nothing is kept.
 #pragma once
 
+#include <glm/fwd.hpp>
+
 #include <concepts>
 #include <initializer_list>
 #include <optional>
@@ -48,6 +50,13 @@ class JsonWriter {
     void value(bool boolean);
     void value(std::string_view string);
     void value(const char* string) { value(std::string_view(string)); }
+    /// Its coordinates, on one line.
+    template <glm::length_t length, class T>
+    void value(const glm::vec<length, T>& vector) {
+        begin_array(Layout::row);
+        for (glm::length_t i = 0; i < length; ++i) value(vector[i]);
+        end_array();
+    }
     /// Null where there is none.
     template <class T>
     void value(const std::optional<T>& of) {
@@ -60,27 +69,39 @@ class JsonWriter {
         key(name);
         value(of);
     }
-    void member(std::string_view name, std::initializer_list<double> list) {
-        key(name);
-        numbers(list);
+    void member(std::string_view name, std::initializer_list<double> list) { values(name, list); }
+    /// Members one after the other: a name, its value, the next name ...
+    template <class T, class... Rest>
+    void members(std::string_view name, const T& of, const Rest&... rest) {
+        member(name, of);
+        if constexpr (sizeof...(rest) > 0) members(rest...);
+    }
+    /// An object of such members on one line.
+    template <class... NamesAndValues>
+    void row(const NamesAndValues&... of) {
+        begin_object(Layout::row);
+        members(of...);
+        end_object();
+    }
+    /// An array of values on one line.
+    template <class... Values>
+    void tuple(const Values&... of) {
+        begin_array(Layout::row);
+        (value(of), ...);
+        end_array();
+    }
+    /// The same of as many as there are.
+    template <class Items>
+    void values(std::string_view name, const Items& items) {
+        begin_array(name, Layout::row);
+        for (const auto& item : items) value(item);
+        end_array();
     }
     /// An array of which `write` writes each element.
     template <class Items, class Write>
-    void list(std::string_view name, const Items& items, Write write, Layout layout = Layout::lines) {
-        begin_array(name, layout);
+    void list(std::string_view name, const Items& items, Write write) {
+        begin_array(name);
         for (const auto& item : items) write(item);
-        end_array();
-    }
-    /// Values on one line.
-    template <class Items>
-    void values(std::string_view name, const Items& items) {
-        list(
-            name, items, [this](const auto& item) { value(item); }, Layout::row);
-    }
-    /// Numbers on one line.
-    void numbers(std::initializer_list<double> list) {
-        begin_array(Layout::row);
-        for (const double number : list) value(number);
         end_array();
     }
 

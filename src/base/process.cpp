@@ -28,10 +28,9 @@ int out_of_the_way(int descriptor) { return ::fcntl(descriptor, F_DUPFD_CLOEXEC,
 
 /// The child between fork and exec: the program may have threads, so nothing is called here that takes a lock or
 /// memory. `failed`: where the number of the error goes.
-[[noreturn]] void become(char* const* argv, const Process::Streams& streams, pid_t parent, int failed) {
+[[noreturn]] void become(char* const* argv, const Process::Streams& streams, int failed) {
     const int tell = out_of_the_way(failed);
-    // Who has gone already would not end it any more.
-    bool fits = ::prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && ::getppid() == parent;
+    bool fits = true;
     std::array<int, 3> kept{};
     for (int i = 0; fits && i < 3; ++i) {
         const int wanted = i == STDIN_FILENO ? streams.in : i == STDOUT_FILENO ? streams.out : streams.err;
@@ -98,9 +97,8 @@ Process::Process(const std::filesystem::path& program, const std::vector<std::st
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) refuse(errno);
     Descriptor told(ends[0]), telling(ends[1]);
-    const pid_t parent = ::getpid();
-    child_ = ::fork();
-    if (child_ == 0) become(argv.data(), streams, parent, telling.get());
+    child_ = fork_tied();
+    if (child_ == 0) become(argv.data(), streams, telling.get());
     if (child_ < 0) {
         const int error = errno;
         child_ = 0;
@@ -132,6 +130,15 @@ std::optional<int> Process::ended() {
 std::optional<int> Process::wait(double seconds) {
     if (!status_) status_ = wait_for_child(child_, seconds);
     return status_;
+}
+
+pid_t fork_tied() {
+    const pid_t parent = ::getpid();
+    const pid_t child = ::fork();
+    if (child != 0) return child;
+    // Who has gone already would not end it any more.
+    if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || ::getppid() != parent) ::_exit(kNotStarted);
+    return 0;
 }
 
 std::optional<int> wait_for_child(pid_t child, double seconds) {

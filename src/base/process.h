@@ -54,6 +54,9 @@ class Process {
     std::optional<int> status_;
 };
 
+/// As fork; the child is killed when the thread that forked ends.
+pid_t fork_tied();
+
 /// How a child process ended, as waitpid tells it, waiting so long at most; nothing if it still works.
 std::optional<int> wait_for_child(pid_t child, double seconds);
 /// The same, however long it works.

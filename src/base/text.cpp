@@ -1,7 +1,6 @@
 #include <base/error.h>
 #include <base/text.h>
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -18,6 +17,8 @@ namespace {
 constexpr std::size_t kLeastShortened = 5;  // characters
 
 constexpr std::size_t kLongestQuote = 60;
+
+constexpr char32_t kMalformed = 0xFFFD;  // what stands for a byte that is
 
 /// Levenshtein's edit distance in bytes.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -76,6 +77,13 @@ bool is_misleading(char32_t code) {
                                                                      {0xe0000, 0xe007f}}};
     return std::ranges::any_of(kRanges,
                                [code](const auto& range) { return code >= range.first && code <= range.second; });
+}
+
+/// As std::to_chars writes it.
+std::string digits_of(double value, auto... how) {
+    char buffer[32];
+    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value, how...);
+    return {buffer, end};
 }
 
 /// Where each character begins, and the text's end.
@@ -155,23 +163,12 @@ std::optional<std::pair<double, double>> parse_range(std::string_view text) {
 
 std::string format_double(double value) {
     // A JSON reader takes "-0" for the integer 0 and loses the sign.
-    if (value == 0 && std::signbit(value)) return "-0.0";
-    char buffer[32];
-    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 17);
-    return {buffer, end};
+    return value == 0 && std::signbit(value) ? "-0.0" : digits_of(value, std::chars_format::general, 17);
 }
 
-std::string short_double(double value) {
-    char buffer[32];
-    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
-    return {buffer, end};
-}
+std::string short_double(double value) { return digits_of(value); }
 
-std::string brief(double value) {
-    char buffer[32];
-    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 6);
-    return {buffer, end};
-}
+std::string brief(double value) { return digits_of(value, std::chars_format::general, 6); }
 
 std::string to_thousandth(double value) {
     std::string out = formatted("%.3f", value);
@@ -216,31 +213,19 @@ std::string_view trimmed(std::string_view text) {
 }
 
 bool is_utf8(std::string_view text) {
-    for (std::size_t i = 0; i < text.size();) {
-        const auto byte = [&](std::size_t k) {
-            return i + k < text.size() ? static_cast<unsigned char>(text[i + k]) : 0u;
-        };
-        const unsigned lead = byte(0);
-        const std::size_t length = lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
-        unsigned code = length == 1 ? lead : lead & (0x7fu >> length);
-        for (std::size_t k = 1; k < length; ++k) {
-            if ((byte(k) & 0xc0) != 0x80) return false;
-            code = code << 6 | (byte(k) & 0x3f);
-        }
-        // The least code of each length: a longer form than needed is malformed, as are lone trail bytes and
-        // surrogates.
-        constexpr unsigned kLeast[] = {0, 0x80, 0x800, 0x10000};
-        if ((lead >= 0x80 && lead < 0xc0) || lead > 0xf7 || code < kLeast[length - 1] || code > 0x10ffff ||
-            (code >= 0xd800 && code < 0xe000)) {
-            return false;
-        }
-        i += length;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t begin = at;
+        const char32_t code = read_code_point(text, at);
+        const std::string_view bytes = text.substr(begin, at - begin);
+        // A longer form than needed is malformed, as are surrogates.
+        const std::size_t least = code < 0x80 ? 1 : code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
+        if (bytes.size() != least || code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) return false;
+        if (code == kMalformed && bytes != "\uFFFD") return false;
     }
     return true;
 }
 
 char32_t read_code_point(std::string_view utf8, std::size_t& at) {
-    constexpr char32_t kMalformed = 0xFFFD;
     const auto lead = static_cast<unsigned char>(utf8[at++]);
     const int following = lead < 0x80 ? 0 : (lead >> 5) == 6 ? 1 : (lead >> 4) == 14 ? 2 : (lead >> 3) == 30 ? 3 : -1;
     if (following < 0) return kMalformed;

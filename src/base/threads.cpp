@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <cstddef>
-#include <exception>
 #include <filesystem>
 #include <mutex>
 #include <new>

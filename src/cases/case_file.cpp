@@ -26,7 +26,7 @@ std::string stem_of(const CaseFile& file) {
 }
 
 Tolerance read_tolerance(const JsonPlace& place) {
-    if (const auto named = tolerance_from_name(place.string())) return *named;
+    if (const auto named = enumerator_named<Tolerance>(kTolerances, place.string())) return *named;
     place.fail(in_quotes(place.string()) + " is no tolerance; give tight or loose");
 }
 
@@ -40,15 +40,6 @@ constexpr std::array<std::string_view, 5> kGoldenEndings{".plain.state.json", ".
                                                          ".draw.json", ".png"};
 
 }  // namespace
-
-std::string_view name(Tolerance tolerance) { return tolerance == Tolerance::tight ? "tight" : "loose"; }
-
-std::optional<Tolerance> tolerance_from_name(std::string_view text) {
-    for (const Tolerance tolerance : {Tolerance::tight, Tolerance::loose}) {
-        if (text == name(tolerance)) return tolerance;
-    }
-    return std::nullopt;
-}
 
 DiffOptions diff_options(Tolerance tolerance) {
     if (tolerance == Tolerance::tight) return {};

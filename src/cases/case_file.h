@@ -17,6 +17,8 @@
 #include <base/json.h>
 #include <render/image/diff_options.h>
 
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -30,9 +32,8 @@ enum class Tolerance {
     tight,  ///< one rasteriser on any processor: the defaults of DiffOptions
     loose,  ///< across rasterisers: edges may lie a pixel aside, 8/255 a channel, 0.5 % of the pixels beyond
 };
-std::string_view name(Tolerance tolerance);
-/// Nothing if there is none of that name.
-std::optional<Tolerance> tolerance_from_name(std::string_view name);
+inline constexpr std::array<std::string_view, 2> kTolerances{"tight", "loose"};
+inline std::string_view name(Tolerance tolerance) { return kTolerances[static_cast<std::size_t>(tolerance)]; }
 DiffOptions diff_options(Tolerance tolerance);
 
 /// What is known of a case before its scene is read.

@@ -72,10 +72,8 @@ CaseReport read_case_report(const std::filesystem::path& report, const std::vect
         version.fail("the report has version " + short_double(version.number()) + "; this program reads version " +
                      std::to_string(kReportVersion));
     }
-    const JsonPlace results = root.require("cases");
     std::set<std::string> seen;
-    for (int i = 0; i < results.size(); ++i) {
-        const JsonPlace result = results[i];
+    root.require("cases").each([&](const JsonPlace& result) {
         const JsonPlace named = result.require("name");
         const std::string& of = named.string();
         if (!seen.insert(of).second) named.fail("the case " + in_quotes(of) + " stands there twice");
@@ -84,7 +82,7 @@ CaseReport read_case_report(const std::filesystem::path& report, const std::vect
         } else {
             out.results.push_back(read_result(result, cases));
         }
-    }
+    });
     return out;
 }
 

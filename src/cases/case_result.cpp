@@ -2,21 +2,7 @@
 #include <cases/case_result.h>
 #include <render/image/png.h>
 
-#include <algorithm>
-
 namespace mobbscope::picture_tests {
-
-std::optional<CaseOutcome> outcome_from_name(std::string_view name) {
-    const auto at = std::ranges::find(kOutcomeWords, name, &OutcomeWords::name);
-    if (at == kOutcomeWords.end()) return std::nullopt;
-    return static_cast<CaseOutcome>(at - kOutcomeWords.begin());
-}
-
-std::optional<DecidedBy> decided_by_from_name(std::string_view name) {
-    const auto at = std::ranges::find(kDecidedBy, name);
-    if (at == kDecidedBy.end()) return std::nullopt;
-    return static_cast<DecidedBy>(at - kDecidedBy.begin());
-}
 
 bool lacks_opengl(const CaseResult& result) {
     return result.outcome == CaseOutcome::skipped && result.drawn_by.backend.empty();

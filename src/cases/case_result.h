@@ -43,9 +43,6 @@ static_assert(kOutcomeWords.size() == static_cast<std::size_t>(CaseOutcome::skip
 inline const OutcomeWords& words_of(CaseOutcome outcome) { return kOutcomeWords[static_cast<std::size_t>(outcome)]; }
 inline std::string_view name(CaseOutcome outcome) { return words_of(outcome).name; }
 
-/// Nothing if there is none of that name.
-std::optional<CaseOutcome> outcome_from_name(std::string_view name);
-
 /// What is wrong with one golden.
 struct Finding {
     std::filesystem::path golden;
@@ -62,7 +59,6 @@ enum class DecidedBy {
 };
 inline constexpr std::array<std::string_view, 4> kDecidedBy{"pixels", "draw list", "ssim", "without text"};
 inline std::string_view name(DecidedBy by) { return kDecidedBy[static_cast<std::size_t>(by)]; }
-std::optional<DecidedBy> decided_by_from_name(std::string_view name);
 
 /// What drew the pictures.
 struct DrawnBy {

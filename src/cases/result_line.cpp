@@ -8,7 +8,9 @@
 #include <render/image/png.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <span>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -57,9 +59,16 @@ std::string mask_name(const CaseResult& result) {
     return relative.empty() ? result.mask->string() : relative.string();
 }
 
-template <class Value, class FromName>
-Value named(const JsonPlace& place, const FromName& from_name) {
-    const std::optional<Value> value = from_name(place.string());
+/// The names of CaseOutcome.
+constexpr auto kOutcomes = [] {
+    std::array<std::string_view, kOutcomeWords.size()> out{};
+    std::ranges::transform(kOutcomeWords, out.begin(), &OutcomeWords::name);
+    return out;
+}();
+
+template <class Value>
+Value named(const JsonPlace& place, std::span<const std::string_view> names) {
+    const std::optional<Value> value = enumerator_named<Value>(names, place.string());
     if (!value) place.fail(in_quotes(place.string()) + " is none of the names");
     return *value;
 }
@@ -129,11 +138,7 @@ void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures)
     json.member("renderer", result.drawn_by.renderer);
     json.member("opengl", result.drawn_by.opengl);
     json.key("diff");
-    if (result.image) {
-        write_diff(json, *result.image);
-    } else {
-        json.null();
-    }
+    result.image ? write_diff(json, *result.image) : json.null();
     json.list("findings", result.findings, [&](const Finding& finding) {
         json.begin_object();
         json.member("golden", result.file.ending_of(finding.golden));
@@ -163,38 +168,31 @@ CaseResult read_result(const JsonPlace& root, const std::vector<CaseFile>& cases
     if (file == cases.end()) named_case.fail(in_quotes(of) + " is none of the cases");
     CaseResult result;
     result.file = *file;
-    result.outcome = named<CaseOutcome>(root.require("outcome"), outcome_from_name);
+    result.outcome = named<CaseOutcome>(root.require("outcome"), kOutcomes);
     result.message = root.require("message").string();
-    const JsonPlace remarks = root.require("remarks");
-    for (int i = 0; i < remarks.size(); ++i) result.remarks.push_back(remarks[i].string());
+    result.remarks = root.require("remarks").strings();
     if (const auto seconds = root.find("seconds")) result.seconds = seconds->number();
     if (const auto read = root.find("read")) {
-        for (int i = 0; i < read->size(); ++i) result.read.emplace_back((*read)[i].string());
+        read->each([&](const JsonPlace& one) { result.read.emplace_back(one.string()); });
     }
-    result.tolerance = named<Tolerance>(root.require("tolerance"), tolerance_from_name);
-    result.decided_by = named<DecidedBy>(root.require("decided_by"), decided_by_from_name);
+    result.tolerance = named<Tolerance>(root.require("tolerance"), kTolerances);
+    result.decided_by = named<DecidedBy>(root.require("decided_by"), kDecidedBy);
     result.other_here = root.require("other_here").string();
     result.drawn_by = {root.require("backend").string(), root.require("renderer").string()};
     if (const auto opengl = root.find("opengl")) result.drawn_by.opengl = opengl->string();
     const JsonPlace diff = root.require("diff");
     if (!diff.is_null()) result.image = read_diff(diff);
-    const JsonPlace findings = root.require("findings");
-    for (int i = 0; i < findings.size(); ++i) {
-        const JsonPlace finding = findings[i];
-        Finding read{golden_at(finding.require("golden"), *file), finding.require("message").string(), {}};
-        const JsonPlace words = finding.require("words");
-        for (int k = 0; k < words.size(); ++k) read.words.push_back(words[k].string());
-        result.findings.push_back(std::move(read));
-    }
-    const JsonPlace fresh = root.require("fresh");
-    for (int i = 0; i < fresh.size(); ++i) {
-        const JsonPlace one = fresh[i];
+    root.require("findings").each([&](const JsonPlace& finding) {
+        result.findings.push_back({golden_at(finding.require("golden"), *file), finding.require("message").string(),
+                                   finding.require("words").strings()});
+    });
+    root.require("fresh").each([&](const JsonPlace& one) {
         const JsonPlace golden = one.require("golden");
         GoldenChange change{golden_at(golden, *file), unpacked(one.require("bytes")),
                             unpacked(one.require("replaces"))};
         if (shown_change(result.fresh, change.file)) golden.fail(in_quotes(golden.string()) + " stands there twice");
         result.fresh.push_back(std::move(change));
-    }
+    });
     const JsonPlace shown = root.require("shown");
     if (!shown.string().empty()) result.shown = golden_at(shown, *file);
     const JsonPlace mask = root.require("mask");
@@ -234,11 +232,8 @@ CaseRequest read_request_line(std::string_view line) {
     const JsonValue value = parse_json(line, name);
     const JsonPlace root(value, name);
     CaseRequest out{root.require("name").string()};
-    const JsonPlace source = root.require("source"), fresh = root.require("fresh");
-    out.options.source = named<GoldenSource>(
-        source, [](std::string_view text) { return enumerator_named<GoldenSource>(kGoldenSources, text); });
-    out.options.fresh = named<FreshGoldens>(
-        fresh, [](std::string_view text) { return enumerator_named<FreshGoldens>(kFreshGoldens, text); });
+    out.options.source = named<GoldenSource>(root.require("source"), kGoldenSources);
+    out.options.fresh = named<FreshGoldens>(root.require("fresh"), kFreshGoldens);
     return out;
 }
 

@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -104,7 +103,7 @@ Workload table1(const BenchCommandArguments& arguments) {
     return workload;
 }
 
-void run_bench(const BenchCommandArguments& arguments) {
+void measure_all(const BenchCommandArguments& arguments) {
     if (arguments.fit.tree || arguments.fit.levels)
         throw InputError("bench measures every tree, with all levels and with one; leave out --tree and --levels");
     if (arguments.workload == "table2" && (arguments.ahead || arguments.within))
@@ -133,50 +132,49 @@ void run_bench(const BenchCommandArguments& arguments) {
     flush_results();
 }
 
+int run_bench(const BenchCommandArguments& arguments) {
+    try {
+        measure_all(arguments);
+        return kDone;
+    } catch (const DisagreementError& error) {
+        complain(error.what());
+        return kFailed;
+    }
+}
+
+void add_bench_options(Command& command, BenchCommandArguments& arguments) {
+    command.add_option("WORKLOAD", arguments.workload, "table1 (short clips in a crowd) or table2 (long clips)", "")
+        .required()
+        .among({"table1", "table2"});
+    command.add_option("PATH", arguments.paths,
+                       "Clips or folders of them; for table1 also a motion graph, or a scene with queries; without "
+                       "any, built-in clips",
+                       "");
+    command.add_flag("--json", arguments.json, "The figures as JSON");
+    add_parsed(command, "--queries", arguments.queries, whole_number_within(1, kMaxQueries),
+               "How many queries, at most (100000)", "N");
+    add_parsed(command, "--seed", arguments.seed, parse_seed, "Of whatever is random (1)", "S");
+    add_parsed(command, "--rounds", arguments.rounds, whole_number_within(1, kMostRounds),
+               "How often everything is timed; the median counts (5)", "N");
+    command.add_flag("--sweep", arguments.sweep, "Times and counts at n_min from 1 to 200 too");
+    command.add_flag("--variants", arguments.variants,
+                     "Also with other axes and time scales, and with box tests where a leaf meets an inner node");
+    add_parsed(command, "--ahead", arguments.ahead, number_within(0, kMaxSimulated),
+               "table1: seconds before its begin at which a move is chosen (2.5)", "S");
+    add_parsed(command, "--within", arguments.within, number_within(0, kMaxArea),
+               "table1: of each candidate against all that comes within M metres, at any time (1)", "M");
+    add_parsed(command, "--range", arguments.range, number_within(kLeastRange, kMaxArea),
+               "table2: B's middle comes within M metres of A's, in x and in y (3.5)", "M");
+    add_fit_options(command, arguments.fit);
+    add_import_options(command, arguments.import_options);
+}
+
 }  // namespace
 
-void add_bench_command(Command& program, int& status) {
+void add_bench_command(Command& program) {
     program.add_subcommand(
         "bench", "Measure the paper's Table 1 or 2: counts and times of every kind of tree on the same queries",
-        [&status](Command& command) {
-            const auto arguments = std::make_shared<BenchCommandArguments>();
-            command
-                .add_option("WORKLOAD", arguments->workload, "table1 (short clips in a crowd) or table2 (long clips)",
-                            "")
-                .required()
-                .among({"table1", "table2"});
-            command.add_option(
-                "PATH", arguments->paths,
-                "Clips or folders of them; for table1 also a motion graph, or a scene with queries; without "
-                "any, built-in clips",
-                "");
-            command.add_flag("--json", arguments->json, "The figures as JSON");
-            add_parsed(command, "--queries", arguments->queries, whole_number_within(1, kMaxQueries),
-                       "How many queries, at most (100000)", "N");
-            add_parsed(command, "--seed", arguments->seed, parse_seed, "Of whatever is random (1)", "S");
-            add_parsed(command, "--rounds", arguments->rounds, whole_number_within(1, kMostRounds),
-                       "How often everything is timed; the median counts (5)", "N");
-            command.add_flag("--sweep", arguments->sweep, "Times and counts at n_min from 1 to 200 too");
-            command.add_flag(
-                "--variants", arguments->variants,
-                "Also with other axes and time scales, and with box tests where a leaf meets an inner node");
-            add_parsed(command, "--ahead", arguments->ahead, number_within(0, kMaxSimulated),
-                       "table1: seconds before its begin at which a move is chosen (2.5)", "S");
-            add_parsed(command, "--within", arguments->within, number_within(0, kMaxArea),
-                       "table1: of each candidate against all that comes within M metres, at any time (1)", "M");
-            add_parsed(command, "--range", arguments->range, number_within(kLeastRange, kMaxArea),
-                       "table2: B's middle comes within M metres of A's, in x and in y (3.5)", "M");
-            add_fit_options(command, arguments->fit);
-            add_import_options(command, arguments->import_options);
-            command.callback([arguments, &status] {
-                try {
-                    run_bench(*arguments);
-                } catch (const DisagreementError& error) {
-                    complain(error.what());
-                    status = kFailed;
-                }
-            });
-        });
+        add_bench_options, run_bench);
 }
 
 }  // namespace mobbscope::cli

@@ -77,6 +77,7 @@ void Command::add_subcommand(const std::string& name, const std::string& descrip
                              std::function<void(Command&)> add_options) {
     CLI::App* const added = app_->add_subcommand(name, description);
     Command& command = subcommands_.emplace_back(app_->get_subcommand_ptr(added));
+    command.status_ = status_;
     added->preparse_callback([this, &command, add_options = std::move(add_options)](std::size_t) {
         add_options(command);
         if (!version_.empty()) command.app_->set_version_flag("--version", version_);

@@ -8,6 +8,7 @@
 #include <list>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace CLI {
@@ -62,6 +63,28 @@ class Command {
     /// options of all commands would take longer than most commands do.
     void add_subcommand(const std::string& name, const std::string& description,
                         std::function<void(Command&)> add_options);
+    /// The same for options that are read into `Arguments`, which `run` gets, alone or behind the command. It runs
+    /// within the program's parse(); the status is what it returns, if anything.
+    template <class Arguments, class Run>
+    void add_subcommand(const std::string& name, const std::string& description,
+                        void (*add_options)(Command&, Arguments&), Run run) {
+        add_subcommand(name, description, [add_options, run, status = status_](Command& command) {
+            const auto arguments = std::make_shared<Arguments>();
+            add_options(command, *arguments);
+            command.callback([&command, arguments, run, status] {
+                const auto call = [&] {
+                    if constexpr (std::invocable<Run, Arguments&>)
+                        return run(*arguments);
+                    else
+                        return run(command, *arguments);
+                };
+                if constexpr (std::is_void_v<decltype(call())>)
+                    call();
+                else
+                    *status = call();
+            });
+        });
+    }
     /// Bad usage without a subcommand.
     void require_subcommand();
 
@@ -82,8 +105,6 @@ class Command {
         add_option(const std::string& name, T& target, const std::string& help,
                    const std::string& placeholder = "TEXT");
 
-    /// What the command does; it runs within the program's parse().
-    void callback(std::function<void()> run);
     /// Runs when everything is read, before the subcommand does.
     void before_subcommand(std::function<void()> check);
 
@@ -99,11 +120,16 @@ class Command {
     bool is_given(const std::string& name) const;
     /// All that stand there, in the order in which they were added.
     std::vector<GivenOption> given() const;
+    /// What the command that ran left as the program's exit status; 0 before.
+    int status() const { return *status_; }
 
   private:
+    void callback(std::function<void()> run);
+
     std::shared_ptr<CLI::App> app_;
     std::list<Command> subcommands_;
-    std::string version_;  ///< what --version says
+    std::string version_;                                     ///< what --version says
+    std::shared_ptr<int> status_ = std::make_shared<int>(0);  ///< of the program, for all of its commands
 };
 
 /// Adds an option whose text goes through `parse`; the std::invalid_argument that it throws becomes bad usage.

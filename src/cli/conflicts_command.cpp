@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -37,7 +36,7 @@ Scene load_crowd(const ConflictsCommandArguments& arguments) {
     if (!is_scene_file(arguments.file) && scene.agents.empty() && scene.clips.front().facts.format == "csv")
         add_agents_for_clips(scene);
     if (scene.agents.empty())
-        throw InputError(arguments.file.string(), "",
+        throw InputError(arguments.file,
                          "there are no agents who could meet; give a scene with agents, "
                          "trajectories or a CSV with ids");
     return scene;
@@ -84,20 +83,17 @@ class People {
     int samples_ = 0;
 };
 
-/// What is said of a crowd's conflicts.
 struct Findings {
     const Scene& scene;
     const People& people;
     const std::vector<mobb::PlacedTree>& crowd;
     const PeopleConflicts& conflicts;
 
+    const mobb::PlacedClip& clip(int agent) const { return crowd[static_cast<std::size_t>(agent)].placed_clip(); }
     /// Halfway between the two where they are closest.
     glm::dvec2 position(const Conflict& conflict) const {
-        const auto disk = [&](int agent, int sample) {
-            return mobb::swept(crowd[static_cast<std::size_t>(agent)].placed_clip(), sample).at(conflict.time);
-        };
-        const mobb::Disk a = disk(conflict.a, conflict.a_sample);
-        const mobb::Disk b = disk(conflict.b, conflict.b_sample);
+        const mobb::Disk a = mobb::swept(clip(conflict.a), conflict.a_sample).at(conflict.time);
+        const mobb::Disk b = mobb::swept(clip(conflict.b), conflict.b_sample).at(conflict.time);
         return {(a.x + b.x) / 2, (a.y + b.y) / 2};
     }
     /// Of tracks: time 0 on their file's own clock, seconds. The agents of a scene start when the scene says.
@@ -114,51 +110,33 @@ struct Findings {
 
     /// In the words of path finding; of agents of a plan.
     std::vector<PlanConflict> in_plan(const Conflict& conflict) const {
-        const auto placed = [this](int agent) -> const mobb::PlacedClip& {
-            return crowd[static_cast<std::size_t>(agent)].placed_clip();
-        };
-        return plan_conflicts(placed(conflict.a), placed(conflict.b));
+        return plan_conflicts(clip(conflict.a), clip(conflict.b));
     }
 };
 
 void write_plan_conflicts(JsonWriter& out, const std::vector<PlanConflict>& found) {
     out.list("plan", found, [&](const PlanConflict& conflict) {
-        out.begin_object(Layout::row);
-        out.member("kind", name(conflict.kind));
-        out.member("t0", conflict.t0);
-        out.member("t1", conflict.t1);
-        out.member("a", {conflict.a.x, conflict.a.y});
-        out.member("b", {conflict.b.x, conflict.b.y});
-        out.end_object();
+        out.row("kind", name(conflict.kind), "t0", conflict.t0, "t1", conflict.t1, "a", conflict.a, "b", conflict.b);
     });
 }
 
 void write_json(const Findings& findings) {
     JsonWriter out(std::cout);
     out.begin_object();
-    out.member("file", shown_name(findings.scene.file));
-    out.member("t0", findings.t0());
-    out.member("agents", findings.people.count());
+    out.members("file", shown_name(findings.scene.file), "t0", findings.t0(), "agents", findings.people.count());
     out.member("radius", common_radius(findings.scene));
-    out.member("pairs", findings.conflicts.pairs());
-    out.member("pairs_tested", findings.conflicts.pairs_tested());
+    out.members("pairs", findings.conflicts.pairs(), "pairs_tested", findings.conflicts.pairs_tested());
     out.member("seconds", findings.conflicts.seconds());
     out.begin_array("conflicts");
     for (std::size_t i = 0; i < findings.conflicts.size(); ++i) {
         const PeopleConflict conflict = findings.conflicts[i];
         const Conflict& deepest = conflict.deepest;
-        const glm::dvec2 position = findings.position(deepest);
         out.begin_object(Layout::row);
-        out.member("a", findings.people.name(conflict.a));
-        out.member("b", findings.people.name(conflict.b));
-        out.list("intervals", conflict.intervals, [&](const mobb::Interval& interval) {
-            out.numbers({interval.t0, interval.t1});
-        });
-        out.member("least_clearance", deepest.least_clearance);
-        out.member("time", deepest.time);
-        out.member("a_sample", findings.a_sample(deepest));
-        out.member("b_sample", findings.b_sample(deepest));
-        out.member("position", {position.x, position.y});
+        out.members("a", findings.people.name(conflict.a), "b", findings.people.name(conflict.b));
+        out.list("intervals", conflict.intervals, [&](const mobb::Interval& of) { out.tuple(of.t0, of.t1); });
+        out.members("least_clearance", deepest.least_clearance, "time", deepest.time);
+        out.members("a_sample", findings.a_sample(deepest), "b_sample", findings.b_sample(deepest));
+        out.member("position", findings.position(deepest));
         if (findings.of_plan(deepest)) write_plan_conflicts(out, findings.in_plan(deepest));
         out.end_object();
     }
@@ -208,7 +186,7 @@ void print_text(const Findings& findings) {
               << conflicts.pairs_tested() << " of " << counted(conflicts.pairs(), "pair", "pairs") << " tested\n";
 }
 
-void run_conflicts(const ConflictsCommandArguments& arguments, int& status) {
+int run_conflicts(const ConflictsCommandArguments& arguments) {
     FitArguments fit = arguments.fit;
     if (!fit.tree) fit.tree = mobb::TreeKind::blocks;
     const FittedScene scene = fitted(load_crowd(arguments), fit);
@@ -220,22 +198,22 @@ void run_conflicts(const ConflictsCommandArguments& arguments, int& status) {
     const Findings findings{scene.scene(), people, crowd, conflicts};
     arguments.json ? write_json(findings) : print_text(findings);
     flush_results();
-    if (arguments.check && !conflicts.empty()) status = kFailed;
+    return arguments.check && !conflicts.empty() ? kFailed : kDone;
+}
+
+void add_conflicts_options(Command& command, ConflictsCommandArguments& arguments) {
+    add_fitted_options(command, arguments, "The same as JSON", Brute::allowed);
+    command.add_flag("--check", arguments.check, "Status 1 if there is a conflict");
 }
 
 }  // namespace
 
-void add_conflicts_command(Command& program, int& status) {
+void add_conflicts_command(Command& program) {
     program.add_subcommand(
         "conflicts",
         "Every pair of agents whose disks overlap, the deepest overlap first: when, how deep and where; --tree brute "
         "searches directly",
-        [&status](Command& command) {
-            const auto arguments = std::make_shared<ConflictsCommandArguments>();
-            add_fitted_options(command, *arguments, "The same as JSON", Brute::allowed);
-            command.add_flag("--check", arguments->check, "Status 1 if there is a conflict");
-            command.callback([arguments, &status] { run_conflicts(*arguments, status); });
-        });
+        add_conflicts_options, run_conflicts);
 }
 
 }  // namespace mobbscope::cli

@@ -7,7 +7,6 @@
 #include <import/tracks/csv.h>
 #include <motion_files/formats.h>
 #include <motion_files/played_motion.h>
-#include <motion_files/read_back.h>
 
 #include <glm/vec2.hpp>
 
@@ -16,7 +15,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -152,7 +150,6 @@ void warn_of_other_disks(const std::filesystem::path& out, const DiskDifference&
     }
 }
 
-/// Writes what an agent plays, with its skeleton.
 void write_motion(const Scene& scene, const MotionFormat& format, const ConvertCommandArguments& arguments) {
     const PlayedMotion motion(scene, arguments.agent);
     const std::string bytes = format.write(motion);
@@ -171,13 +168,12 @@ void run_convert(const ConvertCommandArguments& arguments) {
     const std::string extension = lower_extension(arguments.out);
     const MotionFormat* const motion = motion_format(arguments.out);
     if (!motion && extension != ".csv" && extension != ".json") {
-        throw InputError(arguments.out.string(), "",
+        throw InputError(arguments.out,
                          "clips can be written as .csv or .json, motion with its skeleton as .bvh or .glb; rename the "
                          "output");
     }
     if (!motion && arguments.agent) {
-        throw InputError(arguments.out.string(), "",
-                         "--agent writes what one agent plays, as .bvh or .glb; rename the output");
+        throw InputError(arguments.out, "--agent writes what one agent plays, as .bvh or .glb; rename the output");
     }
     const Scene scene = load(arguments.file, arguments.import_options);
     check_output(arguments.out);
@@ -197,24 +193,22 @@ void run_convert(const ConvertCommandArguments& arguments) {
     warn_of_lost_placements(scene, arguments.out);
 }
 
+void add_convert_options(Command& command, ConvertCommandArguments& arguments) {
+    add_scene_file(command, arguments.file);
+    command.add_option("-o,--output", arguments.out, "Where to: .csv or .json; with the skeleton .bvh or .glb", "OUT")
+        .required();
+    add_parsed(
+        command, "--agent", arguments.agent, [](const std::string& text) { return text; },
+        "Of a run or scene, for .bvh and .glb: whose motion (not needed where there is one alone)", "NAME");
+    add_import_options(command, arguments.import_options);
+}
+
 }  // namespace
 
 void add_convert_command(Command& program) {
     program.add_subcommand(
         "convert", "Write clips as CSV, or as a scene with its samples inside; what an agent plays as BVH or glTF",
-        [](Command& command) {
-            const auto arguments = std::make_shared<ConvertCommandArguments>();
-            add_scene_file(command, arguments->file);
-            command
-                .add_option("-o,--output", arguments->out, "Where to: .csv or .json; with the skeleton .bvh or .glb",
-                            "OUT")
-                .required();
-            add_parsed(
-                command, "--agent", arguments->agent, [](const std::string& text) { return text; },
-                "Of a run or scene, for .bvh and .glb: whose motion (not needed where there is one alone)", "NAME");
-            add_import_options(command, arguments->import_options);
-            command.callback([arguments] { run_convert(*arguments); });
-        });
+        add_convert_options, run_convert);
 }
 
 }  // namespace mobbscope::cli

@@ -11,7 +11,6 @@
 
 #include <filesystem>
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -93,39 +92,38 @@ int run_diff(const DiffCommandArguments& arguments) {
     return found.passes ? kDone : kFailed;
 }
 
+void add_diff_options(Command& command, DiffCommandArguments& arguments) {
+    command.add_option("A.png", arguments.a, "A picture, such as the one just made", "").required();
+    command.add_option("B.png", arguments.b, "The one that it is held against", "").required();
+    command.add_option("-o,--output", arguments.heat, "Heat map: B in grey, and what differs glowing", "HEAT.png");
+    command.add_option("--strip", arguments.strip, "A, B and the heat map side by side", "STRIP.png");
+    add_parsed(command, "--threshold", arguments.options.channel_tolerance, parse_channel_tolerance,
+               "How far a channel may be off: levels of 255, or a share as 3/255, 1.2%, or a number between 0 "
+               "and 1 (3)",
+               "X");
+    add_parsed(
+        command, "--allowed", arguments.options,
+        [&arguments](const std::string& text) {
+            DiffOptions options = arguments.options;
+            set_allowance(options, text);
+            return options;
+        },
+        "How many pixels may be farther off: 12px, or a share of those compared, 0.1% or 50ppm (20ppm, or "
+        "4px where that is more)",
+        "P");
+    add_parsed(command, "--shift", arguments.options.shift, parse_pixel_shift, "1: something may lie a pixel aside (0)",
+               "0|1");
+    command.add_option("--mask", arguments.mask, "Compares only where this picture is neither black nor transparent",
+                       "MASK.png");
+    command.add_flag("--json", arguments.json, "The verdict with all figures as JSON");
+}
+
 }  // namespace
 
-void add_diff_command(Command& program, int& status) {
-    program.add_subcommand(
-        "diff", "Compare two pictures; exit status 0 if they agree as far as is asked, 1 if they differ",
-        [&status](Command& command) {
-            const auto arguments = std::make_shared<DiffCommandArguments>();
-            command.add_option("A.png", arguments->a, "A picture, such as the one just made", "").required();
-            command.add_option("B.png", arguments->b, "The one that it is held against", "").required();
-            command.add_option("-o,--output", arguments->heat, "Heat map: B in grey, and what differs glowing",
-                               "HEAT.png");
-            command.add_option("--strip", arguments->strip, "A, B and the heat map side by side", "STRIP.png");
-            add_parsed(command, "--threshold", arguments->options.channel_tolerance, parse_channel_tolerance,
-                       "How far a channel may be off: levels of 255, or a share as 3/255, 1.2%, or a number between 0 "
-                       "and 1 (3)",
-                       "X");
-            add_parsed(
-                command, "--allowed", arguments->options,
-                [arguments](const std::string& text) {
-                    DiffOptions options = arguments->options;
-                    set_allowance(options, text);
-                    return options;
-                },
-                "How many pixels may be farther off: 12px, or a share of those compared, 0.1% or 50ppm (20ppm, or "
-                "4px where that is more)",
-                "P");
-            add_parsed(command, "--shift", arguments->options.shift, parse_pixel_shift,
-                       "1: something may lie a pixel aside (0)", "0|1");
-            command.add_option("--mask", arguments->mask,
-                               "Compares only where this picture is neither black nor transparent", "MASK.png");
-            command.add_flag("--json", arguments->json, "The verdict with all figures as JSON");
-            command.callback([arguments, &status] { status = run_diff(*arguments); });
-        });
+void add_diff_command(Command& program) {
+    program.add_subcommand("diff",
+                           "Compare two pictures; exit status 0 if they agree as far as is asked, 1 if they differ",
+                           add_diff_options, run_diff);
 }
 
 }  // namespace mobbscope::cli

@@ -1,11 +1,11 @@
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
+#include <explain/level_columns.h>
 #include <scene/scene_json.h>
 
 #include <algorithm>
 #include <iostream>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,15 +29,17 @@ void print_tree(const std::string& clip, const mobb::Tree& tree) {
     std::cout << cleaned(clip) << ": " << counted(tree.clip().count(), "sample", "samples") << " in "
               << brief(tree.clip().duration()) << " s; " << mobb::name(options.tree) << " tree of "
               << counted(tree.nodes().size(), "node", "nodes");
-    if (mobb::info(options.tree).splits()) {
-        std::cout << " (leaf " << options.leaf << ", axes " << mobb::name(options.axes) << ", time scale "
-                  << brief(options.time_scale) << " m/s)";
-    }
-    std::cout << '\n';
+    const mobb::TreeInfo& kind = mobb::info(options.tree);
+    std::string said;
+    const auto say = [&said](const std::string& what) { said += (said.empty() ? " (" : ", ") + what; };
+    if (kind.splits()) say("leaf " + std::to_string(options.leaf));
+    if (kind.chooses_axes()) say("axes " + std::string(mobb::name(options.axes)));
+    if (kind.uses_time_scale()) say("time scale " + brief(options.time_scale) + " m/s");
+    std::cout << said << (said.empty() ? "\n" : ")\n");
     const std::vector<mobb::LevelFigures> levels = mobb::level_figures(tree);
     std::vector<std::string> lines(1 + levels.size(), " ");
     for (const mobb::LevelColumn& column : mobb::kLevelColumns) {
-        std::vector<std::string> cells{column.key + std::string(*column.unit == '\0' ? "" : " ") + column.unit};
+        std::vector<std::string> cells{std::string(column.name) + level_unit(column)};
         for (const mobb::LevelFigures& figures : levels) cells.push_back(level_text(column, figures));
         const std::size_t width = std::ranges::max(cells, {}, &std::string::size).size();
         const std::string gap(&column == &mobb::kLevelColumns.front() ? 1 : 3, ' ');
@@ -60,14 +62,15 @@ void run_fit(const FittedArguments& arguments) {
     flush_results();
 }
 
+void add_options_of_fit(Command& command, FittedArguments& arguments) {
+    add_fitted_options(command, arguments, "Levels and nodes as JSON");
+}
+
 }  // namespace
 
 void add_fit_command(Command& program) {
-    program.add_subcommand("fit", "Fit a tree to every clip and show how tight its levels are", [](Command& command) {
-        const auto arguments = std::make_shared<FittedArguments>();
-        add_fitted_options(command, *arguments, "Levels and nodes as JSON");
-        command.callback([arguments] { run_fit(*arguments); });
-    });
+    program.add_subcommand("fit", "Fit a tree to every clip and show how tight its levels are", add_options_of_fit,
+                           run_fit);
 }
 
 }  // namespace mobbscope::cli

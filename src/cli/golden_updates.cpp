@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <optional>
 #include <set>
 #include <string_view>
 
@@ -41,7 +40,6 @@ void take_one(CaseResult& result, std::ostream& say) {
     for (const std::filesystem::path& file : take(result)) say << "wrote " << cleaned(file.string()) << '\n';
 }
 
-/// The folders that the cases stand in.
 std::set<std::filesystem::path> folders_of(const std::vector<CaseFile>& cases) {
     std::set<std::filesystem::path> out;
     for (const CaseFile& file : cases) out.insert(file.file.parent_path());
@@ -55,7 +53,7 @@ void check_patterns(const picture_tests::CaseReport& read, const std::vector<std
         if (std::ranges::any_of(read.unknown, is_named) ||
             std::ranges::any_of(read.results, is_named, [](const CaseResult& one) { return one.file.name; }))
             continue;
-        throw InputError(read.file.string(), "",
+        throw InputError(read.file,
                          in_quotes(pattern) + " passed there, or was not drawn; leave it out, or name another");
     }
 }

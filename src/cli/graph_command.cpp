@@ -1,7 +1,7 @@
 #include <base/file.h>
 #include <base/text.h>
 #include <cli/command_line.h>
-#include <cli/graph_info.h>
+#include <cli/graph_report.h>
 #include <cli/options.h>
 #include <cli/program.h>
 #include <crowd/graph/build_graph.h>
@@ -122,12 +122,9 @@ int build(const BuildArguments& arguments) {
     return kDone;
 }
 
-/// A scene with a graph. Throws InputError.
 Scene load_graph(const std::filesystem::path& file) {
     Scene scene = load_scene(file, {}, tell("read", "clips"));
-    if (!scene.graph) {
-        throw InputError(file.string(), "", "there is no motion graph in it; make one with mobbscope graph build");
-    }
+    if (!scene.graph) throw InputError(file, "there is no motion graph in it; make one with mobbscope graph build");
     return scene;
 }
 
@@ -169,86 +166,66 @@ std::pair<double, double> parse_seconds(const std::string& text) {
     return *range;
 }
 
-void add_build(Command& graph, int& status) {
-    graph.add_subcommand(
-        "build",
-        "Cut a motion graph out of recordings, at poses that come again; exit status 1 if "
-        "nothing keeps its bounds",
-        [&status](Command& command) {
-            const auto arguments = std::make_shared<BuildArguments>();
-            GraphOptions& options = arguments->options;
-            command.add_option("PLACE", arguments->places, "Clip files, and folders of them with their subfolders", "")
-                .required();
-            command.add_option("-o,--output", arguments->out, "The graph, a scene", "GRAPH.json").required();
-            add_parsed(command, "--pose-distance", options.bounds.pose_distance, number_within(0, 1e9),
-                       "Metres that poses may differ by where moves join: root mean square over the joints (0.16)",
-                       "D");
-            add_parsed(command, "--root-speed", options.bounds.root_speed, number_within(0, 1e9),
-                       "Metres per second that the root's velocity may change by there (0.6)", "V");
-            const auto set_seconds = [&options](const std::string& text) {
-                std::tie(options.least_seconds, options.most_seconds) = parse_seconds(text);
-            };
-            command.add_option("--seconds", set_seconds, "How long moves last (1:4)", "A:B");
-            add_parsed(
-                command, "--warp", options.warp, number_within(0, kMostSeconds),
-                "Seconds over which a move is warped at either end to its hub's pose and velocity; 0: not at all (0.3)",
-                "S");
-            add_parsed(command, "--hubs", options.hubs, whole_number_within(1, kMostCount),
-                       "Most hubs for each rig (8)", "N");
-            add_parsed(command, "--moves", options.moves, whole_number_within(1, kMostCount),
-                       "Most moves from one hub to another; those that differ most are taken (16)", "N");
-            add_parsed(command, "--least-moves", options.least_moves, whole_number_within(1, kMostCount),
-                       "Parts of the graph with fewer are left out (3)", "N");
-            add_parsed(command, "--candidates", options.candidates, whole_number_within(1, kMostCount),
-                       "Moments of each rig that are looked at as hubs (400)", "N");
-            add_parsed(command, "--seed", options.seed, parse_seed, "Decides which moments those are (1)", "S");
-            command.add_flag("--whole", arguments->whole,
-                             "Takes clips whole, from one hub to itself, and bounds nothing");
-            command.add_flag("--strict", arguments->strict,
-                             "A bad file in a folder ends the build; without it it is left out");
-            command.add_flag("--inline", arguments->inline_samples,
-                             "Writes samples, so that the file stands alone; without it clips lead to their files");
-            add_import_options(command, arguments->import_options);
-            command.callback([arguments, &status] { status = build(*arguments); });
-        });
+void add_build_options(Command& command, BuildArguments& arguments) {
+    GraphOptions& options = arguments.options;
+    command.add_option("PLACE", arguments.places, "Clip files, and folders of them with their subfolders", "")
+        .required();
+    command.add_option("-o,--output", arguments.out, "The graph, a scene", "GRAPH.json").required();
+    add_parsed(command, "--pose-distance", options.bounds.pose_distance, number_within(0, 1e9),
+               "Metres that poses may differ by where moves join: root mean square over the joints (0.16)", "D");
+    add_parsed(command, "--root-speed", options.bounds.root_speed, number_within(0, 1e9),
+               "Metres per second that the root's velocity may change by there (0.6)", "V");
+    const auto set_seconds = [&options](const std::string& text) {
+        std::tie(options.least_seconds, options.most_seconds) = parse_seconds(text);
+    };
+    command.add_option("--seconds", set_seconds, "How long moves last (1:4)", "A:B");
+    add_parsed(command, "--warp", options.warp, number_within(0, kMostSeconds),
+               "Seconds over which a move is warped at either end to its hub's pose and velocity; 0: not at all (0.3)",
+               "S");
+    add_parsed(command, "--hubs", options.hubs, whole_number_within(1, kMostCount), "Most hubs for each rig (8)", "N");
+    add_parsed(command, "--moves", options.moves, whole_number_within(1, kMostCount),
+               "Most moves from one hub to another; those that differ most are taken (16)", "N");
+    add_parsed(command, "--least-moves", options.least_moves, whole_number_within(1, kMostCount),
+               "Parts of the graph with fewer are left out (3)", "N");
+    add_parsed(command, "--candidates", options.candidates, whole_number_within(1, kMostCount),
+               "Moments of each rig that are looked at as hubs (400)", "N");
+    add_parsed(command, "--seed", options.seed, parse_seed, "Decides which moments those are (1)", "S");
+    command.add_flag("--whole", arguments.whole, "Takes clips whole, from one hub to itself, and bounds nothing");
+    command.add_flag("--strict", arguments.strict, "A bad file in a folder ends the build; without it it is left out");
+    command.add_flag("--inline", arguments.inline_samples,
+                     "Writes samples, so that the file stands alone; without it clips lead to their files");
+    add_import_options(command, arguments.import_options);
 }
 
-void add_info(Command& graph, int& status) {
-    graph.add_subcommand("info", "What is in a graph, and whether its bounds hold; exit status 1 if they do not",
-                         [&status](Command& command) {
-                             const auto arguments = std::make_shared<InfoArguments>();
-                             add_parsed(command, "GRAPH", arguments->file, parse_file_name,
-                                        "A scene with a motion graph", "")
-                                 .required();
-                             command.add_flag("--json", arguments->json, "The same as JSON");
-                             command.callback([arguments, &status] { status = info(*arguments); });
-                         });
+void add_graph_info_options(Command& command, InfoArguments& arguments) {
+    add_parsed(command, "GRAPH", arguments.file, parse_file_name, "A scene with a motion graph", "").required();
+    command.add_flag("--json", arguments.json, "The same as JSON");
 }
 
-void add_draw(Command& graph) {
-    graph.add_subcommand("draw", "Draw a graph: hubs, moves and the floor paths from each hub", [](Command& command) {
-        const auto arguments = std::make_shared<DrawArguments>();
-        add_parsed(command, "GRAPH", arguments->file, parse_file_name, "A scene with a motion graph", "").required();
-        command.add_option("-o,--output", arguments->out, "The picture", "OUT.png").required();
-        add_parsed(command, "--size", arguments->size, parse_drawn_size, "In pixels (1280x720)", "WxH");
-        add_parsed(command, "--scale", arguments->scale, number_within(kLeastScale, kMostScale),
-                   "Of text and lines; by itself it suits the size", "X");
-        add_parsed(command, "--theme", arguments->theme, one_of(theme_from_name, "dark, light"), "dark or light",
-                   "NAME");
-        add_parsed(command, "--backend", arguments->backend, one_of(backend_from_name, "auto, osmesa, egl"),
-                   "OpenGL without a display: auto, osmesa or egl", "NAME");
-        command.callback([arguments] { draw(*arguments); });
-    });
+void add_draw_options(Command& command, DrawArguments& arguments) {
+    add_parsed(command, "GRAPH", arguments.file, parse_file_name, "A scene with a motion graph", "").required();
+    command.add_option("-o,--output", arguments.out, "The picture", "OUT.png").required();
+    add_parsed(command, "--size", arguments.size, parse_drawn_size, "In pixels (1280x720)", "WxH");
+    add_parsed(command, "--scale", arguments.scale, number_within(kLeastScale, kMostScale),
+               "Of text and lines; by itself it suits the size", "X");
+    add_parsed(command, "--theme", arguments.theme, one_of(theme_from_name, "dark, light"), "dark or light", "NAME");
+    add_parsed(command, "--backend", arguments.backend, one_of(backend_from_name, "auto, osmesa, egl"),
+               "OpenGL without a display: auto, osmesa or egl", "NAME");
 }
 
 }  // namespace
 
-void add_graph_command(Command& program, int& status) {
-    program.add_subcommand("graph", "Motion graphs: build, info, draw", [&status](Command& command) {
-        command.require_subcommand();
-        add_build(command, status);
-        add_info(command, status);
-        add_draw(command);
+void add_graph_command(Command& program) {
+    program.add_subcommand("graph", "Motion graphs: build, info, draw", [](Command& graph) {
+        graph.require_subcommand();
+        graph.add_subcommand(
+            "build",
+            "Cut a motion graph out of recordings, at poses that come again; exit status 1 if nothing keeps its bounds",
+            add_build_options, build);
+        graph.add_subcommand("info", "What is in a graph, and whether its bounds hold; exit status 1 if they do not",
+                             add_graph_info_options, info);
+        graph.add_subcommand("draw", "Draw a graph: hubs, moves and the floor paths from each hub", add_draw_options,
+                             draw);
     });
 }
 

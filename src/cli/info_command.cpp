@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -36,48 +35,24 @@ std::string file_of(const Scene& scene, const SceneClip& clip) {
     return shown_name(clip.source ? scene.file.parent_path() / *clip.source : scene.file);
 }
 
-/// Neither a CSV nor a scene has a skeleton: then these are null.
-void write_skeleton(JsonWriter& out, const SourceFacts& facts) {
-    const auto name = [&out](const char* key, const std::string& text) {
-        out.key(key);
-        text.empty() ? out.null() : out.value(text);
-    };
-    name("animation", facts.animation);
-    name("root", facts.root);
-    name("root_why", facts.root_why);
-    name("up", facts.up);
-    name("up_why", facts.up_why);
-    out.key("joints");
-    facts.joints > 0 ? out.value(facts.joints) : out.null();
-}
-
 void write_clip(JsonWriter& out, const Scene& scene, const SceneClip& clip) {
     const SourceFacts facts = facts_of(clip);
     const PathFigures figures = figures_of(*clip.clip);
     out.begin_object();
-    out.member("file", file_of(scene, clip));
-    out.member("name", clip.name);
-    out.member("format", facts.format);
-    write_skeleton(out, facts);
-    out.key("class");
-    facts.label.empty() ? out.null() : out.value(facts.label);
-    out.member("t0", facts.t0);
-    out.key("start");
-    facts.t0 ? out.value(clip.start) : out.null();
-    out.member("unit", facts.unit);
-    out.member("guessed_from_height", facts.guessed_from_height);
-    out.member("file_frames", facts.frames);
-    out.member("file_dt", facts.dt);
-    out.member("file_duration", facts.duration);
-    out.member("samples", clip.clip->count());
-    out.member("dt", clip.clip->dt());
-    out.member("duration", clip.clip->duration());
+    out.members("file", file_of(scene, clip), "name", clip.name, "format", facts.format);
+    // Neither a CSV nor a scene has a skeleton: then these are null.
+    const auto if_any = [](const std::string& text) { return text.empty() ? std::nullopt : std::optional(text); };
+    out.members("animation", if_any(facts.animation), "root", if_any(facts.root), "root_why", if_any(facts.root_why));
+    out.members("up", if_any(facts.up), "up_why", if_any(facts.up_why));
+    out.member("joints", facts.joints > 0 ? std::optional(facts.joints) : std::nullopt);
+    out.members("class", if_any(facts.label), "t0", facts.t0);
+    out.member("start", facts.t0 ? std::optional(clip.start) : std::nullopt);
+    out.members("unit", facts.unit, "guessed_from_height", facts.guessed_from_height);
+    out.members("file_frames", facts.frames, "file_dt", facts.dt, "file_duration", facts.duration);
+    out.members("samples", clip.clip->count(), "dt", clip.clip->dt(), "duration", clip.clip->duration());
     out.member("motion", mobb::name(clip.clip->motion()));
-    out.member("path_length", figures.length);
-    out.member("mean_speed", figures.mean_speed);
-    out.member("min_radius", figures.min_radius);
-    out.member("mean_radius", figures.mean_radius);
-    out.member("max_radius", figures.max_radius);
+    out.members("path_length", figures.length, "mean_speed", figures.mean_speed);
+    out.members("min_radius", figures.min_radius, "mean_radius", figures.mean_radius, "max_radius", figures.max_radius);
     std::vector<std::string> warnings;
     for (const ImportWarning& warning : facts.warnings) warnings.push_back(said(warning));
     out.values("warnings", warnings);
@@ -158,39 +133,36 @@ void run_info(const InfoCommandArguments& arguments) {
     std::vector<Scene> scenes;
     for (const std::filesystem::path& file : arguments.files)
         scenes.push_back(load_scene(file, arguments.import_options, tell("read", "clips")));
-    JsonWriter json(std::cout);
     if (arguments.json) {
+        JsonWriter json(std::cout);
         json.begin_object();
         json.begin_array("clips");
-    }
-    for (const Scene& scene : scenes) {
-        if (!arguments.json) {
-            print_clips(scene);
-            continue;
+        for (const Scene& scene : scenes) {
+            for (const SceneClip& clip : scene.clips) write_clip(json, scene, clip);
         }
-        for (const SceneClip& clip : scene.clips) write_clip(json, scene, clip);
-    }
-    if (arguments.json) {
         json.end_array();
         json.end_object();
+    } else {
+        for (const Scene& scene : scenes) print_clips(scene);
     }
     flush_results();
+}
+
+void add_info_options(Command& command, InfoCommandArguments& arguments) {
+    command
+        .add_option("FILE", arguments.files,
+                    "Scenes (.json), clips (" + listed_clip_extensions() + ") and trajectories (" +
+                        listed_trajectory_extensions() + ")")
+        .required();
+    command.add_flag("--json", arguments.json, "The same as JSON");
+    add_import_options(command, arguments.import_options);
 }
 
 }  // namespace
 
 void add_info_command(Command& program) {
-    program.add_subcommand("info", "What is in each file: its clips, their paths and radii", [](Command& command) {
-        const auto arguments = std::make_shared<InfoCommandArguments>();
-        command
-            .add_option("FILE", arguments->files,
-                        "Scenes (.json), clips (" + listed_clip_extensions() + ") and trajectories (" +
-                            listed_trajectory_extensions() + ")")
-            .required();
-        command.add_flag("--json", arguments->json, "The same as JSON");
-        add_import_options(command, arguments->import_options);
-        command.callback([arguments] { run_info(*arguments); });
-    });
+    program.add_subcommand("info", "What is in each file: its clips, their paths and radii", add_info_options,
+                           run_info);
 }
 
 }  // namespace mobbscope::cli

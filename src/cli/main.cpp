@@ -56,24 +56,16 @@ int run(int argc, char** argv) {
     program.add_version("mobbscope " MOBBSCOPE_VERSION);
     WindowArguments window;
     add_window_options(program, window);
-    int status = kDone;
-    add_bench_command(program, status);
-    add_conflicts_command(program, status);
-    add_convert_command(program);
-    add_diff_command(program, status);
-    add_fit_command(program);
-    add_graph_command(program, status);
-    add_info_command(program);
-    add_query_command(program, status);
-    add_render_command(program);
-    add_review_command(program, status);
-    add_simulate_command(program);
-    add_test_command(program, status);
+    for (const auto add : {add_bench_command, add_conflicts_command, add_convert_command, add_diff_command,
+                           add_fit_command, add_graph_command, add_info_command, add_query_command, add_render_command,
+                           add_review_command, add_simulate_command, add_test_command}) {
+        add(program);
+    }
     // Before any command runs: what stands in front of its name is no argument of it.
     program.before_subcommand([&program] { check_not_before_command(program); });
     try {
         const std::string answer = program.parse({argv + std::min(argc, 1), argv + argc});
-        if (answer.empty()) return program.chosen().empty() ? open_window(program, window) : status;
+        if (answer.empty()) return program.chosen().empty() ? open_window(program, window) : program.status();
         std::cout << answer;
         flush_results();
         return kDone;

@@ -4,6 +4,7 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <import/clip/held_steps.h>
+#include <render/gl/gl_context.h>
 #include <scene/crowd_run.h>
 #include <scene/load_files.h>
 #include <scene/scene_json.h>
@@ -119,9 +120,7 @@ void add_fit_options(Command& command, FitArguments& arguments, Brute brute) {
     const auto set_tree = [&arguments, takes_brute, trees](const std::string& text) {
         arguments.tree = find_tree_kind(text);
         arguments.brute = takes_brute && text == "brute";
-        if (!arguments.tree && !arguments.brute) {
-            throw std::invalid_argument(in_quotes(text) + " is none of " + trees);
-        }
+        if (!arguments.tree && !arguments.brute) throw std::invalid_argument(in_quotes(text) + " is none of " + trees);
     };
     const auto set_axes = [&arguments, axes](const std::string& text) {
         arguments.axes = mobb::axes_from_name(text);
@@ -220,6 +219,14 @@ std::uint64_t parse_seed(const std::string& text) {
         throw std::invalid_argument(in_quotes(text) + " is no whole number from 0 to " + std::to_string(kMaxSeed));
     }
     return seed;
+}
+
+void add_backend_name(Command& command, std::string& backend, const std::string& help) {
+    const auto known = [](const std::string& text) {
+        static_cast<void>(one_of(backend_from_name, "auto, osmesa, egl")(text));
+        return text;
+    };
+    add_parsed(command, "--backend", backend, known, help, "NAME");
 }
 
 Progress tell(const std::string& doing, const std::string& things) {

@@ -78,6 +78,9 @@ auto one_of(Find find, const char* allowed) {
     };
 }
 
+/// Adds --backend by its name, which another process, or a later one, draws with.
+void add_backend_name(Command& command, std::string& backend, const std::string& help);
+
 /// Which clips the radius of the import options is for.
 enum class RadiusOf { imported_clips, every_clip };
 

@@ -6,7 +6,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <filesystem>
 #include <iostream>
 #include <system_error>
 
@@ -34,7 +33,7 @@ void flush_results() {
 namespace fs = std::filesystem;
 
 void check_extension(const fs::path& file, std::string_view extension, const std::string& message) {
-    if (!file.empty() && lower_extension(file) != extension) throw InputError(file.string(), "", message);
+    if (!file.empty() && lower_extension(file) != extension) throw InputError(file, message);
 }
 
 void check_output(const fs::path& output) {

@@ -41,16 +41,16 @@ void check_output(const std::filesystem::path& output);
 
 class Command;
 
-void add_bench_command(Command& program, int& status);
-void add_conflicts_command(Command& program, int& status);
+void add_bench_command(Command& program);
+void add_conflicts_command(Command& program);
 void add_convert_command(Command& program);
-void add_diff_command(Command& program, int& status);
+void add_diff_command(Command& program);
 void add_fit_command(Command& program);
-void add_graph_command(Command& program, int& status);
+void add_graph_command(Command& program);
 void add_info_command(Command& program);
-void add_query_command(Command& program, int& status);
+void add_query_command(Command& program);
 void add_render_command(Command& program);
 void add_simulate_command(Command& program);
-void add_test_command(Command& program, int& status);
+void add_test_command(Command& program);
 
 }  // namespace mobbscope::cli

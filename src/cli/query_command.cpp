@@ -10,7 +10,6 @@
 #include <array>
 #include <cstddef>
 #include <iostream>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -95,34 +94,32 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
     return complaints;
 }
 
-void run_query(QueryCommandArguments& arguments, int& status) {
+int run_query(QueryCommandArguments& arguments) {
     const FittedScene scene = fitted(load(arguments.file, arguments.import_options), arguments.fit);
     if (scene.queries().empty()) {
         if (scene.scene().crowd)
-            throw InputError(arguments.file.string(), "",
-                             "a run asks nothing; mobbscope conflicts finds who collides in it");
-        throw InputError(arguments.file.string(), "", "there is nothing to ask; add queries, or two agents at least");
+            throw InputError(arguments.file, "a run asks nothing; mobbscope conflicts finds who collides in it");
+        throw InputError(arguments.file, "there is nothing to ask; add queries, or two agents at least");
     }
     arguments.details.search = arguments.fit.brute ? Search::direct : Search::trees;
     const std::vector<std::string> complaints = answer_all(scene, arguments);
     flush_results();
     for (const std::string& complaint : complaints) complain(shown_name(arguments.file) + ": " + complaint);
-    if (!complaints.empty()) status = kFailed;
+    return complaints.empty() ? kDone : kFailed;
+}
+
+void add_query_options(Command& command, QueryCommandArguments& arguments) {
+    add_fitted_options(command, arguments, "Answers as JSON", Brute::allowed);
+    command.add_flag("--trace", arguments.details.trace, "Every test that was made");
+    command.add_flag("--all-contacts", arguments.details.all_contacts, "All intervals of contact, not only the first");
 }
 
 }  // namespace
 
-void add_query_command(Command& program, int& status) {
+void add_query_command(Command& program) {
     program.add_subcommand(
         "query", "Answer the scene's queries: do two clips ever collide? Status 1 if an answer is not the expected one",
-        [&status](Command& command) {
-            const auto arguments = std::make_shared<QueryCommandArguments>();
-            add_fitted_options(command, *arguments, "Answers as JSON", Brute::allowed);
-            command.add_flag("--trace", arguments->details.trace, "Every test that was made");
-            command.add_flag("--all-contacts", arguments->details.all_contacts,
-                             "All intervals of contact, not only the first");
-            command.callback([arguments, &status] { run_query(*arguments, status); });
-        });
+        add_query_options, run_query);
 }
 
 }  // namespace mobbscope::cli

@@ -54,7 +54,7 @@ void OutputCheck::writes(const RenderOutputs& outputs) {
         const fs::file_status status = fs::status(output, ignored);
         const bool stream = fs::exists(status) && !fs::is_regular_file(status);
         if (!stream && !written_.insert(meant(output).string()).second) {
-            throw InputError(output.string(), "", "would be written twice; give each output a name of its own");
+            throw InputError(output, "would be written twice; give each output a name of its own");
         }
     }
 }

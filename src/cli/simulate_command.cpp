@@ -3,7 +3,7 @@
 #include <base/json_writer.h>
 #include <base/text.h>
 #include <cli/command_line.h>
-#include <cli/continuity_report.h>
+#include <cli/graph_report.h>
 #include <cli/options.h>
 #include <cli/program.h>
 #include <crowd/graph/build_graph.h>
@@ -69,7 +69,7 @@ Scene load_moves(const SimulateCommandArguments& arguments, Importer& importer) 
     if (scene.graph) remove_run(scene);
     if (arguments.whole) scene.graph = std::make_shared<const MotionGraph>(graph_of_whole_clips(scene));
     if (!scene.graph) {
-        throw InputError(arguments.graph.string(), "",
+        throw InputError(arguments.graph,
                          "there is no motion graph; make one with graph build, or give --whole, and every clip may "
                          "follow every other");
     }
@@ -84,7 +84,7 @@ void check_run_outputs(const SimulateCommandArguments& arguments) {
         check_extension(out, ".json", "a run and its queries are scenes; name it .json");
     }
     if (!arguments.record.empty() && meant(arguments.out) == meant(arguments.record)) {
-        throw InputError(arguments.record.string(), "", "-o and --record name the same file; rename one");
+        throw InputError(arguments.record, "-o and --record name the same file; rename one");
     }
     for (const std::filesystem::path& out : {arguments.out, arguments.record}) {
         if (!out.empty()) check_output(out);
@@ -136,26 +136,13 @@ void print_run_json(const Scene& scene, const Summary& summary) {
     const SimulationCounts& c = summary.counts;
     JsonWriter out(std::cout);
     out.begin_object();
-    out.member("agents", c.agents);
-    out.member("simulated_seconds", c.simulated);
-    out.member("plays", c.plays);
-    out.member("choices", c.choices);
-    out.member("candidates", c.candidates);
-    out.member("off_floor", c.off_floor);
-    out.member("colliding", c.colliding);
-    out.member("no_way_on", c.no_way_on);
-    out.member("in_the_way", c.in_the_way);
-    out.member("pivots", c.pivots);
-    out.member("turn_rate", summary.turn_rate);
-    out.member("forced", c.forced);
-    out.member("queries", c.queries);
-    out.member("most_held", c.most_held);
-    out.member("wall_seconds", summary.seconds);
-    out.member("queries_per_second", queries_per_second(summary));
-    if (summary.recorded) {
-        out.member("recorded", summary.recorded->first);
-        out.member("recorded_of", summary.recorded->second);
-    }
+    out.members("agents", c.agents, "simulated_seconds", c.simulated, "plays", c.plays, "choices", c.choices);
+    out.members("candidates", c.candidates, "off_floor", c.off_floor, "colliding", c.colliding);
+    out.members("no_way_on", c.no_way_on, "in_the_way", c.in_the_way);
+    out.members("pivots", c.pivots, "turn_rate", summary.turn_rate, "forced", c.forced);
+    out.members("queries", c.queries, "most_held", c.most_held);
+    out.members("wall_seconds", summary.seconds, "queries_per_second", queries_per_second(summary));
+    if (summary.recorded) out.members("recorded", summary.recorded->first, "recorded_of", summary.recorded->second);
     write_continuity(out, "continuity", scene, summary.continuity.free);
     write_forced_continuity(out, "continuity_forced", summary.continuity.forced);
     out.end_object();
@@ -221,56 +208,52 @@ void run_simulate(const SimulateCommandArguments& arguments) {
     flush_results();
 }
 
+void add_simulate_options(Command& command, SimulateCommandArguments& arguments) {
+    SimulateOptions& options = arguments.options;
+    add_parsed(command, "GRAPH", arguments.graph, parse_file_name,
+               "A scene with a motion graph; with --whole clips, or a folder of them", "")
+        .required();
+    add_parsed(command, "-o,--output", arguments.out, parse_file_name, "The run, as a scene", "OUT.json").required();
+    add_parsed(command, "--agents", options.agents, whole_number_within(1, kMaxAgents), "How many (100)", "N");
+    add_parsed(command, "--area", options.area, parse_area, "The floor, in metres (30x40)", "WxH");
+    add_parsed(command, "--seconds", options.seconds, number_within(kMinSimulated, kMaxSimulated), "Simulated (120)",
+               "S");
+    add_parsed(command, "--seed", options.seed, parse_seed, "Another seed, another run (1)", "N");
+    add_parsed(command, "--ahead", options.ahead, number_within(0, kMaxSimulated),
+               "Seconds before its begin at which a move is chosen (0)", "S");
+    add_parsed(command, "--grace", options.grace, number_within(0, kMaxSimulated),
+               "Seconds for which room is kept where moves end; 0: none, as in the paper (1)", "S");
+    add_parsed(command, "--plan", options.plan, number_within(0, kMaxSimulated),
+               "Seconds for which each choice plans how to go on; 0: not at all, as in the paper (8)", "S");
+    add_parsed(command, "--turn-rate", arguments.turn_rate, number_within(0, kMaxTurnRate),
+               "Largest angular speed at which agents turn on the way of a move; 0: they do not (120)", "DEG_PER_S");
+    add_parsed(command, "--threads", options.threads, whole_number_within(1, kMaxThreads), "At most (all)", "N");
+    const Option record = add_parsed(command, "--record", arguments.record, parse_file_name,
+                                     "Queries that were asked, as a scene", "FILE.json");
+    add_parsed(command, "--record-queries", arguments.record_queries, whole_number_within(0, kMostRecorded),
+               "How many, drawn at random; 0 is all, up to half a million (20000)", "N")
+        .needs(record);
+    const Option all = command
+                           .add_flag("--record-all-pairs", arguments.record_all_pairs,
+                                     "Draw from every candidate against everybody, as without a broad phase")
+                           .needs(record);
+    add_parsed(command, "--record-within", arguments.record_within, number_within(0, kMaxArea),
+               "Draw from every candidate against all that lies within M metres, at any time", "M")
+        .needs(record)
+        .excludes(all);
+    command.add_flag("--whole", arguments.whole, "Instead of a graph: every clip whole, and each may follow each");
+    command.add_flag("--inline", arguments.inline_samples,
+                     "Samples stand in what is written, which then needs no other file");
+    command.add_flag("--json", arguments.json, "The summary as JSON");
+    add_fit_options(command, arguments.fit);
+}
+
 }  // namespace
 
 void add_simulate_command(Command& program) {
-    program.add_subcommand(
-        "simulate", "Let a crowd play the moves of a motion graph; nobody collides but who is forced to",
-        [](Command& command) {
-            const auto arguments = std::make_shared<SimulateCommandArguments>();
-            SimulateOptions& options = arguments->options;
-            add_parsed(command, "GRAPH", arguments->graph, parse_file_name,
-                       "A scene with a motion graph; with --whole clips, or a folder of them", "")
-                .required();
-            add_parsed(command, "-o,--output", arguments->out, parse_file_name, "The run, as a scene", "OUT.json")
-                .required();
-            add_parsed(command, "--agents", options.agents, whole_number_within(1, kMaxAgents), "How many (100)", "N");
-            add_parsed(command, "--area", options.area, parse_area, "The floor, in metres (30x40)", "WxH");
-            add_parsed(command, "--seconds", options.seconds, number_within(kMinSimulated, kMaxSimulated),
-                       "Simulated (120)", "S");
-            add_parsed(command, "--seed", options.seed, parse_seed, "Another seed, another run (1)", "N");
-            add_parsed(command, "--ahead", options.ahead, number_within(0, kMaxSimulated),
-                       "Seconds before its begin at which a move is chosen (0)", "S");
-            add_parsed(command, "--grace", options.grace, number_within(0, kMaxSimulated),
-                       "Seconds for which room is kept where moves end; 0: none, as in the paper (1)", "S");
-            add_parsed(command, "--plan", options.plan, number_within(0, kMaxSimulated),
-                       "Seconds for which each choice plans how to go on; 0: not at all, as in the paper (8)", "S");
-            add_parsed(command, "--turn-rate", arguments->turn_rate, number_within(0, kMaxTurnRate),
-                       "Largest angular speed at which agents turn on the way of a move; 0: they do not (120)",
-                       "DEG_PER_S");
-            add_parsed(command, "--threads", options.threads, whole_number_within(1, kMaxThreads), "At most (all)",
-                       "N");
-            const Option record = add_parsed(command, "--record", arguments->record, parse_file_name,
-                                             "Queries that were asked, as a scene", "FILE.json");
-            add_parsed(command, "--record-queries", arguments->record_queries, whole_number_within(0, kMostRecorded),
-                       "How many, drawn at random; 0 is all, up to half a million (20000)", "N")
-                .needs(record);
-            const Option all = command
-                                   .add_flag("--record-all-pairs", arguments->record_all_pairs,
-                                             "Draw from every candidate against everybody, as without a broad phase")
-                                   .needs(record);
-            add_parsed(command, "--record-within", arguments->record_within, number_within(0, kMaxArea),
-                       "Draw from every candidate against all that lies within M metres, at any time", "M")
-                .needs(record)
-                .excludes(all);
-            command.add_flag("--whole", arguments->whole,
-                             "Instead of a graph: every clip whole, and each may follow each");
-            command.add_flag("--inline", arguments->inline_samples,
-                             "Samples stand in what is written, which then needs no other file");
-            command.add_flag("--json", arguments->json, "The summary as JSON");
-            add_fit_options(command, arguments->fit);
-            command.callback([arguments] { run_simulate(*arguments); });
-        });
+    program.add_subcommand("simulate",
+                           "Let a crowd play the moves of a motion graph; nobody collides but who is forced to",
+                           add_simulate_options, run_simulate);
 }
 
 }  // namespace mobbscope::cli

@@ -383,7 +383,7 @@ std::vector<std::string> draw_all(const TestCommandArguments& arguments, const s
     return draw_cases(drawer, arguments.folder, orders, take_in, [] {});
 }
 
-int run_test(const TestCommandArguments& arguments) {
+int draw_and_hold(const TestCommandArguments& arguments) {
     if (arguments.requests) return answer_requests(arguments);
     const std::vector<CaseFile> all = picture_tests::find_cases(arguments.folder);
     const std::vector<CaseFile> cases = cases_of(arguments, all);
@@ -453,73 +453,66 @@ void read_update(TestCommandArguments& arguments) {
     names.clear();
 }
 
-}  // namespace
+int run_test(const Command& command, TestCommandArguments& arguments) {
+    if (arguments.requests) check_requests(command);
+    if (command.is_given("--update")) read_update(arguments);
+    check_new_reference(arguments);
+    return draw_and_hold(arguments);
+}
 
-void add_test_command(Command& program, int& status) {
-    program.add_subcommand(
-        "test", "Draw picture tests and hold them against their goldens", [&status](Command& command) {
-            const auto arguments = std::make_shared<TestCommandArguments>();
-            command.add_option("DIR", arguments->folder, "The folder of the cases, NAME.case.json").required();
-            command.add_option("NAME", arguments->names, "Only these cases; * and ? stand for anything");
-            command.add_flag("--list", arguments->list, "Only print the names of the cases");
-            add_parsed(
-                command, "--backend", arguments->backend,
-                [](const std::string& text) {
-                    static_cast<void>(one_of(backend_from_name, "auto, osmesa, egl")(text));
-                    return text;
-                },
-                "OpenGL without a display: auto, osmesa or egl", "NAME");
-            add_parsed(command, "--jobs", arguments->jobs, parse_jobs,
-                       "Processes that draw at a time; default: as many as there are processors, at most 8", "N");
-            add_parsed(command, "--shard", arguments->shard, parse_shard,
-                       "Only every N-th case, from the K-th: all shards together are all cases", "K/N");
-            command
-                .add_option(
-                    "--update", arguments->update_names,
+void add_test_options(Command& command, TestCommandArguments& arguments) {
+    command.add_option("DIR", arguments.folder, "The folder of the cases, NAME.case.json").required();
+    command.add_option("NAME", arguments.names, "Only these cases; * and ? stand for anything");
+    command.add_flag("--list", arguments.list, "Only print the names of the cases");
+    add_backend_name(command, arguments.backend, "OpenGL without a display: auto, osmesa or egl");
+    add_parsed(command, "--jobs", arguments.jobs, parse_jobs,
+               "Processes that draw at a time; default: as many as there are processors, at most 8", "N");
+    add_parsed(command, "--shard", arguments.shard, parse_shard,
+               "Only every N-th case, from the K-th: all shards together are all cases", "K/N");
+    command
+        .add_option("--update", arguments.update_names,
                     "Take the present pictures as goldens: of these cases, whatever differs, or of all that do not "
                     "pass; without names, ask for each",
                     "NAME")
-                .any_number();
-            command.add_flag("--new-reference", arguments->new_reference,
-                             "With --update all: say in reference.json what the goldens are drawn with, where they "
-                             "must be the very same");
-            add_parsed(command, "--accept", arguments->accept, parse_file_name,
-                       "Draw nothing: take the goldens of a report, the folder of --output or the page of --html, byte "
-                       "by byte, on any system",
-                       "REPORT");
-            command.add_flag("--strict", arguments->strict, "Exit with 1 if there is a golden that no case has");
-            add_parsed(command, "--output", arguments->output, parse_file_name,
-                       "Where the pictures of what did not pass go (mobbscope-test)", "FOLDER");
-            const Option json = command.add_flag("--json", arguments->json, "The report as JSON on standard output");
-            Option json_lines =
-                command.add_flag("--json-lines", arguments->json_lines,
-                                 "Each result as a line of JSON as soon as it is there, with its pictures, for "
-                                 "other programs; nothing else is written");
-            json_lines.excludes(json);
-            command.add_flag("--requests", arguments->requests,
-                             "Draw the cases that standard input asks for, a line of JSON each, and answer with lines "
-                             "of JSON: so does each of the processes that draw");
-            add_parsed(command, "--junit", arguments->junit, parse_file_name, "The report for CI servers", "OUT.xml");
-            add_parsed(command, "--html", arguments->html, parse_file_name, "The report as one page, with all pictures",
-                       "OUT.html");
-            add_parsed(command, "--contact-sheet", arguments->contact_sheet, parse_file_name,
-                       "All pictures of the run in one", "OUT.png");
-            add_parsed(
-                command, "--columns", arguments->columns,
-                [](const std::string& text) {
-                    const std::optional<int> columns = parse_int(text);
-                    if (!columns || *columns < 1)
-                        throw std::invalid_argument(in_quotes(text) + " is no number of columns");
-                    return *columns;
-                },
-                "Of the contact sheet", "N");
-            command.callback([&command, arguments, &status] {
-                if (arguments->requests) check_requests(command);
-                if (command.is_given("--update")) read_update(*arguments);
-                check_new_reference(*arguments);
-                status = run_test(*arguments);
-            });
-        });
+        .any_number();
+    command.add_flag("--new-reference", arguments.new_reference,
+                     "With --update all: say in reference.json what the goldens are drawn with, where they "
+                     "must be the very same");
+    add_parsed(command, "--accept", arguments.accept, parse_file_name,
+               "Draw nothing: take the goldens of a report, the folder of --output or the page of --html, byte "
+               "by byte, on any system",
+               "REPORT");
+    command.add_flag("--strict", arguments.strict, "Exit with 1 if there is a golden that no case has");
+    add_parsed(command, "--output", arguments.output, parse_file_name,
+               "Where the pictures of what did not pass go (mobbscope-test)", "FOLDER");
+    const Option json = command.add_flag("--json", arguments.json, "The report as JSON on standard output");
+    Option json_lines = command.add_flag("--json-lines", arguments.json_lines,
+                                         "Each result as a line of JSON as soon as it is there, with its pictures, for "
+                                         "other programs; nothing else is written");
+    json_lines.excludes(json);
+    command.add_flag("--requests", arguments.requests,
+                     "Draw the cases that standard input asks for, a line of JSON each, and answer with lines "
+                     "of JSON: so does each of the processes that draw");
+    add_parsed(command, "--junit", arguments.junit, parse_file_name, "The report for CI servers", "OUT.xml");
+    add_parsed(command, "--html", arguments.html, parse_file_name, "The report as one page, with all pictures",
+               "OUT.html");
+    add_parsed(command, "--contact-sheet", arguments.contact_sheet, parse_file_name, "All pictures of the run in one",
+               "OUT.png");
+    add_parsed(
+        command, "--columns", arguments.columns,
+        [](const std::string& text) {
+            const std::optional<int> columns = parse_int(text);
+            if (!columns || *columns < 1) throw std::invalid_argument(in_quotes(text) + " is no number of columns");
+            return *columns;
+        },
+        "Of the contact sheet", "N");
+}
+
+}  // namespace
+
+void add_test_command(Command& program) {
+    program.add_subcommand("test", "Draw picture tests and hold them against their goldens", add_test_options,
+                           run_test);
 }
 
 }  // namespace mobbscope::cli

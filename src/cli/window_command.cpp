@@ -10,12 +10,12 @@
 #include <base/file.h>
 #include <base/text.h>
 #include <render/drawlist/picture_options.h>
+#include <review/review_screen.h>
 #include <scene/load_files.h>
 
 #include <cstdlib>
 #include <iostream>
 #include <memory>
-#include <string>
 #include <system_error>
 #include <variant>
 
@@ -52,14 +52,17 @@ using Named = std::variant<Scene, app::ReviewFolder>;
 
 void show_named(app::Session& session, const Named& named, const WindowArguments& arguments) {
     if (const Scene* scene = std::get_if<Scene>(&named)) return session.files.open_scene(*scene, arguments.files);
-    session.reviews.case_drawer.backend = arguments.backend;
-    session.reviews.open(std::get<app::ReviewFolder>(named));
+    auto& review = session.the<app::ReviewScreen>();
+    review.case_drawer.backend = arguments.backend;
+    review.open(std::get<app::ReviewFolder>(named));
 }
 
 /// Scripts find the same everywhere: they neither read nor write a person's settings.
 int run_script(const Named& named, const WindowArguments& arguments) {
-    const app::Script script = app::Script::parse(read_file(arguments.script), arguments.script.string());
+    const app::Script script = app::Script::parse(read_file(arguments.script), arguments.script.string(),
+                                                  app::ScriptOutput::allowed, app::commands_with_review());
     app::Session session(false);
+    app::add_review(session);
     // One scale everywhere, whatever the monitor's.
     session.settings.ui_scale = arguments.ui_scale.value_or(1);
     const std::unique_ptr<app::ShellHost> host = [&]() -> std::unique_ptr<app::ShellHost> {
@@ -87,12 +90,13 @@ void show_window(const Named& named, const WindowArguments& arguments) {
     const std::filesystem::path file = app::settings_file();
     const std::string kept = app::keep_unreadable_settings(file);
     app::Session session(true, app::load_settings(file));
+    app::add_review(session);
     const double usual_scale = session.settings.ui_scale;
     if (arguments.ui_scale) session.settings.ui_scale = *arguments.ui_scale;
     app::GlfwWindow window(session, arguments.size);
     show_named(session, named, arguments);
     if (!kept.empty()) session.notifications.tell_of_window(app::MessageLevel::warning, kept);
-    if (arguments.files.empty() && !session.reviews.shown() && session.files.has_last()) {
+    if (arguments.files.empty() && !session.screen && session.files.has_last()) {
         session.notifications.tell(app::MessageLevel::info, "Last time: " + session.files.last_title(),
                                    app::MessageOffer{"file.reopen_last", "", "Reopen last session"});
     }
@@ -118,6 +122,21 @@ int show(const Named& named, const WindowArguments& arguments) {
     return kDone;
 }
 
+/// Bad input is told before there is a window.
+int review(const WindowArguments& arguments) {
+    return show(app::find_review(arguments.cases, arguments.output), arguments);
+}
+
+void add_review_options(Command& command, WindowArguments& arguments) {
+    command.add_option("DIR", arguments.cases, "The folder of the cases, NAME.case.json").required();
+    add_parsed(command, "--output", arguments.output, parse_file_name,
+               "Look at what mobbscope test left, the folder of its --output or the page of its --html; without "
+               "it, all cases are drawn",
+               "REPORT");
+    add_backend_name(command, arguments.backend, "OpenGL that draws the cases: auto, osmesa or egl");
+    add_common_options(command, arguments);
+}
+
 }  // namespace
 
 void add_window_options(Command& program, WindowArguments& arguments) {
@@ -125,29 +144,9 @@ void add_window_options(Command& program, WindowArguments& arguments) {
     add_common_options(program, arguments);
 }
 
-void add_review_command(Command& program, int& status) {
-    program.add_subcommand(
-        "review", "Look at picture tests in the window: what differs, and take it or not", [&status](Command& command) {
-            const auto arguments = std::make_shared<WindowArguments>();
-            command.add_option("DIR", arguments->cases, "The folder of the cases, NAME.case.json").required();
-            add_parsed(
-                command, "--output", arguments->output, parse_file_name,
-                "Look at what mobbscope test left, the folder of its --output or the page of its --html; without "
-                "it, all cases are drawn",
-                "REPORT");
-            add_parsed(
-                command, "--backend", arguments->backend,
-                [](const std::string& text) {
-                    static_cast<void>(one_of(backend_from_name, "auto, osmesa, egl")(text));
-                    return text;
-                },
-                "OpenGL that draws the cases: auto, osmesa or egl", "NAME");
-            add_common_options(command, *arguments);
-            command.callback([arguments, &status] {
-                // Bad input is told before there is a window.
-                status = show(app::find_review(arguments->cases, arguments->output), *arguments);
-            });
-        });
+void add_review_command(Command& program) {
+    program.add_subcommand("review", "Look at picture tests in the window: what differs, and take it or not",
+                           add_review_options, review);
 }
 
 void check_not_before_command(const Command& program) {

@@ -27,7 +27,7 @@ struct WindowArguments {
 void add_window_options(Command& program, WindowArguments& arguments);
 
 /// `mobbscope review DIR`: the window on picture tests.
-void add_review_command(Command& program, int& status);
+void add_review_command(Command& program);
 
 /// Throws InputError if an argument of the window stands before a command.
 void check_not_before_command(const Command& program);

@@ -4,34 +4,35 @@
 #include <conflicts/conflicts.h>
 #include <mobb/predicate.h>
 #include <mobb/traversal.h>
-#include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 #include <scene/motion_graph.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
 #include <memory>
-#include <optional>
 #include <tuple>
-#include <utility>
 
 namespace mobbscope {
 
 namespace {
 
-/// Told of every pair of samples that collides, in order of time; keeps the one that overlaps deepest.
-struct DeepestPair {
-    const mobb::PlacedClip& a;
-    const mobb::PlacedClip& b;
-    Conflict& conflict;
-
-    bool operator()(int i, int j) {
-        const mobb::Approach approach = mobb::approach_of(a, i, b, j);
+/// The pair's conflict; without intervals if there is none. Where two collide the least clearance is that of a pair of
+/// samples that collides: no other is measured for it.
+Conflict conflict_of(const mobb::PlacedTree& a, const mobb::PlacedTree& b, Search search) {
+    const bool direct = search == Search::direct;
+    const mobb::PlacedClip& clip_a = a.placed_clip();
+    const mobb::PlacedClip& clip_b = b.placed_clip();
+    Conflict conflict;
+    conflict.intervals = direct ? mobb::direct_contact_intervals(clip_a, clip_b) : mobb::contact_intervals(a, b);
+    if (conflict.intervals.empty()) return conflict;
+    conflict.least_clearance = std::numeric_limits<double>::infinity();
+    // Told of every pair of samples that collides, in order of time.
+    auto keep_deepest = [&](int i, int j) {
+        const mobb::Approach approach = mobb::approach_of(clip_a, i, clip_b, j);
         const double s = approach.nearest();
         const double clearance = approach.clearance(s);
         if (clearance >= conflict.least_clearance) return false;
@@ -40,24 +41,12 @@ struct DeepestPair {
         conflict.a_sample = i;
         conflict.b_sample = j;
         return false;
-    }
-};
-
-/// The pair's conflict; without intervals if there is none. Where two collide the least clearance is that of a pair of
-/// samples that collides: no other is measured for it.
-Conflict conflict_of(const mobb::PlacedTree& a, const mobb::PlacedTree& b, Search search) {
-    const bool direct = search == Search::direct;
-    Conflict conflict;
-    conflict.intervals =
-        direct ? mobb::direct_contact_intervals(a.placed_clip(), b.placed_clip()) : mobb::contact_intervals(a, b);
-    if (conflict.intervals.empty()) return conflict;
-    conflict.least_clearance = std::numeric_limits<double>::infinity();
+    };
     mobb::NoObserver observer;
-    DeepestPair deepest{a.placed_clip(), b.placed_clip(), conflict};
     if (direct) {
-        mobb::visit_sample_pairs(deepest.a, 0, deepest.a.count(), deepest.b, 0, deepest.b.count(), observer, deepest);
+        mobb::visit_sample_pairs(clip_a, 0, clip_a.count(), clip_b, 0, clip_b.count(), observer, keep_deepest);
     } else {
-        mobb::visit_hits(a, b, observer, deepest);
+        mobb::visit_hits(a, b, observer, keep_deepest);
     }
     return conflict;
 }
@@ -114,8 +103,7 @@ class Grid {
     /// Chooses cells as large as a piece is wide on average, and larger ones where some pieces would cover too many.
     explicit Grid(std::span<const PathPiece> pieces) {
         const auto count = static_cast<double>(pieces.size());
-        double width = 0;
-        double largest = 0;
+        double width = 0, largest = 0;
         for (const PathPiece& piece : pieces) {
             width += std::max(piece.x1 - piece.x0, piece.y1 - piece.y0) / count;
             largest =
@@ -195,8 +183,7 @@ std::vector<Walked> walked_in(const FittedScene& fitted) {
 
 /// Sorted, with those that touch or overlap put together: a path ends where the next one begins.
 std::vector<mobb::Interval> joined(std::vector<mobb::Interval> intervals) {
-    std::sort(intervals.begin(), intervals.end(),
-              [](const mobb::Interval& a, const mobb::Interval& b) { return a.t0 < b.t0; });
+    std::ranges::sort(intervals, {}, &mobb::Interval::t0);
     std::vector<mobb::Interval> out;
     for (const mobb::Interval& interval : intervals) {
         if (!out.empty() && interval.t0 <= out.back().t1 + mobb::kMinOverlap) {
@@ -213,14 +200,12 @@ PeopleConflict put_together(int a, int b, std::span<const Conflict> of_paths) {
     std::vector<mobb::Interval> intervals;
     for (const Conflict& conflict : of_paths)
         intervals.insert(intervals.end(), conflict.intervals.begin(), conflict.intervals.end());
-    const auto deepest = std::min_element(of_paths.begin(), of_paths.end(), [](const Conflict& x, const Conflict& y) {
-        return std::tuple(x.least_clearance, x.time) < std::tuple(y.least_clearance, y.time);
-    });
+    const auto depth = [](const Conflict& of) { return std::tuple(of.least_clearance, of.time); };
+    const auto deepest = std::ranges::min_element(of_paths, {}, depth);
     PeopleConflict out{a, b, joined(std::move(intervals)), *deepest, {}};
     const double begin = out.worst().t0;
-    out.begins = *std::find_if(of_paths.begin(), of_paths.end(), [begin](const Conflict& conflict) {
-        return std::any_of(conflict.intervals.begin(), conflict.intervals.end(),
-                           [begin](const mobb::Interval& interval) { return interval.t0 == begin; });
+    out.begins = *std::ranges::find_if(of_paths, [begin](const Conflict& of) {
+        return std::ranges::find(of.intervals, begin, &mobb::Interval::t0) != of.intervals.end();
     });
     return out;
 }
@@ -266,8 +251,8 @@ std::vector<std::pair<int, int>> near_pairs(std::span<const mobb::PlacedTree> cr
 
 const mobb::Interval& PeopleConflict::worst() const {
     // The deepest pair's overlap begins within an interval, or where two were put together.
-    const auto after = std::find_if(intervals.begin(), intervals.end(),
-                                    [this](const mobb::Interval& interval) { return interval.t0 > deepest.time; });
+    const auto begins_later = [this](double t0) { return t0 > deepest.time; };
+    const auto after = std::ranges::find_if(intervals, begins_later, &mobb::Interval::t0);
     return after == intervals.begin() ? *after : *(after - 1);
 }
 
@@ -331,9 +316,8 @@ PeopleConflicts::PeopleConflicts(std::span<const mobb::PlacedTree> crowd, std::s
             if (kept_.size() < kMostKept) kept_.push_back(std::move(found));
         }
     }
-    std::sort(ranked_.begin(), ranked_.end(), [](const Ranked& x, const Ranked& y) {
-        const auto rank = [](const Ranked& c) { return std::tuple(c.least_clearance, -c.seconds, c.begin, c.a, c.b); };
-        return rank(x) < rank(y);
+    std::ranges::sort(ranked_, {}, [](const Ranked& of) {
+        return std::tuple(of.least_clearance, -of.seconds, of.begin, of.a, of.b);
     });
 }
 
@@ -373,7 +357,7 @@ std::vector<SceneConflict> conflicts_in(const FittedScene& fitted, const Progres
     }
     const PeopleConflicts conflicts(trees, person_of, Search::trees, progress);
     if (conflicts.size() > kMostSceneConflicts) {
-        throw InputError(shown_name(fitted.scene().file), "",
+        throw InputError(shown_name(fitted.scene().file),
                          "it has " + std::to_string(conflicts.size()) + " conflicts, more than the " +
                              std::to_string(kMostSceneConflicts) +
                              " that a list holds; mobbscope conflicts writes them all");

@@ -7,7 +7,6 @@
 #include <scene/fitted_scene.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>

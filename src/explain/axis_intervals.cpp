@@ -123,7 +123,7 @@ std::vector<AxisInterval> axis_intervals(std::span<const DrawnAgent> sides, cons
 
 Projection project(const mobb::Box& box, glm::dvec3 axis) {
     const double center = glm::dot(box.center, axis);
-    if (box.kind == mobb::BoxKind::block) {
+    if (mobb::info(box.kind).round) {
         const double disk = box.half.x * std::hypot(axis.x, axis.y);
         const double leaning = std::abs(glm::dot(mobb::half_edges(box)[2], axis));
         return {center - disk - leaning, center + disk + leaning};
@@ -173,7 +173,7 @@ std::string axis_word(const mobb::Box& box, mobb::TestKind test, int axis) {
 
 BoxPair as_tested(const BoxPair& boxes, mobb::TestKind test, glm::dvec3 axis) {
     if (tries_line_of_centers(test)) return nearest(boxes);
-    return test == mobb::BoxKind::moving ? nearest_along(boxes, axis) : boxes;
+    return mobb::info(test.box()).moves ? nearest_along(boxes, axis) : boxes;
 }
 
 }  // namespace mobbscope

@@ -6,11 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace mobbscope {
 
@@ -237,9 +235,7 @@ Clearance clearance_over_time(const mobb::PlacedClip& a, const mobb::PlacedClip&
     PieceRecorder recorder(a, b);
     mobb::visit_sample_pairs(a, 0, a.count(), b, 0, b.count(), recorder, recorder);
     Clearance& out = recorder.out;
-    const auto least =
-        std::min_element(out.pieces.begin(), out.pieces.end(),
-                         [](const ClearancePiece& p, const ClearancePiece& q) { return p.clearance < q.clearance; });
+    const auto least = std::ranges::min_element(out.pieces, {}, &ClearancePiece::clearance);
     if (least != out.pieces.end()) out.least = static_cast<std::size_t>(least - out.pieces.begin());
     return std::move(out);
 }

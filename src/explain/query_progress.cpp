@@ -1,11 +1,9 @@
 #include <explain/query_progress.h>
-#include <scene/view_state.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
-#include <vector>
 
 namespace mobbscope {
 

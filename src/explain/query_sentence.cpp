@@ -16,8 +16,9 @@ std::string separating_axis(std::span<const DrawnAgent> sides, const mobb::Trace
     const auto axis_of = [&](const DrawnAgent& side, int node, int axis) {
         return side.label + "'s " + axis_word(side.placed.tree().box(node), event.test, axis) + " axis";
     };
-    if (mobb::info(event.test.box()).axes == mobb::BoxAxes::world) return event.axis == 0 ? "along x" : "along y";
-    if (event.test == mobb::BoxKind::block) return "from centre to centre";
+    const mobb::BoxAxes axes = mobb::info(event.test.box()).axes;
+    if (axes == mobb::BoxAxes::world) return event.axis == 0 ? "along x" : "along y";
+    if (axes == mobb::BoxAxes::centers) return "from centre to centre";
     const AxisOrigin origin = axis_origin(event.test, event.axis);
     if (origin.b < 0) return "along " + axis_of(sides[0], event.a, origin.a);
     if (origin.a < 0) return "along " + axis_of(sides[1], event.b, origin.b);
@@ -83,13 +84,12 @@ std::string node_name(const DrawnAgent& agent, int node) {
 std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
     if (event.test == mobb::TestKind::time) return time_outcome(sides, event);
     if (event.test == mobb::TestKind::samples) return sample_outcome(sides, event);
+    const mobb::BoxInfo& shape = mobb::info(event.test.box());
     if (event.outcome == mobb::Outcome::separated) {
-        const bool moves = event.test == mobb::BoxKind::moving || event.test == mobb::BoxKind::block;
-        const char* when = moves ? " at the nearest" : "";
+        const char* when = shape.moves ? " at the nearest" : "";
         return "separated " + separating_axis(sides, event) + " by " + with_unit(event.gap, "m") + when;
     }
-    const char* what = event.test == mobb::BoxKind::block ? "the blocks may meet, " : "the boxes overlap, ";
-    return what + what_next(sides, event);
+    return std::string(shape.meets) + ", " + what_next(sides, event);
 }
 
 std::string step_of(int step, const mobb::Trace& trace) {

@@ -1,7 +1,6 @@
 #include <explain/recursion.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace mobbscope {
 

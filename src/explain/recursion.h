@@ -5,7 +5,6 @@
 #include <mobb/query.h>
 #include <mobb/trace.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

@@ -11,7 +11,7 @@
 
 namespace mobb {
 
-/// An oriented box, or one sheared along time. A block is the cylinder inside its box: half.x is its radius.
+/// An oriented box, or one sheared along time; of a round kind the cylinder inside it: half.x is its radius.
 /// Every box is complete in three dimensions; all but an obb3d have (0, 0, 1) as their third axis, so that an obb2d can
 /// be tested against an obb3d. Lengths are metres; time is mixed in by the tree's time scale w (m/s).
 struct Box {
@@ -19,18 +19,17 @@ struct Box {
     glm::dvec3 center{0};
     std::array<glm::dvec3, 3> axes{glm::dvec3{1, 0, 0}, glm::dvec3{0, 1, 0}, glm::dvec3{0, 0, 1}};  ///< orthonormal
     glm::dvec3 half{0};   ///< half extents along the axes, >= 0
-    glm::dvec2 drift{0};  ///< a moving box or block: how far it moves from the middle of its time to the end; else 0
+    glm::dvec2 drift{0};  ///< a box that moves: how far it moves from the middle of its time to the end; else 0
 };
 
-/// The rectangle that an obb2d or an aabb is at any time, on the floor, metres.
+/// What an upright box is at any time, on the floor, metres: a rectangle, or the square around a disk.
 struct Rectangle {
     glm::dvec2 center{0};
     glm::dvec2 axis{1, 0};  ///< of unit length; the second one is perpendicular to it
     glm::dvec2 half{0};     ///< half extents along the axis and across it, >= 0
 };
 
-/// Whether a box of this kind is a rectangle that stands still over its time.
-constexpr bool is_upright(BoxKind kind) { return kind == BoxKind::obb2d || kind == BoxKind::aabb; }
+constexpr bool is_upright(BoxKind kind) { return info(kind).is_upright(); }
 
 /// A quarter turn, counter-clockwise.
 inline glm::dvec2 perpendicular(glm::dvec2 v) { return {-v.y, v.x}; }
@@ -57,10 +56,10 @@ inline std::array<glm::dvec3, 3> half_edges(const Box& box) {
             box.half.z * box.axes[2] + glm::dvec3(box.drift.x, box.drift.y, 0)};
 }
 
-/// Space-time volume in m^2*s: the box's volume divided by w; of a block, that of its cylinder.
+/// Space-time volume in m^2*s: the box's volume divided by w; of a round one, that of its cylinder.
 inline double volume(const Box& box, double time_scale) {
     const double of_box = 8.0 * box.half.x * box.half.y * box.half.z / time_scale;
-    return box.kind == BoxKind::block ? std::numbers::pi / 4 * of_box : of_box;
+    return info(box.kind).round ? std::numbers::pi / 4 * of_box : of_box;
 }
 
 /// The eight corners in (x, y, w*t), index bits giving the sign along axis 0, 1, 2 (a set bit is +).

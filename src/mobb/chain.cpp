@@ -1,5 +1,5 @@
 #include <mobb/chain.h>
-#include <mobb/principal_axes.h>
+#include <mobb/fitting.h>
 
 #include <glm/geometric.hpp>
 

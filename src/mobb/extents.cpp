@@ -1,4 +1,4 @@
-#include <mobb/extents.h>
+#include <mobb/fitting.h>
 #include <mobb/lanes.h>
 
 #include <cmath>

@@ -1,9 +1,7 @@
 #include <mobb/blocks.h>
-#include <mobb/extents.h>
 #include <mobb/fit.h>
-#include <mobb/fit_node.h>
+#include <mobb/fitting.h>
 #include <mobb/lanes.h>
-#include <mobb/principal_axes.h>
 
 #include <glm/geometric.hpp>
 
@@ -293,14 +291,9 @@ Rectangle rectangle_along(std::span<const Disk> own, const BoundedDisks& bounded
     return rectangle_around(bounded, axis_2d(own, bounded, travel_axis(own), axes));
 }
 
-Box fit_obb2d(const Clip& clip, SampleRange range, Axes axes, double w) {
-    const Rectangle rectangle = rectangle_along(disks(clip, range), BoundedDisks(swept_disks(clip, range)), axes);
-    return box_over_time(BoxKind::obb2d, clip, range, rectangle, w);
-}
-
 Box fit_obb3d(const Clip& clip, SampleRange range, Axes axes, double time_scale) {
     const bool along_time = range.count == 1 || glm::length(travel(disks(clip, range))) <= kStandingStill;
-    if (along_time) return fit_obb2d(clip, range, axes, time_scale);
+    if (along_time) return fit(BoxKind::obb2d, clip, range, axes, time_scale);
     switch (axes) {
         case Axes::endpoints:
             return box_along_or_upright(clip, range, travel_axes(clip, range, time_scale), time_scale);
@@ -324,37 +317,50 @@ Box fit_moving(const Clip& clip, SampleRange range, Axes axes, double time_scale
     return box;
 }
 
-Box fit_aabb(const Clip& clip, SampleRange range, double time_scale) {
-    const Rectangle rectangle = rectangle_around(BoundedDisks(swept_disks(clip, range)), {1, 0});
-    return box_over_time(BoxKind::aabb, clip, range, rectangle, time_scale);
+Box fit_block(const Clip& clip, SampleRange range, Axes /*axes*/, double time_scale) {
+    return box_around(bounding_disk(clip, range.first, range.end()), time_scale * clip.time(range.first),
+                      time_scale * clip.time(range.end()));
 }
+
+/// How a box of a kind is fitted: an upright one by what it is on the floor.
+struct BoxFit {
+    BoxKind kind;
+    Rectangle (*on_floor)(std::span<const Disk> own, const BoundedDisks& bounded, Axes axes) = nullptr;
+    Box (*in_time)(const Clip& clip, SampleRange range, Axes axes, double time_scale) = nullptr;
+};
+
+Rectangle aabb_around(std::span<const Disk> /*own*/, const BoundedDisks& bounded, Axes /*axes*/) {
+    return rectangle_around(bounded, {1, 0});
+}
+
+constexpr BoxFit kFits[] = {
+    {BoxKind::obb2d, rectangle_along}, {BoxKind::obb3d, nullptr, fit_obb3d}, {BoxKind::moving, nullptr, fit_moving},
+    {BoxKind::aabb, aabb_around},      {BoxKind::block, nullptr, fit_block},
+};
+static_assert(std::ranges::equal(kFits, kBoxKinds, {}, &BoxFit::kind), "each kind of box has its fit, in their order");
+static_assert(std::ranges::all_of(kFits,
+                                  [](const BoxFit& row) {
+                                      return (row.on_floor != nullptr) == is_upright(row.kind) &&
+                                             (row.in_time != nullptr) != is_upright(row.kind);
+                                  }),
+              "an upright kind is fitted on the floor, another one in time");
+
+constexpr const BoxFit& fit_of(BoxKind kind) { return kFits[static_cast<std::size_t>(kind)]; }
 
 }  // namespace
 
 Box fit(BoxKind kind, const Clip& clip, SampleRange range, Axes axes, double time_scale) {
     assert(range.first >= 0 && range.count >= 1 && range.end() <= clip.count() && time_scale > 0);
-    switch (kind) {
-        case BoxKind::obb2d:
-            return fit_obb2d(clip, range, axes, time_scale);
-        case BoxKind::obb3d:
-            return fit_obb3d(clip, range, axes, time_scale);
-        case BoxKind::moving:
-            return fit_moving(clip, range, axes, time_scale);
-        case BoxKind::aabb:
-            return fit_aabb(clip, range, time_scale);
-        case BoxKind::block:
-            return box_around(bounding_disk(clip, range.first, range.end()), time_scale * clip.time(range.first),
-                              time_scale * clip.time(range.end()));
-    }
-    return {};
+    const BoxFit& by = fit_of(kind);
+    if (by.in_time) return by.in_time(clip, range, axes, time_scale);
+    const BoundedDisks bounded(swept_disks(clip, range));
+    return box_over_time(kind, clip, range, by.on_floor(disks(clip, range), bounded, axes), time_scale);
 }
 
 Rectangle fit_node(BoxKind kind, const Clip& clip, std::span<const Node> nodes, int node, Axes axes) {
     assert(is_upright(kind));
     const Node& n = nodes[static_cast<std::size_t>(node)];
-    const BoundedDisks bounded(clip, nodes, node);
-    if (kind == BoxKind::aabb) return rectangle_around(bounded, {1, 0});
-    return rectangle_along(disks(clip, {n.first, n.count}), bounded, axes);
+    return fit_of(kind).on_floor(disks(clip, {n.first, n.count}), BoundedDisks(clip, nodes, node), axes);
 }
 
 }  // namespace mobb

@@ -1,5 +1,6 @@
 /// The kinds of boxes, tests and trees. A new kind is an enumerator and its row here; a new box also needs its fit
-/// (fit.cpp) and its test (separation.h). The compiler names the switch in which a kind is missing.
+/// (fit.cpp) and its test (separation.h). What is missing does not compile. All that else depends on a kind asks its
+/// row.
 #pragma once
 
 #include <array>
@@ -43,9 +44,18 @@ struct BoxInfo {
     std::string_view plural;   ///< "2D boxes"
     std::string_view heading;  ///< the shortest that is understood: "2D"
     std::string_view test;     ///< what its test tries, for people
+    // Its shape.
     BoxAxes axes = BoxAxes::floor;
+    bool round = false;      ///< the cylinder inside the box, whose first half extent is the radius; else the box
+    bool moves = false;      ///< its centre moves evenly as long as it lasts; else it stands still
+    bool of_blocks = false;  ///< comes with the blocks of its clip (mobb/blocks.h); else it is fitted
+
+    std::string_view meets = "the boxes overlap";  ///< what a test says that does not separate two
     bool in_paper = true;
     std::string_view looks{};  ///< what a picture's legend says of it; empty where nothing needs saying
+
+    /// Whether it is at any time the same on the floor.
+    constexpr bool is_upright() const { return axes != BoxAxes::space_time && !moves; }
 };
 
 struct TreeInfo {
@@ -58,8 +68,9 @@ struct TreeInfo {
     std::string_view formerly{};     ///< its name once, which is refused with the present one
 
     constexpr bool has(BoxAxes axes) const;
+    constexpr bool has_blocks() const;
     /// Whether FitOptions::leaf and levels matter.
-    constexpr bool splits() const { return !has(BoxAxes::centers); }
+    constexpr bool splits() const { return !has_blocks(); }
     /// Whether FitOptions::axes matters.
     constexpr bool chooses_axes() const { return has(BoxAxes::floor) || has(BoxAxes::space_time); }
     /// Whether FitOptions::time_scale matters.
@@ -89,6 +100,7 @@ constexpr BoxInfo of(BoxKind kind) {
                     .plural = "moving boxes",
                     .heading = "moving",
                     .test = "Four axes on the floor, at both ends of the common time",
+                    .moves = true,
                     .in_paper = false,
                     .looks = "boxes lean: each moves with its walk"};
         case BoxKind::aabb:
@@ -107,6 +119,10 @@ constexpr BoxInfo of(BoxKind kind) {
                     .heading = "block",
                     .test = "The line between the centres, where they are nearest",
                     .axes = BoxAxes::centers,
+                    .round = true,
+                    .moves = true,
+                    .of_blocks = true,
+                    .meets = "the blocks may meet",
                     .in_paper = false,
                     .looks = "a block is the cylinder inside its box"};
     }
@@ -168,6 +184,7 @@ constexpr const BoxInfo& info(BoxKind kind) { return rows::kBoxes[static_cast<st
 constexpr const TreeInfo& info(TreeKind kind) { return rows::kTrees[static_cast<std::size_t>(kind)]; }
 
 constexpr bool TreeInfo::has(BoxAxes axes) const { return info(root).axes == axes || info(below).axes == axes; }
+constexpr bool TreeInfo::has_blocks() const { return info(below).of_blocks; }
 
 /// What a query tests: the times of two nodes, their boxes (a test is of the kind of box that it is made for), or
 /// their samples.

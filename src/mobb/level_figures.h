@@ -5,6 +5,7 @@
 
 #include <array>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace mobb {
@@ -20,19 +21,17 @@ struct LevelFigures {
 };
 std::vector<LevelFigures> level_figures(const Tree& tree);
 
-/// One of the figures as a column: `fit`'s table and its JSON and the window's tree panel have them all, in this order.
+/// One of the figures by its name, for whoever writes all of them.
 struct LevelColumn {
-    const char* key;                                   ///< of JSON, and at the head of a table
-    const char* unit;                                  ///< behind it in a table; empty: a number without one
-    bool whole;                                        ///< counts something
-    std::optional<double> (*of)(const LevelFigures&);  ///< as JSON has it
-    double in_unit = 1;                                ///< `of` times this is what a table shows
+    std::string_view name;
+    bool whole;  ///< counts something
+    std::optional<double> (*of)(const LevelFigures&);
 };
 inline constexpr std::array kLevelColumns{
-    LevelColumn{"level", "", true, [](const LevelFigures& f) -> std::optional<double> { return f.level; }},
-    LevelColumn{"nodes", "", true, [](const LevelFigures& f) -> std::optional<double> { return f.nodes; }},
-    LevelColumn{"volume", "m^2*s", false, [](const LevelFigures& f) -> std::optional<double> { return f.volume; }},
-    LevelColumn{"tightness", "%", false, [](const LevelFigures& f) { return f.tightness; }, 100},
+    LevelColumn{"level", true, [](const LevelFigures& f) -> std::optional<double> { return f.level; }},
+    LevelColumn{"nodes", true, [](const LevelFigures& f) -> std::optional<double> { return f.nodes; }},
+    LevelColumn{"volume", false, [](const LevelFigures& f) -> std::optional<double> { return f.volume; }},
+    LevelColumn{"tightness", false, [](const LevelFigures& f) { return f.tightness; }},
 };
 
 /// Sum over samples of the volume that they sweep, m^2*s: pi*r^2*dt where they stay, pi*(r0^2 + r0*r1 + r1^2)/3*dt

@@ -1,4 +1,4 @@
-#include <mobb/principal_axes.h>
+#include <mobb/fitting.h>
 
 #include <glm/geometric.hpp>
 

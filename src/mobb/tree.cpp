@@ -1,4 +1,4 @@
-#include <mobb/fit_node.h>
+#include <mobb/fitting.h>
 #include <mobb/tree.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ std::size_t node_count(int samples, const FitOptions& options) {
 Tree::Tree(ClipPtr clip, const FitOptions& options) : clip_(std::move(clip)), options_(options) {
     if (!clip_) throw std::invalid_argument("a tree needs a clip");
     check(options_);
-    if (options_.tree == TreeKind::blocks) {
+    if (info(options_.tree).has_blocks()) {
         build_blocks();
     } else {
         const std::size_t nodes = node_count(clip_->count(), options_);

@@ -1,5 +1,5 @@
 #include <base/text.h>
-#include <motion_files/bvh_writer.h>
+#include <motion_files/formats.h>
 
 #include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>

@@ -1,15 +1,13 @@
 #include <base/text.h>
-#include <motion_files/glb_writer.h>
+#include <motion_files/formats.h>
 #include <tiny_gltf.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
-#include <string_view>
 #include <vector>
 
 namespace mobbscope {

@@ -9,7 +9,6 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -70,9 +69,8 @@ Cast cast_of(const Scene& scene) {
 std::size_t chosen(const Scene& scene, const Cast& cast, const std::optional<std::string>& name) {
     const std::string file = scene.file.string();
     if (!name && cast.names.size() > 1) {
-        throw InputError(file, "",
-                         "a motion file holds one agent, and there are " + std::to_string(cast.names.size()) +
-                             "; name one with --agent, such as " + in_quotes(cast.names.front()));
+        throw InputError(file, "a motion file holds one agent, and there are " + std::to_string(cast.names.size()) +
+                                   "; name one with --agent, such as " + in_quotes(cast.names.front()));
     }
     const auto at = name ? std::ranges::find(cast.names, *name) : cast.names.begin();
     if (at == cast.names.end()) {

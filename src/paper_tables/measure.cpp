@@ -9,9 +9,7 @@
 #include <paper_tables/measure.h>
 
 #include <algorithm>
-#include <array>
 #include <fstream>
-#include <memory>
 #include <numeric>
 #include <optional>
 #include <span>

@@ -6,7 +6,6 @@
 #include <paper_tables/workload.h>
 
 #include <array>
-#include <cstdint>
 #include <functional>
 #include <stdexcept>
 #include <string>

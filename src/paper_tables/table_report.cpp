@@ -33,26 +33,17 @@ std::optional<PaperRow> find(const NamedRow (&rows)[N], std::string_view method)
 void write_paper(JsonWriter& out, const std::string& table, const std::string& method) {
     const std::optional<PaperRow> row = paper_row(table, method);
     if (!row) return out.member("paper", std::optional<double>());
-    out.begin_object("paper", JsonWriter::Layout::row);
-    out.member("time_ns", row->time_us * 1000);
-    out.member("obb2d", row->obb2d);
-    out.member("obb3d", row->obb3d);
-    out.member("samples", row->samples);
-    out.end_object();
+    out.key("paper");
+    out.row("time_ns", row->time_us * 1000, "obb2d", row->obb2d, "obb3d", row->obb3d, "samples", row->samples);
 }
 
 void write_figures(JsonWriter& out, const TableRow& row) {
-    out.member("method", row.method);
-    out.member("leaf", row.leaf);
-    out.member("time_ns", row.time_ns);
+    out.members("method", row.method, "leaf", row.leaf, "time_ns", row.time_ns);
     out.member("time_ns_quartiles", {row.time_ns_q1, row.time_ns_q3});
     for (const mobb::TestKind test : mobb::kTestKinds) out.member(mobb::name(test), row[test]);
-    out.member("sample_steps", row.sample_steps);
-    out.member("root_box_tests", row.root_box_tests);
+    out.members("sample_steps", row.sample_steps, "root_box_tests", row.root_box_tests);
     out.member("root_rejected", row.root_rejected);
-    out.member("depth", row.trees.depth);
-    out.member("nodes", row.trees.nodes);
-    out.member("bytes", row.trees.bytes);
+    out.members("depth", row.trees.depth, "nodes", row.trees.nodes, "bytes", row.trees.bytes);
     out.member("build_ns", row.trees.build_ns);
 }
 
@@ -60,13 +51,8 @@ void write_figures(JsonWriter& out, const TableRow& row) {
 void write_level_lists(JsonWriter& out, const TableRow& row) {
     out.values("volumes", row.trees.volumes);
     out.list("pair_levels", row.pair_levels, [&](const PairLevel& level) {
-        out.begin_object(JsonWriter::Layout::row);
-        out.member("pairs", level.pairs);
-        out.member("apart_in_time", level.apart_in_time);
-        out.member("separated", level.separated);
-        out.member("sampled", level.sampled);
-        out.member("queries_ended", level.ended);
-        out.end_object();
+        out.row("pairs", level.pairs, "apart_in_time", level.apart_in_time, "separated", level.separated, "sampled",
+                level.sampled, "queries_ended", level.ended);
     });
 }
 
@@ -233,18 +219,11 @@ std::optional<PaperRow> paper_row(std::string_view table, std::string_view metho
 void write_json(std::ostream& stream, const TableReport& report) {
     JsonWriter out(stream);
     out.begin_object();
-    out.member("workload", report.workload);
-    out.member("description", report.description);
-    out.member("machine", report.machine);
-    out.member("queries", report.queries);
-    out.member("seed", report.seed);
-    out.member("rounds", report.rounds);
-    out.begin_object("clips", JsonWriter::Layout::row);
-    out.member("count", report.clips);
-    out.member("mean_duration", report.mean_duration);
-    out.end_object();
-    out.member("positive", report.table.positive);
-    out.member("root_rejected", root_rejected(report));
+    out.members("workload", report.workload, "description", report.description, "machine", report.machine);
+    out.members("queries", report.queries, "seed", report.seed, "rounds", report.rounds);
+    out.key("clips");
+    out.row("count", report.clips, "mean_duration", report.mean_duration);
+    out.members("positive", report.table.positive, "root_rejected", root_rejected(report));
     out.list("rows", report.table.rows, [&](const TableRow& row) {
         out.begin_object();
         write_figures(out, row);

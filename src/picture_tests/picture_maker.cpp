@@ -56,7 +56,7 @@ PictureMaker::PictureMaker(Backend backend) : renderer_(backend) {}
 
 Image PictureMaker::make(const Shot& shot) {
     if (shot.window) {
-        refuse_warnings(renderer_.backend(), renderer_.warnings());
+        refuse_warnings(renderer_.backend(), renderer_.context().warnings());
         return work_window([&] {
             return window_picture(*shot.panels.front().fitted, shot.panels.front().view, shot.scene_file,
                                   *backend_from_name(renderer_.backend()), shot.picture.size, shot.window->scale,
@@ -67,7 +67,7 @@ Image PictureMaker::make(const Shot& shot) {
 }
 
 Image PictureMaker::make(const Shot& shot, const std::vector<DrawList>& lists) {
-    refuse_warnings(renderer_.backend(), renderer_.warnings());
+    refuse_warnings(renderer_.backend(), renderer_.context().warnings());
     const PictureOptions& options = shot.picture;
     if (lists.size() == 1) return renderer_.draw(lists.front(), options.samples);
     std::vector<SheetCell> cells;

@@ -50,8 +50,8 @@ Reference reference_with(std::string opengl) {
 
 Reference reference_of(const Renderer& renderer) {
     // "llvmpipe (LLVM 15.0.6, 256 bits)": the pictures are the same whatever the processor.
-    const std::string& device = renderer.device();
-    return reference_with(driver_of(renderer.version()) + ", " + device.substr(0, device.find(" (")));
+    const std::string& device = renderer.context().device();
+    return reference_with(driver_of(renderer.context().version()) + ", " + device.substr(0, device.find(" (")));
 }
 
 std::filesystem::path reference_file(const std::filesystem::path& folder) { return folder / "reference.json"; }

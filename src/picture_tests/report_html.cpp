@@ -47,6 +47,10 @@ std::string badge(CaseOutcome outcome) {
     return out.str();
 }
 
+void write_fact(std::ostream& out, const char* what, std::string_view text) {
+    out << "<dt>" << what << "</dt><dd>" << escaped(text) << "</dd>\n";
+}
+
 /// A line for a shell, with a button that copies it.
 void write_command(std::ostream& out, const char* purpose, const std::string& command) {
     out << "<p class=\"command\">" << purpose << " <code>" << escaped(command)
@@ -201,20 +205,14 @@ void write_contents(std::ostream& out, const Results& open) {
 
 void write_header(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results, const Results& open) {
     const Summary sum = summary(results);
-    out << "<header>\n<h1>" << headline(facts, sum, results.size())
-        << "</h1>\n<dl class=\"facts\">\n<dt>Result</dt><dd>" << sum_of(sum) << "</dd>\n<dt>Folder</dt><dd>"
-        << escaped(facts.folder) << "</dd>\n";
-    if (!facts.shard.empty()) out << "<dt>Shard</dt><dd>" << escaped(facts.shard) << "</dd>\n";
-    out << "<dt>Drawn by</dt><dd>" << escaped(drawn_by(facts, results)) << "</dd>\n";
-    for (const std::string& sentence : other_systems(results)) {
-        out << "<dt>Other system</dt><dd>" << escaped(sentence) << "</dd>\n";
-    }
-    if (const std::string differing = differing_passes(results); !differing.empty()) {
-        out << "<dt>Passed</dt><dd>" << differing << "</dd>\n";
-    }
-    for (const std::string& orphan : facts.orphans) {
-        out << "<dt>No case has</dt><dd>" << escaped(orphan) << "</dd>\n";
-    }
+    out << "<header>\n<h1>" << headline(facts, sum, results.size()) << "</h1>\n<dl class=\"facts\">\n";
+    write_fact(out, "Result", sum_of(sum));
+    write_fact(out, "Folder", facts.folder);
+    if (!facts.shard.empty()) write_fact(out, "Shard", facts.shard);
+    write_fact(out, "Drawn by", drawn_by(facts, results));
+    for (const std::string& sentence : other_systems(results)) write_fact(out, "Other system", sentence);
+    if (const std::string passed = differing_passes(results); !passed.empty()) write_fact(out, "Passed", passed);
+    for (const std::string& orphan : facts.orphans) write_fact(out, "No case has", orphan);
     out << "</dl>\n";
     write_contents(out, open);
     std::vector<std::string_view> names;

@@ -172,11 +172,7 @@ void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
         json.member("tolerance", name(result.tolerance));
         json.member("decided_by", name(result.decided_by));
         json.key("diff");
-        if (result.image) {
-            write_diff(json, *result.image);
-        } else {
-            json.null();
-        }
+        result.image ? write_diff(json, *result.image) : json.null();
         json.end_object();
     });
     json.end_object();

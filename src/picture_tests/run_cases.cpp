@@ -4,7 +4,7 @@
 #include <picture_tests/reference.h>
 #include <picture_tests/run_cases.h>
 #include <picture_tests/test_case.h>
-#include <render/drawlist/draw_list_compare.h>
+#include <render/compare/draw_list_compare.h>
 #include <render/image/image_diff.h>
 #include <render/image/png.h>
 #include <render/image/ssim.h>
@@ -356,7 +356,7 @@ CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view 
     }
     const auto begin = std::chrono::steady_clock::now();
     const Renderer& renderer = maker->renderer();
-    result.drawn_by = {std::string(maker->backend()), renderer.device(), reference_of(renderer).opengl};
+    result.drawn_by = {std::string(maker->backend()), renderer.context().device(), reference_of(renderer).opengl};
     try {
         run(result, *maker, options);
     } catch (const std::exception& error) {

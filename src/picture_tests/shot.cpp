@@ -4,6 +4,7 @@
 #include <base/text.h>
 #include <cases/case_scene.h>
 #include <render/drawlist/picture_options.h>
+#include <review/review_screen.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -51,8 +52,10 @@ WindowShot read_window(const JsonPlace& place, const std::filesystem::path& fold
     WindowShot window;
     if (const auto script = place.find("script")) {
         const std::filesystem::path file = read_path(*script, folder);
-        window.script = read_at(
-            *script, [&] { return app::Script::parse(read_file(file), file.string(), app::ScriptOutput::refused); });
+        window.script = read_at(*script, [&] {
+            return app::Script::parse(read_file(file), file.string(), app::ScriptOutput::refused,
+                                      app::commands_with_review());
+        });
     }
     if (const auto scale = place.find("scale")) window.scale = scale->number(app::kLeastUiScale, app::kMostUiScale);
     return window;

@@ -4,6 +4,7 @@
 #include <app/window/headless_window.h>
 #include <picture_tests/picture_maker.h>
 #include <render/pictures/build_draw_list.h>
+#include <review/review_screen.h>
 
 #include <nlohmann/json.hpp>
 
@@ -51,6 +52,7 @@ class WorkedWindow {
         scene.fit = fitted.options();
         scene.view = view;
         session_.options.may_write = false;
+        app::add_review(session_);
         session_.files.open_scene(scene, {scene.file});
         const GlContext& drawn_in = *context;
         window_.emplace(std::move(context), session_, size, scale);

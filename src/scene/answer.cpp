@@ -59,9 +59,8 @@ void write_answer(JsonWriter& out, std::size_t index, const SceneQuery& query, c
     for (const mobb::TestKind test : mobb::kTestKinds) out.member(mobb::name(test), answer.tests[test]);
     out.end_object();
     if (answer.contacts) {
-        out.list("contacts", *answer.contacts, [&](const mobb::Interval& interval) {
-            out.numbers({interval.t0, interval.t1});
-        });
+        out.list("contacts", *answer.contacts,
+                 [&](const mobb::Interval& interval) { out.tuple(interval.t0, interval.t1); });
     }
     if (answer.trace) {
         out.key("trace");

@@ -25,22 +25,14 @@ const ImportedClip& one_of(const std::vector<ImportedClip>& all, const ImportOpt
     const auto is_it = [&](const ImportedClip& clip) { return !options.id || clip.id == *options.id; };
     const auto at = std::ranges::find_if(all, is_it);
     if (at == all.end()) {
-        throw InputError(file.string(), "", "track " + in_quotes(*options.id) + " is not there, or not in this time");
+        throw InputError(file, "track " + in_quotes(*options.id) + " is not there, or not in this time");
     }
     if (std::count_if(at, all.end(), is_it) > 1) {
-        throw InputError(file.string(), "",
-                         at->id.empty() ? "it has several animations or characters: name one with animation and root"
-                                        : "it has several tracks: name one");
+        throw InputError(file, at->id.empty()
+                                   ? "it has several animations or characters: name one with animation and root"
+                                   : "it has several tracks: name one");
     }
     return *at;
-}
-
-std::vector<ImportedClip> import_again(const SourceFile& file, const ImportOptions& options, const ClipWarp* warp) {
-    try {
-        return import_warped(file.parsed.clips, options, warp);
-    } catch (const std::invalid_argument& error) {
-        throw InputError(file.path.string(), "", error.what());
-    }
 }
 
 }  // namespace
@@ -103,7 +95,7 @@ std::vector<ReimportedClip> reimport(const Scene& scene, const SourceFile& file,
         const bool alone = wanted.size() == 1 || was.warp;
         const ImportOptions common = alone ? options : without_id(options);
         if (was.warp || made_with != common) {
-            made = import_again(file, common, was.warp.get());
+            made = at_place(file.path, "", [&] { return import_warped(file.parsed.clips, common, was.warp.get()); });
             made_with = was.warp ? std::nullopt : std::optional(common);
         }
         const ImportedClip& imported = one_of(made, options, file.path);
@@ -111,12 +103,7 @@ std::vector<ReimportedClip> reimport(const Scene& scene, const SourceFile& file,
                        {was.name, was.source, options, imported.clip, imported.facts, imported.skeleton, imported.start,
                         was.warp}});
         name_own_radius(out.back().is);
-        if (!was.turn) continue;
-        try {
-            bend(out.back().is, *was.turn);
-        } catch (const std::invalid_argument& error) {
-            throw InputError(file.path.string(), "", error.what());
-        }
+        if (was.turn) at_place(file.path, "", [&] { bend(out.back().is, *was.turn); });
     }
     return out;
 }

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cmath>
-#include <stdexcept>
 #include <unordered_set>
 #include <utility>
 
@@ -146,11 +145,7 @@ class CrowdReader {
         const GraphMove& move = scene_.graph->moves[static_cast<std::size_t>(planned.move)];
         if (planned.turn_deg == 0 || run_.turn_rate == kTurnsAtOnce) return move.exit;
         const ClipTurn turn = turn_at_rate(planned.turn_deg, run_.turn_rate);
-        try {
-            return bent_exit(clip_of(move), *bent(clip_of(move), turn), move.exit, turn);
-        } catch (const std::invalid_argument& error) {
-            place.fail(error.what());
-        }
+        return place.attempt([&] { return bent_exit(clip_of(move), *bent(clip_of(move), turn), move.exit, turn); });
     }
 
     const mobb::Clip& clip_of(const GraphMove& move) const {
@@ -201,19 +196,12 @@ class CrowdReader {
 
 void write_play(JsonWriter& out, const Play& play) {
     out.begin_object(JsonWriter::Layout::row);
-    out.member("move", play.move);
-    out.member("translate", {play.placement.translate.x, play.placement.translate.y});
-    out.member("rotate_deg", play.placement.rotate_deg);
-    out.member("start", play.placement.start);
+    const mobb::Placement& at = play.placement;
+    out.members("move", play.move, "translate", at.translate, "rotate_deg", at.rotate_deg, "start", at.start);
     if (play.chosen_at != play.placement.start) out.member("chosen_at", play.chosen_at);
     if (play.kind != PlayKind::chosen) out.member("kind", name(play.kind));
     if (!play.plan.empty()) {
-        out.list("plan", play.plan, [&](const PlannedMove& next) {
-            out.begin_array();
-            out.value(next.move);
-            out.value(next.turn_deg);
-            out.end_array();
-        });
+        out.list("plan", play.plan, [&](const PlannedMove& next) { out.tuple(next.move, next.turn_deg); });
     }
     out.end_object();
 }
@@ -228,11 +216,8 @@ std::shared_ptr<const CrowdRun> read_crowd(const JsonPlace& place, const Scene& 
 
 void write_crowd(JsonWriter& out, const CrowdRun& crowd) {
     out.begin_object();
-    out.member("area", {crowd.area.x, crowd.area.y});
-    out.member("seconds", crowd.seconds);
-    out.member("seed", crowd.seed);
-    out.member("ahead", crowd.ahead);
-    out.member("grace", crowd.grace);
+    out.members("area", crowd.area, "seconds", crowd.seconds, "seed", crowd.seed);
+    out.members("ahead", crowd.ahead, "grace", crowd.grace);
     if (crowd.plan != 0) out.member("plan", crowd.plan);
     if (crowd.turn_rate != kTurnsAtOnce) out.member("turn_rate", crowd.turn_rate);
     out.list("agents", crowd.agents, [&](const CrowdAgent& agent) {

@@ -36,56 +36,29 @@ std::shared_ptr<const Skeleton> with_last_pose(const Skeleton& skeleton) {
     return out;
 }
 
-/// Plays of one person.
-class PlaysOf {
-  public:
-    PlaysOf(const Scene& run, int run_agent)
-        : run_(run), run_agent_(run_agent), agent_(run.crowd->agents[static_cast<std::size_t>(run_agent)]) {}
-
-    std::size_t at(double time) const { return play_at(agent_, time); }
-
-    /// Adds a play to a scene.
-    void add(Scene& out, std::size_t play, std::size_t present) const {
-        Agent agent;
-        agent.name = agent_.name;
-        if (play < present) agent.name += " -" + std::to_string(present - play);
-        if (play > present) agent.name += " +" + std::to_string(play - present);
-        agent.clip = clip_of(run_, agent_.plays[play]);
-        if (const auto joint = joint_behind(run_, agent_, play)) {
-            SceneClip clip = run_.clips[static_cast<std::size_t>(agent.clip)];
-            clip.name += " (" + agent.name + ')';
-            // What no file has.
-            clip.source.reset();
-            if (clip.skeleton) clip.skeleton = with_last_pose(*clip.skeleton);
-            clip.clip = with_disk(placed_in(run_, agent_.plays[play]), joint->clip->samples().back());
-            agent.clip = static_cast<int>(out.clips.size());
-            out.clips.push_back(std::move(clip));
-        }
-        agent.placement = agent_.plays[play].placement;
-        agent.run_agent = run_agent_;
-        agent.play = static_cast<int>(play);
-        out.agents.push_back(std::move(agent));
+/// Adds a play of a person to a scene. `present`: the one at the scene's time.
+void add_play(Scene& out, const Scene& run, int run_agent, std::size_t play, std::size_t present) {
+    const CrowdAgent& person = run.crowd->agents[static_cast<std::size_t>(run_agent)];
+    Agent agent;
+    agent.name = person.name;
+    if (play < present) agent.name += " -" + std::to_string(present - play);
+    if (play > present) agent.name += " +" + std::to_string(play - present);
+    agent.clip = clip_of(run, person.plays[play]);
+    if (const auto joint = joint_behind(run, person, play)) {
+        SceneClip clip = run.clips[static_cast<std::size_t>(agent.clip)];
+        clip.name += " (" + agent.name + ')';
+        // What no file has.
+        clip.source.reset();
+        if (clip.skeleton) clip.skeleton = with_last_pose(*clip.skeleton);
+        clip.clip = with_disk(placed_in(run, person.plays[play]), joint->clip->samples().back());
+        agent.clip = static_cast<int>(out.clips.size());
+        out.clips.push_back(std::move(clip));
     }
-
-    /// The others that are on between two times, by time.
-    void add_around(Scene& out, double time, CrowdWindow window) const {
-        const std::size_t present = at(time);
-        std::size_t first = present;
-        while (first > 0 && end(first - 1) > time - window.before) --first;
-        for (std::size_t play = first;
-             play < agent_.plays.size() && (play <= present || begin(play) < time + window.after); ++play) {
-            if (play != present) add(out, play, present);
-        }
-    }
-
-  private:
-    double begin(std::size_t play) const { return agent_.plays[play].placement.start; }
-    double end(std::size_t play) const { return begin(play) + placed_in(run_, agent_.plays[play]).clip().until_next(); }
-
-    const Scene& run_;
-    int run_agent_;
-    const CrowdAgent& agent_;
-};
+    agent.placement = person.plays[play].placement;
+    agent.run_agent = run_agent;
+    agent.play = static_cast<int>(play);
+    out.agents.push_back(std::move(agent));
+}
 
 }  // namespace
 
@@ -119,8 +92,7 @@ bool is_joints_alone(const Scene& run, const CrowdAgent& agent, std::size_t play
 }
 
 std::optional<int> run_agent_by_name(const CrowdRun& crowd, std::string_view name) {
-    const auto is_it = [&](const CrowdAgent& agent) { return agent.name == name; };
-    const auto at = std::find_if(crowd.agents.begin(), crowd.agents.end(), is_it);
+    const auto at = std::ranges::find(crowd.agents, name, &CrowdAgent::name);
     if (at == crowd.agents.end()) return std::nullopt;
     return static_cast<int>(at - crowd.agents.begin());
 }
@@ -129,13 +101,22 @@ Scene scene_at(const Scene& run, double time, CrowdWindow window) {
     Scene out = run;
     const int people = static_cast<int>(run.crowd->agents.size());
     out.agents.reserve(static_cast<std::size_t>(people));
-    for (int run_agent = 0; run_agent < people; ++run_agent) {
-        const PlaysOf plays(run, run_agent);
-        const std::size_t present = plays.at(time);
-        plays.add(out, present, present);
-    }
+    const auto present_of = [&](int person) {
+        return play_at(run.crowd->agents[static_cast<std::size_t>(person)], time);
+    };
+    for (int person = 0; person < people; ++person) add_play(out, run, person, present_of(person), present_of(person));
     if (window.before <= 0 && window.after <= 0) return out;
-    for (int run_agent = 0; run_agent < people; ++run_agent) PlaysOf(run, run_agent).add_around(out, time, window);
+    const auto ends = [&](const Play& play) { return play.placement.start + placed_in(run, play).clip().until_next(); };
+    for (int person = 0; person < people; ++person) {
+        const std::vector<Play>& plays = run.crowd->agents[static_cast<std::size_t>(person)].plays;
+        const std::size_t present = present_of(person);
+        std::size_t first = present;
+        while (first > 0 && ends(plays[first - 1]) > time - window.before) --first;
+        for (std::size_t i = first; i < plays.size(); ++i) {
+            if (i > present && plays[i].placement.start >= time + window.after) break;
+            if (i != present) add_play(out, run, person, i, present);
+        }
+    }
     return out;
 }
 

@@ -42,27 +42,6 @@ DrawnAgent make_drawn_agent(const FittedScene& fitted, const ViewState& view, co
     return out;
 }
 
-/// Who is hidden and who is pinned in a view.
-class Shown {
-  public:
-    Shown(const Scene& scene, const ViewState& view)
-        : scene_(scene),
-          hidden_(view.hidden.begin(), view.hidden.end()),
-          pinned_(view.pinned.begin(), view.pinned.end()) {}
-
-    void mark(DrawnAgent& agent, const PlacedAgent& who) const {
-        // What a query places itself is no agent, unless clips are all there is.
-        if (who.agent < 0 && !scene_.agents.empty()) return;
-        const std::string& name = name_in_view(scene_, who);
-        agent.hidden = hidden_.contains(name);
-        agent.pinned = pinned_.contains(name);
-    }
-
-  private:
-    const Scene& scene_;
-    std::unordered_set<std::string_view> hidden_, pinned_;
-};
-
 /// The samples that hold at some time between two.
 mobb::SampleRange samples_between(const mobb::PlacedClip& clip, double begin, double end) {
     const int first = mobb::first_ending_after(clip, 0, clip.count(), begin);
@@ -98,16 +77,25 @@ Rgba agent_color(const Scene& scene, const PlacedAgent& who, int index) {
 
 std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState& view) {
     std::vector<DrawnAgent> out;
-    const Shown shown(fitted.scene(), view);
+    const Scene& scene = fitted.scene();
+    const std::unordered_set<std::string_view> hidden(view.hidden.begin(), view.hidden.end());
+    const std::unordered_set<std::string_view> pinned(view.pinned.begin(), view.pinned.end());
+    const auto mark = [&](DrawnAgent& agent, const PlacedAgent& who) {
+        // What a query places itself is no agent, unless clips are all there is.
+        if (who.agent < 0 && !scene.agents.empty()) return;
+        const std::string& name = name_in_view(scene, who);
+        agent.hidden = hidden.contains(name);
+        agent.pinned = pinned.contains(name);
+    };
     if (!view.query) {
         for (const PlacedAgent& who : fitted.placed_agents()) {
             const int index = static_cast<int>(out.size());
             out.push_back(make_drawn_agent(fitted, view, who, index, index));
-            shown.mark(out.back(), who);
-            if (is_in_grid(fitted.scene(), view)) out.back().cell = fitted.grid()[static_cast<std::size_t>(index)];
+            mark(out.back(), who);
+            if (is_in_grid(scene, view)) out.back().cell = fitted.grid()[static_cast<std::size_t>(index)];
         }
-        if (fitted.scene().crowd && view.show == Show::space_time) {
-            const double time = run_time(fitted.scene(), view);
+        if (scene.crowd && view.show == Show::space_time) {
+            const double time = run_time(scene, view);
             for (DrawnAgent& agent : out) {
                 agent.window = samples_between(agent.clip(), time - view.time_window, time + view.time_window);
             }
@@ -123,10 +111,10 @@ std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState&
     const int color_a = query.a.agent >= 0 ? query.a.agent : 0;
     out.push_back(make_drawn_agent(fitted, view, query.a, 0, color_a));
     out.push_back(make_drawn_agent(fitted, view, query.b, 1, query.b.agent >= 0 ? query.b.agent : color_a + 1));
-    shown.mark(out[0], query.a);
-    shown.mark(out[1], query.b);
+    mark(out[0], query.a);
+    mark(out[1], query.b);
     // Two sides of one colour or name could not be told apart.
-    if (out[1].color == out[0].color) out[1].color = agent_color(fitted.scene(), query.b, color_a + 1);
+    if (out[1].color == out[0].color) out[1].color = agent_color(scene, query.b, color_a + 1);
     if (out[1].name == out[0].name) {
         out[0].name += " (A)";
         out[1].name += " (B)";

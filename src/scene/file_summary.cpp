@@ -1,5 +1,4 @@
 #include <base/error.h>
-#include <base/file.h>
 #include <base/text.h>
 #include <import/import.h>
 #include <mobb/predicate.h>
@@ -9,9 +8,7 @@
 #include <scene/path_figures.h>
 
 #include <algorithm>
-#include <cmath>
 #include <new>
-#include <optional>
 #include <system_error>
 
 namespace mobbscope {
@@ -20,7 +17,6 @@ namespace {
 
 std::string seconds_text(double seconds) { return formatted("%.1f s", seconds); }
 
-/// What it is as a whole.
 std::string title_of(const Scene& scene, bool is_scene) {
     if (scene.crowd) {
         return "Run of " + counted(scene.crowd->agents.size(), "person", "people") + ", " +
@@ -74,10 +70,7 @@ FileSummary summary_of_file(const std::filesystem::path& file, const Progress& p
 }
 
 FileSummary summary_of_folder(const std::filesystem::path& folder, const Progress& progress) {
-    std::size_t clips = 0;
-    std::size_t scenes = 0;
-    std::size_t folders = 0;
-    std::size_t seen = 0;
+    std::size_t clips = 0, scenes = 0, folders = 0, seen = 0;
     std::error_code error;
     for (std::filesystem::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
         if (progress) progress(0, ++seen + 1);

@@ -1,5 +1,4 @@
 #include <base/error.h>
-#include <base/file.h>
 #include <base/text.h>
 #include <import/import.h>
 #include <scene/arrangement.h>
@@ -27,7 +26,7 @@ void add_clips(const std::filesystem::path& folder, std::vector<std::filesystem:
             add_clips(at->path(), clips, unreadable);
     }
     if (!error) return;
-    const InputError why(folder.string(), "", "the folder cannot be read: " + error.message());
+    const InputError why(folder, "the folder cannot be read: " + error.message());
     if (!unreadable) throw why;
     unreadable->push_back({folder, why.what()});
 }
@@ -40,8 +39,7 @@ std::vector<std::filesystem::path> clips_in(const std::filesystem::path& folder,
     add_clips(folder, out, unreadable);
     if (out.empty() && unreadable && !unreadable->empty()) throw InputError(unreadable->front().why);
     if (out.empty()) {
-        throw InputError(folder.string(), "",
-                         "there are no clips in this folder (" + listed_clip_extensions(", ") + ")");
+        throw InputError(folder, "there are no clips in this folder (" + listed_clip_extensions(", ") + ")");
     }
     std::sort(out.begin(), out.end());
     return out;
@@ -82,12 +80,7 @@ Scene load_files(const std::vector<std::filesystem::path>& files, const ImportOp
         const Progress of_file = !progress || all.size() == 1
                                      ? progress
                                      : Progress([&](std::size_t, std::size_t) { progress(i, all.size()); });
-        Scene loaded = load_scene(all[i], overrides, of_file, importer);
-        if (i == 0) {
-            scene = std::move(loaded);
-        } else {
-            merge(scene, std::move(loaded));
-        }
+        merge(scene, load_scene(all[i], overrides, of_file, importer));
     }
     if (std::none_of(all.begin(), all.end(), is_scene_file)) lay_out_clips(scene);
     if (all.size() > 1 && !scene_file_of(files)) {

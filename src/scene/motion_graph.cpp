@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <unordered_set>
@@ -224,20 +223,14 @@ MotionGraph read_graph(const JsonPlace& place, const std::function<int(const Jso
 }
 
 void write_bounds(JsonWriter& out, const GraphBounds& bounds) {
-    out.begin_object("bounds", Layout::row);
+    out.key("bounds");
     // An infinite number is written as null, which reads as no bound.
-    out.member("pose_distance", bounds.pose_distance);
-    out.member("root_speed", bounds.root_speed);
-    out.end_object();
+    out.row("pose_distance", bounds.pose_distance, "root_speed", bounds.root_speed);
 }
 
 void write_graph(JsonWriter& out, const MotionGraph& graph, const std::function<std::string(int)>& clip_name) {
     out.begin_object();
-    out.list("hubs", graph.hubs, [&](const GraphHub& hub) {
-        out.begin_object(Layout::row);
-        out.member("name", hub.name);
-        out.end_object();
-    });
+    out.list("hubs", graph.hubs, [&](const GraphHub& hub) { out.row("name", hub.name); });
     write_bounds(out, graph.bounds);
     if (!graph.rigs.empty()) {
         out.list("rigs", graph.rigs, [&](const GraphRig& rig) {
@@ -248,17 +241,13 @@ void write_graph(JsonWriter& out, const MotionGraph& graph, const std::function<
     }
     out.list("moves", graph.moves, [&](const GraphMove& move) {
         out.begin_object(Layout::row);
-        out.member("clip", clip_name(move.clip));
-        out.member("from", move.from);
-        out.member("to", move.to);
+        out.members("clip", clip_name(move.clip), "from", move.from, "to", move.to);
         write_stance(out, "entry", move.entry);
         write_stance(out, "exit", move.exit);
         if (move.rig >= 0) out.member("rig", move.rig);
         if (move.turned) {
-            out.begin_object("turned", Layout::row);
-            out.member("move", move.turned->move);
-            out.member("deg", move.turned->deg);
-            out.end_object();
+            out.key("turned");
+            out.row("move", move.turned->move, "deg", move.turned->deg);
         }
         out.end_object();
     });
@@ -273,10 +262,9 @@ void check_moves(const Scene& scene, const MotionGraph& graph, const std::string
         samples += static_cast<std::size_t>(scene.clips[static_cast<std::size_t>(move.clip)].clip->count());
     }
     if (samples <= kMostMoveSamples + kSamplesOfMove * moves) return;
-    throw InputError(file, "",
-                     "of " + counted(moves, "move", "moves") + " there are " + std::to_string(samples) +
-                         " samples, more than " + std::to_string(kMostMoveSamples) + " and " +
-                         std::to_string(kSamplesOfMove) + " for each; take shorter moves, or lower fps");
+    throw InputError(file, "of " + counted(moves, "move", "moves") + " there are " + std::to_string(samples) +
+                               " samples, more than " + std::to_string(kMostMoveSamples) + " and " +
+                               std::to_string(kSamplesOfMove) + " for each; take shorter moves, or lower fps");
 }
 
 }  // namespace mobbscope

@@ -3,7 +3,6 @@
 #include <scene/scene_edits.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <stdexcept>
 #include <system_error>
 #include <utility>

@@ -1,12 +1,9 @@
 #include <base/text.h>
+#include <mobb/level_figures.h>
 #include <scene/scene_json.h>
 
 #include <algorithm>
-#include <limits>
-#include <optional>
 #include <stdexcept>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace mobbscope {
@@ -18,11 +15,7 @@ using Layout = JsonWriter::Layout;
 // ---- fits and trees
 
 std::optional<mobb::TreeKind> find_tree_kind_at(const JsonPlace& place) {
-    try {
-        return find_tree_kind(place.string());
-    } catch (const std::invalid_argument& old_name) {
-        place.fail(old_name.what());
-    }
+    return place.attempt([&] { return find_tree_kind(place.string()); });
 }
 
 mobb::TreeKind read_tree_kind(const JsonPlace& place) {
@@ -37,42 +30,37 @@ mobb::Axes read_axes(const JsonPlace& place) {
 
 /// The first 2 or 3 coordinates of a vector.
 void write_vector(JsonWriter& out, const glm::dvec3& v, int count) {
-    count == 2 ? out.numbers({v.x, v.y}) : out.numbers({v.x, v.y, v.z});
+    count == 2 ? out.value(glm::dvec2(v)) : out.value(v);
 }
 
 void write_node(JsonWriter& out, const mobb::Tree& tree, int index) {
     const mobb::Node& node = tree.node(index);
     const mobb::Box box = tree.box(index);
-    const int dimensions = mobb::info(box.kind).axes == mobb::BoxAxes::space_time ? 3 : 2;
+    const mobb::BoxInfo& shape = mobb::info(box.kind);
+    const int dimensions = shape.axes == mobb::BoxAxes::space_time ? 3 : 2;
     out.begin_object(Layout::row);
-    out.member("index", index);
-    out.member("parent", tree.parent(index));
-    out.member("level", tree.level(index));
-    out.member("first", node.first);
-    out.member("count", node.count);
-    out.member("leaf", tree.is_leaf(index));
-    out.member("kind", mobb::info(box.kind).name);
+    out.members("index", index, "parent", tree.parent(index), "level", tree.level(index));
+    out.members("first", node.first, "count", node.count, "leaf", tree.is_leaf(index));
+    out.member("kind", shape.name);
     out.key("center");
-    // A moving box has its centre in the middle of its time; files give it at t0.
+    // A box that moves has its centre in the middle of its time; files give it at t0.
     write_vector(out, box.center - glm::dvec3(box.drift, 0), dimensions);
     out.begin_array("axes");
     for (int i = 0; i < dimensions; ++i) write_vector(out, box.axes[static_cast<std::size_t>(i)], dimensions);
     out.end_array();
     out.key("half");
     write_vector(out, box.half, dimensions);
-    if (box.kind == mobb::BoxKind::block) {
+    if (shape.round) {
         // Its disk at t0 and at t1: x, y, r.
         out.begin_array("bounds");
         for (const double side : {-1.0, 1.0})
-            out.numbers({box.center.x + side * box.drift.x, box.center.y + side * box.drift.y, box.half.x});
+            out.tuple(box.center.x + side * box.drift.x, box.center.y + side * box.drift.y, box.half.x);
         out.end_array();
     }
-    if (box.kind == mobb::BoxKind::moving || box.kind == mobb::BoxKind::block) {
-        const glm::dvec2 velocity = 2.0 * box.drift / (tree.t1(node) - tree.t0(node));
-        out.member("velocity", {velocity.x, velocity.y});
+    if (shape.moves) {
+        out.member("velocity", 2.0 * box.drift / (tree.t1(node) - tree.t0(node)));
     }
-    out.member("t0", tree.t0(node));
-    out.member("t1", tree.t1(node));
+    out.members("t0", tree.t0(node), "t1", tree.t1(node));
     out.end_object();
 }
 
@@ -80,7 +68,7 @@ void write_level(JsonWriter& out, const mobb::LevelFigures& figures) {
     out.begin_object(Layout::row);
     for (const mobb::LevelColumn& column : mobb::kLevelColumns) {
         const std::optional<double> value = column.of(figures);
-        out.key(column.key);
+        out.key(column.name);
         if (!value) out.null();
         if (value) column.whole ? out.value(static_cast<std::int64_t>(*value)) : out.value(*value);
     }
@@ -93,9 +81,7 @@ constexpr double kAnyTime = 2 * mobb::kMaxTime;        // a start plus a clip's 
 constexpr double kAnyLength = 1e2 * mobb::kMaxLength;  // sums and differences of placed coordinates
 
 /// A tree over n samples has at most 2n - 1 nodes.
-int last_node(int samples) {
-    return samples > std::numeric_limits<int>::max() / 2 ? std::numeric_limits<int>::max() : 2 * samples - 2;
-}
+int last_node(int samples) { return samples > kMaxInt / 2 ? kMaxInt : 2 * samples - 2; }
 
 /// Whether a test can end so.
 bool fits(mobb::TestKind test, mobb::Outcome outcome) {
@@ -151,24 +137,11 @@ std::vector<mobb::MeasuredPair> read_pairs(const JsonPlace& place, int samples_a
 void write_event(JsonWriter& out, int step, const mobb::Trace::Event& event) {
     const bool separated = event.outcome == mobb::Outcome::separated;
     out.begin_object(Layout::row);
-    out.member("step", step);
-    out.member("parent", event.parent);
-    out.member("depth", event.depth);
-    out.member("a", event.a);
-    out.member("b", event.b);
-    out.member("test", mobb::name(event.test));
-    out.member("outcome", mobb::name(event.outcome));
-    out.key("axis");
-    separated ? out.value(event.axis) : out.null();
-    out.key("gap");
-    separated ? out.value(event.gap) : out.null();
-    out.list("pairs", event.pairs, [&](const mobb::MeasuredPair& pair) {
-        out.begin_array();
-        out.value(pair.i);
-        out.value(pair.j);
-        out.value(pair.distance);
-        out.end_array();
-    });
+    out.members("step", step, "parent", event.parent, "depth", event.depth, "a", event.a, "b", event.b);
+    out.members("test", mobb::name(event.test), "outcome", mobb::name(event.outcome));
+    out.member("axis", separated ? std::optional(event.axis) : std::nullopt);
+    out.member("gap", separated ? std::optional(event.gap) : std::nullopt);
+    out.list("pairs", event.pairs, [&](const mobb::MeasuredPair& pair) { out.tuple(pair.i, pair.j, pair.distance); });
     out.end_object();
 }
 
@@ -202,19 +175,11 @@ mobb::FitOptions read_fit(const JsonPlace& place, mobb::FitOptions fit) {
     return fit;
 }
 
-std::string level_text(const mobb::LevelColumn& column, const mobb::LevelFigures& figures) {
-    const std::optional<double> value = column.of(figures);
-    if (!value) return "-";
-    return column.whole ? std::to_string(static_cast<std::int64_t>(*value)) : brief(*value * column.in_unit);
-}
-
 void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree) {
+    const mobb::FitOptions& options = tree.options();
     out.begin_object();
-    out.member("clip", clip);
-    out.member("tree", mobb::name(tree.options().tree));
-    out.member("axes", mobb::name(tree.options().axes));
-    out.member("leaf", tree.options().leaf);
-    out.member("time_scale", tree.options().time_scale);
+    out.members("clip", clip, "tree", mobb::name(options.tree), "axes", mobb::name(options.axes));
+    out.members("leaf", options.leaf, "time_scale", options.time_scale);
     out.list("levels", mobb::level_figures(tree),
              [&](const mobb::LevelFigures& figures) { write_level(out, figures); });
     out.begin_array("nodes");
@@ -225,13 +190,8 @@ void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree
 
 void write_contact(JsonWriter& out, const std::optional<mobb::Contact>& contact) {
     if (!contact) return out.null();
-    out.begin_object(JsonWriter::Layout::row);
-    out.member("time", contact->time);
-    out.member("a_sample", contact->a_sample);
-    out.member("b_sample", contact->b_sample);
-    out.member("distance", contact->distance);
-    out.member("radii", contact->radii);
-    out.end_object();
+    out.row("time", contact->time, "a_sample", contact->a_sample, "b_sample", contact->b_sample, "distance",
+            contact->distance, "radii", contact->radii);
 }
 
 std::optional<mobb::Contact> read_contact(const JsonPlace& place, int samples_a, int samples_b) {

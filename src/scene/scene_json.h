@@ -3,7 +3,6 @@
 
 #include <base/json.h>
 #include <base/json_writer.h>
-#include <mobb/level_figures.h>
 #include <mobb/query.h>
 #include <mobb/trace.h>
 #include <mobb/tree.h>
@@ -25,9 +24,6 @@ void refuse_old_tree_names(const JsonPlace& place);
 ///
 /// Throws InputError.
 mobb::FitOptions read_fit(const JsonPlace& place, mobb::FitOptions base = {});
-
-/// A figure for people, without its unit; "-" if the level has none.
-std::string level_text(const mobb::LevelColumn& column, const mobb::LevelFigures& figures);
 
 /// Per-level figures and every node of the tree over the clip of that name.
 void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree);

@@ -109,11 +109,7 @@ ImportOptions read_import_options(const JsonPlace& place) {
         if (!value) return;
         read_option(*value, key, (options.*option).emplace());
         // Checked after each key, so that a complaint stands at the value it is about.
-        try {
-            check(options);
-        } catch (const std::invalid_argument& error) {
-            value->fail(error.what());
-        }
+        value->attempt([&] { check(options); });
     });
     return options;
 }
@@ -146,12 +142,9 @@ mobb::ClipPtr read_samples(const JsonPlace& place, const std::optional<mobb::Mot
                            sample[1].number(-mobb::kMaxLength, mobb::kMaxLength),
                            sample[2].number(0, mobb::kMaxLength)});
     }
-    try {
-        return std::make_shared<mobb::Clip>(seconds, std::move(samples), instead.value_or(motion));
-    } catch (const std::invalid_argument& error) {
-        // The samples are in range by now: what is left is how long they last.
-        dt.fail(error.what());
-    }
+    // The samples are in range by now: what may be wrong is how long they last.
+    return dt.attempt(
+        [&] { return std::make_shared<const mobb::Clip>(seconds, std::move(samples), instead.value_or(motion)); });
 }
 
 /// Finds a named thing, or names the nearest one.
@@ -286,11 +279,7 @@ class SceneReader {
         const double deg = place.require("deg").number(-180, 180);
         const JsonPlace seconds = place.require("seconds");
         if (seconds.number(0, mobb::kMaxTime) == 0) seconds.fail("must be over 0: nobody turns in no time");
-        try {
-            bend(clip, {deg, seconds.number()});
-        } catch (const std::invalid_argument& error) {
-            place.fail(error.what());
-        }
+        place.attempt([&] { bend(clip, {deg, seconds.number()}); });
     }
 
     /// A turned move plays a clip that turns as far; of samples it cannot be told.
@@ -395,7 +384,7 @@ class SceneReader {
                                 : !of_animations               ? " characters; " + root
                                 : differs(&ImportedClip::root) ? " clips; " + animation + ", and " + root
                                                                : " animations; " + animation;
-        throw InputError((folder_ / source).string(), "", "has " + std::to_string(imported.size()) + how);
+        throw InputError(folder_ / source, "has " + std::to_string(imported.size()) + how);
     }
 
     Agent read_agent(const JsonPlace& place) {

@@ -53,12 +53,11 @@ class PoseNames {
         out.begin_object("poses");
         for (const MovingPose* pose : poses_) {
             out.begin_object(names_.at(pose));
-            out.member("height", pose->height);
-            out.member("velocity", {pose->velocity.x, pose->velocity.y, pose->velocity.z});
+            out.members("height", pose->height, "velocity", pose->velocity);
             out.list("joints", pose->joints, [&](const HangingJoint& joint) {
                 const glm::dquat& q = joint.rotation;
-                out.numbers({q.x, q.y, q.z, q.w, joint.spin.x, joint.spin.y, joint.spin.z, joint.offset.x,
-                             joint.offset.y, joint.offset.z});
+                out.tuple(q.x, q.y, q.z, q.w, joint.spin.x, joint.spin.y, joint.spin.z, joint.offset.x, joint.offset.y,
+                          joint.offset.z);
             });
             out.end_object();
         }
@@ -73,10 +72,8 @@ class PoseNames {
 
 void write_warp(JsonWriter& out, const ClipWarp& warp, const PoseNames& poses) {
     const auto write_end = [&](const char* key, const WarpEnd& end) {
-        out.begin_array(key);
-        out.value(poses[end.pose.get()]);
-        out.value(end.heading_deg);
-        out.end_array();
+        out.key(key);
+        out.tuple(poses[end.pose.get()], end.heading_deg);
     };
     out.begin_object("warp");
     out.member("seconds", warp.seconds);
@@ -95,25 +92,20 @@ void write_clip(JsonWriter& out, const SceneClip& clip, const PoseNames& poses, 
         });
         if (clip.warp) write_warp(out, *clip.warp, poses);
         if (clip.turn) {
-            out.begin_object("turn", Layout::row);
-            out.member("deg", clip.turn->deg);
-            out.member("seconds", clip.turn->seconds);
-            out.end_object();
+            out.key("turn");
+            out.row("deg", clip.turn->deg, "seconds", clip.turn->seconds);
         }
         out.end_object();
         return;
     }
     out.begin_object();
-    out.member("dt", clip.clip->dt());
-    out.member("motion", mobb::name(clip.clip->motion()));
-    out.list("samples", clip.clip->samples(), [&](const mobb::Disk& disk) { out.numbers({disk.x, disk.y, disk.r}); });
+    out.members("dt", clip.clip->dt(), "motion", mobb::name(clip.clip->motion()));
+    out.list("samples", clip.clip->samples(), [&](const mobb::Disk& disk) { out.tuple(disk.x, disk.y, disk.r); });
     out.end_object();
 }
 
 void write_placement(JsonWriter& out, const mobb::Placement& placement) {
-    out.member("translate", {placement.translate.x, placement.translate.y});
-    out.member("rotate_deg", placement.rotate_deg);
-    out.member("start", placement.start);
+    out.members("translate", placement.translate, "rotate_deg", placement.rotate_deg, "start", placement.start);
 }
 
 void write_agent(JsonWriter& out, const Scene& scene, const Agent& agent) {
@@ -126,13 +118,8 @@ void write_agent(JsonWriter& out, const Scene& scene, const Agent& agent) {
 }
 
 void write_fit(JsonWriter& out, const mobb::FitOptions& fit) {
-    out.begin_object(Layout::row);
-    out.member("tree", mobb::name(fit.tree));
-    out.member("leaf", fit.leaf);
-    out.member("levels", fit.levels);
-    out.member("axes", mobb::name(fit.axes));
-    out.member("time_scale", fit.time_scale);
-    out.end_object();
+    out.row("tree", mobb::name(fit.tree), "leaf", fit.leaf, "levels", fit.levels, "axes", mobb::name(fit.axes),
+            "time_scale", fit.time_scale);
 }
 
 void write_placed_agent(JsonWriter& out, const Scene& scene, const PlacedAgent& who) {

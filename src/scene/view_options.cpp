@@ -84,9 +84,15 @@ void write_projection(JsonWriter& out, const DiskProjection& projection) {
 
 // --- the rows
 
+/// "Shows the upright scale in seconds."
+std::string doc_of(const std::string& verb, std::string_view what) {
+    return verb + ' ' + lower(what.substr(0, 1)) + std::string(what.substr(1)) + '.';
+}
+
 /// A row about a member of the view that is no toggle and no choice; the caller says how it is read and written.
 template <auto member>
 ViewOption field(ViewOption row) {
+    row.schema = R"({"description": ")" + std::string(row.what) + "\", " + row.schema + '}';
     row.same = [](const ViewState& a, const ViewState& b) { return a.*member == b.*member; };
     return row;
 }
@@ -104,7 +110,13 @@ ViewOption text_or_number(ViewOption row) {
 template <auto member>
 ViewOption toggle(ViewOption row) {
     row.toggle = member;
-    if (row.schema.empty()) row.schema = R"({"type": "boolean"})";
+    row.schema = R"("type": "boolean")";
+    const std::string key(row.key);
+    if (row.command.empty()) row.command = "view." + key;
+    std::string word = key;
+    std::ranges::replace(word, '_', '-');
+    if (row.option.empty()) row.option = "--" + word + ",!--no-" + word;
+    row.doc = doc_of("Shows", row.what);
     if (row.menu == "View/Show") row.without = "false";
     row.read = [](const JsonPlace& place, ViewState& view) { view.*member = place.boolean(); };
     row.write = [](JsonWriter& out, const ViewState& view) { out.value(view.*member); };
@@ -116,6 +128,14 @@ ViewOption toggle(ViewOption row) {
 /// A row about one of a few, which `find` finds by name.
 template <auto member, auto find>
 ViewOption choice(ViewOption row) {
+    std::string quoted;
+    for (const std::string_view name : row.choices) {
+        quoted += (quoted.empty() ? "\"" : ", \"") + std::string(name) + '"';
+        row.argument += (row.argument.empty() ? '[' : '|') + std::string(name);
+    }
+    row.schema = "\"enum\": [" + quoted + ']';
+    row.argument += ']';
+    row.doc = doc_of("Chooses", row.what);
     row.read = [names = row.choices, refused = row.refused_in_file](const JsonPlace& place, ViewState& view) {
         const auto value = find(place.string());
         if (!value) place.fail(refusal_of(refused, place.string()) + "; give " + either(names));
@@ -137,6 +157,8 @@ bool is_nobody(std::string_view text) { return text.empty() || text == kNobody; 
 template <auto member>
 ViewOption name_list(ViewOption row) {
     row.names = member;
+    row.schema = R"("type": "array", "items": {"type": "string"})";
+    row.placeholder = "NAME...";
     row.read = [](const JsonPlace& place, ViewState& view) {
         (view.*member).clear();
         for (int i = 0; i < place.size(); ++i) (view.*member).push_back(place[i].string());
@@ -157,17 +179,15 @@ std::vector<ViewOption> all_view_options() {
     return {
         choice<&ViewState::show, show_from_name>(
             {.key = "show",
-             .schema =
-                 R"({"description": "Stacks and boxes in space-time, or the floor at the time of `time`", "enum": ["space-time", "moment"]})",
+             .what = "Stacks and boxes in space-time, or the floor at one moment (time)",
              .option = "--show",
              .placeholder = "WHAT",
-             .help = "space-time, or the floor at one moment (--time)",
              .choices = {"space-time", "moment"},
              .refused_in_file = "a picture cannot show {}"}),
         field<&ViewState::camera>(
             {.key = "camera",
-             .schema = R"({
-          "type": "object",
+             .what = "From where the picture is seen",
+             .schema = R"("type": "object",
           "additionalProperties": false,
           "properties": {
             "preset": {"enum": ["iso", "top", "front", "side", "free"]},
@@ -180,16 +200,16 @@ std::vector<ViewOption> all_view_options() {
             "shift": {"description": "How far to the right and upwards of the picture's middle the target is seen, in widths and heights of the picture", "type": "array", "items": {"type": "number", "minimum": -1, "maximum": 1}, "minItems": 2, "maxItems": 2}
           },
           "dependentRequired": {"target": ["distance"], "distance": ["target"], "shift": ["target"]}
-        })",
+        )",
              .read = [](const JsonPlace& place, ViewState& view) { view.camera = read_camera(place); },
              .write = [](JsonWriter& out, const ViewState& view) { write_camera(out, view.camera); }}),
         text_or_number<&ViewState::levels, parse_level_range>(
             {.key = "levels",
+             .what = "A level, a range such as 1:3, or leaves",
              .schema =
-                 R"({"description": "A level, a range such as 1:3, or leaves", "type": ["integer", "string"], "pattern": "^([0-9]+(:[0-9]+)?|leaves)$", "minimum": 0, "maximum": 1000})",
+                 R"("type": ["integer", "string"], "pattern": "^([0-9]+(:[0-9]+)?|leaves)$", "minimum": 0, "maximum": 1000)",
              .option = "--level",
              .placeholder = "LEVELS",
-             .help = "Levels: N, A:B or leaves",
              .parse =
                  [](const std::string& text, ViewState& view) {
                      view.levels = parse_level_range(text);
@@ -199,11 +219,10 @@ std::vector<ViewOption> all_view_options() {
                           const ViewState& to) { return !to.query && (to.levels != from.levels || from.query); }}),
         field<&ViewState::query>(
             {.key = "query",
-             .schema =
-                 R"({"description": "Index of the query whose state is drawn; null: none", "type": ["integer", "null"], "minimum": 0})",
+             .what = "The query that is drawn instead of levels: its number, from 0",
+             .schema = R"("type": ["integer", "null"], "minimum": 0)",
              .option = "--query",
              .placeholder = "K",
-             .help = "A query instead of levels: its number, from 0",
              .read =
                  [](const JsonPlace& place, ViewState& view) {
                      view.query = place.is_null() ? std::nullopt : std::optional(place.integer(0, kMaxInt));
@@ -220,23 +239,20 @@ std::vector<ViewOption> all_view_options() {
              .text = [](const ViewState& view) { return std::to_string(*view.query); }}),
         text_or_number<&ViewState::step, parse_step>(
             {.key = "step",
-             .schema = R"({
-          "description": "An event number, a percentage such as 40%, or end",
-          "type": ["integer", "string"],
+             .what = "Step of the query: an event number, a percentage such as 40%, or end",
+             .schema = R"("type": ["integer", "string"],
           "pattern": "^([0-9]+|[+]?([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][+-]?[0-9]+)?%|end)$",
           "minimum": 0,
           "maximum": 2147483647
-        })",
+        )",
              .option = "--step",
              .placeholder = "STEP",
-             .help = "Step of the query: an event number, a percentage (40%) or end",
              .parse = [](const std::string& text, ViewState& view) { view.step = parse_step(text); },
              .needed = [](const ViewState& from, const ViewState& to) { return to.query && to.step != from.step; }}),
         field<&ViewState::projection>(
             {.key = "projection",
-             .schema = R"({
-          "description": "One disk's extent along the axes of a box, drawn instead of the levels; null: none",
-          "anyOf": [
+             .what = "One disk's extent along the axes of a box, drawn instead of the levels, or none",
+             .schema = R"("anyOf": [
             {"type": "null"},
             {
               "type": "object",
@@ -248,7 +264,7 @@ std::vector<ViewOption> all_view_options() {
               }
             }
           ]
-        })",
+        )",
              .read =
                  [](const JsonPlace& place, ViewState& view) {
                      view.projection = place.is_null() ? std::nullopt : std::optional(read_projection(place));
@@ -256,11 +272,10 @@ std::vector<ViewOption> all_view_options() {
              .write = [](JsonWriter& out, const ViewState& view) { write_projection(out, *view.projection); }}),
         field<&ViewState::time>(
             {.key = "time",
-             .schema =
-                 R"({"description": "The time cursor, global seconds; null: none", "anyOf": [{"$ref": "#/$defs/time"}, {"type": "null"}]})",
+             .what = "The time cursor, global seconds, or none",
+             .schema = R"("anyOf": [{"$ref": "#/$defs/time"}, {"type": "null"}])",
              .option = "--time",
              .placeholder = "T",
-             .help = "Time cursor, global seconds, or none",
              .read =
                  [](const JsonPlace& place, ViewState& view) {
                      view.time =
@@ -275,11 +290,10 @@ std::vector<ViewOption> all_view_options() {
              .text = [](const ViewState& view) { return view.time ? short_double(*view.time) : "none"; }}),
         field<&ViewState::time_window>(
             {.key = "time_window",
-             .schema =
-                 R"({"description": "Of a crowd's run: seconds before and after the time that space-time shows", "type": "number", "minimum": 0.1, "maximum": 60})",
+             .what = "Of a crowd's run: seconds before and after the time that space-time shows (2)",
+             .schema = R"("type": "number", "minimum": 0.1, "maximum": 60)",
              .option = "--time-window",
              .placeholder = "S",
-             .help = "Of a crowd's run: seconds before and after the time (2)",
              .read = [](const JsonPlace& place,
                         ViewState& view) { view.time_window = place.number(kLeastTimeWindow, kMostTimeWindow); },
              .write = [](JsonWriter& out, const ViewState& view) { out.value(view.time_window); },
@@ -290,12 +304,11 @@ std::vector<ViewOption> all_view_options() {
              .text = [](const ViewState& view) { return short_double(view.time_window); }}),
         field<&ViewState::follow>(
             {.key = "follow",
-             .schema =
-                 R"({"description": "The agent that the camera goes along with, by name; null: nobody", "type": ["string", "null"]})",
+             .what = "The agent that the camera goes along with, 5 m around it unless there is a target; of a run with "
+                     "its last choice; or none",
+             .schema = R"("type": ["string", "null"])",
              .option = "--follow",
              .placeholder = "AGENT",
-             .help = "The agent that the camera goes along with, 5 m around it unless there is a target; of a run with "
-                     "its last choice; or none",
              .read = [](const JsonPlace& place,
                         ViewState& view) { view.follow = place.is_null() ? "" : place.string(); },
              .write = [](JsonWriter& out, const ViewState& view) { out.value(view.follow); },
@@ -305,41 +318,30 @@ std::vector<ViewOption> all_view_options() {
              .text = [](const ViewState& view) { return view.follow; }}),
         name_list<&ViewState::hidden>(
             {.key = "hidden",
-             .schema =
-                 R"({"description": "Agents that are not in the picture, by name; without agents clips. Answers stay", "type": "array", "items": {"type": "string"}})",
-             .option = "--hide",
-             .placeholder = "NAME...",
-             .help = "Agents that are left out of the picture, without agents clips; or none"}),
+             .what = "Agents, or clips where there are none, that are left out of the picture, not of answers; or none",
+             .option = "--hide"}),
         name_list<&ViewState::pinned>(
             {.key = "pinned",
-             .schema =
-                 R"({"description": "Agents that stay in the picture when another is shown alone, and keep their colour", "type": "array", "items": {"type": "string"}})",
-             .option = "--pin",
-             .placeholder = "NAME...",
-             .help = "Agents that keep their colour where others dim; or none"}),
+             .what = "Agents that stay when another is shown alone, and keep their colour where others dim; or none",
+             .option = "--pin"}),
         choice<&ViewState::arrange, arrange_from_name>(
             {.key = "arrange",
-             .schema =
-                 R"({"description": "grid: agents or clips are drawn apart from one another, whatever their places; not of a run or a query", "enum": ["none", "grid"]})",
+             .what = "Where agents or clips are drawn, not of a run or a query: none (where they are) or grid (apart, "
+                     "with names); queries are asked where they are",
              .option = "--arrange",
              .placeholder = "HOW",
-             .help = "Where agents are drawn: none (where they are) or grid (apart, with names)",
              .command = "view.arrange",
              .title = "Lay out in a grid",
              .menu = "View/Agents",
-             .doc =
-                 "Draws agents, or clips, apart from one another with their names; queries are asked where they are.",
-             .argument = "[none|grid]",
              .choices = {"none", "grid"},
              .refused_in_file = "agents cannot be arranged as {}",
              .refused_in_window = "agents cannot be arranged as {}"}),
         field<&ViewState::time_height>(
             {.key = "time_height",
-             .schema =
-                 R"({"description": "Metres drawn per second; 0: chosen to suit", "type": "number", "minimum": 0, "maximum": 1e6})",
+             .what = "Metres drawn per second; 0, the default, or auto: as tall as wide",
+             .schema = R"("type": "number", "minimum": 0, "maximum": 1e6)",
              .option = "--time-height",
              .placeholder = "M",
-             .help = "Metres drawn per second; default: auto, as tall as wide",
              .read = [](const JsonPlace& place,
                         ViewState& view) { view.time_height = place.number(0, kMostTimeHeight); },
              .write = [](JsonWriter& out, const ViewState& view) { out.value(view.time_height); },
@@ -352,50 +354,38 @@ std::vector<ViewOption> all_view_options() {
                  [](const ViewState& view) { return view.time_height > 0 ? short_double(view.time_height) : "auto"; }}),
         choice<&ViewState::color_by, color_by_from_name>(
             {.key = "color_by",
-             .schema = R"({"description": "What the colour of a level's boxes says", "enum": ["agent", "level"]})",
+             .what = "What the colour of boxes says: agent (whose they are) or level",
              .option = "--color-by",
              .placeholder = "WHAT",
-             .help = "What the colour of boxes says: agent or level",
              .command = "view.color_by",
              .title = "Colour boxes by",
              .menu = "View",
              .shortcut = "C",
-             .doc = "Colours the boxes of levels by whose they are, or by their level.",
-             .argument = "[agent|level]",
              .choices = {"agent", "level"},
              .refused_in_file = "boxes cannot be coloured by {}",
              .refused_in_window = "colours cannot be by {}"}),
-        choice<&ViewState::theme, theme_from_name>(
-            {.key = "theme",
-             .schema = R"({"enum": ["dark", "light"]})",
-             .option = "--theme",
-             .placeholder = "NAME",
-             .help = "dark or light",
-             .command = "view.theme",
-             .title = "Theme",
-             .menu = "View",
-             .shortcut = "T",
-             .doc = "Changes between dark and light, for the window and its pictures.",
-             .argument = "[dark|light]",
-             .choices = {"dark", "light"},
-             .refused_in_file = "{} is no theme",
-             .refused_in_window = "a theme cannot be {}"}),
+        choice<&ViewState::theme, theme_from_name>({.key = "theme",
+                                                    .what = "The colours of the window and its pictures: dark or light",
+                                                    .option = "--theme",
+                                                    .placeholder = "NAME",
+                                                    .command = "view.theme",
+                                                    .title = "Theme",
+                                                    .menu = "View",
+                                                    .shortcut = "T",
+                                                    .choices = {"dark", "light"},
+                                                    .refused_in_file = "{} is no theme",
+                                                    .refused_in_window = "a theme cannot be {}"}),
         choice<&ViewState::past, past_from_name>(
             {.key = "past",
-             .schema =
-                 R"({"description": "With a query, what is drawn beside the pair under test: nothing, the pairs that called it, those that its parent called before it too, or every pair tested before", "enum": ["pair", "ancestors", "siblings", "all"]})",
+             .what = "What a query shows beside the pair under test: nothing (pair), the pairs that called it "
+                     "(ancestors), those that its parent called before it too (siblings), or all that were tested "
+                     "before",
              .option = "--past",
              .placeholder = "WHICH",
-             .help =
-                 "With a query, the pairs before the step's: pair (none), ancestors, siblings (and ancestors) or all",
              .short_form = {"--pair-only", "pair"},
              .former_toggle = {"tested_before", "all", "pair"},
              .command = "view.past",
              .title = "Past tests",
-             .doc =
-                 "Shows beside the pair under test the pairs that called it (ancestors), those that its parent called "
-                 "before it too (siblings), all that were tested before, or none (pair).",
-             .argument = "[pair|ancestors|siblings|all]",
              .without = "pair",
              .may_be_seen = [](const ViewState& view) { return view.query.has_value(); },
              .choices = {"pair", "ancestors", "siblings", "all"},
@@ -404,112 +394,91 @@ std::vector<ViewOption> all_view_options() {
              .refused_in_window = "past tests cannot be {}"}),
         toggle<&ViewState::candidates>(
             {.key = "candidates",
-             .schema =
-                 R"({"description": "Of a run's followed agent: the moves of its last choice, and what became of each", "type": "boolean"})",
-             .option = "--candidates,!--no-candidates",
-             .help = "The moves that the followed agent could choose, and what became of each",
+             .what = "The moves that the followed agent could choose, and what became of each",
              .command = "crowd.candidates",
              .title = "Candidates",
              .menu = "Go/Crowd",
              .shortcut = "A",
-             .doc = "Shows the moves that the followed agent could choose, and what became of each.",
+             .draws = DrawnPart::surroundings,
              .without = "false",
              .may_be_seen = [](const ViewState& view) { return !view.follow.empty(); }}),
         toggle<&ViewState::disks>(
             {.key = "disks",
-             .option = "--disks,!--no-disks",
-             .help = "Disks of samples",
-             .command = "view.disks",
+             .what = "The samples: a disk for as long as it holds; at a moment those on the floor",
              .title = "Disks",
              .menu = "View/Show",
              .shortcut = "D",
-             .doc = "Shows the samples: a disk for as long as it holds; at a moment those on the floor."}),
+             .at_hand = true}),
         toggle<&ViewState::boxes>({.key = "boxes",
-                                   .option = "--boxes,!--no-boxes",
-                                   .help = "Boxes of nodes",
-                                   .command = "view.boxes",
+                                   .what = "The boxes of the trees; at a moment the walls of the cylinders",
                                    .title = "Boxes",
                                    .menu = "View/Show",
                                    .shortcut = "B",
-                                   .doc = "Shows the boxes of the trees; at a moment the walls of the cylinders."}),
+                                   .at_hand = true}),
         toggle<&ViewState::floor>({.key = "floor",
-                                   .option = "--floor,!--no-floor",
-                                   .help = "The grid, and the paths' traces on it",
-                                   .command = "view.floor",
+                                   .what = "The grid in metres with the paths' traces on it",
                                    .title = "Floor",
                                    .menu = "View/Show",
                                    .shortcut = "G",
-                                   .doc = "Shows the grid in metres with the paths' traces on it."}),
+                                   .at_hand = true,
+                                   .draws = DrawnPart::surroundings}),
         toggle<&ViewState::time_axis>({.key = "time_axis",
-                                       .option = "--time-axis,!--no-time-axis",
-                                       .help = "Ticks in seconds",
-                                       .command = "view.time_axis",
+                                       .what = "The upright scale in seconds",
                                        .title = "Time axis",
                                        .menu = "View/Show",
                                        .shortcut = "X",
-                                       .doc = "Shows the upright scale in seconds."}),
+                                       .draws = DrawnPart::surroundings}),
         toggle<&ViewState::labels>({.key = "labels",
-                                    .option = "--labels,!--no-labels",
-                                    .help = "All text",
-                                    .command = "view.labels",
+                                    .what = "All text in the picture",
                                     .title = "Labels",
                                     .menu = "View/Show",
                                     .shortcut = "L",
-                                    .doc = "Shows all text in the picture."}),
+                                    .at_hand = true,
+                                    .draws = DrawnPart::words}),
         toggle<&ViewState::caption>({.key = "caption",
-                                     .option = "--caption,!--no-caption",
-                                     .help = "The sentences at the top",
-                                     .command = "view.caption",
+                                     .what = "The sentences at the top of the picture",
                                      .title = "Caption",
                                      .menu = "View/Show",
-                                     .doc = "Shows the sentences at the top of the picture."}),
+                                     .draws = DrawnPart::words}),
         toggle<&ViewState::legend>({.key = "legend",
-                                    .option = "--legend,!--no-legend",
-                                    .help = "What colours and lines mean",
-                                    .command = "view.legend",
+                                    .what = "What colours and lines stand for",
                                     .title = "Legend",
                                     .menu = "View/Show",
                                     .shortcut = "K",
-                                    .doc = "Shows what colours and lines stand for."}),
+                                    .at_hand = true,
+                                    .draws = DrawnPart::words}),
         toggle<&ViewState::inset>(
             {.key = "inset",
-             .option = "--inset,!--no-inset",
-             .help = "The small map of the floor",
-             .command = "view.inset",
+             .what = "The small picture of the floor at the time cursor, in the corner",
              .title = "Floor inset",
              .menu = "View/Show",
-             .doc = "Shows the small picture of the floor at the time cursor, in the corner.",
+             .draws = DrawnPart::words,
              .may_be_seen =
                  [](const ViewState& view) { return view.time.has_value() && view.show == Show::space_time; }}),
         toggle<&ViewState::fold_caption>({.key = "fold_caption",
+                                          .what = "The sentences at the top as one short line",
                                           .option = "--fold-caption,!--unfold-caption",
-                                          .help = "The caption as one short line",
-                                          .command = "view.fold_caption",
                                           .title = "Fold the caption",
                                           .menu = "View/Overlays",
-                                          .doc = "Folds the sentences at the top to one short line, or unfolds them."}),
+                                          .draws = DrawnPart::words}),
         toggle<&ViewState::fold_legend>({.key = "fold_legend",
+                                         .what = "The legend as its header alone",
                                          .option = "--fold-legend,!--unfold-legend",
-                                         .help = "The legend as its header alone",
-                                         .command = "view.fold_legend",
                                          .title = "Fold the legend",
                                          .menu = "View/Overlays",
-                                         .doc = "Folds the legend to its header, or unfolds it."}),
-        toggle<&ViewState::fold_inset>(
-            {.key = "fold_inset",
-             .option = "--fold-inset,!--unfold-inset",
-             .help = "The floor inset as its header alone",
-             .command = "view.fold_inset",
-             .title = "Fold the floor inset",
-             .menu = "View/Overlays",
-             .doc = "Folds the small picture of the floor in the corner to its header, or unfolds it."}),
+                                         .draws = DrawnPart::words}),
+        toggle<&ViewState::fold_inset>({.key = "fold_inset",
+                                        .what = "The small picture of the floor as its header alone",
+                                        .option = "--fold-inset,!--unfold-inset",
+                                        .title = "Fold the floor inset",
+                                        .menu = "View/Overlays",
+                                        .draws = DrawnPart::words}),
         toggle<&ViewState::whole_legend>({.key = "whole_legend",
+                                          .what = "All rows of the legend, not only the first six",
                                           .option = "--whole-legend,!--short-legend",
-                                          .help = "All rows of the legend, or six",
-                                          .command = "view.whole_legend",
                                           .title = "Whole legend",
                                           .menu = "View/Overlays",
-                                          .doc = "Shows all rows of the legend, not only the first six."}),
+                                          .draws = DrawnPart::words}),
     };
 }
 

@@ -39,26 +39,36 @@ struct ShortForm {
     std::string_view value{};
 };
 
+/// What a toggle shows or leaves out: the rest of the picture stays as it is.
+enum class DrawnPart {
+    agents,        ///< what lies where an agent is when it is there; of a hidden one nothing
+    surroundings,  ///< what stands around, with its words
+    words,         ///< text, and the panels that it stands on
+};
+
 struct ViewOption {
-    std::string_view key;       ///< of the view's JSON: ViewState's name for it
-    std::string_view schema{};  ///< JSON Schema of its value
+    std::string_view key;  ///< of the view's JSON: ViewState's name for it
+    std::string_view
+        what;  ///< "The upright scale in seconds": help of `render`, and what the schema and the window say
+    /// JSON Schema of its value. In the table what stands there beside `what`, unless its kind says it.
+    std::string schema{};
 
     // Of `render`; without `option` only a file says it.
-    std::string_view option{};  ///< "--theme"; of a toggle "--floor,!--no-floor"
+    std::string option{};  ///< "--theme"; of a toggle "--floor,!--no-floor", which is made from the key
     std::string_view placeholder{};
-    std::string_view help{};
     ShortForm short_form{};
 
     FormerToggle former_toggle{};
 
     // In the window: a toggle, or a choice, has a command; those of the menus "View/Show" and
     // "View/Overlays" stand in them by themselves.
-    std::string_view command{};  ///< its id: "view.floor"; empty: none is made from the row
+    std::string command{};  ///< its id: "view.floor", of a toggle made from the key; empty: none is made from the row
     std::string_view title{};
     std::string_view menu{};
     std::string_view shortcut{};
-    std::string_view doc{};
-    std::string_view argument{};  ///< of a choice, as Command has it: "[dark|light]"
+    bool at_hand = false;  ///< of a toggle: in the toolbar and the menu of the picture, too
+
+    DrawnPart draws = DrawnPart::agents;  ///< of a toggle
 
     // Where an exported picture can be without it.
     std::string_view without{};  ///< the text that leaves it out; empty: it stays
@@ -73,6 +83,8 @@ struct ViewOption {
     std::string_view refused_in_window{};
 
     // What table rows leave to toggle(), choice() and field() in view_options.cpp.
+    std::string doc{};       ///< of the command: "Shows the upright scale in seconds."
+    std::string argument{};  ///< of a choice, as Command has it: "[dark|light]"
     bool ViewState::*toggle = nullptr;
     std::vector<std::string> ViewState::*names = nullptr;        ///< of a list of agents' names
     std::function<void(const JsonPlace&, ViewState&)> read{};    ///< throws InputError

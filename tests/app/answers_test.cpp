@@ -6,11 +6,14 @@
 #include <render/drawlist/picture_options.h>
 #include <render/gl/gl_context.h>
 
+#include "render/counting_context.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 namespace mobbscope::app {
 namespace {
@@ -205,9 +208,48 @@ TEST_F(AnswersTest, WhereNobodyLooksEveryPictureIsFine) {
     EXPECT_GT(window.painted().fine, 0);
 }
 
+/// A graphics card is quick, and nobody knows how quick without waiting for it: nobody does.
+TEST(Answers, OnAGraphicsCardEveryPictureIsFineAtOnce) {
+    double measured = 0, now = 0;
+    Session session(true);
+    Shell shell(std::make_unique<testing::CountingContext>(GlContext::open(Backend::automatic), testing::kGraphicsCard),
+                session, 1, [&] { return measured += 0.05; });
+    const auto frame = [&] {
+        const double wanted = shell.frame(kWindow, now += 0.01);
+        shell.read_back();
+        return wanted;
+    };
+    session.files.open_demo();
+    while (session.jobs.job() || frame() == 0) frame();
+    run_command(session, "query.select", "0");
+    run_command(session, "step.last");
+    while (frame() == 0) {
+    }
+    const Shell::Painted before = shell.painted();
+    testing::CountingContext::counts = {};
+    for (int i = 0; i < 5; ++i) {
+        for (const bool down : {true, false}) shell.feed(KeyPress{Key::left, down});
+        frame();
+        EXPECT_EQ(shell.painted().fine, before.fine + i + 1);
+    }
+    // A drag, whose pictures are all other disks.
+    shell.feed(MouseMove{shell.marks().all().at("viewport").center()});
+    shell.feed(MouseButton{0, true});
+    frame();
+    shell.feed(MouseMove{shell.marks().all().at("viewport").center() + glm::vec2(40, 0)});
+    frame();
+    shell.feed(MouseButton{0, false});
+    while (frame() == 0) {
+    }
+    EXPECT_GE(shell.painted().fine, before.fine + 6);
+    EXPECT_EQ(shell.painted().coarse, 0);
+    EXPECT_FALSE(shell.marks().all().contains("viewport.working"));
+    EXPECT_EQ(testing::CountingContext::counts.finishes, 0u);
+}
+
 TEST(AnswerPace, ADragBecomesCoarserIfItMustButNotFinerAgain) {
     constexpr AnswerPace::Needs kAll = AnswerPace::Needs::all;
-    AnswerPace pace(true);
+    AnswerPace pace;
     EXPECT_TRUE(pace.coarse_first(kAll)) << "until it is known that this is not needed";
     pace.painted_coarse(0.010);
     EXPECT_EQ(pace.divisor(), 1);
@@ -228,7 +270,7 @@ TEST(AnswerPace, ADragBecomesCoarserIfItMustButNotFinerAgain) {
 }
 
 TEST(AnswerPace, WhatNeedsTheRestAloneIsExpectedToBeQuick) {
-    AnswerPace pace(true);
+    AnswerPace pace;
     EXPECT_TRUE(pace.coarse_first(AnswerPace::Needs::all));
     EXPECT_FALSE(pace.coarse_first(AnswerPace::Needs::rest));
     pace.gave_up_fine(AnswerPace::Needs::rest, 0.06);

@@ -2,6 +2,7 @@
 #include <app/commands/picture_order.h>
 #include <render/drawlist/view_projection.h>
 #include <render/pictures/build_draw_list.h>
+#include <review/review_screen.h>
 
 #include "app/crossing_folder.h"
 
@@ -40,6 +41,7 @@ struct CommandWorld {
 
     CommandWorld() {
         desktop.has_picture_clipboard = true;
+        add_review(session);
         session.desktop = &desktop;
         session.picture_maker = &maker;
         session.views.picture = {{800, 600}, 0};
@@ -172,12 +174,15 @@ std::vector<Case> cases() {
          }});
     add({"picture.copy_command", "", {{"picture.size", "640x360"}, {"picture.without", "legend"}}, [](CommandWorld& w) {
              EXPECT_EQ(w.desktop.text, "mobbscope render " + w.path("scene.json") + " --no-legend --size 640x360 -o " +
-                                        w.path("scene.png"));
+                                           w.path("scene.png"));
          }});
     look("file.copy_command", "", [](CommandWorld& w) {
         EXPECT_EQ(w.desktop.text, "mobbscope render " + w.path("scene.json") + " --size 800x600 -o picture.png");
     });
-    look("file.review", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::review); });
+    look("file.review", "", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.dialogs.now, Dialog::folder);
+        EXPECT_EQ(w.session.dialogs.name(), "review");
+    });
     look("file.quit", "", [](CommandWorld& w) { EXPECT_TRUE(w.session.files.closed()); });
 
     // Clips
@@ -709,7 +714,7 @@ std::string argument_in(const CommandWorld& world, const std::string& argument) 
 TEST(CommandEffects, EveryCommandIsTried) {
     std::set<std::string> tried, known;
     for (const Case& c : cases()) tried.insert(c.id);
-    for (const Command& command : commands()) {
+    for (const Command& command : commands_with_review()) {
         // crowd_test.cpp has a crowd to try them on.
         if (command.id.starts_with("crowd.") || command.id.starts_with("conflicts.")) continue;
         // review_test.cpp has picture tests.

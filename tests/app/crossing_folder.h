@@ -51,7 +51,7 @@ class CrossingFolder {
 
 /// A desktop that keeps what is copied.
 struct TestDesktop : Desktop {
-    std::string text;              ///< that was copied last
+    std::string text;               ///< that was copied last
     std::size_t picture_bytes = 0;  ///< ... of a picture
     bool has_picture_clipboard = false;
     std::atomic<int> wakes = 0;

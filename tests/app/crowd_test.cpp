@@ -58,7 +58,7 @@ class CrowdTest : public ::testing::Test {
 
 TEST_F(CrowdTest, OpensInItsMiddle) {
     EXPECT_EQ(session.workspace.view().time, 10);
-    EXPECT_EQ(session.workspace.time_span().t1, 20);
+    EXPECT_EQ(time_span(session.workspace).t1, 20);
     EXPECT_FALSE(session.workspace.modified());
     EXPECT_TRUE(session.workspace.scene().agents.empty());
     EXPECT_GE(session.workspace.fitted().placed_agents().size(), 22u);

@@ -7,6 +7,7 @@
 #include <base/text.h>
 #include <render/gl/gl_context.h>
 #include <render/image/png.h>
+#include <review/review_screen.h>
 #include <scene/load_files.h>
 
 #include <support/temp_folder.h>
@@ -114,8 +115,9 @@ TEST_F(ExportTest, TheLineOfACasesSceneDrawsWhatTheCaseShows) {
         R"({"mobbscope_case": 1, "scene": "../scene.json", "view": {"levels": "leaves"}, "fit": {"tree": "umobb"}})");
     std::filesystem::create_directories(folder.file("drawn"));
     folder.write("drawn/report.json", R"({"mobbscope_report": 1, "cases": []})");
-    session.reviews.open(folder.file("cases"), folder.file("drawn"));
-    session.reviews.open_case(0);
+    ReviewScreen& reviews = add_review(session);
+    reviews.open(folder.file("cases"), folder.file("drawn"));
+    reviews.open_case(0);
     window->settle();
     ASSERT_EQ(session.files.visited(), "one");
     ASSERT_EQ(session.workspace.document().fitted->options().tree, mobb::TreeKind::umobb);

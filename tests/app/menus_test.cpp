@@ -123,7 +123,7 @@ TEST(Menus, RowsTestsAndTimesHaveMenus) {
     w.run("click query.icicle right\nclick context.go.node.2");
     EXPECT_EQ(w.session.workspace.selection.kind, Selection::Kind::node);
     EXPECT_EQ(w.session.workspace.selection.path.agent, 1) << "the node of B";
-    const mobb::Interval span = w.session.workspace.time_span();
+    const mobb::Interval span = time_span(w.session.workspace);
     w.run("click timeline.time right");
     EXPECT_FALSE(w.session.workspace.view().time);
     w.run("click context.time.at");

@@ -3,6 +3,7 @@
 #include <app/window/headless_window.h>
 #include <base/error.h>
 #include <render/gl/gl_context.h>
+#include <review/review_screen.h>
 #include <scene/scene_edits.h>
 
 #include "app/crossing_folder.h"
@@ -24,6 +25,7 @@ namespace fs = std::filesystem;
 struct AsideWorld {
     CrossingFolder folder;
     Session session{false};
+    ReviewScreen& reviews = add_review(session);
     HeadlessWindow window{GlContext::open(Backend::automatic), session, PictureSize{1024, 700}, 1};
 
     AsideWorld() {
@@ -35,16 +37,16 @@ struct AsideWorld {
         window.settle();
     }
     void review() {
-        session.reviews.open(folder.file("cases"), folder.file("drawn"));
+        reviews.open(folder.file("cases"), folder.file("drawn"));
         window.settle();
     }
     void open_case() {
         review();
-        session.reviews.open_case(0);
+        reviews.open_case(0);
         window.settle();
     }
     void leave() {
-        session.reviews.leave();
+        reviews.leave();
         window.settle();
     }
     void resize(PictureSize size) {
@@ -90,33 +92,33 @@ TEST(PutAside, AResizeKeepsTheScaleOfWhatIsOpenBesideACase) {
         w.review();
         // With the case's scene in the picture, or with no picture at all.
         if (!shown) w.resize(kSmaller);
-        w.session.reviews.open_case(0);
+        w.reviews.open_case(0);
         w.window.settle();
         if (shown) w.resize(kSmaller);
         w.leave();
-        ASSERT_FALSE(w.session.reviews.shown());
+        ASSERT_FALSE(w.reviews.shown());
         EXPECT_NEAR(w.pixels_a_metre(), before, 1e-9 * before) << shown;
     }
 }
 
 TEST(PutAside, EachOpeningHasANumberAndComingBackFindsIt) {
     AsideWorld w;
-    const int file = w.session.workspace.opening();
+    const int file = w.session.workspace.document().opening;
     const auto& agents = w.session.workspace.fitted().placed_agents();
     w.session.excerpts.open(agents[0], agents[1]);
-    const int excerpt = w.session.workspace.opening();
+    const int excerpt = w.session.workspace.document().opening;
     EXPECT_NE(excerpt, file) << "the first file is not the first excerpt";
     w.session.edits.undo();
-    EXPECT_EQ(w.session.workspace.opening(), file);
+    EXPECT_EQ(w.session.workspace.document().opening, file);
     w.session.edits.redo();
-    EXPECT_EQ(w.session.workspace.opening(), excerpt);
+    EXPECT_EQ(w.session.workspace.document().opening, excerpt);
     w.session.excerpts.leave();
-    EXPECT_EQ(w.session.workspace.opening(), file);
+    EXPECT_EQ(w.session.workspace.document().opening, file);
     w.open_case();
-    EXPECT_NE(w.session.workspace.opening(), file);
-    EXPECT_NE(w.session.workspace.opening(), excerpt);
+    EXPECT_NE(w.session.workspace.document().opening, file);
+    EXPECT_NE(w.session.workspace.document().opening, excerpt);
     w.leave();
-    EXPECT_EQ(w.session.workspace.opening(), file);
+    EXPECT_EQ(w.session.workspace.document().opening, file);
 }
 
 TEST(PutAside, UndoWithinAnExcerptThatWasSavedCancelsNothing) {
@@ -175,6 +177,7 @@ void wait_for_jobs(Session& session) {
 TEST(PutAside, JobsOfWhatIsPutAsideAreTakenInOnceItIsBack) {
     CrossingFolder folder;
     Session session(true);
+    ReviewScreen& reviews = add_review(session);
     session.options.patience = {};
     folder.write("long.csv", long_csv());
     fs::create_directories(folder.file("cases"));
@@ -185,13 +188,13 @@ TEST(PutAside, JobsOfWhatIsPutAsideAreTakenInOnceItIsBack) {
     wait_for_jobs(session);
     run_command(session, "tree.axes", "minarea");
     ASSERT_EQ(session.jobs.count(), 1u);
-    session.reviews.open(folder.file("cases"), folder.file("drawn"));
-    session.reviews.open_case(0);
+    reviews.open(folder.file("cases"), folder.file("drawn"));
+    reviews.open_case(0);
     while (session.files.visited().empty()) session.poll();
     EXPECT_EQ(session.jobs.count(), 0u) << "the case has none";
     run_command(session, "go.agent", "A");
     run_command(session, "agent.rename", "first");
-    session.reviews.leave();
+    reviews.leave();
     session.files.answer_unsaved(Files::Unsaved::discard);
     ASSERT_EQ(session.jobs.count(), 1u);
     wait_for_jobs(session);

@@ -2,9 +2,9 @@
 /// there.
 #pragma once
 
-#include <app/commands/command.h>
 #include <app/ui/ui.h>
 #include <render/image/image.h>
+#include <review/review_screen.h>
 
 #include "mobb/random_motion.h"
 
@@ -20,7 +20,7 @@ class RandomScript {
     /// For a window of `size`, which is made `least` to `most` large.
     RandomScript(std::uint64_t seed, PictureSize size, PictureSize least, PictureSize most)
         : random_(seed), least_(least), most_(most), size_(size) {
-        for (const Command& command : commands()) {
+        for (const Command& command : commands_with_review()) {
             // Another file has another past.
             if (command.id.starts_with("file.")) continue;
             commands_.push_back(&command);

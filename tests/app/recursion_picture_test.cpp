@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "app/random_query.h"
+#include "explain/random_query.h"
 
 namespace mobbscope::app {
 namespace {
@@ -17,7 +17,7 @@ TEST(RecursionPicture, AStripHoldsEveryEventOnce) {
     Random random(11);
     int merged = 0;
     for (int round = 0; round < 200; ++round) {
-        const test::RandomQuery asked = test::random_query(random);
+        const mobbscope::testing::RandomQuery asked = mobbscope::testing::random_query(random);
         const int width = random.integer(1, random.chance(0.5) ? 12 : 300);
         const auto cells = strip_cells(asked.trace, width);
         MarkCounts counts{};
@@ -52,7 +52,7 @@ TEST(RecursionPicture, ASquareShowsEveryPairThatWasDecided) {
     Random random(12);
     int merged = 0;
     for (int round = 0; round < 200; ++round) {
-        const test::RandomQuery asked = test::random_query(random);
+        const mobbscope::testing::RandomQuery asked = mobbscope::testing::random_query(random);
         const Recursion recursion = recursion_of(asked.trace, asked.a(), asked.b());
         const int size = random.integer(1, random.chance(0.5) ? 8 : 200);
         const auto& root = recursion.pairs.front();
@@ -89,7 +89,7 @@ TEST(RecursionPicture, AnIcicleHoldsEveryPairOnceAndLosesNoHit) {
     int merged = 0;
     int hits = 0;
     for (int round = 0; round < 200; ++round) {
-        const test::RandomQuery asked = test::random_query(random);
+        const mobbscope::testing::RandomQuery asked = mobbscope::testing::random_query(random);
         const Recursion recursion = recursion_of(asked.trace, asked.a(), asked.b());
         const int width = random.integer(1, random.chance(0.5) ? 12 : 300);
         const auto cells = icicle_cells(recursion, width, 10);

@@ -90,18 +90,18 @@ TEST_F(ShownAgentsTest, NamesThatAreWordsMeanTheirAgents) {
 }
 
 TEST_F(ShownAgentsTest, ClipsAreGroupedByFolderAndRig) {
-    EXPECT_TRUE(session.workspace.clip_groups().empty()) << "one folder, no skeletons";
+    EXPECT_TRUE(clip_groups(session.workspace).empty()) << "one folder, no skeletons";
     const std::string assets = MOBBSCOPE_SOURCE_DIR "/assets/";
     session.files.open({assets + "clips/walk.glb", assets + "clips/run.glb", folder.file("walk.csv")});
     ASSERT_EQ(all_messages(session), "");
-    ASSERT_EQ(session.workspace.clip_groups().size(), 2u);
-    EXPECT_EQ(session.workspace.clip_groups()[0].clips, (std::vector<int>{0, 1}));
-    EXPECT_EQ(session.workspace.clip_groups()[0].title.rfind("clips: ", 0), 0u)
-        << session.workspace.clip_groups()[0].title;
+    ASSERT_EQ(clip_groups(session.workspace).size(), 2u);
+    EXPECT_EQ(clip_groups(session.workspace)[0].clips, (std::vector<int>{0, 1}));
+    EXPECT_EQ(clip_groups(session.workspace)[0].title.rfind("clips: ", 0), 0u)
+        << clip_groups(session.workspace)[0].title;
     EXPECT_EQ(session.workspace.view().arrange, Arrange::grid);
-    run_command(session, "agents.solo", "group:" + session.workspace.clip_groups()[0].title);
+    run_command(session, "agents.solo", "group:" + clip_groups(session.workspace)[0].title);
     EXPECT_EQ(hidden(), AgentNames{session.workspace.scene().clips[2].name});
-    EXPECT_FALSE(session.workspace.is_crowd());
+    EXPECT_FALSE(is_crowd(session.workspace));
 }
 
 }  // namespace

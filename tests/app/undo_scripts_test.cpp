@@ -54,6 +54,7 @@ class Worked {
           window(GlContext::open(Backend::osmesa), session, size_of(seed), 1),
           script_(static_cast<std::uint64_t>(seed), size_of(seed), kLeast, kMost) {
         session.options.may_write = false;
+        add_review(session);
         session.files.open({file});
         follow_opening();
         window.resize(size_of(seed));
@@ -86,8 +87,8 @@ class Worked {
 
     /// Another file was opened: what was done before is no past of it.
     void follow_opening() {
-        if (session.workspace.in_excerpt() || session.workspace.opening() == opening_) return;
-        opening_ = session.workspace.opening();
+        if (session.workspace.in_excerpt() || session.workspace.document().opening == opening_) return;
+        opening_ = session.workspace.document().opening;
         // In a window where the camera has something to frame the scene in.
         window.resize(kMost);
         settle();
@@ -99,7 +100,7 @@ class Worked {
     void run(const std::string& line) {
         try {
             std::ostringstream out;
-            Script::parse(line, "random").run(session, window, out);
+            Script::parse(line, "random", ScriptOutput::allowed, commands(session)).run(session, window, out);
         } catch (const InputError&) {
             // Not every command can be run everywhere.
         }

@@ -1,6 +1,7 @@
 #include "run_program.h"
 
 #include <gtest/gtest.h>
+#include <mobb/kinds.h>
 #include <support/temp_folder.h>
 #include <nlohmann/json.hpp>
 
@@ -8,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mobbscope {
@@ -26,7 +28,9 @@ TEST(Bench, Table2OnBuiltInClips) {
     EXPECT_NEAR(json["clips"]["mean_duration"].get<double>(), 42, 6);
     std::vector<std::string> methods;
     for (const nlohmann::json& row : json["rows"]) methods.push_back(row["method"]);
-    for (const char* method : {"brute", "mobb_1level", "umobb_1level", "mobb", "umobb", "hybrid1", "hybrid2"}) {
+    std::vector<std::string_view> expected{"brute", "mobb_1level", "umobb_1level"};
+    for (const mobb::TreeKind kind : mobb::kTreeKinds) expected.push_back(mobb::info(kind).name);
+    for (const std::string_view method : expected) {
         EXPECT_NE(std::find(methods.begin(), methods.end(), method), methods.end()) << method;
     }
 }

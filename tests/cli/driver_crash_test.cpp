@@ -6,7 +6,6 @@
 #include "cli/render_runs.h"
 #include "render/backends.h"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -21,6 +20,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -107,12 +107,10 @@ TEST_F(DriverCrash, WhatMesaReadsIsNamed) {
 
 /// Of Mesa's own drivers: which of them crash is the version's; that none ends the program by a signal is ours.
 TEST_F(DriverCrash, MesaDrawsOrIsTold) {
-    for (const char* setting : {"GALLIUM_DRIVER=d3d12", "LP_NATIVE_VECTOR_WIDTH=512"}) {
-        const Result result = run({"render", scene(), "-o", picture()}, [&] {
-            std::string text = setting;
-            ::putenv(text.data());
-            ::execl(MOBBSCOPE_PROGRAM, MOBBSCOPE_PROGRAM, "render", scene().c_str(), "-o", picture().c_str(), nullptr);
-        });
+    for (const auto& [setting, value] :
+         {std::pair{"GALLIUM_DRIVER", "d3d12"}, std::pair{"LP_NATIVE_VECTOR_WIDTH", "512"}}) {
+        const Result result =
+            run({"render", scene(), "-o", picture()}, [name = setting, to = value] { ::setenv(name, to, 1); });
         EXPECT_TRUE(result.status == 0 || result.status == 3) << setting << ": " << result.status;
         if (result.status == 3) {
             EXPECT_NE(result.err.find("mobbscope: no OpenGL"), std::string::npos) << result.err;
@@ -153,14 +151,8 @@ class WatchedProgram : public DriverCrash {
   protected:
     void SetUp() override {
         DriverCrash::SetUp();
-        const auto drivers = with_drivers(kBothDrivers, "hangs");
-        program_ = ::fork();
-        if (program_ == 0) {
-            ::dup2(::open("/dev/null", O_WRONLY), STDERR_FILENO);
-            drivers();
-            ::execl(MOBBSCOPE_PROGRAM, MOBBSCOPE_PROGRAM, "render", scene().c_str(), "-o", picture().c_str(), nullptr);
-            ::_exit(127);
-        }
+        program_ =
+            testing::start_program({"render", scene(), "-o", picture()}, {}, with_drivers(kBothDrivers, "hangs"));
         const std::string id = std::to_string(program_);
         ASSERT_TRUE(soon([&] {
             std::ifstream children("/proc/" + id + "/task/" + id + "/children");

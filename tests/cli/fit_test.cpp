@@ -1,8 +1,7 @@
 #include "run_program.h"
 
-#include <mobb/level_figures.h>
+#include <explain/level_columns.h>
 #include <scene/fitted_scene.h>
-#include <scene/scene_json.h>
 #include <support/json_keys.h>
 #include <support/temp_folder.h>
 
@@ -77,8 +76,8 @@ TEST(Fit, JsonIsTheTree) {
     EXPECT_EQ(printed["levels"][2]["tightness"], *figures[2].tightness);
     std::set<std::string> columns;
     for (const mobb::LevelColumn& column : mobb::kLevelColumns) {
-        columns.insert(column.key);
-        EXPECT_EQ(printed["levels"][2][column.key], *column.of(figures[2])) << column.key;
+        columns.emplace(column.name);
+        EXPECT_EQ(printed["levels"][2][std::string(column.name)], *column.of(figures[2])) << column.name;
     }
     EXPECT_EQ(keys(printed["levels"][2]), columns);
 }
@@ -94,7 +93,7 @@ TEST(Fit, TheTableHasTheColumnsOfALevel) {
     for (const mobb::LevelColumn& column : mobb::kLevelColumns) {
         std::string shown;
         root >> shown;
-        EXPECT_EQ(shown, level_text(column, mobb::level_figures(fitted.tree(0)).front())) << column.key;
+        EXPECT_EQ(shown, level_text(column, mobb::level_figures(fitted.tree(0)).front())) << column.name;
     }
     EXPECT_EQ(line.size(), std::string("  level   nodes   volume m^2*s   tightness %").size());
 }

@@ -14,11 +14,6 @@
 #include <support/png_file.h>
 #include <support/temp_folder.h>
 
-#include <fcntl.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -103,24 +98,10 @@ TEST_F(LimitsTest, AFewJointsDoNotBecomeAnyNumberOfPoses) {
 }
 
 /// Bytes that the program takes at most.
-std::int64_t peak_memory(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), MOBBSCOPE_PROGRAM);
-    const pid_t child = ::fork();
-    if (child == 0) {
-        const int nothing = ::open("/dev/null", O_WRONLY);
-        ::dup2(nothing, STDOUT_FILENO);
-        std::vector<char*> words;
-        for (std::string& word : arguments) words.push_back(word.data());
-        words.push_back(nullptr);
-        ::execv(words.front(), words.data());
-        ::_exit(127);
-    }
-    int status = -1;
-    rusage usage{};
-    ::wait4(child, &status, 0, &usage);
-    EXPECT_EQ(status, 0);
-    constexpr std::int64_t kKilobyte = 1024;
-    return usage.ru_maxrss * kKilobyte;
+std::int64_t peak_memory(const std::vector<std::string>& arguments) {
+    const Result run = run_program(arguments, "/dev/null");
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run.peak_memory;
 }
 
 TEST_F(LimitsTest, ConflictsAreWrittenAsTheyAreFound) {

@@ -260,13 +260,9 @@ class WaitingWriter {
         const std::string pipe = folder.path() / "pipe.png";
         ::mkfifo(pipe.c_str(), 0600);
         reader_ = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-        child_ = ::fork();
-        if (child_ != 0) return;
-        if (!nameless && !testing::refuse_nameless_files()) ::_exit(77);
-        const std::string heat = folder.path() / "heat.png";
-        ::execl(MOBBSCOPE_PROGRAM, MOBBSCOPE_PROGRAM, "diff", a.c_str(), b.c_str(), "-o", heat.c_str(), "--strip",
-                pipe.c_str(), nullptr);
-        ::_exit(127);
+        child_ = testing::start_program({"diff", a, b, "-o", folder.path() / "heat.png", "--strip", pipe}, {}, [&] {
+            if (!nameless && !testing::refuse_nameless_files()) ::_exit(77);
+        });
     }
     ~WaitingWriter() {
         if (child_ > 0) end(SIGKILL);

@@ -3,6 +3,7 @@
 #include <support/temp_folder.h>
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -10,30 +11,36 @@
 
 namespace mobbscope::testing {
 
-Result run_program(const std::vector<std::string>& arguments, const std::filesystem::path& stdout_to,
-                   const std::filesystem::path& stdin_from, const std::function<void()>& in_child) {
-    const TempFolder folder;
-    const std::string out = stdout_to.empty() ? (folder.path() / "out").string() : stdout_to.string();
-    const std::string err = (folder.path() / "err").string();
+pid_t start_program(const std::vector<std::string>& arguments, const ProgramFiles& files,
+                    const std::function<void()>& in_child) {
     std::vector<std::string> words{MOBBSCOPE_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
-
     const pid_t child = ::fork();
-    if (child == 0) {
-        ::dup2(::open(stdin_from.c_str(), O_RDONLY), STDIN_FILENO);
-        ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
-        ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
-        if (in_child) in_child();
-        ::execv(argv[0], argv.data());
-        ::_exit(127);
-    }
+    if (child != 0) return child;
+    ::dup2(::open(files.in.c_str(), O_RDONLY), STDIN_FILENO);
+    ::dup2(::open(files.out.c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
+    ::dup2(::open(files.err.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
+    if (in_child) in_child();
+    ::execv(argv[0], argv.data());
+    ::_exit(127);
+}
+
+Result run_program(const std::vector<std::string>& arguments, const std::filesystem::path& stdout_to,
+                   const std::filesystem::path& stdin_from, const std::function<void()>& in_child) {
+    const TempFolder folder;
+    const std::filesystem::path out = stdout_to.empty() ? folder.path() / "out" : stdout_to;
+    const std::filesystem::path err = folder.path() / "err";
+    const pid_t child = start_program(arguments, {stdin_from, out, err}, in_child);
     Result run;
     int status = 0;
-    ::waitpid(child, &status, 0);
+    rusage usage{};
+    ::wait4(child, &status, 0, &usage);
     run.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    constexpr std::int64_t kKilobyte = 1024;
+    run.peak_memory = usage.ru_maxrss * kKilobyte;
     if (stdout_to.empty()) run.out = slurp(out);
     run.err = slurp(err);
     return run;

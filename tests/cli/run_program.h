@@ -1,6 +1,9 @@
 /// Runs mobbscope as a user does.
 #pragma once
 
+#include <sys/types.h>
+
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -12,10 +15,21 @@ struct Result {
     int status = -1;  ///< exit status; 128 + the signal if one ended it
     std::string out;
     std::string err;
+    std::int64_t peak_memory = 0;  ///< bytes
 };
 
+/// What standard input, output and error are.
+struct ProgramFiles {
+    std::filesystem::path in = "/dev/null", out = "/dev/null", err = "/dev/null";
+};
+
+/// The process of the program, which the caller waits for; `in_child`: what is done there before, such as setting a
+/// limit.
+pid_t start_program(const std::vector<std::string>& arguments, const ProgramFiles& files = {},
+                    const std::function<void()>& in_child = {});
+
 /// Waits for the program to end. `stdout_to`: a file to write results to instead of collecting them; `stdin_from`: one
-/// that standard input comes from, which is empty else; `in_child`: what is done there before, such as setting a limit.
+/// that standard input comes from, which is empty else; `in_child` as above.
 Result run_program(const std::vector<std::string>& arguments, const std::filesystem::path& stdout_to = {},
                    const std::filesystem::path& stdin_from = "/dev/null", const std::function<void()>& in_child = {});
 

@@ -4,7 +4,7 @@
 #include <base/base64.h>
 #include <render/image/png.h>
 
-#include "picture_tests/case_folder.h"
+#include "cases/case_folder.h"
 #include "render/backends.h"
 
 #include <gtest/gtest.h>
@@ -29,9 +29,8 @@ using testing::CaseFolder;
 using testing::is_one_line;
 using testing::Result;
 using testing::run_program;
+using testing::says;
 using testing::slurp;
-
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 void expect_test_refused(const Result& run, const std::string& why) {
     EXPECT_EQ(run.status, 2) << run.err;

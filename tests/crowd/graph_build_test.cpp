@@ -45,6 +45,19 @@ const Scene& own_recordings(const std::filesystem::path& folder) {
     return scene;
 }
 
+/// Metres that the root goes in a move, from its first sample to its exit.
+double way_of(const mobb::Clip& clip, const GraphMove& move) {
+    double way = 0;
+    glm::dvec2 from(clip.samples().front().x, clip.samples().front().y);
+    for (int i = 1; i <= clip.count(); ++i) {
+        const mobb::Disk& disk = clip.samples()[static_cast<std::size_t>(std::min(i, clip.count() - 1))];
+        const glm::dvec2 to = i < clip.count() ? glm::dvec2(disk.x, disk.y) : move.exit.position;
+        way += glm::distance(from, to);
+        from = to;
+    }
+    return way;
+}
+
 class OwnGraph : public ::testing::Test {
   protected:
     static void SetUpTestSuite() {

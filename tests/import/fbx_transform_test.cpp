@@ -36,7 +36,7 @@ double difference(const glm::dmat4& a, const glm::dmat4& b) {
     return most;
 }
 
-glm::dmat4 matrix(const FbxLocal& local) {
+glm::dmat4 matrix(const TranslationRotationScale& local) {
     return moved(local.translation) * glm::mat4_cast(local.rotation) * scaled(local.scale);
 }
 

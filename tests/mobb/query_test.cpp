@@ -115,10 +115,10 @@ TEST(Query, EveryTreeGivesTheDirectSearchsAnswerAndContact) {
 TEST(Query, EveryLeafSizeFrom1To50) {
     Random random(12);
     for (int leaf = 1; leaf <= 50; ++leaf) {
-        for (int kind = 0; kind < static_cast<int>(tree_kind_names().size()); ++kind) {
+        for (const TreeKind kind : kTreeKinds) {
             const ClipPtr a = test::random_motion(random, test::random_clip(random, 300));
             const ClipPtr b = test::random_motion(random, test::random_partner(random, *a, 300));
-            const FitOptions fit{.tree = static_cast<TreeKind>(kind), .leaf = leaf};
+            const FitOptions fit{.tree = kind, .leaf = leaf};
             const Tree tree_a(a, fit), tree_b(b, fit);
             for (int k = 0; k < 50; ++k) {
                 Placement place_a, place_b;
@@ -318,7 +318,7 @@ TEST(Query, DisksSoSmallThatTheirSquaresVanish) {
     // The predicate squares the distance to 0 here; the boxes, which square nothing, must not know better.
     for (const double scale : {1e-162, 3e-162, 1e-160, 1e-155, 1e-150}) {
         const auto clip = std::make_shared<const Clip>(1, std::vector<Disk>{{0, 0, 0.8 * scale}});
-        for (const TreeKind kind : {TreeKind::mobb, TreeKind::umobb, TreeKind::moving, TreeKind::aabb}) {
+        for (const TreeKind kind : test::kFittedTrees) {
             const Tree tree(clip, {.tree = kind});
             const PlacedTree a(tree, {.rotate_deg = 45});
             const PlacedTree b(tree, {.translate = {1.5 * scale, 1.5 * scale}, .rotate_deg = 45});

@@ -1,9 +1,14 @@
 /// Seeded random clips and placements that look for trouble: standing, loops, points, aligned frames, touching disks.
 #pragma once
 
+#include <mobb/kinds.h>
 #include <mobb/query.h>
 
+#include <glm/geometric.hpp>
+
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
@@ -112,15 +117,36 @@ inline ClipPtr random_motion(Random& random, const ClipPtr& clip) {
                                         motion);
 }
 
+/// How far a disk at (x, y, w*t) stands out of a box, metres; below 0 if it lies within.
+inline double overhang(const Box& box, glm::dvec3 p, double r) {
+    p -= box.center;
+    if (info(box.kind).moves && box.half.z > 0) p -= glm::dvec3(p.z / box.half.z * box.drift, 0);
+    if (info(box.kind).round) return std::max(std::hypot(p.x, p.y) + r - box.half.x, std::abs(p.z) - box.half.z);
+    double out = -1e300;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::dvec3 axis = box.axes[k];
+        const double along = std::abs(glm::dot(p, axis)) + r * std::hypot(axis.x, axis.y);
+        out = std::max(out, along - box.half[static_cast<int>(k)]);
+    }
+    return out;
+}
+
 /// A second clip for a pair: now and then with the first one's dt, so that their frames can be aligned.
 inline ClipPtr random_partner(Random& random, const Clip& clip, int most = 2000) {
     return random_clip(random, most, random.chance(0.4) ? clip.dt() : 0);
 }
 
+/// The kinds of trees whose boxes are fitted: all but those that have blocks.
+inline const std::vector<TreeKind> kFittedTrees = [] {
+    std::vector<TreeKind> out(kTreeKinds.begin(), kTreeKinds.end());
+    std::erase_if(out, [](TreeKind kind) { return info(kind).has_blocks(); });
+    return out;
+}();
+
 /// A tree of boxes.
 inline FitOptions random_fit(Random& random) {
     FitOptions fit;
-    fit.tree = static_cast<TreeKind>(random.integer(0, 5));
+    fit.tree = kFittedTrees[static_cast<std::size_t>(random.integer(0, static_cast<int>(kFittedTrees.size()) - 1))];
     fit.leaf = random.chance(0.5) ? 10 : random.integer(1, 50);
     fit.levels = random.chance(0.6) ? 0 : random.integer(1, 6);
     fit.axes = static_cast<Axes>(random.integer(0, 2));

@@ -204,10 +204,8 @@ TEST(Tree, BoxesOfLongClipsAreThoseFittedToTheirRanges) {
     }
     for (const Motion motion : {Motion::held, Motion::linear}) {
         const auto clip = std::make_shared<const Clip>(1.0 / 30, walk, motion);
-        for (const TreeKind kind : kTreeKinds) {
-            // The bounds of blocks are of single precision.
-            if (kind != TreeKind::blocks) expect_boxes_of_fit(clip, {.tree = kind});
-        }
+        // The bounds of blocks are of single precision.
+        for (const TreeKind kind : test::kFittedTrees) expect_boxes_of_fit(clip, {.tree = kind});
         expect_boxes_of_fit(clip, {.leaf = 1});
     }
     const std::vector<Disk> start(walk.begin(), walk.begin() + 700);
@@ -219,7 +217,7 @@ TEST(Tree, BoxesOfLongClipsAreThoseFittedToTheirRanges) {
 TEST(Tree, RefusesOptionsOutOfRange) {
     const auto clip = std::make_shared<const Clip>(1, std::vector<Disk>{{0, 0, 1}});
     EXPECT_THROW(Tree(nullptr, {}), std::invalid_argument);
-    EXPECT_THROW(Tree(clip, {.tree = static_cast<TreeKind>(9)}), std::invalid_argument);
+    EXPECT_THROW(Tree(clip, {.tree = static_cast<TreeKind>(kTreeKindCount)}), std::invalid_argument);
     EXPECT_THROW(Tree(clip, {.axes = static_cast<Axes>(9)}), std::invalid_argument);
     EXPECT_THROW(Tree(clip, {.leaf = 0}), std::invalid_argument);
     EXPECT_THROW(Tree(clip, {.levels = -1}), std::invalid_argument);

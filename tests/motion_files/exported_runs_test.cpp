@@ -4,7 +4,7 @@
 #include <crowd/graph/build_graph.h>
 #include <crowd/simulation/simulate.h>
 #include <import/skeleton/disk_sampler.h>
-#include <motion_files/read_back.h>
+#include <motion_files/formats.h>
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
 

@@ -3,9 +3,7 @@
 
 #include <import/bvh/bvh.h>
 #include <import/gltf_bytes.h>
-#include <motion_files/bvh_writer.h>
-#include <motion_files/glb_writer.h>
-#include <motion_files/read_back.h>
+#include <motion_files/formats.h>
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
 #include <support/bvh_text.h>

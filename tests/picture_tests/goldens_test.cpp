@@ -2,7 +2,7 @@
 #include <picture_tests/run_cases.h>
 #include <render/image/png.h>
 
-#include "picture_tests/case_folder.h"
+#include "cases/case_folder.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <picture_tests/test_case.h>
 #include <render/drawlist/draw_list.h>
 
-#include "picture_tests/case_folder.h"
+#include "cases/case_folder.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <render/image/png.h>
 #include <support/png_file.h>
 
-#include "picture_tests/case_folder.h"
+#include "cases/case_folder.h"
 #include "render/backends.h"
 
 #include <gtest/gtest.h>

@@ -60,7 +60,7 @@ TEST_P(BackendTest, AnErrorThatNobodyTellsIsThrown) {
 }
 
 TEST_P(BackendTest, TheCompilerRemarksNothingOnOurShaders) {
-    EXPECT_EQ(renderer().warnings(), std::vector<std::string>{});
+    EXPECT_EQ(renderer().context().warnings(), std::vector<std::string>{});
 }
 
 constexpr std::string_view kVertex = "#version 330 core\nout vec4 c;\nvoid main() { c = gl_Position = vec4(0); }\n";

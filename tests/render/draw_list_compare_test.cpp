@@ -1,5 +1,5 @@
 // What is another in two draw lists, in words.
-#include <render/drawlist/draw_list_compare.h>
+#include <render/compare/draw_list_compare.h>
 #include <render/pictures/build_draw_list.h>
 
 #include "render/pictures.h"

@@ -13,6 +13,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace mobbscope {
 namespace {
@@ -72,8 +73,7 @@ TEST(DrawList, ALevelCoversTheWholeClip) {
 
 /// Every disk's rim, both ends of its hold, lies in the box that bounds it, also once both are drawn.
 TEST(DrawList, DrawnBoxesHoldTheirDisks) {
-    for (const mobb::TreeKind kind :
-         {mobb::TreeKind::mobb, mobb::TreeKind::umobb, mobb::TreeKind::moving, mobb::TreeKind::aabb}) {
+    for (const mobb::TreeKind kind : mobb::kTreeKinds) {
         mobb::FitOptions options;
         options.tree = kind;
         options.leaf = 2;
@@ -121,14 +121,16 @@ TEST(DrawList, AFreeBoxIsShearedByTheDrawnTime) {
 }
 
 TEST(DrawList, TheLegendSaysWhatBoxesBeyondThePaperAre) {
-    const auto told = [](mobb::TreeKind kind, const char* text) {
+    const auto told = [](mobb::TreeKind kind, std::string_view text) {
         const DrawList list = build_draw_list(testing::hit_scene(kind), {}, kGoldenSize);
         return std::any_of(list.legend.begin(), list.legend.end(),
                            [&](const LegendEntry& entry) { return entry.text.find(text) != std::string::npos; });
     };
-    EXPECT_TRUE(told(mobb::TreeKind::moving, "each moves with its walk"));
-    EXPECT_TRUE(told(mobb::TreeKind::aabb, "along the world's x and y"));
-    EXPECT_FALSE(told(mobb::TreeKind::mobb, "boxes l"));
+    for (const mobb::TreeKind kind : mobb::kTreeKinds)
+        for (const mobb::BoxKind box : mobb::kBoxKinds) {
+            if (mobb::info(box).in_paper) continue;
+            EXPECT_EQ(told(kind, mobb::info(box).looks), mobb::info(kind).below == box) << mobb::name(kind);
+        }
 }
 
 TEST(DrawList, ASceneIsAboutAsTallAsWide) {

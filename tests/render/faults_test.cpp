@@ -1,5 +1,5 @@
 // Deliberate faults: each must be told by the picture or by the list of what is drawn, and what is no fault by neither.
-#include <render/drawlist/draw_list_compare.h>
+#include <render/compare/draw_list_compare.h>
 #include <render/image/image_diff.h>
 #include <render/pictures/build_draw_list.h>
 

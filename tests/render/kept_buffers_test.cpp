@@ -14,6 +14,7 @@
 
 #include <cstdlib>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace mobbscope {
@@ -188,6 +189,26 @@ TEST_P(KeptBuffersTest, PointingOutUploadsItsLinesAlone) {
     EXPECT_TRUE(as_painted_anew()) << "after the ids of another picture";
     renderer().paint(build_draw_list(paths_, view, {.size = {200, 120}}), 4);
     EXPECT_TRUE(as_painted_anew()) << "after a picture of another size";
+}
+
+/// What a list shows is known by its revision: another one may stand where it stood.
+TEST_P(KeptBuffersTest, AnotherListInTheSamePlaceIsPaintedAnew) {
+    ViewState view;
+    std::optional<DrawList> list = build_draw_list(paths_, view, {.size = kSmallSize});
+    renderer().paint(*list, 4);
+    const DrawList copy = *list;
+    EXPECT_TRUE(renderer().has_scene(*list, 4));
+    EXPECT_TRUE(renderer().has_scene(copy, 4));
+    renderer().begin_paint(*list, 4);
+    EXPECT_TRUE(renderer().is_painting(copy));
+    renderer().paint(*list, 4);
+    view.color_by = ColorBy::level;
+    list.emplace(build_draw_list(paths_, view, {.size = kSmallSize}));
+    EXPECT_FALSE(renderer().has_scene(*list, 4));
+    const auto shown = testing::pixels_of(renderer().paint_highlights(*list, 4), kSmallSize);
+    EXPECT_EQ(shown, Renderer(GetParam()).draw(*list, 4).rgba);
+    EXPECT_NE(shown, Renderer(GetParam()).draw(copy, 4).rgba);
+    EXPECT_FALSE(renderer().has_scene(copy, 4));
 }
 
 /// A run of twenty.

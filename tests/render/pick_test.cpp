@@ -197,11 +197,14 @@ TEST_P(PickedPlaces, LieOnWhatIsPicked) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Kinds, PickedPlaces,
-    ::testing::Values(PickedCase{mobb::TreeKind::umobb, false}, PickedCase{mobb::TreeKind::moving, false},
-                      PickedCase{mobb::TreeKind::aabb, false}, PickedCase{mobb::TreeKind::umobb, true}),
-    [](const auto& test) { return std::string(mobb::name(test.param.kind)) + (test.param.running ? "_running" : ""); });
+INSTANTIATE_TEST_SUITE_P(Kinds, PickedPlaces, ::testing::ValuesIn([] {
+                             std::vector<PickedCase> out{{mobb::TreeKind::umobb, true}};
+                             for (const mobb::TreeKind kind : mobb::kTreeKinds) out.push_back({kind, false});
+                             return out;
+                         }()),
+                         [](const auto& test) {
+                             return std::string(mobb::name(test.param.kind)) + (test.param.running ? "_running" : "");
+                         });
 
 TEST(Pick, ASampleThatRunsIsHitWhereItIsInBetween) {
     const FittedScene fitted(testing::running_scene({{{2, 1}, 30, 5}}), {});

@@ -1,5 +1,5 @@
 #include <render/drawlist/shown_points.h>
-#include <render/gl/face_pass.h>
+#include <render/gl/tiles.h>
 
 #include <gtest/gtest.h>
 

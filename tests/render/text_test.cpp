@@ -103,13 +103,13 @@ TEST(GlyphAtlas, EveryGlyphLiesInItAndHasInk) {
     run.text = "step 14 of 0..61: A 2.1";
     run.baseline = {10.3f, 20};
     const std::vector<TextRun> runs{run};
-    GlyphCache cache;
-    const GlyphAtlas atlas = make_atlas(runs, cache);
+    KeptGlyphs kept;
+    const GlyphAtlas atlas = make_atlas(runs, kept);
     EXPECT_GE(atlas.glyphs.size(), 14u);  // spaces may be left out
     for (const PlacedGlyph& glyph : atlas.glyphs) {
         const glm::vec2 end = glyph.texel + glyph.rect.size();
-        EXPECT_LE(end.x, static_cast<float>(atlas.width));
-        EXPECT_LE(end.y, static_cast<float>(atlas.height));
+        EXPECT_LE(end.x, static_cast<float>(atlas.size.width));
+        EXPECT_LE(end.y, static_cast<float>(atlas.size.height));
     }
     EXPECT_GT(*std::max_element(atlas.coverage.begin(), atlas.coverage.end()), 200);
 }

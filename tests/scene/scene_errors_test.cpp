@@ -1,4 +1,5 @@
 // What is wrong with a scene is said in one line that names the file, the place and the remedy.
+#include <base/text.h>
 #include <scene/scene.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
@@ -130,11 +131,11 @@ TEST(SceneErrors, GraphsAreChecked) {
 }
 
 TEST(SceneErrors, EverythingElseIsChecked) {
-    const std::pair<const char*, const char*> cases[] = {
+    const std::pair<const char*, std::string> cases[] = {
         {R"("mobbscope": 2)", "/mobbscope: the file has version 2; this program reads version 1"},
         {R"("mobbscope": "1")", "expected a number"},
         {R"("$schema": 1)", "expected a string"},
-        {R"("fit": {"tree": "oak"})", "'oak' is no tree; give one of mobb, umobb, hybrid1, hybrid2, moving, aabb"},
+        {R"("fit": {"tree": "oak"})", "'oak' is no tree; give one of " + listed(mobb::tree_kind_names())},
         {R"("fit": {"tree": "brute"})", "is no tree"},
         {R"("fit": {"tree": "production"})", "/fit/tree: `production` is called `blocks`"},
         {R"("fit": {"tree": "productoin"})", "'productoin' is no tree"},

@@ -93,6 +93,21 @@ TEST(Schema, EveryKeyOfTheSchemaIsKnownToTheReader) {
     }
 }
 
+/// Holds what stands between `begin`, the first behind `from`, and `end` against what a table makes of it, or writes
+/// it.
+void hold_part(const std::string& from, const std::string& begin, const std::string& end, const std::string& made) {
+    const std::filesystem::path file = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/scene.schema.json";
+    std::string text = testing::slurp(file);
+    const std::size_t first = text.find(begin, text.find(from)) + begin.size();
+    const std::size_t last = text.find(end, first);
+    ASSERT_NE(last, std::string::npos) << from;
+    if (std::getenv("MOBBSCOPE_UPDATE_SCHEMA"))
+        write_file(file, text.replace(first, last - first, made));
+    else
+        EXPECT_EQ(text.substr(first, last - first), made)
+            << "MOBBSCOPE_UPDATE_SCHEMA=1 build/test/bin/test_scene --gtest_filter=Schema.Of* writes it anew";
+}
+
 /// The schema of a view is made from the table of view options.
 TEST(Schema, OfAViewIsTheTableOfItsOptions) {
     std::string made;
@@ -105,17 +120,17 @@ TEST(Schema, OfAViewIsTheTableOfItsOptions) {
                 std::string(option.key) + "`: true is " + std::string(former.on) + ", false is " +
                 std::string(former.off) + R"(", "deprecated": true, "type": "boolean"})";
     }
-    const std::filesystem::path file = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/scene.schema.json";
-    std::string text = testing::slurp(file);
-    const std::string before = "\"properties\": {\n";
-    const std::size_t begin = text.find(before, text.find("    \"view\": {\n")) + before.size();
-    const std::size_t end = text.find("\n      }\n    }\n  }\n}", begin);
-    ASSERT_NE(end, std::string::npos);
-    if (std::getenv("MOBBSCOPE_UPDATE_SCHEMA"))
-        write_file(file, text.replace(begin, end - begin, made));
-    else
-        EXPECT_EQ(text.substr(begin, end - begin), made)
-            << "MOBBSCOPE_UPDATE_SCHEMA=1 build/test/bin/test_scene --gtest_filter=Schema.OfAView* writes it anew";
+    hold_part("    \"view\": {\n", "\"properties\": {\n", "\n      }\n    }\n  }\n}", made);
+}
+
+TEST(Schema, OfKindsOfTreesAndTestsIsTheirTable) {
+    const auto names = [](const auto& kinds) {
+        std::string out;
+        for (const auto kind : kinds) out += (out.empty() ? "\"" : ", \"") + std::string(mobb::name(kind)) + '"';
+        return out;
+    };
+    hold_part("    \"fit\": {\n", "\"tree\": {\"enum\": [", "]}", names(mobb::kTreeKinds));
+    hold_part("    \"event\": {\n", "\"test\": {\"enum\": [", "]}", names(mobb::kTestKinds));
 }
 
 /// Whether parse_scene takes a scene with this value for a key of its view.
@@ -155,14 +170,6 @@ TEST(Schema, PatternsTakeWhatTheReaderTakes) {
 TEST(Schema, BoundsAreTheReaders) {
     EXPECT_TRUE(properties("view")["levels"]["maximum"] == 1000 && view_is_read("levels", "1000"));
     EXPECT_FALSE(view_is_read("levels", "1001"));
-}
-
-TEST(Schema, ListsEveryKindOfTreeAndTest) {
-    nlohmann::json trees, tests;
-    for (const mobb::TreeKind kind : mobb::kTreeKinds) trees.push_back(mobb::name(kind));
-    for (const mobb::TestKind test : mobb::kTestKinds) tests.push_back(mobb::name(test));
-    EXPECT_EQ(properties("fit")["tree"]["enum"], trees);
-    EXPECT_EQ(properties("event")["test"]["enum"], tests);
 }
 
 /// Every key of every "properties" below `value`.

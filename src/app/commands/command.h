@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <initializer_list>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,7 +19,8 @@
 
 namespace mobbscope::app {
 
-/// What a parameter stands for: the text that a command was given, the desktop, a part of the session, or all of it.
+/// What a parameter stands for: the text that a command was given, the desktop, a part or a screen of the session, or
+/// all of it.
 template <class Parameter, class AnySession>
 Parameter given(AnySession& session, const std::string& text) {
     using Type = std::remove_cvref_t<Parameter>;
@@ -28,6 +30,8 @@ Parameter given(AnySession& session, const std::string& text) {
         return session;
     } else if constexpr (std::is_same_v<Type, Desktop>) {
         return *session.desktop;
+    } else if constexpr (std::is_base_of_v<Screen, Type>) {
+        return session.template the<Type>();
     } else if constexpr (std::is_const_v<AnySession>) {
         return std::get<const Type&>(Session::parts(session));
     } else {
@@ -88,15 +92,21 @@ struct Condition {
 /// What a command does. Throws InputError, MachineError or std::invalid_argument, in words for the person.
 using Action = OfParts<void, Session>;
 
+/// Where a command can be done: with what its table is of, the scene or a screen (home); with the scene; or whatever is
+/// shown.
+enum class Where { home, scene, everywhere };
+
 /// What a command may have besides.
 struct CommandTraits {
-    /// "File", "Edit", "View", "Tree", "Query", "Go", "Review" or "Help", and behind a slash the submenu;
+    /// "File", "Edit", "View", "Tree", "Query", "Go", a screen's or "Help", and behind a slash the submenu;
     /// empty in a row: that of its part; kNoMenu: none
     std::string_view menu{};
+    std::string_view behind{};    ///< of a screen's command in another menu: the one that it follows there
     std::string_view shortcut{};  ///< "Ctrl+O"; several separated by a blank; empty: none
     bool repeats = false;         ///< while its key is held
     std::string_view argument{};  ///< what it takes: "FILE", "N"; in brackets if it can do without; empty: nothing
     Condition enabled = has_scene;
+    Where where = Where::home;
     OfParts<bool, const Session> checked{};                      ///< of a toggle: whether it is on
     OfParts<std::vector<std::string>, const Session> choices{};  ///< arguments to choose from
     /// What menus call a choice. Null: as it is given.
@@ -106,6 +116,7 @@ struct CommandTraits {
     OfParts<std::string, const Session> present{};
     /// Of a command with choices: whether this one is what is now. Null: no choice is.
     OfParts<bool, const Session> chosen{};
+    OfParts<std::string, const Session> title_end{};  ///< what its title goes on with in menus: " moving A"
 };
 
 struct Command : CommandTraits {
@@ -117,12 +128,18 @@ struct Command : CommandTraits {
     std::string_view title;  ///< "View from above": for menus and the palette
     std::string_view doc;    ///< one sentence
     Action run;
+    const Screen* screen = nullptr;  ///< that it is about; null: the scene
 
     bool needs_argument() const { return !argument.empty() && !argument.starts_with('['); }
 };
 
-/// The table, in the order of the menus.
+/// The table, in the order of the menus: without screens, or with those of a session.
 std::span<const Command> commands();
+std::span<const Command> commands(const Session& session);
+/// ... with these rows of screens.
+std::vector<Command> commands_with(std::vector<Command> of_screens);
+/// The session can show it from now on.
+void add_screen(Session& session, std::unique_ptr<Screen> screen);
 
 /// Why a command cannot be done now; empty if it can.
 std::string_view why_not(const Session& session, const Command& command);
@@ -130,9 +147,9 @@ std::string_view why_not(const Session& session, const Command& command);
 std::string_view why_no_step(const Workspace& workspace);
 
 /// Null if there is none.
-const Command* find_command(std::string_view id);
+const Command* find_command(std::string_view id, std::span<const Command> table = commands());
 /// Throws std::invalid_argument, with the nearest id, if there is none.
-const Command& command_named(std::string_view id);
+const Command& command_named(std::string_view id, std::span<const Command> table = commands());
 
 /// Runs a command by id at once, as a script does between frames: throws std::invalid_argument if there is none, it is
 /// not enabled, or it is given an argument that it does not take or none where it needs one; and what the command
@@ -145,10 +162,10 @@ void invoke(Session& session, std::string_view id, const std::string& argument =
 /// Opens the palette for the argument of a command.
 void ask_for_argument(Session& session, const Command& command);
 
-/// The command that a chord calls where the session is: with the scene or with picture tests; null if none.
+/// The command that a chord calls where the session is: with the scene or with a screen; null if none.
 const Command* command_for(const Session& session, const Chord& chord);
 
-/// Whether a command is about what is shown, the scene or picture tests: menus have no others.
+/// Whether a command is about what is shown, the scene or a screen: menus have no others.
 bool belongs_here(const Session& session, const Command& command);
 
 /// What menus call a choice of a command.
@@ -171,7 +188,6 @@ std::vector<Command> tree_commands();
 std::vector<Command> query_commands();
 std::vector<Command> go_commands();
 std::vector<Command> crowd_commands();
-std::vector<Command> review_commands();
 
 /// Rows of a part: those that say no menu stand in this one.
 std::vector<Command> in_menu(std::string_view menu, std::vector<Command> rows);

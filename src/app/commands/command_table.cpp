@@ -4,7 +4,6 @@
 #include <base/text.h>
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 #include <utility>
 
@@ -16,39 +15,29 @@ std::vector<Command> help_commands() {
     const std::vector<Command> rows{
         Command("help.shortcuts", "Help",
                 "Says what can be done now, then lists all keys and what the mouse does; a search finds commands.",
-                &Dialogs::open_help, {.shortcut = "F1", .enabled = always}),
+                &Dialogs::open_help, {.shortcut = "F1", .enabled = always, .where = Where::everywhere}),
         Command("help.messages", "Messages", "Lists what was said: what went wrong, what to do, and what was done.",
                 [](Dialogs& dialogs, Notifications& notifications) {
                     dialogs.open(Dialog::messages);
                     notifications.mark_read();
                 },
-                {.shortcut = "F8", .enabled = always}),
+                {.shortcut = "F8", .enabled = always, .where = Where::everywhere}),
         Command("help.clear_messages", "Clear messages", "Empties the list of messages.", &Notifications::clear,
                 {.enabled = {[](const Notifications& notifications) { return !notifications.all().empty(); },
-                             []() -> std::string_view { return "there are none"; }}}),
+                             []() -> std::string_view { return "there are none"; }},
+                 .where = Where::everywhere}),
         Command("help.about", "About Mobbscope", "Says which version this is and what it shows.",
-                [](Dialogs& dialogs) { dialogs.open(Dialog::about); }, {.enabled = always}),
+                [](Dialogs& dialogs) { dialogs.open(Dialog::about); }, {.enabled = always, .where = Where::everywhere}),
     };
     return in_menu("Help", rows);
 }
 
-/// What is about neither the scene nor picture tests.
-constexpr auto kEverywhere = std::to_array<std::string_view>(
-    {"file.open",          "file.recent",    "file.reopen_last", "file.demo",           "file.review",
-     "file.quit",          "go.palette",     "go.next_panel",    "go.previous_panel",   "go.menu",
-     "go.menu_of_this",    "view.theme",     "window.scale",     "window.larger",       "window.smaller",
-     "window.scale_reset", "help.shortcuts", "help.messages",    "help.clear_messages", "help.about"});
-
-bool is_everywhere(const Command& command) { return std::ranges::find(kEverywhere, command.id) != kEverywhere.end(); }
-
-bool is_of_review(const Command& command) { return command.id.starts_with("review.") && command.id != "review.back"; }
-
 /// Nothing is done to what is not shown.
 std::vector<Command> only_where_shown(std::vector<Command> rows) {
     for (Command& row : rows) {
-        if (is_everywhere(row)) continue;
-        row.enabled.holds = [shown_there = is_of_review(row), holds = row.enabled.holds](const Session& session) {
-            return session.reviews.shown() == shown_there && holds(session);
+        if (row.where == Where::everywhere) continue;
+        row.enabled.holds = [of = row.screen, holds = row.enabled.holds](const Session& session) {
+            return session.screen == of && holds(session);
         };
     }
     return rows;
@@ -56,23 +45,49 @@ std::vector<Command> only_where_shown(std::vector<Command> rows) {
 
 }  // namespace
 
-std::span<const Command> commands() {
-    static const std::vector<Command> table = only_where_shown(
+std::vector<Command> commands_with(std::vector<Command> of_screens) {
+    const auto placed = std::stable_partition(of_screens.begin(), of_screens.end(),
+                                              [](const Command& row) { return row.behind.empty(); });
+    const std::vector<Command> behind(placed, of_screens.end());
+    of_screens.erase(placed, of_screens.end());
+    std::vector<Command> table =
         joined({file_commands(), edit_commands(), clip_commands(), view_commands(), shown_commands(), tree_commands(),
-                query_commands(), go_commands(), crowd_commands(), review_commands(), help_commands()}));
+                query_commands(), go_commands(), crowd_commands(), of_screens, help_commands()});
+    for (const Command& row : behind) table.insert(std::ranges::find(table, row.behind, &Command::id) + 1, row);
+    return only_where_shown(std::move(table));
+}
+
+std::span<const Command> commands() {
+    static const std::vector<Command> table = commands_with({});
     return table;
 }
 
+std::span<const Command> commands(const Session& session) {
+    return session.commands ? std::span<const Command>(*session.commands) : commands();
+}
+
+void add_screen(Session& session, std::unique_ptr<Screen> screen) {
+    session.screens.push_back(std::move(screen));
+    std::vector<Command> rows;
+    for (const auto& each : session.screens) {
+        for (Command& row : each->commands()) {
+            if (row.where == Where::home) row.screen = each.get();
+            rows.push_back(std::move(row));
+        }
+    }
+    session.commands = std::make_shared<const std::vector<Command>>(commands_with(std::move(rows)));
+}
+
 bool belongs_here(const Session& session, const Command& command) {
-    return is_everywhere(command) || is_of_review(command) == session.reviews.shown();
+    return command.where == Where::everywhere || command.screen == session.screen;
 }
 
 std::string_view why_not(const Session& session, const Command& command) {
     if (command.enabled(session)) return "";
     if (!belongs_here(session, command)) {
-        return session.reviews.shown() ? "picture tests are shown: leave them first" : "no picture tests are shown";
+        return session.screen ? session.screen->words().shown : command.screen->words().not_shown;
     }
-    if (session.reviews.shown()) return command.enabled.why_not(session);
+    if (session.screen) return command.enabled.why_not(session);
     if (session.jobs.job()) return "something is under way";
     return session.workspace.empty() ? "nothing is open" : command.enabled.why_not(session);
 }
@@ -81,21 +96,20 @@ std::string_view why_no_step(const Workspace& workspace) {
     return workspace.view().query ? "there is none from here" : "no query is shown";
 }
 
-const Command* find_command(std::string_view id) {
-    const auto table = commands();
+const Command* find_command(std::string_view id, std::span<const Command> table) {
     const auto at = std::find_if(table.begin(), table.end(), [&](const Command& c) { return c.id == id; });
     return at == table.end() ? nullptr : &*at;
 }
 
-const Command& command_named(std::string_view id) {
-    if (const Command* found = find_command(id)) return *found;
+const Command& command_named(std::string_view id, std::span<const Command> table) {
+    if (const Command* found = find_command(id, table)) return *found;
     std::vector<std::string> ids;
-    for (const Command& command : commands()) ids.emplace_back(command.id);
-    return commands()[static_cast<std::size_t>(index_of_name(ids, id, "command"))];
+    for (const Command& command : table) ids.emplace_back(command.id);
+    return table[static_cast<std::size_t>(index_of_name(ids, id, "command"))];
 }
 
 void run_command(Session& session, std::string_view id, const std::string& argument) {
-    const Command& command = command_named(id);
+    const Command& command = command_named(id, commands(session));
     const auto require = [&](bool holds, const std::string& what_is_wrong) {
         if (!holds) throw std::invalid_argument('"' + std::string(command.title) + "\" " + what_is_wrong);
     };
@@ -116,7 +130,7 @@ void ask_for_argument(Session& session, const Command& command) {
 }
 
 const Command* command_for(const Session& session, const Chord& chord) {
-    for (const Command& command : commands()) {
+    for (const Command& command : commands(session)) {
         if (!belongs_here(session, command)) continue;
         for (const std::string& name : words_of(command.shortcut)) {
             if (chord_from_name(name) == chord) return &command;

@@ -230,7 +230,7 @@ std::vector<Command> crowd_commands() {
                 {.argument = "AGENT",
                  .enabled =
                      [](const Workspace& workspace) {
-                         return workspace.is_crowd() && current_path(workspace).has_value();
+                         return is_crowd(workspace) && current_path(workspace).has_value();
                      }}),
         Command("conflicts.find", "Find conflicts",
                 "Looks for all pairs of people who collide, through the trees, and lists the deepest overlap first.",

@@ -134,6 +134,12 @@ void copy_figures(Session& session) {
     session.notifications.tell(MessageLevel::info, "Copied the figures of " + what.name);
 }
 
+/// Of what it is about.
+template <auto can, auto title>
+std::string title_end_of(const Workspace& workspace) {
+    return (workspace.history.*can)() ? ' ' + (workspace.history.*title)() : "";
+}
+
 }  // namespace
 
 std::vector<Command> edit_commands() {
@@ -141,11 +147,13 @@ std::vector<Command> edit_commands() {
         Command("edit.undo", "Undo", "Takes back the last edit, or the looking around since.", &Edits::undo,
                 {.shortcut = "Ctrl+Z",
                  .repeats = true,
-                 .enabled = [](const Workspace& workspace) { return workspace.history.can_undo(); }}),
+                 .enabled = [](const Workspace& workspace) { return workspace.history.can_undo(); },
+                 .title_end = title_end_of<&History::can_undo, &History::undo_title>}),
         Command("edit.redo", "Redo", "Brings back what was undone.", &Edits::redo,
                 {.shortcut = "Ctrl+Y Ctrl+Shift+Z",
                  .repeats = true,
-                 .enabled = [](const Workspace& workspace) { return workspace.history.can_redo(); }}),
+                 .enabled = [](const Workspace& workspace) { return workspace.history.can_redo(); },
+                 .title_end = title_end_of<&History::can_redo, &History::redo_title>}),
         Command("edit.history", "History...", "Lists what was done; a click goes back or on to it.",
                 [](Dialogs& dialogs) { dialogs.open(Dialog::history); }),
         Command("edit.go_to", "To a state of the history",

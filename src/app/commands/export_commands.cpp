@@ -18,11 +18,11 @@ namespace {
 /// Another document's picture gets another name.
 void name_file(Dialogs& dialogs, Workspace& workspace, Settings& settings) {
     ExportDialog& dialog = dialogs.exporting;
-    if (dialog.opening == workspace.opening()) return;
+    if (dialog.opening == workspace.document().opening) return;
     dialog.file.clear();
     dialog.file = export_file(workspace, settings, dialogs).string();
     dialog.agreed.clear();
-    dialog.opening = workspace.opening();
+    dialog.opening = workspace.document().opening;
 }
 
 void open_export_dialog(Dialogs& dialogs, Workspace& workspace, Settings& settings) {
@@ -111,7 +111,7 @@ std::vector<Command> export_commands() {
                 [](Dialogs& dialogs, Workspace& workspace, const std::string& file) {
                     check_file_name(file);
                     dialogs.exporting.file = file;
-                    dialogs.exporting.opening = workspace.opening();
+                    dialogs.exporting.opening = workspace.document().opening;
                     if (dialogs.now == Dialog::export_picture) dialogs.input.set_text(file);
                 },
                 {.menu = kNoMenu, .argument = "FILE.png"}),

@@ -20,13 +20,6 @@ void add_file(Dialogs& dialogs, Files& files, const std::string& file) {
     files.add(paths_in(file));
 }
 
-void review_folder(Dialogs& dialogs, Reviews& reviews, const std::string& argument) {
-    if (argument.empty()) return dialogs.open(Dialog::review);
-    const std::vector<std::filesystem::path> given = paths_in(argument);
-    if (given.size() > 2) throw std::invalid_argument("give the folder of the cases, and one report at most");
-    reviews.open(given.front(), given.size() == 2 ? given.back() : std::filesystem::path());
-}
-
 std::vector<std::string> recent_names(const Settings& settings) {
     std::vector<std::string> out;
     for (const auto& file : settings.recent) out.push_back(file.string());
@@ -46,24 +39,21 @@ std::vector<Command> file_commands() {
             "file.open", "Open...",
             "Opens a scene, a capture, clips, or a folder of clips, in place of what is open. Several files stand in "
             "quotes.",
-            open_file, {.shortcut = "Ctrl+O", .argument = "[FILE]", .enabled = always}),
+            open_file, {.shortcut = "Ctrl+O", .argument = "[FILE]", .enabled = always, .where = Where::everywhere}),
         Command("file.add", "Add files...", "Adds clips, or the agents and clips of another scene, to what is open.",
                 add_file, {.argument = "[FILE]", .enabled = always}),
         Command("file.recent", "Open recent", "Opens a file that was open before.",
                 [](Files& files, const std::string& file) { files.open({file}); },
-                {.argument = "FILE", .enabled = always, .choices = recent_names}),
-        Command("file.reopen_last", "Reopen last session",
-                "Opens what was open when the window was closed last, as it was seen.", &Files::reopen_last,
-                {.enabled = {&Files::has_last,
-                             []() -> std::string_view { return "there is none, or its files are gone"; }}}),
+                {.argument = "FILE", .enabled = always, .where = Where::everywhere, .choices = recent_names}),
+        Command(
+            "file.reopen_last", "Reopen last session",
+            "Opens what was open when the window was closed last, as it was seen.", &Files::reopen_last,
+            {.enabled = {&Files::has_last, []() -> std::string_view { return "there is none, or its files are gone"; }},
+             .where = Where::everywhere,
+             .title_end = [](const Files& files) { return files.has_last() ? ": " + files.last_title() : ""; }}),
         Command("file.demo", "Open the demo",
                 "Opens the scene that comes with the program: two walkers whose paths cross, but not in time.",
-                &Files::open_demo, {.enabled = always}),
-        Command(
-            "file.review", "Review picture tests...",
-            "Draws the picture tests of a folder and shows what differs from their goldens. With a report of mobbscope "
-            "test, both in quotes, it shows that and draws nothing.",
-            review_folder, {.argument = "[FOLDER]", .enabled = always}),
+                &Files::open_demo, {.enabled = always, .where = Where::everywhere}),
         Command("file.reload", "Reload",
                 "Reads what is open again from its files, when another program has changed them.",
                 [](Files& files, Workspace& workspace) {
@@ -78,7 +68,7 @@ std::vector<Command> file_commands() {
     };
     const std::vector<Command> end{
         Command("file.quit", "Quit", "Ends the program; asks first if there are unsaved changes.",
-                &Files::request_close, {.shortcut = "Ctrl+Q", .enabled = always}),
+                &Files::request_close, {.shortcut = "Ctrl+Q", .enabled = always, .where = Where::everywhere}),
     };
     return in_menu("File", joined({rows, export_commands(), end}));
 }

@@ -53,7 +53,7 @@ class Collector {
              std::initializer_list<SearchField> fields) {
         const auto found = score(words_, fields);
         if (!found) return;
-        const Command* command = find_command(id);
+        const Command* command = find_command(id, commands(session_));
         found_.push_back({*found,
                           {command, std::move(argument), std::move(title), std::move(detail),
                            std::string(first_shortcut(*command)), std::string(why_not(session_, *command))}});
@@ -123,12 +123,6 @@ void add_things(Collector& out, const Session& session) {
     }
 }
 
-void add_cases(Collector& out, const Review& review) {
-    for (const ReviewCase& one : review.cases()) {
-        out.add("review.show", one.file.name, one.file.name, "Case", {{one.file.name}, {"case"}});
-    }
-}
-
 constexpr double kLetter = 1;
 constexpr double kWordStart = 6;
 constexpr double kRun = 7;
@@ -143,12 +137,15 @@ bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || sta
 std::vector<PaletteEntry> palette_entries(const Session& session, const std::string& text) {
     Collector out(session, text);
     const bool names = out.has_words();
-    if (names && !session.reviews.shown()) add_node(out, session, text);
-    for (const Command& command : commands()) {
+    if (names && !session.screen) add_node(out, session, text);
+    for (const Command& command : commands(session)) {
         if (belongs_here(session, command)) add_command(out, session, command);
     }
-    if (names && session.reviews.shown()) add_cases(out, *session.reviews.review());
-    if (names && !session.reviews.shown()) add_things(out, session);
+    if (!names) return std::move(out).sorted();
+    if (!session.screen) add_things(out, session);
+    for (const NamedThing& thing : session.screen ? session.screen->things() : std::vector<NamedThing>()) {
+        out.add(thing.command, thing.name, thing.name, std::string(thing.kind), {{thing.name}, {thing.kind}});
+    }
     return std::move(out).sorted();
 }
 

@@ -30,7 +30,7 @@ Command of_selected(std::string_view id, std::string_view title, std::string_vie
 std::vector<std::string> meanings(const Workspace& workspace) {
     std::vector<std::string> out;
     for (const std::string& name : all_agents(workspace)) out.push_back(text_of_agent(name));
-    for (const ClipGroup& group : workspace.clip_groups()) {
+    for (const ClipGroup& group : clip_groups(workspace)) {
         if (!agents_of_group(workspace, group).empty()) out.push_back(kOfGroup + group.title);
     }
     const std::vector<std::string> clips = clip_names(workspace);

@@ -7,11 +7,7 @@ namespace mobbscope::app {
 
 namespace {
 
-bool in_file_dialog(const Dialogs& dialogs) {
-    const Dialog open = dialogs.behind_help();
-    return open == Dialog::open || open == Dialog::add || open == Dialog::save_as || open == Dialog::export_file ||
-           open == Dialog::review;
-}
+bool in_file_dialog(const Dialogs& dialogs) { return dialogs.question(dialogs.behind_help()); }
 
 template <Dialog dialog>
 bool in_dialog(const Dialogs& dialogs) {
@@ -58,11 +54,6 @@ std::span<const Situation> situations() {
          {{"Enter", "Export it; where a file would be overwritten, Enter once more"},
           {"Tab, Enter", "Go to the next field, and change it"},
           {"Escape", "Close it; the settings stay"}}},
-        {"You look at picture tests",
-         "Go through the cases that differ; accept what is right, and leave the rest to be mended.",
-         [](const Reviews& reviews) { return reviews.shown(); },
-         {"review.next_failing", "review.previous_failing", "review.accept", "review.undo", "review.blink",
-          "review.open", "review.draw_all", "review.leave"}},
         {"Nothing is open",
          "Open a scene, motion clips or tracked people; they can also be dropped on the window.",
          [](const Workspace& workspace) { return workspace.empty(); },
@@ -80,7 +71,7 @@ std::span<const Situation> situations() {
           "query.none", "crowd.back"}},
         {"You look at a crowd",
          "Follow somebody, and see at each choice which moves could be taken and who ruled out the others.",
-         [](const Workspace& workspace) { return workspace.is_crowd(); },
+         [](const Workspace& workspace) { return is_crowd(workspace); },
          {"crowd.follow", "crowd.next_choice", "crowd.previous_choice", "crowd.stop", "time.play", "view.moment",
           "conflicts.find", "conflicts.next", "crowd.candidates", "view.frame"}},
         {"An agent is selected",
@@ -99,7 +90,9 @@ std::span<const Situation> situations() {
 
 const Situation& present_situation(const Session& session) {
     const auto table = situations();
-    return *std::find_if(table.begin(), table.end() - 1, [&](const Situation& s) { return s.holds(session); });
+    const auto now = std::find_if(table.begin(), table.end() - 1, [&](const Situation& s) { return s.holds(session); });
+    // A dialog lies over the screen.
+    return session.screen && now->keys.empty() ? session.screen->situation() : *now;
 }
 
 std::span<const KeyHelp> focus_help() {

@@ -247,7 +247,7 @@ double sample_time(const Workspace& workspace) {
 
 /// To the next multiple of a sample after (before) the present time, counted from the first moment.
 void step_time(Workspace& workspace, Playback& playback, int direction) {
-    const mobb::Interval span = workspace.time_span();
+    const mobb::Interval span = time_span(workspace);
     const double dt = sample_time(workspace);
     const double at = (workspace.view().time.value_or(span.t0) - span.t0) / dt;
     const double next = direction > 0 ? std::floor(at + kHair) + 1 : std::ceil(at - kHair) - 1;
@@ -406,6 +406,8 @@ std::vector<Command> level_commands() {
 }
 
 std::vector<Command> window_commands() {
+    Command theme = option_command(view_option("theme"));
+    theme.where = Where::everywhere;
     const std::vector<Command> rows{
         Command(
             "view.projection", "Disk along the axes of its box",
@@ -416,20 +418,22 @@ std::vector<Command> window_commands() {
                  [](const Workspace& workspace) { return workspace.view().projection || selected_disk(workspace); },
                  [] { return std::string_view("no sample in the picture is selected"); }},
              .checked = [](const Workspace& workspace) { return workspace.view().projection.has_value(); }}),
-        option_command(view_option("theme")),
+        theme,
         Command("window.scale", "Scale of text and panels", "Makes text and panels so many times as large, 0.5 to 4.",
                 set_scale,
                 {.menu = kNoMenu,
                  .argument = "X",
                  .enabled = always,
+                 .where = Where::everywhere,
                  .present = [](const Session& session) { return short_double(session.ui_scale()); }}),
         Command("window.larger", "Larger text", "Makes text and panels larger.", larger,
-                {.shortcut = "Ctrl+=", .repeats = true, .enabled = always}),
+                {.shortcut = "Ctrl+=", .repeats = true, .enabled = always, .where = Where::everywhere}),
         Command("window.smaller", "Smaller text", "Makes text and panels smaller.", smaller,
-                {.shortcut = "Ctrl+-", .repeats = true, .enabled = always}),
+                {.shortcut = "Ctrl+-", .repeats = true, .enabled = always, .where = Where::everywhere}),
         Command("window.scale_reset", "Usual text size",
                 "Makes text and panels as large as the monitor's scale asks for.",
-                [](Settings& settings) { settings.ui_scale = 0; }, {.shortcut = "Ctrl+0", .enabled = always}),
+                [](Settings& settings) { settings.ui_scale = 0; },
+                {.shortcut = "Ctrl+0", .enabled = always, .where = Where::everywhere}),
     };
     return in_menu("View/Window", rows);
 }
@@ -457,9 +461,9 @@ std::vector<Command> time_commands() {
         Command("time.play", "Play", "Lets the time cursor run, or stops it.", play,
                 {.shortcut = "Space", .checked = [](const Playback& playback) { return playback.playing(); }}),
         Command("time.start", "To the first moment", "Puts the time cursor where the first path begins.",
-                [](Workspace& workspace) { set_time(workspace, workspace.time_span().t0); }),
+                [](Workspace& workspace) { set_time(workspace, time_span(workspace).t0); }),
         Command("time.end", "To the last moment", "Puts the time cursor where the last path ends.",
-                [](Workspace& workspace) { set_time(workspace, workspace.time_span().t1); }),
+                [](Workspace& workspace) { set_time(workspace, time_span(workspace).t1); }),
         Command("time.forward", "A sample on", "Moves the time cursor on by a sample.",
                 [](Workspace& workspace, Playback& playback) { step_time(workspace, playback, 1); },
                 {.shortcut = ".", .repeats = true}),

@@ -122,7 +122,7 @@ void select_agent_named(Workspace& workspace, const std::string& name) {
 
 double shown_time(const Workspace& workspace) {
     if (workspace.crowd()) return run_time(workspace.scene(), workspace.view());
-    return workspace.view().time.value_or(workspace.time_span().t0);
+    return workspace.view().time.value_or(time_span(workspace).t0);
 }
 
 std::size_t people_in(const Workspace& workspace) {

@@ -17,24 +17,24 @@ void describe_node(Described& out, const DrawnAgent& agent, int index) {
     const mobb::Node& node = tree.node(index);
     out.name = node_name(agent, index);
     const mobb::Box world = world_box(tree, index);
-    const bool upright = mobb::info(world.kind).axes != mobb::BoxAxes::space_time;
+    const mobb::BoxInfo& shape = mobb::info(world.kind);
+    const bool tilted = shape.axes == mobb::BoxAxes::space_time;
     out.facts = {{"node", std::to_string(index) + (tree.tree().is_leaf(index) ? ", leaf" : "") + ", " +
-                              std::string(mobb::info(world.kind).title)},
+                              std::string(shape.title)},
                  {"level", std::to_string(tree.tree().level(index))},
                  {"samples", std::to_string(node.first) + ".." + std::to_string(node.end() - 1) + " (" +
                                  std::to_string(node.count) + ")"},
                  {"time", formatted("%.3f..%.3f s", tree.begin(node), tree.end(node))},
                  {"centre", formatted("%.3f, %.3f m", world.center.x, world.center.y)}};
-    const bool is_block = world.kind == mobb::BoxKind::block;
-    if (is_block) out.facts.emplace_back("radius", formatted("%.3f m", world.half[0]));
-    if (!is_block)
-        out.facts.emplace_back(upright ? "sides" : "sides 1, 2",
+    if (shape.round) out.facts.emplace_back("radius", formatted("%.3f m", world.half[0]));
+    if (!shape.round)
+        out.facts.emplace_back(tilted ? "sides 1, 2" : "sides",
                                formatted("%.3f x %.3f m", 2 * world.half[0], 2 * world.half[1]));
-    if ((is_block || world.kind == mobb::BoxKind::moving) && world.half.z > 0) {
+    if (shape.moves && world.half.z > 0) {
         const glm::dvec2 velocity = world.drift * (tree.time_scale() / world.half.z);
         out.facts.emplace_back("velocity", formatted("%.3f, %.3f m/s", velocity.x, velocity.y));
     }
-    if (!upright) out.facts.emplace_back("side 3", formatted("%.3f m", 2 * world.half[2]));
+    if (tilted) out.facts.emplace_back("side 3", formatted("%.3f m", 2 * world.half[2]));
     const double volume = mobb::volume(tree.tree().box(index), tree.time_scale());
     const double cylinders = mobb::cylinder_volume(tree.tree().clip(), {node.first, node.count});
     out.facts.emplace_back("volume", formatted("%.4g m\u00B2\u00B7s", volume));

@@ -91,9 +91,9 @@ AgentNames agents_meant(const Workspace& workspace, const std::string& text) {
     }
     if (text.starts_with(kOfGroup)) {
         std::vector<std::string> titles;
-        for (const ClipGroup& group : workspace.clip_groups()) titles.push_back(group.title);
+        for (const ClipGroup& group : clip_groups(workspace)) titles.push_back(group.title);
         const int at = index_of_name(titles, text.substr(kOfGroup.size()), "group");
-        return agents_of_group(workspace, workspace.clip_groups()[static_cast<std::size_t>(at)]);
+        return agents_of_group(workspace, clip_groups(workspace)[static_cast<std::size_t>(at)]);
     }
     const AgentNames all = all_agents(workspace);
     const std::string name = text.starts_with(kOfAgent) ? text.substr(kOfAgent.size()) : text;

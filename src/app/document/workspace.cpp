@@ -52,29 +52,6 @@ std::string Workspace::title() const {
     return scene().file.empty() ? "untitled" : scene().file.stem().string();
 }
 
-bool Workspace::is_crowd() const {
-    return crowd() ||
-           (scene().queries.empty() && !scene().agents.empty() && fitted().placed_agents().size() > kFewAgents);
-}
-
-mobb::Interval Workspace::time_span() const {
-    if (crowd()) return {0, crowd()->seconds};
-    mobb::Interval span{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
-    for_each_agent_in_view(fitted(), view(), [&](const PlacedAgent& who) {
-        const mobb::PlacedTree tree = fitted().placed(who);
-        const mobb::PlacedClip& clip = tree.placed_clip();
-        span.t0 = std::min(span.t0, clip.time(0));
-        span.t1 = std::max(span.t1, clip.time(clip.count()));
-    });
-    return span.t0 <= span.t1 ? span : mobb::Interval{0, 0};
-}
-
-const std::vector<ClipGroup>& Workspace::clip_groups() const {
-    Derived& d = derived();
-    if (!d.groups) d.groups = app::clip_groups(scene());
-    return *d.groups;
-}
-
 const RecordedQuery* Workspace::recorded() const {
     if (!view().query) return nullptr;
     Derived& d = derived();
@@ -205,5 +182,29 @@ void Workspace::close_group() {
 }
 
 void Workspace::select(const Selection& selected) { selection = exists(fitted(), selected) ? selected : Selection{}; }
+
+bool is_crowd(const Workspace& workspace) {
+    const Scene& scene = workspace.scene();
+    const bool has_agents = scene.queries.empty() && !scene.agents.empty();
+    return workspace.crowd() || (has_agents && workspace.fitted().placed_agents().size() > kFewAgents);
+}
+
+mobb::Interval time_span(const Workspace& workspace) {
+    if (workspace.crowd()) return {0, workspace.crowd()->seconds};
+    mobb::Interval span{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
+    for_each_agent_in_view(workspace.fitted(), workspace.view(), [&](const PlacedAgent& who) {
+        const mobb::PlacedTree tree = workspace.fitted().placed(who);
+        const mobb::PlacedClip& clip = tree.placed_clip();
+        span.t0 = std::min(span.t0, clip.time(0));
+        span.t1 = std::max(span.t1, clip.time(clip.count()));
+    });
+    return span.t0 <= span.t1 ? span : mobb::Interval{0, 0};
+}
+
+const std::vector<ClipGroup>& clip_groups(const Workspace& workspace) {
+    Workspace::Derived& d = workspace.derived();
+    if (!d.groups) d.groups = clip_groups(workspace.scene());
+    return *d.groups;
+}
 
 }  // namespace mobbscope::app

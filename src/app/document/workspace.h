@@ -106,23 +106,13 @@ class Workspace {
     const FittedScene& fitted() const { return *shown(); }
     const ViewState& view() const { return document().view; }
     bool empty() const { return scene().clips.empty(); }
-    /// Which opening of files or of an excerpt the present scene is of; each has a number of its own, and coming back
-    /// to one finds its number again.
-    int opening() const { return document().opening; }
     bool in_excerpt() const { return document().excerpt_of != nullptr; }
     /// What the document's agents play, if it is a run; else null.
     const CrowdRun* crowd() const { return scene().crowd.get(); }
-    /// Whether there are so many that they are a crowd: a run, or more agents than lists of pairs are made for. Clips
-    /// without agents are none.
-    bool is_crowd() const;
     /// The scene differs from what is in the file. How it is seen does not count.
     bool modified() const;
     /// The file's name, or what stands for it.
     std::string title() const;
-    /// First and last moment of the paths in view, global seconds; 0..0 for an empty scene.
-    mobb::Interval time_span() const;
-    /// The document's clips by folder and rig; kept until the scene changes.
-    const std::vector<ClipGroup>& clip_groups() const;
     /// What is asked in the view, recorded; null if no query is in the view.
     const RecordedQuery* recorded() const;
     /// The event of the trace that the view shows; requires recorded().
@@ -146,8 +136,6 @@ class Workspace {
     /// An interaction has ended: what follows is undone apart from it.
     void close_group();
     void select(const Selection& selected);
-    /// The history was brought back with what was selected then.
-    void point_into_present() { pointed_into_ = shown(); }
 
     /// What is computed from the present scene when asked for.
     struct Derived {
@@ -175,5 +163,13 @@ class Workspace {
     mutable Derived derived_;
     mutable ShownRun shown_;  ///< of the active view
 };
+
+/// Whether there are so many that they are a crowd: a run, or more agents than lists of pairs are made for. Clips
+/// without agents are none.
+bool is_crowd(const Workspace& workspace);
+/// First and last moment of the paths in view, global seconds; 0..0 for an empty scene.
+mobb::Interval time_span(const Workspace& workspace);
+/// The document's clips by folder and rig; kept until the scene changes.
+const std::vector<ClipGroup>& clip_groups(const Workspace& workspace);
 
 }  // namespace mobbscope::app

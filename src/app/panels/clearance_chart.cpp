@@ -99,7 +99,7 @@ void QueryPictures::clearance(Ui& ui, QueryInspector& queries, const QueryFindin
     const bool hovered = ImGui::IsItemHovered();
     const bool active = ImGui::IsItemActive();
 
-    const mobb::Interval time = ui.workspace.time_span();
+    const mobb::Interval time = time_span(ui.workspace);
     const float right = at.x + static_cast<float>(width);
     Chart chart{at, {right, at.y + height - label}, time, {time.t0, time.t1, at.x, right}};
     const std::vector<ClearanceColumn>& columns = clearance_.of(

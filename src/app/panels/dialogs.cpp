@@ -6,8 +6,10 @@
 #include <base/file.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::app {
@@ -75,55 +77,38 @@ void dropped(Ui& ui) {
     end_dialog();
 }
 
+void ask_for_file(Ui& ui) { file_dialog(ui, ui.session.dialogs, ui.session.settings); }
+
+using Draw = void (*)(Ui&);
+constexpr std::array<std::pair<Dialog, Draw>, 14> kDrawn{
+    {{Dialog::open, ask_for_file},
+     {Dialog::add, ask_for_file},
+     {Dialog::save_as, ask_for_file},
+     {Dialog::export_file, ask_for_file},
+     {Dialog::folder, ask_for_file},
+     {Dialog::export_picture, export_dialog},
+     {Dialog::unsaved, unsaved},
+     {Dialog::palette, [](Ui& ui) { palette(ui, ui.session.dialogs); }},
+     {Dialog::help, help_sheet},
+     {Dialog::about, about},
+     {Dialog::dropped, dropped},
+     {Dialog::messages, [](Ui& ui) { message_list(ui, ui.session.dialogs, ui.session.notifications); }},
+     {Dialog::import_clip, [](Ui& ui) { import_dialog(ui, ui.session.imports); }},
+     {Dialog::history, history_list}}};
+
 }  // namespace
 
 void dialogs(Ui& ui) {
     Session& session = ui.session;
+    const Dialog now = session.dialogs.now;
+    if (now == Dialog::none) return;
     // Of lists and fields in a dialog Escape closes these first.
-    const bool in_popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
-    const bool escape_is_taken =
-        (session.dialogs.now == Dialog::export_picture && in_popup) ||
-        (session.dialogs.now == Dialog::import_clip && (in_popup || ImGui::GetIO().WantTextInput));
-    switch (session.dialogs.now) {
-        case Dialog::none:
-            return;
-        case Dialog::open:
-        case Dialog::add:
-        case Dialog::save_as:
-        case Dialog::export_file:
-        case Dialog::review:
-            file_dialog(ui, ui.session.dialogs, ui.session.settings);
-            break;
-        case Dialog::export_picture:
-            export_dialog(ui);
-            break;
-        case Dialog::unsaved:
-            unsaved(ui);
-            break;
-        case Dialog::palette:
-            palette(ui, ui.session.dialogs);
-            break;
-        case Dialog::help:
-            help_sheet(ui);
-            break;
-        case Dialog::about:
-            about(ui);
-            break;
-        case Dialog::dropped:
-            dropped(ui);
-            break;
-        case Dialog::messages:
-            message_list(ui, ui.session.dialogs, ui.session.notifications);
-            break;
-        case Dialog::import_clip:
-            import_dialog(ui, ui.session.imports);
-            break;
-        case Dialog::history:
-            history_list(ui);
-            break;
-    }
+    const BeforeEscape before = row_of(now).before_escape;
+    const bool in_popup = before != BeforeEscape::nothing && ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+    const bool in_text = before == BeforeEscape::popup_or_text && ImGui::GetIO().WantTextInput;
+    std::ranges::find(kDrawn, now, &std::pair<Dialog, Draw>::first)->second(ui);
     // A field in it that is typed into is left first.
-    const bool typing = ui.field.typing || escape_is_taken;
+    const bool typing = ui.field.typing || in_popup || in_text;
     if (pressed(ImGuiKey_Escape) && !typing) session.queue.push([&session] { session.dialogs.close(); });
 }
 

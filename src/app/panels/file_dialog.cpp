@@ -25,9 +25,6 @@ namespace {
 
 using Choose = FileBrowser::Choose;
 
-constexpr std::array<std::string_view, 1> kScenes{".json"};
-constexpr std::array<std::string_view, 1> kPictures{".png"};
-
 // Pixels at scale 1.
 constexpr float kDialogWidth = 920;
 constexpr float kDialogHeight = 560;
@@ -39,33 +36,6 @@ constexpr float kDateWidth = 136;
 constexpr float kLeastName = 150;  ///< narrower, the date gives way
 constexpr std::size_t kMostCrumbs = 4;
 constexpr std::size_t kMostRecentFolders = 6;
-
-/// What differs between the four.
-struct Purpose {
-    const char* title;
-    const char* button;
-    const char* prefix;   ///< of the marks
-    const char* command;  ///< that is done with the path
-    std::span<const std::string_view> extensions;
-    const char* extension;  ///< that a name without one gets; null: none, as the file must be there
-
-    bool writes() const { return extension; }
-};
-
-Purpose purpose_of(Dialog dialog) {
-    switch (dialog) {
-        case Dialog::add:
-            return {"Add files", "Add", "add", "file.add", openable_extensions(), nullptr};
-        case Dialog::save_as:
-            return {"Save as", "Save", "save", "file.save_as", kScenes, ".json"};
-        case Dialog::export_file:
-            return {"Export picture to", "Choose", "file", "picture.file", kPictures, ".png"};
-        case Dialog::review:
-            return {"Review picture tests", "Review this folder", "review", "file.review", kScenes, nullptr};
-        default:
-            return {"Open", "Open", "open", "file.open", openable_extensions(), nullptr};
-    }
-}
 
 bool is_folder(const std::filesystem::path& path) {
     std::error_code ignored;
@@ -84,9 +54,9 @@ std::string date_text(const Session& session, std::time_t when) {
 }
 
 /// Where one was last; a scene that has a file is saved beside it.
-void begin(Settings& settings, Workspace& workspace, Dialogs& dialogs, const Purpose& purpose) {
+void begin(Settings& settings, Workspace& workspace, Dialogs& dialogs, const FileQuestion& question) {
     std::filesystem::path folder = settings.folder;
-    if (purpose.writes() && workspace.file) folder = workspace.file->parent_path();
+    if (question.writes() && workspace.file) folder = workspace.file->parent_path();
     if (!folder.empty() && !is_folder(folder)) folder.clear();
     const std::string open = workspace.scene().file.filename().string();
     const bool to_export = dialogs.now == Dialog::export_file;
@@ -94,32 +64,34 @@ void begin(Settings& settings, Workspace& workspace, Dialogs& dialogs, const Pur
         to_export ? export_file(workspace, settings, dialogs) : std::filesystem::path();
     if (to_export && is_folder(exported.parent_path())) folder = exported.parent_path();
     dialogs.browser.order_by(settings.file_order);
-    dialogs.browser.begin(folder, purpose.extensions, open);
+    dialogs.browser.begin(folder, question.extensions(), open);
     const std::string stem = std::filesystem::path(workspace.title()).stem().string();
-    dialogs.input.set_text(to_export ? exported.filename().string() : purpose.writes() ? stem + purpose.extension : "");
+    dialogs.input.set_text(to_export           ? exported.filename().string()
+                           : question.writes() ? stem + question.extension
+                                               : "");
 }
 
 /// What was typed led elsewhere; the name of a file that is to be written stays.
-void keep_name(Dialogs& dialogs, const Purpose& purpose) {
+void keep_name(Dialogs& dialogs, const FileQuestion& question) {
     const std::string& typed = dialogs.input.text;
-    dialogs.input.set_text(purpose.writes() ? typed.substr(typed.rfind('/') + 1) : "");
+    dialogs.input.set_text(question.writes() ? typed.substr(typed.rfind('/') + 1) : "");
 }
 
-void go_into(Dialogs& dialogs, const Purpose& purpose, const std::filesystem::path& folder) {
+void go_into(Dialogs& dialogs, const FileQuestion& question, const std::filesystem::path& folder) {
     dialogs.browser.go(folder);
-    keep_name(dialogs, purpose);
+    keep_name(dialogs, question);
 }
 
-void go_up(Dialogs& dialogs, const Purpose& purpose) {
+void go_up(Dialogs& dialogs, const FileQuestion& question) {
     dialogs.browser.go_up();
-    keep_name(dialogs, purpose);
+    keep_name(dialogs, question);
 }
 
 /// Does the dialog's command with files; what goes wrong is said, and the dialog stays.
-void take(Session& session, const Purpose& purpose, const std::vector<std::filesystem::path>& files) {
+void take(Session& session, const FileQuestion& question, const std::vector<std::filesystem::path>& files) {
     const Dialog dialog = session.dialogs.now;
     try {
-        run_command(session, purpose.command, as_argument(files));
+        run_command(session, question.command, as_argument(files));
         if (session.dialogs.now == dialog) session.dialogs.close();
     } catch (const std::exception& error) {
         session.notifications.tell(MessageLevel::error, error.what());
@@ -128,11 +100,11 @@ void take(Session& session, const Purpose& purpose, const std::vector<std::files
 }
 
 /// A file that is to be written, with the extension that it lacks; asks before another one is overwritten.
-void take_written(Session& session, const Purpose& purpose) {
+void take_written(Session& session, const FileQuestion& question) {
     DialogInput& input = session.dialogs.input;
     std::filesystem::path path = typed_path(input.text, session.dialogs.browser.folder());
-    if (is_folder(path)) return go_into(session.dialogs, purpose, path);
-    path = with_extension(path, purpose.extension);
+    if (is_folder(path)) return go_into(session.dialogs, question, path);
+    path = with_extension(path, question.extension);
     std::error_code ignored;
     const bool keeps_own = session.dialogs.now == Dialog::save_as && session.workspace.file &&
                            std::filesystem::equivalent(path, *session.workspace.file, ignored);
@@ -151,22 +123,22 @@ void take_written(Session& session, const Purpose& purpose) {
     };
     // Who agreed here is not asked again where it is written.
     if (session.dialogs.now == Dialog::export_file) session.dialogs.exporting.agreed = input.confirming ? path : "";
-    session.dialogs.now == Dialog::save_as ? pending_goes_on() : take(session, purpose, {path});
+    session.dialogs.now == Dialog::save_as ? pending_goes_on() : take(session, question, {path});
 }
 
 /// What is chosen, which is what was typed where that is listed; a folder is gone into.
-void take_read(Session& session, const Purpose& purpose) {
+void take_read(Session& session, const FileQuestion& question) {
     const std::vector<std::filesystem::path> chosen = session.dialogs.browser.chosen();
-    if (chosen.size() == 1 && is_folder(chosen.front())) return go_into(session.dialogs, purpose, chosen.front());
-    if (!chosen.empty()) return take(session, purpose, chosen);
+    if (chosen.size() == 1 && is_folder(chosen.front())) return go_into(session.dialogs, question, chosen.front());
+    if (!chosen.empty()) return take(session, question, chosen);
     const std::string& typed = session.dialogs.input.text;
     const std::filesystem::path path = typed_path(typed, session.dialogs.browser.folder()).lexically_normal();
     if (typed.empty()) {
         session.dialogs.input.fresh = true;
     } else if (is_folder(path)) {
-        go_into(session.dialogs, purpose, path);
+        go_into(session.dialogs, question, path);
     } else {
-        take(session, purpose, {path});  // which says what is wrong with it
+        take(session, question, {path});  // which says what is wrong with it
     }
 }
 
@@ -180,12 +152,12 @@ std::filesystem::path folder_of_clips(const FileBrowser& browser) {
 // --- what stands above the list
 
 /// The way to the folder, each step a button.
-void crumbs(Ui& ui, Dialogs& dialogs, const Purpose& purpose) {
-    const std::string prefix = purpose.prefix;
+void crumbs(Ui& ui, Dialogs& dialogs, const FileQuestion& question) {
+    const std::string prefix = question.prefix;
     const auto go = [&](const std::filesystem::path& folder) {
-        ui.later([&dialogs, purpose, folder] { go_into(dialogs, purpose, folder); });
+        ui.later([&dialogs, question, folder] { go_into(dialogs, question, folder); });
     };
-    if (ImGui::ArrowButton("##up", ImGuiDir_Up)) ui.later([&dialogs, purpose] { go_up(dialogs, purpose); });
+    if (ImGui::ArrowButton("##up", ImGuiDir_Up)) ui.later([&dialogs, question] { go_up(dialogs, question); });
     ui.mark(prefix + ".up");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("The folder above (Backspace, or Alt+Up)");
     const std::vector<std::filesystem::path> way = dialogs.browser.way();
@@ -246,18 +218,18 @@ std::vector<FilePlace> recent_folders(const Settings& settings) {
     return out;
 }
 
-void place_list(Ui& ui, Settings& settings, const Purpose& purpose) {
+void place_list(Ui& ui, Settings& settings, const FileQuestion& question) {
     const auto list = [&](const std::vector<FilePlace>& all, const std::string& mark) {
         for (std::size_t i = 0; i < all.size(); ++i) {
             const FilePlace& place = all[i];
             ImGui::PushID(static_cast<int>(i));
             ImGui::PushID(mark.c_str());
             if (ImGui::Selectable(fitted_text(place.name, ImGui::GetContentRegionAvail().x).c_str())) {
-                ui.later([purpose, to = place.folder](Dialogs& dialogs) { go_into(dialogs, purpose, to); });
+                ui.later([question, to = place.folder](Dialogs& dialogs) { go_into(dialogs, question, to); });
             }
             ImGui::PopID();
             ImGui::PopID();
-            ui.mark(purpose.prefix + mark + std::to_string(i));
+            ui.mark(question.prefix + mark + std::to_string(i));
             if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", place.folder.string().c_str());
         }
     };
@@ -299,7 +271,7 @@ void order_by(Settings& settings, Dialogs& dialogs, const std::string& column) {
 }
 
 /// The heads of the columns; a click orders by one, the next one the other way round.
-void column_heads(Ui& ui, Settings& settings, Dialogs& dialogs, const Purpose& purpose, const Columns& columns) {
+void column_heads(Ui& ui, Settings& settings, Dialogs& dialogs, const FileQuestion& question, const Columns& columns) {
     const std::string& now = settings.file_order;
     const ImVec2 at = ImGui::GetCursorPos();
     const auto head = [&](const char* label, const std::string& order, float from, float to) {
@@ -308,7 +280,7 @@ void column_heads(Ui& ui, Settings& settings, Dialogs& dialogs, const Purpose& p
         ImGui::SetCursorPos({at.x + from, at.y});
         const float height = ImGui::GetTextLineHeight() + ui.px(6);
         if (ImGui::InvisibleButton(order.c_str(), {to - from, height})) order_by(settings, dialogs, order);
-        ui.mark(purpose.prefix + (".order." + order));
+        ui.mark(question.prefix + (".order." + order));
         const bool hovered = ImGui::IsItemHovered();
         if (hovered) ImGui::SetTooltip("Orders by it: Ctrl+1 the name, Ctrl+2 the size, Ctrl+3 the date");
         const ImVec2 min = ImGui::GetItemRectMin();
@@ -360,18 +332,18 @@ bool file_row(Ui& ui, Dialogs& dialogs, const FileEntry& entry, std::size_t inde
 }
 
 /// A click on an entry; whether it is taken.
-bool clicked_entry(Session& session, const Purpose& purpose, std::size_t index) {
+bool clicked_entry(Session& session, const FileQuestion& question, std::size_t index) {
     const ImGuiIO& io = ImGui::GetIO();
     const FileEntry& entry = session.dialogs.browser.entries()[index];
     session.dialogs.input.fresh = true;  // keys go on in the field
-    session.dialogs.browser.choose(index, io.KeyShift && !purpose.writes()  ? Choose::range
-                                          : io.KeyCtrl && !purpose.writes() ? Choose::toggle
-                                                                            : Choose::only);
+    session.dialogs.browser.choose(index, io.KeyShift && !question.writes()  ? Choose::range
+                                          : io.KeyCtrl && !question.writes() ? Choose::toggle
+                                                                             : Choose::only);
     const bool twice = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
-    if (purpose.writes()) {
+    if (question.writes()) {
         if (entry.folder && twice) {
-            session.queue.push([&session, purpose, to = session.dialogs.browser.listed() / entry.name] {
-                go_into(session.dialogs, purpose, to);
+            session.queue.push([&session, question, to = session.dialogs.browser.listed() / entry.name] {
+                go_into(session.dialogs, question, to);
             });
         }
         // The name of a file that is there may be meant for the new one.
@@ -382,13 +354,13 @@ bool clicked_entry(Session& session, const Purpose& purpose, std::size_t index) 
 }
 
 /// The keys that move through the list while the field has the others.
-bool keys_in_list(Dialogs& dialogs, Settings& settings, const Purpose& purpose) {
+bool keys_in_list(Dialogs& dialogs, Settings& settings, const FileQuestion& question) {
     FileBrowser& browser = dialogs.browser;
     const ImGuiIO& io = ImGui::GetIO();
     if (browser.entries().empty() || io.KeyAlt) return false;
     int at = static_cast<int>(browser.cursor());
     const bool moved = move_picked(at, static_cast<int>(browser.entries().size()));
-    const bool several = !purpose.writes();
+    const bool several = !question.writes();
     if (moved) {
         browser.choose(static_cast<std::size_t>(at), io.KeyShift && several  ? Choose::range
                                                      : io.KeyCtrl && several ? Choose::none
@@ -405,16 +377,16 @@ bool keys_in_list(Dialogs& dialogs, Settings& settings, const Purpose& purpose) 
 }
 
 /// Whether an entry was taken by a double click.
-bool listing(Ui& ui, Dialogs& dialogs, Settings& settings, const Purpose& purpose, bool moved) {
+bool listing(Ui& ui, Dialogs& dialogs, Settings& settings, const FileQuestion& question, bool moved) {
     const FileBrowser& browser = dialogs.browser;
     const Columns columns = columns_of(ui, ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize);
-    column_heads(ui, settings, dialogs, purpose, columns);
+    column_heads(ui, settings, dialogs, question, columns);
     ImGui::BeginChild("entries", {0, 0}, false);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     if (!browser.error().empty()) {
         words(ui.style.error, browser.error());
     } else if (browser.entries().empty()) {
-        words(ui.style.quiet, purpose.writes()             ? "No such file is here yet."
+        words(ui.style.quiet, question.writes()            ? "No such file is here yet."
                               : dialogs.input.text.empty() ? "There is nothing here that can be opened."
                                                            : "No name here holds what is typed.");
     }
@@ -427,13 +399,13 @@ bool listing(Ui& ui, Dialogs& dialogs, Settings& settings, const Purpose& purpos
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
             const auto index = static_cast<std::size_t>(i);
             if (file_row(ui, dialogs, browser.entries()[index], index, columns)) clicked = index;
-            ui.mark_only(std::string(purpose.prefix) + ".entry." + browser.entries()[index].name);
+            ui.mark_only(std::string(question.prefix) + ".entry." + browser.entries()[index].name);
             if (moved && i == cursor) ImGui::SetScrollHereY();
         }
     }
     ImGui::PopStyleVar();
     ImGui::EndChild();
-    return clicked && clicked_entry(ui.session, purpose, *clicked);
+    return clicked && clicked_entry(ui.session, question, *clicked);
 }
 
 // --- what a file holds
@@ -499,46 +471,46 @@ bool flowing_button(Ui& ui, const char* label, const std::string& mark, const ch
 void file_dialog(Ui& ui, Dialogs& dialogs, Settings& settings) {
     DialogInput& input = dialogs.input;
     FileBrowser& browser = dialogs.browser;
-    const Purpose purpose = purpose_of(dialogs.now);
-    const std::string prefix = purpose.prefix;
-    const auto enqueue = [&](void (*what)(Session&, const Purpose&)) {
-        ui.later([purpose, what](Session& session) { what(session, purpose); });
+    const FileQuestion& question = *dialogs.question(dialogs.now);
+    const std::string prefix = question.prefix;
+    const auto enqueue = [&](void (*what)(Session&, const FileQuestion&)) {
+        ui.later([question, what](Session& session) { what(session, question); });
     };
-    if (input.generation == 0) begin(settings, ui.workspace, dialogs, purpose);
+    if (input.generation == 0) begin(settings, ui.workspace, dialogs, question);
     begin_dialog(ui, "file", {kDialogWidth, kDialogHeight});
-    dialog_title(ui, purpose.title);
-    crumbs(ui, dialogs, purpose);
+    dialog_title(ui, question.title);
+    crumbs(ui, dialogs, question);
 
     // Backspace leads up where there is nothing to delete.
     const bool up =
         (input.text.empty() && pressed(ImGuiKey_Backspace)) || (ImGui::GetIO().KeyAlt && pressed(ImGuiKey_UpArrow));
     const auto complete = [&](const std::string& text) {
-        return complete_path(text, browser.folder(), purpose.extensions);
+        return complete_path(text, browser.folder(), question.extensions());
     };
-    const FieldEvents events = purpose.writes()
+    const FieldEvents events = question.writes()
                                    ? text_field(ui, "A name", complete, FieldText::file_name)
                                    : text_field(ui, "A part of a name, or a path; Tab completes it", complete);
     ui.mark(prefix + ".path");
-    browser.follow(input.text, !purpose.writes());
+    browser.follow(input.text, !question.writes());
     settings.folder = ui.session.options.attended ? browser.way().back() : browser.folder();
-    const bool moved = keys_in_list(dialogs, settings, purpose);
+    const bool moved = keys_in_list(dialogs, settings, question);
     if (ImGui::GetIO().KeyCtrl && pressed(Key::h)) browser.show_hidden(!browser.shows_hidden());
 
     const float room = ImGui::GetContentRegionAvail().x;
     const bool has_places = room >= ui.px(kPlacesWidth + kLeastList);
     const float preview_room = room - (has_places ? ui.px(kPlacesWidth) : 0);
     const bool has_preview =
-        !purpose.writes() && dialogs.now != Dialog::review && preview_room >= ui.px(kPreviewWidth + kLeastList);
+        !question.writes() && !question.of_folder && preview_room >= ui.px(kPreviewWidth + kLeastList);
     const bool one_line = room >= ui.px(600);
     const float foot = (one_line ? 1.0f : 2.0f) * ImGui::GetFrameHeightWithSpacing() + ui.px(4);
     if (has_places) {
         ImGui::BeginChild("places", {ui.px(kPlacesWidth) - ui.px(12), -foot}, false);
-        place_list(ui, settings, purpose);
+        place_list(ui, settings, question);
         ImGui::EndChild();
         ImGui::SameLine(0, ui.px(12));
     }
     ImGui::BeginChild("files", {has_preview ? -ui.px(kPreviewWidth) : 0, -foot}, false);
-    bool accepted = listing(ui, dialogs, settings, purpose, moved) || events.entered;
+    bool accepted = listing(ui, dialogs, settings, question, moved) || events.entered;
     ImGui::EndChild();
     if (has_preview) {
         ImGui::SameLine(0, ui.px(12));
@@ -547,16 +519,15 @@ void file_dialog(Ui& ui, Dialogs& dialogs, Settings& settings) {
         ImGui::EndChild();
     }
 
-    const bool of_folder = dialogs.now == Dialog::review;
     const bool agreed =
-        marked_button(ui, input.confirming ? "Overwrite" : purpose.button, (prefix + ".ok").c_str(), true);
-    accepted |= agreed && !of_folder;
+        marked_button(ui, input.confirming ? "Overwrite" : question.button, (prefix + ".ok").c_str(), true);
+    accepted |= agreed && !question.of_folder;
     ImGui::SameLine();
     if (marked_button(ui, "Cancel", (prefix + ".cancel").c_str())) {
         ui.later(&Dialogs::close);
     }
-    bool as_clips = agreed && of_folder;
-    if (!purpose.writes() && !of_folder) {
+    bool as_clips = agreed && question.of_folder;
+    if (!question.writes() && !question.of_folder) {
         const bool has_clips =
             std::ranges::any_of(browser.entries(), is_clip) || folder_of_clips(browser) != browser.listed();
         if (has_clips) {
@@ -570,10 +541,10 @@ void file_dialog(Ui& ui, Dialogs& dialogs, Settings& settings) {
     if (ImGui::Checkbox("Hidden", &hidden)) browser.show_hidden(hidden);
     ui.mark(prefix + ".hidden");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Files and folders whose names begin with a dot (Ctrl+H)");
-    const std::string line = input.confirming   ? "This file exists. Enter overwrites it."
-                             : purpose.writes() ? ""
-                             : of_folder        ? "Enter goes into a folder; the button takes it."
-                                                : in_a_line(ui, dialogs, has_preview);
+    const std::string line = input.confirming     ? "This file exists. Enter overwrites it."
+                             : question.writes()  ? ""
+                             : question.of_folder ? "Enter goes into a folder; the button takes it."
+                                                  : in_a_line(ui, dialogs, has_preview);
     if (!line.empty()) {
         if (one_line) ImGui::SameLine();
         ImGui::AlignTextToFramePadding();
@@ -582,11 +553,11 @@ void file_dialog(Ui& ui, Dialogs& dialogs, Settings& settings) {
     }
     end_dialog();
     if (as_clips) {
-        ui.later([purpose](Session& session) { take(session, purpose, {folder_of_clips(session.dialogs.browser)}); });
+        ui.later([question](Session& session) { take(session, question, {folder_of_clips(session.dialogs.browser)}); });
     } else if (accepted) {
-        enqueue(purpose.writes() ? take_written : take_read);
+        enqueue(question.writes() ? take_written : take_read);
     } else if (up) {
-        ui.later([&dialogs, purpose] { go_up(dialogs, purpose); });
+        ui.later([&dialogs, question] { go_up(dialogs, question); });
     }
 }
 

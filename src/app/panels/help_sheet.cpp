@@ -60,7 +60,7 @@ std::vector<Line> all_lines(const Session& session) {
         out.push_back({Line::Kind::keys, std::string(key.keys), std::string(key.what), "", nullptr});
     }
     for (const std::string_view id : now.commands) {
-        const Command& command = command_named(id);
+        const Command& command = command_named(id, commands(session));
         if (command.enabled(session)) out.push_back(line_of(command));
     }
     add_heading(out, "Keys in panels, lists and menus");
@@ -70,7 +70,7 @@ std::vector<Line> all_lines(const Session& session) {
     add_heading(out, "Mouse");
     for (const auto& [keys, what] : kMouse) out.push_back({Line::Kind::keys, keys, what, "", nullptr});
     std::string_view menu;
-    for (const Command& command : commands()) {
+    for (const Command& command : commands(session)) {
         if (command.shortcut.empty() || !belongs_here(session, command)) continue;
         const std::string_view of = command.menu.substr(0, command.menu.find('/'));
         if (of != menu) add_heading(out, of);
@@ -96,7 +96,7 @@ std::vector<Line> lines_with(const Session& session, const std::string& search) 
         }
         found.emplace_back(score, line);
     };
-    for (const Command& command : commands()) add(line_of(command));
+    for (const Command& command : commands(session)) add(line_of(command));
     for (const KeyHelp& key : focus_help()) {
         add({Line::Kind::keys, std::string(key.keys), std::string(key.what), "", nullptr});
     }

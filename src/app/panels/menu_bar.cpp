@@ -22,7 +22,7 @@ std::string_view group_of(const Command& command) { return command.id.substr(0, 
 void items(Ui& ui, const std::string& menu) {
     std::string_view group;
     std::vector<std::string_view> submenus;
-    for (const Command& command : commands()) {
+    for (const Command& command : commands(ui.session)) {
         if (!belongs_here(ui.session, command)) continue;
         if (command.menu == menu) {
             if (!group.empty() && group != group_of(command)) ImGui::Separator();
@@ -64,7 +64,7 @@ void search(Ui& ui, float left, float right) {
     const std::string key(first_shortcut(*find_command("go.palette")));
     const float key_width = text_size(*ui.style.mono, key).x;
     const float y = (min.y + max.y - ui.style.body->FontSize) / 2;
-    const char* all = ui.session.reviews.shown() ? "Search commands, cases" : "Search commands, agents, nodes";
+    const char* all = ui.session.screen ? ui.session.screen->words().search : "Search commands, agents, nodes";
     for (const char* text : {all, "Search commands", "Search"}) {
         if (ImGui::CalcTextSize(text).x + key_width + 3 * pad > width) continue;
         draw.AddText({min.x + pad, y}, ui.style.quiet, text);
@@ -91,8 +91,7 @@ float file_title(Ui& ui, float left, float right) {
     ImGui::InvisibleButton("##title", {width + dot, ImGui::GetFrameHeight()});
     ui.mark_only("menu.title");
     if (ImGui::IsItemHovered()) {
-        const std::string file =
-            session.workspace.file && !session.reviews.shown() ? session.workspace.file->string() : title;
+        const std::string file = session.workspace.file && !session.screen ? session.workspace.file->string() : title;
         ImGui::SetTooltip("%s%s", file.c_str(), modified ? "\nnot saved" : "");
     }
     draw.PushClipRect({x, 0}, {x + width, 2 * middle}, true);
@@ -106,7 +105,7 @@ float file_title(Ui& ui, float left, float right) {
 void menu_bar(Ui& ui) {
     if (!ImGui::BeginMainMenuBar()) return;
     std::vector<std::string> menus;
-    for (const Command& command : commands()) {
+    for (const Command& command : commands(ui.session)) {
         const std::string menu(command.menu.substr(0, command.menu.find('/')));
         if (!belongs_here(ui.session, command)) continue;
         if (!menu.empty() && std::find(menus.begin(), menus.end(), menu) == menus.end()) menus.push_back(menu);

@@ -120,7 +120,7 @@ void argument(Ui& ui, Dialogs& dialogs, const Command& command) {
 }  // namespace
 
 void palette(Ui& ui, Dialogs& dialogs) {
-    const Command* command = find_command(dialogs.input.command);
+    const Command* command = find_command(dialogs.input.command, commands(ui.session));
     // A number needs no list.
     const bool has_list = !command || command->choices;
     begin_dialog(ui, "palette", {560, has_list ? 420.0f : 130.0f}, 0.25f);

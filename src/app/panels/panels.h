@@ -5,9 +5,6 @@
 #include <app/ui/ui.h>
 #include <app/viewport/viewport.h>
 
-#include <glm/vec2.hpp>
-
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -25,17 +22,12 @@ void last_choice(Ui& ui, CrowdInspector& crowds);  ///< of who is followed in a 
 void selection_panel(Ui& ui);                      ///< all numbers of what is selected
 void timeline(Ui& ui, Playback& playback, QueryInspector& queries,
               QueryPictures& pictures);  ///< two clocks: time and step
-// Picture tests, which take the place of the scene's panels.
-void review_list(Ui& ui);                                           ///< the cases and what came of them
-std::optional<glm::ivec2> review_pictures(Ui& ui);                  ///< returns the pixel under the mouse
-void review_facts(Ui& ui, const std::optional<glm::ivec2>& pixel);  ///< what differs, files, what can be done
-void review_way_back(Ui& ui);                                       ///< over the scene of a case
 
 void dialogs(Ui& ui);  ///< open, save, palette, help, unsaved changes, messages
 void messages(Ui& ui, Notifications& notifications, Dialogs& dialogs);  ///< those over the picture
 float message_bell(Ui& ui, Notifications& notifications);  ///< at the menu bar's right end; returns where it begins
 float status_height(const Ui& ui);                         ///< pixels
-void status_bar(Ui& ui, Jobs& jobs, QueryInspector& queries,
+void status_bar(Ui& ui, QueryInspector& queries,
                 ImVec2 size);  ///< how many there are of what, what is under the mouse, work under way
 
 /// The whole window: panels with movable borders between them.

@@ -220,7 +220,7 @@ struct ClipLine {
 
 /// The lines that the filter leaves; a group that is folded has its heading alone.
 std::vector<ClipLine> clip_lines(const Workspace& workspace, const std::vector<int>& shown) {
-    const std::vector<ClipGroup>& groups = workspace.clip_groups();
+    const std::vector<ClipGroup>& groups = clip_groups(workspace);
     std::vector<ClipLine> out;
     if (groups.empty()) {
         for (const int clip : shown) out.push_back({-1, clip});
@@ -239,7 +239,7 @@ std::vector<ClipLine> clip_lines(const Workspace& workspace, const std::vector<i
 }
 
 void group_row(Ui& ui, int index) {
-    const ClipGroup& group = ui.workspace.clip_groups()[static_cast<std::size_t>(index)];
+    const ClipGroup& group = clip_groups(ui.workspace)[static_cast<std::size_t>(index)];
     const ListedAgents listed{kOfGroup + group.title, agents_of_group(ui.workspace, group)};
     const bool folded = ui.workspace.folded_groups.contains(group.title);
     const ImVec2 corner = ImGui::GetCursorScreenPos();

@@ -1,7 +1,6 @@
 #include <app/document/described.h>
 #include <app/document/job.h>
 #include <app/panels/panels.h>
-#include <app/panels/review_parts.h>
 #include <app/ui/widgets.h>
 #include <base/text.h>
 #include <scene/answer.h>
@@ -22,13 +21,8 @@ constexpr float kProgressWidth = 120;        // pixels at scale 1
 constexpr double kProgressFrame = 1 / 15.0;  // seconds between frames while it moves
 constexpr double kSweep = 1.6;               // seconds that the bar takes where nothing is known
 
-/// "2 agents, 2 clips, 62 nodes, 21 tests": all of the scene, and the tests of the query in view. Of picture tests what
-/// came of them.
-std::string counts(const Reviews& reviews, const Workspace& workspace) {
-    if (reviews.shown()) {
-        const Review& review = *reviews.review();
-        return counted(review.cases().size(), "picture test", "picture tests") + ": " + sum_of(review);
-    }
+/// "2 agents, 2 clips, 62 nodes, 21 tests": all of the scene, and the tests of the query in view.
+std::string counts(const Workspace& workspace) {
     if (workspace.empty()) return "";
     const FittedScene& fitted = *workspace.document().fitted;
     const std::size_t agents = workspace.crowd() ? workspace.crowd()->agents.size() : workspace.scene().agents.size();
@@ -45,9 +39,8 @@ std::string counts(const Reviews& reviews, const Workspace& workspace) {
 }
 
 /// What is under the mouse, as short as it can be said.
-std::string hover_facts(const Workspace& workspace, const Reviews& reviews, const QueryInspector& queries) {
+std::string hover_facts(const Workspace& workspace, const QueryInspector& queries) {
     const Selection& what = workspace.hovered;
-    if (reviews.shown()) return "";
     if (what.kind == Selection::Kind::none || !exists(workspace.fitted(), what)) return "";
     if (what.kind == Selection::Kind::query) {
         const auto index = static_cast<std::size_t>(what.index);
@@ -63,18 +56,21 @@ std::string hover_facts(const Workspace& workspace, const Reviews& reviews, cons
     return out;
 }
 
-/// The work under way: jobs of the scene, the oldest first, and behind them the run of picture tests.
-std::vector<const Job*> work_under_way(const Jobs& jobs, const Reviews& reviews) {
+/// The work under way: jobs of the scene, the oldest first, and behind them that of screens.
+std::vector<const Job*> work_under_way(const Session& session) {
     std::vector<const Job*> out;
-    for (std::size_t i = 0; i < jobs.count(); ++i) out.push_back(&jobs.job(i));
-    if (reviews.review() && reviews.review()->drawing()) out.push_back(reviews.review()->run());
+    for (std::size_t i = 0; i < session.jobs.count(); ++i) out.push_back(&session.jobs.job(i));
+    for (const auto& screen : session.screens) {
+        if (const Job* work = screen->work()) out.push_back(work);
+    }
     return out;
 }
 
 /// Ends the first of it.
-void cancel_first(Jobs& jobs, Reviews& reviews) {
-    if (jobs.job()) return jobs.cancel(0);
-    reviews.cancel_run();
+void cancel_first(Session& session) {
+    if (session.jobs.job()) return session.jobs.cancel(0);
+    const auto first = std::ranges::find_if(session.screens, [](const auto& screen) { return screen->work(); });
+    if (first != session.screens.end()) (*first)->cancel();
 }
 
 /// The work under way from `right` to the left; returns where it begins.
@@ -110,8 +106,7 @@ float job_part(Ui& ui, const std::vector<const Job*>& work, float right) {
     ImGui::Dummy({width, line});
     ui.mark("job.0.bar");
     ImGui::SetCursorPos({right - button, y});
-    if (small_button(ui, "Cancel", "job.0.cancel"))
-        ui.later([](Jobs& jobs, Reviews& reviews) { cancel_first(jobs, reviews); });
+    if (small_button(ui, "Cancel", "job.0.cancel")) ui.later(cancel_first);
     return left;
 }
 
@@ -119,7 +114,7 @@ float job_part(Ui& ui, const std::vector<const Job*>& work, float right) {
 
 float status_height(const Ui& ui) { return std::floor(ui.style.caption->FontSize + ui.px(6)); }
 
-void status_bar(Ui& ui, Jobs& jobs, QueryInspector& queries, ImVec2 size) {
+void status_bar(Ui& ui, QueryInspector& queries, ImVec2 size) {
     ImGui::SetCursorScreenPos({0, ImGui::GetIO().DisplaySize.y - size.y});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::BeginChild("status", size, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
@@ -141,15 +136,16 @@ void status_bar(Ui& ui, Jobs& jobs, QueryInspector& queries, ImVec2 size) {
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("What the last frame took");
     }
     ImGui::SetCursorPosY(y);
-    const std::vector<const Job*> work = work_under_way(jobs, ui.session.reviews);
+    const std::vector<const Job*> work = work_under_way(ui.session);
     if (!work.empty()) right = job_part(ui, work, right) - pad;
     // What there is least room for is what is under the mouse: its tooltip says it too.
-    const std::string all = fitted_text(counts(ui.session.reviews, ui.workspace), std::max(right - pad, 0.0f));
+    const Screen* screen = ui.session.screen;
+    const std::string all = fitted_text(screen ? screen->counts() : counts(ui.workspace), std::max(right - pad, 0.0f));
     ImGui::SetCursorPos({pad, y});
     ImGui::TextUnformatted(all.c_str());
     ui.mark("status.counts");
     const float left = pad + ImGui::CalcTextSize(all.c_str()).x + 2 * pad;
-    const std::string facts = hover_facts(ui.workspace, ui.session.reviews, queries);
+    const std::string facts = screen ? "" : hover_facts(ui.workspace, queries);
     if (!facts.empty() && right - left > ui.px(40)) {
         ImGui::SetCursorPos({left, y});
         text_line(ui.style.text, fitted_text(facts, right - left));

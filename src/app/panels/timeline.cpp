@@ -90,7 +90,7 @@ std::vector<DrawnAgent> shown_paths(const Workspace& workspace) {
 
 /// When each path is there, as a bar in its colour, with the time cursor over all of them; drag to scrub.
 void time_bars(Ui& ui, float width, float height) {
-    const mobb::Interval span = ui.workspace.time_span();
+    const mobb::Interval span = time_span(ui.workspace);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ChartAxis axis = time_axis(span, corner.x, width);
     ImGui::InvisibleButton("##time", {width, height});
@@ -146,7 +146,7 @@ void time_bars(Ui& ui, float width, float height) {
 
 /// The first clock. `tall`: nothing stands below it.
 void time_row(Ui& ui, Playback& playback, bool tall) {
-    const mobb::Interval span = ui.workspace.time_span();
+    const mobb::Interval span = time_span(ui.workspace);
     command_button(ui, playback.playing() ? "Pause" : "Play", "time.play", "timeline.time.play");
     ImGui::SameLine();
     const auto time = ui.workspace.view().time;

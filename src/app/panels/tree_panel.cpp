@@ -2,10 +2,10 @@
 #include <app/panels/panels.h>
 #include <app/ui/widgets.h>
 #include <base/text.h>
+#include <explain/level_columns.h>
 #include <render/parts/node_boxes.h>
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
-#include <scene/scene_json.h>
 
 #include <algorithm>
 #include <limits>
@@ -226,8 +226,8 @@ void level_bars(Ui& ui, QueryInspector& queries, int clip) {
         if (over) {
             std::string figures_of_level;
             for (const mobb::LevelColumn& column : mobb::kLevelColumns) {
-                figures_of_level += std::string(column.key) + ' ' + level_text(column, level) +
-                                    (*column.unit != '\0' ? " " : "") + column.unit + '\n';
+                figures_of_level +=
+                    std::string(column.name) + ' ' + level_text(column, level) + level_unit(column) + '\n';
             }
             ImGui::SetTooltip("%sclick to show this level", figures_of_level.c_str());
         }

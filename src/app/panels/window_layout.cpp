@@ -1,9 +1,10 @@
 #include <app/panels/panels.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace mobbscope::app {
@@ -30,13 +31,15 @@ float splitter(Ui& ui, const char* name, ImVec2 size, bool upright) {
 /// A newly opened scene's begins at its top; an excerpt has panels of its own, so that those of the whole stay where
 /// they were scrolled to.
 template <class Draw>
-void panel(Ui& ui, const std::string& name, ImVec2 size, const Draw& draw) {
+void panel(Ui& ui, std::string_view called, ImVec2 size, const Draw& draw) {
+    const std::string name(called);
     const Session& session = ui.session;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), ui.px(5)});
     ImGui::BeginChild((session.workspace.in_excerpt() ? name + " of excerpt" : name).c_str(), size, false,
                       ImGuiWindowFlags_AlwaysUseWindowPadding);
     int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("opening"));
-    if (std::exchange(shown, session.workspace.opening()) != session.workspace.opening()) ImGui::SetScrollY(0);
+    if (std::exchange(shown, session.workspace.document().opening) != session.workspace.document().opening)
+        ImGui::SetScrollY(0);
     ui.focus.panel(name);
     draw();
     ImGui::EndChild();
@@ -94,13 +97,14 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     const auto spacing = [] { ImGui::SameLine(0, 0); };
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
 
-    const bool reviewing = ui.session.reviews.shown();
+    Screen* screen = ui.session.screen;
+    const auto panels = screen ? screen->panels() : std::array<ScreenPanel, 3>();
     // The placement stands below the lists: they stay where they are when somebody is selected.
-    const float placement = reviewing ? 0 : std::min(placement_height(ui, ui.session.settings), 0.5f * room.y);
+    const float placement = screen ? 0 : std::min(placement_height(ui, ui.session.settings), 0.5f * room.y);
     ImGui::BeginGroup();
-    panel(ui, reviewing ? "cases" : "left", {left, room.y - placement}, [&] {
-        if (reviewing) return review_list(ui);
-        review_way_back(ui);
+    panel(ui, screen ? panels[0].name : "left", {left, room.y - placement}, [&] {
+        if (screen) return panels[0].draw(ui);
+        for (const auto& each : ui.session.screens) each->draw_above_scene(ui);
         scene_panel(ui, ui.session.queries);
         tree_panel(ui, ui.session.jobs, ui.session.queries);
     });
@@ -111,9 +115,8 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     spacing();
     ImGui::BeginGroup();
     const float middle = room.x - left - right - 2 * bar;
-    std::optional<glm::ivec2> pixel;
-    if (reviewing) {
-        panel(ui, "pictures", {middle, room.y}, [&] { pixel = review_pictures(ui); });
+    if (screen) {
+        panel(ui, panels[1].name, {middle, room.y}, [&] { panels[1].draw(ui); });
     } else {
         // Up to its borders.
         ImGui::BeginChild("viewport", {middle, room.y - bottom - bar}, false, ImGuiWindowFlags_NoBackground);
@@ -129,9 +132,9 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     spacing();
     settings.right_width -= splitter(ui, "splitter.right", {bar, room.y}, true) / ui.style.scale;
     spacing();
-    panel(ui, reviewing ? "facts" : "right", {right, room.y}, [&] {
-        if (reviewing) return review_facts(ui, pixel);
-        if (ui.session.workspace.is_crowd() && !ui.session.workspace.view().query) {
+    panel(ui, screen ? panels[2].name : "right", {right, room.y}, [&] {
+        if (screen) return panels[2].draw(ui);
+        if (is_crowd(ui.session.workspace) && !ui.session.workspace.view().query) {
             crowd_panel(ui, ui.session.crowds);
         } else {
             query_panel(ui, ui.session.queries, pictures);
@@ -139,7 +142,7 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
         selection_panel(ui);
     });
     ui.session.workspace.hovered = ui.hovered;
-    status_bar(ui, ui.session.jobs, ui.session.queries, {io.DisplaySize.x, status});
+    status_bar(ui, ui.session.queries, {io.DisplaySize.x, status});
     ImGui::PopStyleVar();
     ImGui::End();
 

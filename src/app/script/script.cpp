@@ -10,7 +10,8 @@ std::string place(int line) { return "line " + std::to_string(line); }
 
 }  // namespace
 
-Script Script::parse(std::string_view text, const std::string& name, ScriptOutput output) {
+Script Script::parse(std::string_view text, const std::string& name, ScriptOutput output,
+                     std::span<const Command> known) {
     Script script;
     script.name_ = name;
     for (int line = 1; !text.empty(); ++line) {
@@ -25,7 +26,7 @@ Script Script::parse(std::string_view text, const std::string& name, ScriptOutpu
                                             " has nowhere to write to here: the picture is the window at the script's "
                                             "end; remove the line");
             }
-            script.statements_.push_back({line, make_action(words)});
+            script.statements_.push_back({line, make_action(words, known)});
         } catch (const std::invalid_argument& error) {
             throw InputError(name, place(line), error.what());
         }

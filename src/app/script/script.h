@@ -25,9 +25,11 @@
 ///     wait SECONDS
 #pragma once
 
+#include <app/commands/command.h>
 #include <app/script/script_statements.h>
 
 #include <ostream>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,8 +43,9 @@ enum class ScriptOutput { allowed, refused };
 class Script {
   public:
     /// `name` stands for the file in messages. Throws InputError naming the line of the first statement that is none,
-    /// or is refused.
-    static Script parse(std::string_view text, const std::string& name, ScriptOutput output = ScriptOutput::allowed);
+    /// or is refused. `known`: the commands of the session that it will work.
+    static Script parse(std::string_view text, const std::string& name, ScriptOutput output = ScriptOutput::allowed,
+                        std::span<const Command> known = commands());
 
     /// Runs it to its end. Throws ExpectationError; InputError if a statement cannot be done; MachineError; each names
     /// the line.

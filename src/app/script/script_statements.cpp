@@ -34,7 +34,9 @@ using Place = std::variant<glm::vec2, std::string>;
 /// The words behind the statement's name, taken one after the other.
 class StatementWords {
   public:
-    explicit StatementWords(const ScriptLine& line) : line_(line) {}
+    StatementWords(const ScriptLine& line, std::span<const Command> known_) : known(known_), line_(line) {}
+
+    const std::span<const Command> known;  ///< commands
 
     bool done() const { return at_ == line_.words.size(); }
     std::string next(const std::string& what) {
@@ -220,7 +222,7 @@ ScriptAction make_drop(StatementWords& words) {
 ScriptAction make_run(StatementWords& words) {
     const std::string id = words.next("a command");
     const std::string argument(words.rest());
-    command_named(id);
+    command_named(id, words.known);
     return [id, argument](ScriptRun& run) {
         run_command(run.session, id, argument);
         run.host.settle();
@@ -377,10 +379,10 @@ bool writes_output(const ScriptLine& line) {
     return verb && verb->writes;
 }
 
-ScriptAction make_action(const ScriptLine& line) {
+ScriptAction make_action(const ScriptLine& line, std::span<const Command> known) {
     const std::string& name = line.words.front();
     if (const Verb* verb = find_verb(name)) {
-        StatementWords words(line);
+        StatementWords words(line, known);
         ScriptAction action = verb->make(words);
         words.end();
         return action;

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <ostream>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -29,8 +30,8 @@ struct ScriptRun {
 
 using ScriptAction = std::function<void(ScriptRun&)>;
 
-/// Throws std::invalid_argument, in words, if it is no statement.
-ScriptAction make_action(const ScriptLine& line);
+/// Throws std::invalid_argument, in words, if it is no statement. `known`: the commands that it may run.
+ScriptAction make_action(const ScriptLine& line, std::span<const Command> known);
 
 /// Whether it is a statement that writes a file or prints.
 bool writes_output(const ScriptLine& line);

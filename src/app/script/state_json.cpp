@@ -88,8 +88,9 @@ Json query_json(const Workspace& workspace) {
     if (!recorded) return nullptr;
     const int index = *workspace.view().query;
     const SceneQuery query = workspace.fitted().queries()[static_cast<std::size_t>(index)];
-    Json tests;
-    for (const mobb::TestKind test : mobb::kTestKinds) tests[mobb::name(test)] = recorded->tests[test];
+    Json tests = Json::object();
+    for (const mobb::TestKind test : mobb::kTestKinds)
+        if (recorded->tests[test] > 0) tests[mobb::name(test)] = recorded->tests[test];
     const mobb::Trace::Event event = recorded->trace[workspace.step()];
     const std::vector<DrawnAgent> sides = drawn_agents(workspace.fitted(), workspace.view());
     return {{"index", index},
@@ -105,7 +106,7 @@ Json query_json(const Workspace& workspace) {
 }
 
 Json crowd_json(const Workspace& workspace, const CrowdInspector& crowds) {
-    if (!workspace.is_crowd()) return nullptr;
+    if (!is_crowd(workspace)) return nullptr;
     Json json{{"following", text_or_null(workspace.view().follow)}, {"choice", nullptr}, {"conflicts", nullptr}};
     if (const FollowedChoice* followed = crowds.choice()) {
         const Choice& choice = followed->choice;
@@ -151,13 +152,6 @@ Json import_json(const Imports& imports, const Workspace& workspace) {
             {"refused", std::move(refused)}};
 }
 
-std::string_view kind_name(Dialog dialog) {
-    constexpr std::array<std::string_view, 15> kNames{"none",    "open",        "add",     "save_as", "export_picture",
-                                                      "unsaved", "palette",     "help",    "about",   "messages",
-                                                      "dropped", "import_clip", "history", "review",  "export_file"};
-    return kNames[static_cast<std::size_t>(dialog)];
-}
-
 /// The export dialog: what it is asked for, by the options' keys, and the file.
 Json export_json(const Dialogs& dialogs, const Settings& settings) {
     Json json{{"file", dialogs.exporting.file}};
@@ -166,41 +160,6 @@ Json export_json(const Dialogs& dialogs, const Settings& settings) {
     }
     if (dialogs.exporting.aside) json["scene_aside"] = dialogs.exporting.aside->file.string();
     return json;
-}
-
-Json review_json(const Reviews& reviews, const Files& files) {
-    const Review& review = *reviews.review();
-    const ReviewLook& look = review.look;
-    const ReviewCase& shown = review.shown();
-    const auto state_of = [](const ReviewCase& one) -> Json {
-        if (one.state == ReviewCase::State::not_drawn) return "not drawn";
-        return one.drawn() ? Json(picture_tests::name(one.outcome())) : Json("waiting");
-    };
-    Json cases;
-    for (const ReviewCase& one : review.cases()) cases[one.file.name] = state_of(one);
-    Json listed = Json::array();
-    for (const std::size_t index : review.listed()) listed.push_back(review.cases()[index].file.name);
-    Json marked = Json::array();
-    for (const std::size_t index : review.marked()) marked.push_back(review.cases()[index].file.name);
-    return {{"shown", reviews.shown()},
-            {"folder", review.folder().string()},
-            {"cases", std::move(cases)},
-            {"listed", std::move(listed)},
-            {"marked", std::move(marked)},
-            {"case", shown.file.name},
-            {"outcome", state_of(shown)},
-            {"accepted", shown.accepted},
-            {"mode", kReviewModes[static_cast<std::size_t>(look.mode)].name},
-            {"blink_seconds", look.blink_seconds},
-            {"divider", look.divider},
-            {"zoom", look.zoom},
-            {"middle", {look.middle.x, look.middle.y}},
-            {"failed_only", look.failed_only},
-            {"order", kReviewOrders[static_cast<std::size_t>(look.order)]},
-            {"drawing", review.drawing()},
-            {"undo", text_or_null(review.undo_title())},
-            {"redo", text_or_null(review.redo_title())},
-            {"open_case", text_or_null(files.visited())}};
 }
 
 // --- what is expected of it
@@ -290,7 +249,7 @@ Json state_json(const Session& session) {
     json["excerpt"] = session.workspace.in_excerpt();
     json["time"] = or_null(session.workspace.view().time);
     json["playing"] = session.playback.playing();
-    json["dialog"] = kind_name(session.dialogs.now);
+    json["dialog"] = session.dialogs.name();
     if (!session.keys.focus.empty()) json["focus"] = session.keys.focus;
     json["messages"] = messages_json(session.notifications);
     if (session.notifications.unread() > 0) json["unread"] = session.notifications.unread();
@@ -300,7 +259,7 @@ Json state_json(const Session& session) {
     if (const Job* job = session.jobs.job()) json["job"] = {{"title", job->title()}, {"progress", job->progress()}};
     if (session.dialogs.now == Dialog::import_clip) json["import"] = import_json(session.imports, session.workspace);
     if (session.dialogs.now == Dialog::export_picture) json["export"] = export_json(session.dialogs, session.settings);
-    if (session.reviews.review()) json["review"] = review_json(session.reviews, session.files);
+    for (const auto& screen : session.screens) screen->add_state(json);
     if (session.views.count() > 1) {
         json["views"] = Json::array();
         for (std::size_t place = 0; place < session.views.count(); ++place) {

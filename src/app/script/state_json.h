@@ -12,10 +12,7 @@
 /// "sentence"}, the last two of the step. `undo` and `redo` are titles. Of a message `offer` is the command that it
 /// offers, and `put_away` says that it is behind the bell; `unread` counts warnings and errors that nobody has looked
 /// at in the list. The three are left out where there is nothing to say.
-///
-/// While there are picture tests to look at: "review": {"shown", "folder", "cases": {NAME: outcome, "waiting" or
-/// "not drawn"}, "listed": [NAME], "marked": [NAME], "case", "outcome", "accepted", "mode", "blink_seconds", "divider",
-/// "zoom", "middle", "failed_only", "order", "drawing", "undo", "redo", "open_case"}.
+/// Screens add what there is of them (Screen::add_state).
 #pragma once
 
 #include <app/session/session.h>

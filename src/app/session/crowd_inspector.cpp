@@ -67,7 +67,7 @@ std::string CrowdInspector::conflict_summary() const {
 }
 
 ConflictPlace conflict_place(const Workspace& workspace, const SceneConflict& conflict) {
-    const double before = std::max(conflict.begin() - kBefore, workspace.time_span().t0);
+    const double before = std::max(conflict.begin() - kBefore, time_span(workspace).t0);
     if (!workspace.crowd()) return {conflict.a, conflict.b, before};
     const bool by_a = made_by_a(*workspace.crowd(), conflict);
     ConflictPlace out{by_a ? conflict.a : conflict.b, by_a ? conflict.b : conflict.a, before};

@@ -1,6 +1,55 @@
 #include <app/session/dialogs.h>
+#include <scene/load_files.h>
 
 namespace mobbscope::app {
+
+namespace {
+
+std::span<const std::string_view> picture_extensions() {
+    static constexpr std::array<std::string_view, 1> kPictures{".png"};
+    return kPictures;
+}
+
+constexpr FileQuestion kOpen{"Open", "Open", "open", "file.open", openable_extensions};
+constexpr FileQuestion kAdd{"Add files", "Add", "add", "file.add", openable_extensions};
+constexpr FileQuestion kSaveAs{
+    .title = "Save as", .button = "Save", .prefix = "save", .command = "file.save_as", .extension = ".json"};
+constexpr FileQuestion kExportTo{"Export picture to", "Choose", "file", "picture.file", picture_extensions, ".png"};
+
+/// In the order of Dialog.
+constexpr auto kDialogs = std::to_array<DialogRow>({
+    {.name = "none"},
+    {.name = "open", .has_field = true, .question = &kOpen},
+    {.name = "add", .has_field = true, .question = &kAdd},
+    {.name = "save_as", .has_field = true, .question = &kSaveAs},
+    {.name = "export_picture", .has_field = true, .about_scene = true, .before_escape = BeforeEscape::popup},
+    {.name = "unsaved"},
+    {.name = "palette", .has_field = true},
+    {.name = "help", .has_field = true},
+    {.name = "about"},
+    {.name = "messages"},
+    {.name = "dropped"},
+    {.name = "import_clip",
+     .about_scene = true,
+     .before_escape = BeforeEscape::popup_or_text,
+     .lets_through = {"edit.undo", "edit.redo"}},
+    {.name = "history"},
+    {.name = "folder", .has_field = true},
+    {.name = "export_file",
+     .has_field = true,
+     .question = &kExportTo,
+     .about_scene = true,
+     .over = Dialog::export_picture},
+});
+
+}  // namespace
+
+std::span<const std::string_view> FileQuestion::scene_extensions() {
+    static constexpr std::array<std::string_view, 1> kScenes{".json"};
+    return kScenes;
+}
+
+const DialogRow& row_of(Dialog dialog) { return kDialogs[static_cast<std::size_t>(dialog)]; }
 
 void Dialogs::open(Dialog which, DialogInput with) {
     behind_help_ = {};  // to close the help would lead back there, with what waits for an answer
@@ -26,9 +75,8 @@ void Dialogs::close() {
         input.opening = opening + 1;
         return;
     }
-    if (now == Dialog::export_file) {
-        // It lies over the dialog that asked for the file.
-        now = Dialog::export_picture;
+    if (row_of(now).over != Dialog::none) {
+        now = row_of(now).over;
         return ask_anew({.text = exporting.file});
     }
     now = Dialog::none;
@@ -42,12 +90,13 @@ void Dialogs::ask_anew(DialogInput with) {
 }
 
 void Dialogs::close_those_about_scene() {
-    const auto is_about_scene = [](Dialog which) {
-        return which == Dialog::import_clip || which == Dialog::export_picture || which == Dialog::export_file;
-    };
-    if (is_about_scene(behind_help_.first)) behind_help_ = {Dialog::none, {}};
-    if (now == Dialog::export_file) close();  // to the one that it lies over
-    if (is_about_scene(now)) close();
+    if (row_of(behind_help_.first).about_scene) behind_help_ = {Dialog::none, {}};
+    while (row_of(now).about_scene) close();
+}
+
+void Dialogs::ask_for_folder(const FileQuestion& question) {
+    folder_ = &question;
+    open(Dialog::folder);
 }
 
 void Dialogs::ask_about_unsaved(std::function<void()> then) {

@@ -5,9 +5,12 @@
 #include <app/document/file_preview.h>
 #include <app/document/picture_export.h>
 
+#include <array>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -27,9 +30,39 @@ enum class Dialog {
     dropped,
     import_clip,
     history,
-    review,
+    folder,      ///< that a screen looks into, see Dialogs::ask_for_folder
     export_file  ///< where Dialog::export_picture writes to
 };
+
+/// A file or a folder that is asked for.
+struct FileQuestion {
+    const char* title;
+    const char* button;
+    const char* prefix;   ///< of the marks
+    const char* command;  ///< that is done with the path
+    std::span<const std::string_view> (*extensions)() = scene_extensions;
+    const char* extension = nullptr;  ///< that a name without one gets; null: none, as the file must be there
+    bool of_folder = false;
+
+    bool writes() const { return extension; }
+
+    static std::span<const std::string_view> scene_extensions();
+};
+
+/// What Escape leaves before the dialog.
+enum class BeforeEscape { nothing, popup, popup_or_text };
+
+/// What differs between dialogs.
+struct DialogRow {
+    std::string_view name;                   ///< for scripts
+    bool has_field = false;                  ///< that waits for the keys
+    const FileQuestion* question = nullptr;  ///< of one that asks for files
+    bool about_scene = false;                ///< of the one that is open: over with it
+    BeforeEscape before_escape = BeforeEscape::nothing;
+    Dialog over = Dialog::none;                      ///< it lies over that one, and closes to it
+    std::array<std::string_view, 2> lets_through{};  ///< commands that keys call while it is open
+};
+const DialogRow& row_of(Dialog dialog);
 
 /// What was put into the open dialog so far; the dialog says what it means by it.
 struct DialogInput {
@@ -63,6 +96,14 @@ class Dialogs {
     void open(Dialog which, DialogInput with = {});
     /// Shows the help, over the open dialog if there is one: closing it leads back there.
     void open_help();
+    /// Asks for a folder; `question` outlives the dialog.
+    void ask_for_folder(const FileQuestion& question);
+    /// What a dialog asks for; null: no file.
+    const FileQuestion* question(Dialog which) const {
+        return which == Dialog::folder ? folder_ : row_of(which).question;
+    }
+    /// Of the open one, for scripts.
+    std::string_view name() const { return now == Dialog::folder ? folder_->prefix : row_of(now).name; }
     /// What the help lies over.
     Dialog behind_help() const { return behind_help_.first; }
     /// Nothing comes of it: what waited for its answer is forgotten.
@@ -80,7 +121,8 @@ class Dialogs {
     void ask_anew(DialogInput with);
 
     std::pair<Dialog, DialogInput> behind_help_{Dialog::none, {}};
-    std::function<void()> waiting_;  ///< for the answer about unsaved changes
+    const FileQuestion* folder_ = nullptr;  ///< of Dialog::folder
+    std::function<void()> waiting_;         ///< for the answer about unsaved changes
 };
 
 }  // namespace mobbscope::app

@@ -67,12 +67,12 @@ void Edits::redo() {
 }
 
 void Edits::go_to_state(std::size_t state) {
-    const int before = workspace_.opening();
+    const int before = workspace_.document().opening;
     playback_.stop();
     workspace_.history.go_to(state);
     ++counts_.put_back;
     // What is made for an excerpt is not put into the whole, nor the other way round.
-    if (workspace_.opening() != before) {
+    if (workspace_.document().opening != before) {
         while (jobs_.count() > 0) jobs_.cancel(0);
         workspace_.cameras_aside.clear();
     }

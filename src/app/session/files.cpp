@@ -71,9 +71,8 @@ void Files::replace(Document document, const std::vector<std::filesystem::path>&
     const std::optional<Theme>& theme = parts_.settings.theme;
     if (parts_.options.attended && theme && document.view.theme == Theme{}) document.view.theme = *theme;
     next.history.reset(std::move(document));
-    next.point_into_present();
     next.changed();
-    // No case of picture tests is open any more; who opens one says so afterwards.
+    // Nothing is visited any more; who visits something says so afterwards.
     aside_.reset();
     visited_.clear();
     parts_.workspace = std::move(next);
@@ -95,7 +94,7 @@ void Files::load(const std::string& title, const LoadAll& load_all, const std::v
             }
             return [this, document = std::move(document), files, present] {
                 const auto put_in = [this, document, files] { replace(document, files); };
-                // It takes the place of what was open before the picture tests.
+                // It takes the place of what was put aside.
                 if (aside_) return come_back([this, put_in] { after_asking(put_in); });
                 // Who edited meanwhile is asked again.
                 &parts_.workspace.scene() == &present->scene() ? put_in() : after_asking(put_in);
@@ -190,7 +189,7 @@ void Files::add(const std::vector<std::filesystem::path>& files) {
     if (complain_of_missing(files)) return;
     if (!may_add()) {
         throw InputError(parts_.workspace.crowd() ? "a run stands alone: open the files by themselves"
-                                                  : "picture tests are shown: leave them first, or open the files");
+                                                  : std::string(parts_.screen->words().shown) + ", or open the files");
     }
     parts_.jobs.start("Adding files", [this, files](JobControl& control) -> Job::Finish {
         const auto read = std::make_shared<const Scene>(load_files(files, {}, progress_of(control)));
@@ -325,7 +324,6 @@ void Files::come_back(const std::function<void()>& then) {
         }
         parts_.workspace = std::move(before);
         parts_.workspace.hovered = {};
-        parts_.workspace.point_into_present();
         ++parts_.counts.put_back;
         parts_.workspace.changed();
         then();

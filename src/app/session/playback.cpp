@@ -15,12 +15,12 @@ void Playback::play() {
     playing_ = true;
     has_played_ = false;
     if (workspace_.view().time || workspace_.empty()) return;
-    workspace_.change_view([&](ViewState& v) { v.time = workspace_.time_span().t0; }, kPlaying);
+    workspace_.change_view([&](ViewState& v) { v.time = time_span(workspace_).t0; }, kPlaying);
 }
 
 void Playback::advance(double seconds) {
     if (!playing_ || workspace_.empty()) return;
-    const mobb::Interval span = workspace_.time_span();
+    const mobb::Interval span = time_span(workspace_);
     double time = workspace_.view().time.value_or(span.t0) + seconds * speed;
     if (time >= span.t1 || time < span.t0) time = span.t0;
     if (time == workspace_.view().time) return;

@@ -39,7 +39,7 @@ double Session::ui_scale() const {
 }
 
 void Session::poll() {
-    reviews.poll();
+    for (const auto& each : screens) each->poll();
     jobs.poll();
     imports.ask_for_offer();
 }
@@ -47,17 +47,17 @@ void Session::poll() {
 void Session::end_work() {
     files.end_work();
     dialogs.preview.end();
-    if (Review* review = reviews.review()) review->cancel();
+    for (const auto& each : screens) each->end_work();
 }
 
 Session::BeforeDrag Session::before_drag() const {
     return {workspace.history,       settings,
             counts.arrivals,         workspace.picture_size,
-            workspace.cameras_aside, reviews.shown() ? std::optional(reviews.review()->look) : std::nullopt};
+            workspace.cameras_aside, screen ? screen->look() : std::any()};
 }
 
 void Session::restore(BeforeDrag before) {
-    if (before.look && reviews.shown()) reviews.review()->look = *before.look;
+    if (before.look.has_value() && screen) screen->restore(before.look);
     if (before.arrivals != counts.arrivals) return;
     workspace.history = std::move(before.history);
     settings = std::move(before.settings);

@@ -5,16 +5,20 @@
 #include <app/document/query_inspector.h>
 #include <app/document/views.h>
 #include <app/session/excerpts.h>
-#include <app/session/reviews.h>
+#include <app/session/files.h>
 
+#include <any>
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace mobbscope::app {
 
@@ -75,13 +79,23 @@ class Session {
     CrowdInspector crowds{workspace, jobs, notifications};
     Excerpts excerpts{workspace, jobs, playback, crowds, counts};
     Files files{{workspace, jobs, edits, imports, dialogs, notifications, playback, settings, counts, options, screen}};
-    Reviews reviews{files, jobs, playback, notifications, options, desktop, screen};
+    std::vector<std::unique_ptr<Screen>> screens;          ///< that there are (add_screen)
+    std::shared_ptr<const std::vector<Command>> commands;  ///< the table with theirs; null: without
 
     /// All parts, for what takes some of them (OfParts).
     template <class AnySession>
     static auto parts(AnySession& s) {
         return std::tie(s.options, s.settings, s.workspace, s.views, s.queries, s.notifications, s.queue, s.keys,
-                        s.dialogs, s.jobs, s.playback, s.edits, s.imports, s.crowds, s.excerpts, s.files, s.reviews);
+                        s.dialogs, s.jobs, s.playback, s.edits, s.imports, s.crowds, s.excerpts, s.files);
+    }
+
+    /// The screen of a type, which add_screen was given.
+    template <class AScreen>
+    AScreen& the() const {
+        for (const auto& each : screens) {
+            if (auto* found = dynamic_cast<AScreen*>(each.get())) return *found;
+        }
+        throw std::logic_error("the session has no such screen");
     }
 
     /// Of text and panels, kLeastUiScale..kMostUiScale.
@@ -103,7 +117,7 @@ class Session {
         int arrivals = 0;
         std::optional<PictureSize> picture_size;
         std::map<std::string_view, Camera> cameras_aside;
-        std::optional<ReviewLook> look;  ///< of picture tests, while they are shown
+        std::any look;  ///< of the screen that is shown
     };
     BeforeDrag before_drag() const;
     /// Brings it back, as if nothing had been dragged; not where a job or another document has come meanwhile.

@@ -14,14 +14,8 @@ namespace {
 constexpr std::size_t kMostChoices = 40;  // more than these are found by the palette
 
 /// "Undo moving A".
-std::string title_of(const Files& files, const Workspace& workspace, const Reviews& reviews, const Command& command) {
-    std::string title(command.title);
-    if (command.id == "file.reopen_last" && files.has_last()) title += ": " + files.last_title();
-    if (command.id == "edit.undo" && workspace.history.can_undo()) title += ' ' + workspace.history.undo_title();
-    if (command.id == "edit.redo" && workspace.history.can_redo()) title += ' ' + workspace.history.redo_title();
-    if (command.id == "review.undo") title += ' ' + reviews.review()->undo_title();
-    if (command.id == "review.redo") title += ' ' + reviews.review()->redo_title();
-    return title;
+std::string title_of(const Session& session, const Command& command) {
+    return std::string(command.title) + (command.title_end ? command.title_end(session) : "");
 }
 
 void ask(Session& session, const Command& command) {
@@ -127,12 +121,12 @@ bool begin_menu(Ui& ui, const std::string& title, const std::string& mark, bool 
 }
 
 void command_item(Ui& ui, const MenuEntry& entry, const std::string& mark) {
-    const Command& command = command_named(entry.id);
-    const std::string title =
-        entry.title.empty() ? title_of(ui.session.files, ui.workspace, ui.session.reviews, command) : entry.title;
+    const std::span<const Command> table = commands(ui.session);
+    const Command& command = command_named(entry.id, table);
+    const std::string title = entry.title.empty() ? title_of(ui.session, command) : entry.title;
     if (command.choices && entry.argument.empty()) return choices_item(ui, command, title, mark);
     // With an argument its own key would do something else, and what is on is not said.
-    const std::string shortcut(!entry.like.empty()      ? first_shortcut(command_named(entry.like))
+    const std::string shortcut(!entry.like.empty()      ? first_shortcut(command_named(entry.like, table))
                                : entry.argument.empty() ? first_shortcut(command)
                                                         : "");
     const bool checked = entry.argument.empty() && command.checked && command.checked(ui.session);

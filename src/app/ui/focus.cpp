@@ -105,8 +105,8 @@ void Focus::leave() {
 }
 
 void Focus::done_with(const std::string& name) {
-    // Picture tests have no arrows that step: there one goes on where one is.
-    if (entered_ == name && level() == 0 && session_.dialogs.now == Dialog::none && !session_.reviews.shown()) leave();
+    // Screens have no arrows that step: there one goes on where one is.
+    if (entered_ == name && level() == 0 && session_.dialogs.now == Dialog::none && !session_.screen) leave();
 }
 
 void Focus::press_stop(const Stop& stop) {
@@ -571,7 +571,7 @@ void Focus::end_frame(const Style& style) {
     }
     follow_popups();
     follow_dialog();
-    if (std::exchange(opening_, session_.workspace.opening()) != session_.workspace.opening()) {
+    if (std::exchange(opening_, session_.workspace.document().opening) != session_.workspace.document().opening) {
         close_popups_from(0);
         at_ = {""};
         left_.clear();

@@ -3,6 +3,7 @@
 #include <base/text.h>
 #include <explain/query_findings.h>
 #include <explain/query_sentence.h>
+#include <scene/view_options.h>
 
 #include <array>
 #include <span>
@@ -16,29 +17,12 @@ namespace {
 
 using Ids = std::span<const std::string_view>;
 
-constexpr auto kPicture = std::to_array<std::string_view>({"view.frame",
-                                                           "view.frame_all",
-                                                           "",
-                                                           "view.iso",
-                                                           "view.top",
-                                                           "view.front",
-                                                           "view.side",
-                                                           "",
-                                                           "view.moment",
-                                                           "view.perspective",
-                                                           "view.disks",
-                                                           "view.boxes",
-                                                           "view.floor",
-                                                           "view.labels",
-                                                           "view.legend",
-                                                           "view.past",
-                                                           "view.theme",
-                                                           "",
-                                                           "agent.show_all",
-                                                           "view.arrange",
-                                                           "",
-                                                           "file.export_picture",
-                                                           "file.copy_command"});
+/// Stands for the toggles that are in the toolbar, too.
+constexpr std::string_view kTogglesAtHand = "toggles";
+constexpr auto kPicture = std::to_array<std::string_view>(
+    {"view.frame", "view.frame_all", "", "view.iso", "view.top", "view.front", "view.side", "", "view.moment",
+     "view.perspective", kTogglesAtHand, "view.past", "view.theme", "", "agent.show_all", "view.arrange", "",
+     "file.export_picture", "file.copy_command"});
 constexpr auto kNode =
     std::to_array<std::string_view>({"view.frame", "go.parent", "go.child", "step.next_of_node", "edit.copy_figures"});
 constexpr auto kSample =
@@ -73,7 +57,7 @@ void append_agent(std::vector<MenuEntry>& menu, const Session& session) {
         const std::string& name = name_in_view(session.workspace.fitted().scene(), *who);
         append(menu, shown_menu(session.workspace, {text_of_agent(name), {name}}));
     }
-    if (session.workspace.is_crowd()) append(menu, entries_of(kInCrowd));
+    if (is_crowd(session.workspace)) append(menu, entries_of(kInCrowd));
     if (shows_bare_clips(session.workspace)) {
         append(menu, {{"agent.make"}});
     } else if (!session.workspace.crowd()) {
@@ -142,7 +126,18 @@ std::vector<MenuEntry> shown_menu(const Workspace& workspace, const ListedAgents
             {"agent.show_all"}};
 }
 
-std::vector<MenuEntry> picture_menu(const Session&) { return entries_of(kPicture); }
+std::vector<MenuEntry> picture_menu(const Session&) {
+    std::vector<MenuEntry> menu;
+    for (const std::string_view id : kPicture) {
+        if (id != kTogglesAtHand) {
+            menu.push_back({id});
+            continue;
+        }
+        for (const ViewOption& option : view_options())
+            if (option.at_hand) menu.push_back({option.command});
+    }
+    return menu;
+}
 
 std::vector<MenuEntry> selection_menu(const Session& session) {
     switch (session.workspace.selection.kind) {

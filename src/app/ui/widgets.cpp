@@ -247,7 +247,7 @@ void flow(float width) {
 std::string signed_metres(double metres) { return formatted("%+.3f", metres); }
 
 void command_button(Ui& ui, const char* label, const char* id, const std::string& mark) {
-    const Command& command = *find_command(id);
+    const Command& command = *find_command(id, commands(ui.session));
     ImGui::BeginDisabled(!command.enabled(ui.session));
     ImGui::PushID(mark.c_str());  // labels may be alike
     const bool pressed = ImGui::Button(label);

@@ -23,11 +23,6 @@ class AnswerPace {
     /// What a fine picture needs: all of it, or as the last one had the same disks in the same places, the rest.
     enum class Needs { all, rest };
 
-    /// `slow`: nothing is known yet, and a fine picture is expected to take long.
-    explicit AnswerPace(bool slow) {
-        if (slow) fine_seconds_[index(Needs::all)] = std::numeric_limits<double>::infinity();
-    }
-
     /// Whether the next picture is to be a coarse one. After a coarse one it is, so that a drag does not flicker.
     bool coarse_first(Needs needs) const { return coarse_shown_ || fine_seconds_[index(needs)] > kAtOnce; }
     /// Of the next coarse one: it has every so many pixels across and down.
@@ -41,7 +36,8 @@ class AnswerPace {
   private:
     static std::size_t index(Needs needs) { return static_cast<std::size_t>(needs); }
 
-    std::array<double, 2> fine_seconds_{0, 0};  ///< by what they need
+    /// By what they need. As long as nothing is known, all of a fine picture is expected to take long.
+    std::array<double, 2> fine_seconds_{std::numeric_limits<double>::infinity(), 0};
     int divisor_ = 2;
     bool coarse_shown_ = false;
 };

@@ -1,8 +1,8 @@
 #include <app/commands/command.h>
 #include <app/input/input_queue.h>
 #include <app/panels/panels.h>
-#include <app/window/answer_pace.h>
 #include <app/window/shell.h>
+#include <app/window/texture_painter.h>
 #include <app/window/window_gl.h>
 #include <base/error.h>
 #include <render/gl/renderer.h>
@@ -12,9 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <deque>
-#include <limits>
-#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -24,7 +21,6 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
 /// Dear ImGui lays out with sizes of the frame before, so what happens is seen whole after so many frames.
 constexpr int kFramesToSettle = 3;
 /// A field that has not taken the keys by then never will.
@@ -68,137 +64,8 @@ bool edits_text(const Chord& chord) {
 /// A dialog has the keys, but for the one that explains it; what is edited in one is undone in it too.
 bool works_under(Dialog dialog, const Command& command) {
     if (dialog == Dialog::none || command.id == "help.shortcuts") return true;
-    return dialog == Dialog::import_clip && (command.id == "edit.undo" || command.id == "edit.redo");
+    return std::ranges::find(row_of(dialog).lets_through, command.id) != row_of(dialog).lets_through.end();
 }
-
-/// Has textures of its own: the renderer's holds what else it draws soon. Where the fine picture takes long, a coarse
-/// one stands in for it, and it is painted in parts while nothing changes.
-class TexturePainter final : public Painter {
-  public:
-    TexturePainter(Renderer& renderer, const Shell::Clock& clock) : renderer_(renderer), clock_(clock) {}
-
-    Shown picture(std::size_t place, Changed changed, Hand hand, double now) override {
-        while (pictures_.size() <= place) pictures_.emplace_back(renderer_.is_software());
-        Picture& asked = pictures_[place];
-        asked.changed = std::max(asked.changed, changed);
-        asked.hand = hand;
-        if (changed != Changed::nothing) asked.changed_at = now;
-        return {texture_id(asked.copy.texture()), asked.is_fine ? 0 : now - asked.changed_at};
-    }
-
-    ImTextureID image(std::size_t slot, const std::shared_ptr<const Image>& image, bool smooth) override {
-        Held& held = images_[slot];
-        held.is_asked_for = true;
-        if (!held.texture) held.texture = std::make_unique<ImageTexture>();
-        return held.texture->take(image, smooth) ? texture_id(held.texture->texture()) : ImTextureID{};
-    }
-
-    /// Those that no panel has asked for since the last time are gone.
-    void drop_images() {
-        std::erase_if(images_, [](const auto& held) { return !held.second.is_asked_for; });
-        for (auto& [slot, held] : images_) held.is_asked_for = false;
-    }
-
-    /// Paints what has changed since the last time.
-    void paint_changes(std::size_t place, const DrawList& list) {
-        if (place >= pictures_.size()) return;
-        Picture& asked = pictures_[place];
-        const Changed changed = std::exchange(asked.changed, Changed::nothing);
-        if (changed == Changed::nothing) return;
-        const bool all = changed == Changed::all;
-        if (asked.hand == Hand::away) {
-            take(asked,
-                 all ? renderer_.paint(list, kPictureSamples) : renderer_.paint_highlights(list, kPictureSamples),
-                 list);
-        } else if (!all && asked.is_fine && renderer_.has_scene(list, kPictureSamples)) {
-            take(asked, renderer_.paint_highlights(list, kPictureSamples), list);
-        } else {
-            asked.needs = renderer_.has_disks(list, kPictureSamples) ? AnswerPace::Needs::rest : AnswerPace::Needs::all;
-            if (asked.pace.coarse_first(asked.needs) || !paint_fine_at_once(asked, list)) paint_coarse(asked, list);
-        }
-    }
-
-    /// Seconds until the fine picture of what a place shows is to be gone on with; infinity: never.
-    double fine_due_in(std::size_t place, double now) const {
-        if (place >= pictures_.size()) return kNever;
-        const Picture& asked = pictures_[place];
-        // What has changed is painted when the frame is drawn, and may be coarse then.
-        const bool stands = asked.is_fine && asked.changed != Changed::all;
-        if (stands || asked.hand != Hand::rests) return kNever;
-        return std::max(asked.changed_at + AnswerPace::kRest - now, 0.0);
-    }
-
-    /// Goes on with it.
-    void paint_on(std::size_t place, const DrawList& list) {
-        Picture& asked = pictures_[place];
-        const double begun = clock_();
-        if (!renderer_.is_painting(list)) {
-            renderer_.begin_paint(list, kPictureSamples);
-            asked.seconds = 0;
-        }
-        const Texture* fine = renderer_.paint_more(list, {clock_, AnswerPace::kSlice});
-        asked.seconds += clock_() - begun;
-        if (!fine) return;
-        take(asked, *fine, list);
-        asked.pace.painted_fine(asked.needs, asked.seconds);
-    }
-
-    Shell::Painted painted() const { return painted_; }
-
-  private:
-    struct Picture {
-        explicit Picture(bool slow) : pace(slow) {}
-
-        PictureCopy copy;
-        Changed changed = Changed::nothing;
-        Hand hand = Hand::away;
-        AnswerPace pace;
-        AnswerPace::Needs needs = AnswerPace::Needs::all;  ///< of the fine picture
-        bool is_fine = true;
-        double changed_at = 0;
-        double seconds = 0;  ///< that the fine one has taken so far
-    };
-
-    struct Held {
-        std::unique_ptr<ImageTexture> texture;
-        bool is_asked_for = false;
-    };
-
-    void take(Picture& asked, const Texture& fine, const DrawList& list) {
-        asked.copy.take(fine, list.size);
-        asked.is_fine = true;
-        ++painted_.fine;
-    }
-
-    bool paint_fine_at_once(Picture& asked, const DrawList& list) {
-        const double begun = clock_();
-        renderer_.begin_paint(list, kPictureSamples);
-        const Texture* fine = renderer_.paint_more(list, {clock_, 1.5 * AnswerPace::kAtOnce});
-        const double seconds = clock_() - begun;
-        if (!fine) {
-            asked.pace.gave_up_fine(asked.needs, seconds);
-            return false;
-        }
-        take(asked, *fine, list);
-        asked.pace.painted_fine(asked.needs, seconds);
-        return true;
-    }
-
-    void paint_coarse(Picture& asked, const DrawList& list) {
-        const double begun = clock_();
-        asked.copy.take(renderer_.paint_coarse(list, asked.pace.divisor()), list.size);
-        renderer_.wait();
-        asked.pace.painted_coarse(clock_() - begun);
-        asked.is_fine = false;
-        ++painted_.coarse;
-    }
-
-    Renderer& renderer_;
-    const Shell::Clock& clock_;
-    std::deque<Picture> pictures_;        ///< by place
-    std::map<std::size_t, Held> images_;  ///< by slot
-    Shell::Painted painted_;
-};
 
 }  // namespace
 
@@ -306,11 +173,7 @@ struct Shell::State final : PictureMaker {
 
     /// A dialog has opened whose field does not have the keys yet: what is typed meanwhile is meant for it.
     bool waits_for_field() {
-        const Dialog open = session.dialogs.now;
-        const bool has_field = open == Dialog::open || open == Dialog::add || open == Dialog::save_as ||
-                               open == Dialog::export_picture || open == Dialog::export_file ||
-                               open == Dialog::review || open == Dialog::palette || open == Dialog::help;
-        if (!has_field || !session.dialogs.input.fresh)
+        if (!row_of(session.dialogs.now).has_field || !session.dialogs.input.fresh)
             waited = 0;
         else if (++waited <= kFramesToFocus)
             return true;
@@ -389,6 +252,8 @@ struct Shell::State final : PictureMaker {
         }
         const auto [due, of] = fine_due(*time);
         if (due <= 0) drawn->painter.paint_on(of, *viewports[of].shown());
+        if (std::exchange(told, renderer.notice()) != renderer.notice())
+            session.notifications.tell_of_window(MessageLevel::warning, renderer.notice());
         if (!std::exchange(laid_out, false)) return;
         ++frames_drawn;
         if (!drawn->target || drawn->target->size() != size) drawn->target.emplace(size);
@@ -424,6 +289,7 @@ struct Shell::State final : PictureMaker {
     PictureMaker* maker_before;
     std::optional<double> time;
     std::string clipboard;
+    std::string told;  ///< of the renderer's notices
     int settling = kFramesToSettle;
     int waited = 0;  ///< frames for a field
     bool settled = false;

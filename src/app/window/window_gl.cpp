@@ -13,10 +13,7 @@ namespace {
 
 void allocate(const Texture& texture, PictureSize size) {
     glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, texture.name());
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, size.width, size.height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    fill_texture(texture, GL_RGBA8, size, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
@@ -98,8 +95,7 @@ void UiPass::upload(ImFontAtlas& fonts) {
     fonts.GetTexDataAsAlpha8(&coverage, &width, &height);
     reset_state();
     glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, glyphs_.name());
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, width, height, 0, GL_RED, GL_UNSIGNED_BYTE, coverage);
+    fill_texture(glyphs_, GL_R8, {width, height}, GL_RED, GL_UNSIGNED_BYTE, coverage);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     // White, as opaque as the glyph covers the pixel.
@@ -116,9 +112,9 @@ void UiPass::draw(const ImDrawData& data, PictureSize size) {
     glEnable(GL_SCISSOR_TEST);
     for (const ShaderProgram* program : {&plain_, &textured_}) {
         program->use();
-        glUniform2f(program->uniform("viewport"), static_cast<float>(size.width), static_cast<float>(size.height));
+        program->set("viewport", size);
     }
-    glUniform1i(textured_.uniform("picture"), 0);
+    textured_.set("picture", 0);
     glActiveTexture(GL_TEXTURE0);
     glBindVertexArray(array_.name());
     glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());

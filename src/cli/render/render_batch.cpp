@@ -56,7 +56,7 @@ std::vector<BatchLine> lines_of(std::string_view text, const std::string& name) 
             if (!words.empty()) out.push_back({number, std::move(words)});
         });
     }
-    if (out.empty()) throw InputError(name, "", "asks for no picture; give the arguments of one on each line");
+    if (out.empty()) throw InputError(name, "asks for no picture; give the arguments of one on each line");
     return out;
 }
 
@@ -110,9 +110,7 @@ void render_batch(const std::filesystem::path& list, const RenderArguments& defa
     of_line.backend.reset();
     const std::vector<BatchLine> lines = lines_of(list_text(list), name);
     RenderPlan plan;
-    for (const BatchLine& line : lines) {
-        at_line(name, line.number, [&] { plan.add(parsed(line.words, of_line)); });
-    }
+    for (const BatchLine& line : lines) at_line(name, line.number, [&] { plan.add(parsed(line.words, of_line)); });
     OutputCheck outputs;
     for (std::size_t i = 0; i < lines.size(); ++i) {
         at_line(name, lines[i].number, [&] { RenderPlan::check_outputs(plan.jobs()[i], outputs); });

@@ -38,11 +38,9 @@ void print_backends_json(const std::vector<BackendReport>& backends) {
     json.begin_object();
     json.list("backends", backends, [&](const BackendReport& backend) {
         json.begin_object();
-        json.member("name", backend.name);
-        json.member("works", backend.works);
+        json.members("name", backend.name, "works", backend.works);
         if (backend.works) {
-            json.member("version", backend.version);
-            json.member("renderer", backend.renderer);
+            json.members("version", backend.version, "renderer", backend.renderer);
         } else {
             json.member("why_not", backend.why_not);
         }
@@ -81,24 +79,24 @@ void run_render(const Command& command, const RenderCommandArguments& arguments)
     }
 }
 
+void add_options_of_render(Command& command, RenderCommandArguments& arguments) {
+    add_render_options(command, arguments.render);
+    constexpr const char* kGroup = "Many pictures in one process";
+    command
+        .add_option("--batch", arguments.batch,
+                    "A text file with the arguments of one picture a line; - is standard input. Options beside it hold "
+                    "for every line",
+                    "LIST")
+        .group(kGroup);
+    command.add_flag("--list-backends", arguments.list_backends, "Say what this machine can draw with, and stop");
+    command.add_flag("--json", arguments.json, "With --list-backends: as JSON");
+}
+
 }  // namespace
 
 void add_render_command(Command& program) {
-    program.add_subcommand("render", "Draw a scene into pictures, without a display", [](Command& command) {
-        const auto arguments = std::make_shared<RenderCommandArguments>();
-        add_render_options(command, arguments->render);
-        constexpr const char* kGroup = "Many pictures in one process";
-        command
-            .add_option(
-                "--batch", arguments->batch,
-                "A text file with the arguments of one picture a line; - is standard input. Options beside it hold "
-                "for every line",
-                "LIST")
-            .group(kGroup);
-        command.add_flag("--list-backends", arguments->list_backends, "Say what this machine can draw with, and stop");
-        command.add_flag("--json", arguments->json, "With --list-backends: as JSON");
-        command.callback([&command, arguments] { run_render(command, *arguments); });
-    });
+    program.add_subcommand("render", "Draw a scene into pictures, without a display", add_options_of_render,
+                           run_render);
 }
 
 }  // namespace mobbscope::cli

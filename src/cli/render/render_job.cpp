@@ -17,14 +17,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 namespace mobbscope::cli {
 
@@ -83,7 +80,7 @@ void check_selection(const RenderJob& job) {
             if (why_not.empty()) why_not = error.what();
         }
     }
-    throw InputError(job.arguments.file.string(), "", "--select: " + why_not);
+    throw InputError(job.arguments.file, "--select: " + why_not);
 }
 
 /// `renderer`: null where nothing of it needs OpenGL.
@@ -174,7 +171,7 @@ std::shared_ptr<KeptPaths> SceneStore::paths(const RenderArguments& arguments) {
 void RenderPlan::add(RenderArguments arguments) {
     check_names(arguments.outputs);
     check_together(arguments);
-    if (is_case(arguments.file)) throw InputError(arguments.file.string(), "", "a case is drawn alone, not in a batch");
+    if (is_case(arguments.file)) throw InputError(arguments.file, "a case is drawn alone, not in a batch");
     RenderJob job{std::move(arguments), nullptr, {}};
     job.paths = scenes_.paths(job.arguments);
     const FittedScene& fitted = *job.paths->fitted();
@@ -187,7 +184,7 @@ void RenderPlan::add(RenderArguments arguments) {
     } catch (const ViewMismatch& mismatch) {
         refuse_view(job.arguments, mismatch);
     } catch (const std::invalid_argument& error) {
-        throw InputError(job.arguments.file.string(), "", error.what());
+        throw InputError(job.arguments.file, error.what());
     }
     jobs_.push_back(std::move(job));
 }
@@ -197,9 +194,7 @@ void RenderPlan::check_and_frame(RenderJob& job) {
     const bool near = is_near_followed(job);
     const bool turns_about_all = turns && !near && !job.pictures.front().view.camera.target;
     std::optional<Camera> camera;  // of all pictures, so that none jumps
-    if (turns_about_all) {
-        camera = turning_camera(*job.paths, job.pictures.front().view, job.arguments.picture.size);
-    }
+    if (turns_about_all) camera = turning_camera(*job.paths, job.pictures.front().view, job.arguments.picture.size);
     const Progress progress = tell("planned", "pictures");
     std::size_t planned = 0;
     for (RenderPicture& picture : job.pictures) {
@@ -273,12 +268,12 @@ void render_case(const Command& command, const RenderArguments& arguments) {
     refuse_other_options(command);
     if (arguments.outputs.image.empty()) throw UsageError("--output is required");
     const picture_tests::Case drawn = picture_tests::read_case(arguments.file);
-    if (drawn.terms.skip) throw InputError(arguments.file.string(), "", "the case is skipped: " + *drawn.terms.skip);
+    if (drawn.terms.skip) throw InputError(arguments.file, "the case is skipped: " + *drawn.terms.skip);
     check_output(arguments.outputs.image);
     std::error_code ignored;
     if (std::filesystem::equivalent(arguments.outputs.image, picture_tests::CaseFile{{}, arguments.file}.golden(),
                                     ignored)) {
-        throw InputError(arguments.outputs.image.string(), "",
+        throw InputError(arguments.outputs.image,
                          "is the golden of this case; mobbscope test --update takes it, or give another output");
     }
     picture_tests::PictureMaker maker(arguments.backend.value_or(Backend::automatic));

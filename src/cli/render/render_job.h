@@ -11,7 +11,6 @@
 #include <optional>
 #include <set>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace mobbscope::cli {

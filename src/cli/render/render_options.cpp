@@ -79,10 +79,8 @@ void add_camera_options(Command& command, ViewArguments& view) {
     add("--yaw", view.yaw, number_within(-3600, 3600), "Free: degrees from +x to the eye, counter-clockwise", "DEG");
     add("--pitch", view.pitch, number_within(-90, 90), "Free: degrees above the floor", "DEG");
     add("--fov", view.fov, number_within(kLeastFov, kMostFov), "Vertical field of view in degrees", "DEG");
-    command
-        .add_flag(
-            "--perspective,!--ortho", [&view](bool with) { view.perspective = with; }, "With perspective, or without")
-        .group(kGroup);
+    const auto set_perspective = [&view](bool with) { view.perspective = with; };
+    command.add_flag("--perspective,!--ortho", set_perspective, "With perspective, or without").group(kGroup);
     add("--target", view.target, parse_target, "What is looked at: metres, time as the height that it is drawn at",
         "X,Y,HEIGHT");
     add("--distance", view.distance, number_within(kLeastDistance, mobb::kMaxLength),
@@ -102,8 +100,8 @@ void add_shown_options(Command& command, ViewArguments& view) {
             option.parse(text, ignored);
             view.shown.insert_or_assign(std::string(option.key), std::vector{text});
         };
-        const std::string name(option.option);
-        const std::string help(option.help);
+        const std::string& name = option.option;
+        const std::string help(option.what);
         if (option.names) {
             const auto set_names = [&view, &option](const std::vector<std::string>& names) {
                 view.shown.insert_or_assign(std::string(option.key), names);
@@ -111,32 +109,28 @@ void add_shown_options(Command& command, ViewArguments& view) {
             command.add_list_option(name, set_names, help, std::string(option.placeholder)).group(kShownGroup);
             continue;
         }
-        const Option added = option.toggle ? command.add_flag(
-                                                 name, [set](bool on) { set(on ? "true" : "false"); }, help)
-                                           : command.add_option(name, set, help, std::string(option.placeholder));
-        Option(added).group(kShownGroup);
+        const auto switch_it = [set](bool on) { set(on ? "true" : "false"); };
+        Option added = option.toggle ? command.add_flag(name, switch_it, help)
+                                     : command.add_option(name, set, help, std::string(option.placeholder));
+        added.group(kShownGroup);
         if (option.short_form.option.empty()) continue;
         const std::string value(option.short_form.value);
         const std::string help_of_short = formatted("Short for %s %s", name.c_str(), value.c_str());
-        command
-            .add_flag(
-                std::string(option.short_form.option), [set, value](bool) { set(value); }, help_of_short)
-            .group(kShownGroup);
+        const auto set_short = [set, value](bool) { set(value); };
+        command.add_flag(std::string(option.short_form.option), set_short, help_of_short).group(kShownGroup);
     }
 }
 
 void add_sequence_options(Command& command, SequenceArguments& sequence) {
-    constexpr const char* kGroup = "Numbered pictures (OUT_0000.png, ...)";
-    add_parsed(command, "--frames", sequence.frames, parse_frames,
-               "Pictures A to B of the motion, or with a query its steps A to B", "A:B")
-        .group(kGroup);
-    command.add_flag("--play", sequence.play, "All pictures of the motion, or with a query all its steps")
-        .group(kGroup);
-    add_parsed(command, "--rate", sequence.rate, number_within(1 / kMostRate, kMostRate),
-               "Pictures per second of the motion (30)", "FPS")
-        .group(kGroup);
-    add_parsed(command, "--turntable", sequence.turntable, parse_turntable, "N pictures once around the scene", "N")
-        .group(kGroup);
+    std::vector<Option> added{
+        add_parsed(command, "--frames", sequence.frames, parse_frames,
+                   "Pictures A to B of the motion, or with a query its steps A to B", "A:B"),
+        command.add_flag("--play", sequence.play, "All pictures of the motion, or with a query all its steps"),
+        add_parsed(command, "--rate", sequence.rate, number_within(1 / kMostRate, kMostRate),
+                   "Pictures per second of the motion (30)", "FPS"),
+        add_parsed(command, "--turntable", sequence.turntable, parse_turntable, "N pictures once around the scene",
+                   "N")};
+    for (Option& option : added) option.group("Numbered pictures (OUT_0000.png, ...)");
 }
 
 [[noreturn]] void contradict(const std::string& a, const std::string& b, const std::string& why) {
@@ -328,7 +322,7 @@ void refuse_view(const RenderArguments& arguments, const ViewMismatch& mismatch)
         if (!state.empty()) refuse_where_said(state, mismatch.key(), scene + ": " + mismatch.what());
         if (lower_extension(scene) == ".json") refuse_where_said(scene, mismatch.key(), mismatch.what());
     }
-    throw InputError(scene, "", mismatch.what());
+    throw InputError(scene, mismatch.what());
 }
 
 }  // namespace mobbscope::cli

@@ -5,14 +5,11 @@
 #include <base/threads.h>
 #include <crowd/graph/build_graph.h>
 #include <crowd/graph/continuity.h>
-#include <crowd/graph/cut_search.h>
 #include <crowd/graph/graph_figures.h>
-#include <crowd/graph/hub_choice.h>
 #include <crowd/graph/rigs.h>
 #include <import/skeleton/warp.h>
 #include <scene/arrangement.h>
 #include <scene/load_files.h>
-#include <scene/motion_graph.h>
 #include <scene/scene_edits.h>
 
 #include <tbb/parallel_for.h>
@@ -26,7 +23,6 @@
 #include <map>
 #include <memory>
 #include <stdexcept>
-#include <string>
 #include <system_error>
 #include <tuple>
 #include <utility>
@@ -291,9 +287,7 @@ class Builder {
 
     /// Of joints that share a name the first is found by it.
     static bool leads_to_root(const Skeleton& skeleton, const std::string& name) {
-        const auto found = std::find_if(skeleton.joints.begin(), skeleton.joints.end(),
-                                        [&](const Joint& joint) { return joint.name == name; });
-        return found - skeleton.joints.begin() == skeleton.root;
+        return std::ranges::find(skeleton.joints, name, &Joint::name) - skeleton.joints.begin() == skeleton.root;
     }
 
     static std::string short_or_exact(double unit) {
@@ -364,12 +358,14 @@ std::vector<bool> moves_without_breaks(const MotionGraph& graph, const Transitio
     }
 }
 
+/// The order of two lists by that of their elements.
+auto in_turn(const auto& a, const auto& b, const auto& order) {
+    return std::lexicographical_compare_three_way(a.begin(), a.end(), b.begin(), b.end(), order);
+}
+
 /// By what clips hold, not by their names: the same motion has the same place whatever its file is called.
 std::partial_ordering content_order(const SceneClip& a, const SceneClip& b) {
     if (const auto order = a.clip->dt() <=> b.clip->dt(); order != 0) return order;
-    const auto in_turn = [](const auto& x, const auto& y, const auto& order) {
-        return std::lexicographical_compare_three_way(x.begin(), x.end(), y.begin(), y.end(), order);
-    };
     const auto disks = in_turn(a.clip->samples(), b.clip->samples(), [](const mobb::Disk& p, const mobb::Disk& q) {
         return std::tuple(p.x, p.y, p.r) <=> std::tuple(q.x, q.y, q.r);
     });
@@ -382,12 +378,6 @@ std::partial_ordering content_order(const SceneClip& a, const SceneClip& b) {
     return in_turn(a.skeleton->joints, b.skeleton->joints, [](const Joint& p, const Joint& q) {
         return std::tie(p.name, p.parent, p.end_site) <=> std::tie(q.name, q.parent, q.end_site);
     });
-}
-
-std::partial_ordering content_order(const std::vector<SceneClip>& a, const std::vector<SceneClip>& b) {
-    return std::lexicographical_compare_three_way(
-        a.begin(), a.end(), b.begin(), b.end(),
-        [](const SceneClip& p, const SceneClip& q) { return content_order(p, q); });
 }
 
 constexpr double kAlikePath = 0.15;      // metres
@@ -484,14 +474,12 @@ std::vector<ClipFile> clip_files(const std::vector<std::filesystem::path>& place
             for (std::filesystem::path& file : clips_in(place, &unreadable)) all.push_back({std::move(file), true});
             for (UnreadableFolder& of : unreadable) all.push_back({std::move(of.folder), true, std::move(of.why)});
         } else if (lower_extension(place) == ".json") {
-            throw InputError(place.string(), "", "a graph is built from clip files; name those of the scene");
+            throw InputError(place, "a graph is built from clip files; name those of the scene");
         } else {
             all.push_back({place, false});
         }
     }
-    std::sort(all.begin(), all.end(), [](const ClipFile& a, const ClipFile& b) {
-        return std::pair(whole_path(a.path), a.path) < std::pair(whole_path(b.path), b.path);
-    });
+    std::ranges::sort(all, {}, [](const ClipFile& file) { return std::pair(whole_path(file.path), file.path); });
     std::vector<ClipFile> out;
     std::map<std::filesystem::path, std::size_t> known;  // by the file that is meant
     for (ClipFile& file : all) {
@@ -531,7 +519,7 @@ Recordings load_recordings(const std::vector<ClipFile>& files, const std::filesy
     }
     // Paths decide where the content does not: files are in their order.
     std::stable_sort(loaded.begin(), loaded.end(),
-                     [](const Scene& a, const Scene& b) { return content_order(a.clips, b.clips) < 0; });
+                     [](const Scene& a, const Scene& b) { return in_turn(a.clips, b.clips, content_order) < 0; });
     for (Scene& of_file : loaded) merge(out.scene, std::move(of_file));
     lay_out_clips(out.scene);
     move_to_file(out.scene, scene_file);
@@ -543,15 +531,15 @@ BuiltGraph build_graph(const Scene& recordings, const GraphOptions& options, con
     check_options(options);
     BuiltGraph out = Builder(recordings, options, progress).build();
     if (out.report.too_long > 0 && out.report.without_joints + out.report.too_long == out.report.recordings) {
-        throw InputError(place, "",
+        throw InputError(place,
                          "every clip with joints has too many samples to keep the joints of each; lower --fps, or give "
                          "--trim");
     }
     if (out.report.without_joints == out.report.recordings) {
-        throw InputError(place, "", "no clip has joints, so no pose can be compared; give motion files, or --whole");
+        throw InputError(place, "no clip has joints, so no pose can be compared; give motion files, or --whole");
     }
     if (out.scene.graph->moves.empty()) {
-        throw InputError(place, "",
+        throw InputError(place,
                          "no pose comes again often enough; allow more with --pose-distance and --root-speed, or take "
                          "clips as they are with --whole");
     }
@@ -596,8 +584,7 @@ std::vector<std::size_t> different_pieces(const std::vector<Recording>& recordin
     std::vector<Course> courses;
     for (const Piece& piece : pieces) courses.push_back(course_of(recordings, piece));
     const auto to_hubs = [](const Piece& piece) { return piece.begin.distance + piece.end.distance; };
-    const auto best = std::min_element(pieces.begin(), pieces.end(),
-                                       [&](const Piece& a, const Piece& b) { return to_hubs(a) < to_hubs(b); });
+    const auto best = std::ranges::min_element(pieces, {}, to_hubs);
     auto next = static_cast<std::size_t>(best - pieces.begin());
     std::vector<std::size_t> out;
     std::vector<double> to_nearest(pieces.size(), std::numeric_limits<double>::infinity());

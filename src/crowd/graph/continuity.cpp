@@ -12,14 +12,12 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <tuple>
-#include <utility>
 
 namespace mobbscope {
 
@@ -309,10 +307,7 @@ MoveMotion motion_of(const mobb::Clip& clip, const Skeleton& skeleton, int rig, 
     MoveMotion out;
     out.dt = clip.dt();
     out.rig = rig;
-    const std::vector<bool> below = subtree(skeleton.joints, skeleton.root);
-    for (std::size_t i = 0; i < below.size(); ++i) {
-        if (below[i]) out.joints.push_back(static_cast<int>(i));
-    }
+    out.joints = body_of(skeleton);
     const int count = clip.count();
     const auto read = [&](std::vector<BodyPose>& poses, int first, int end, const Stance& from) {
         const PoseReader reader(clip, skeleton, out.joints, from);

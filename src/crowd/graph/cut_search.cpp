@@ -47,9 +47,7 @@ bool moves_like(const PoseTrack& track, int frame, double heading_deg, glm::dvec
 /// Of cuts of one recording that are close in time, the most alike.
 void keep_most_alike(std::vector<Cut>& cuts, std::size_t first, int apart) {
     std::vector<Cut> ranked(cuts.begin() + static_cast<std::ptrdiff_t>(first), cuts.end());
-    std::sort(ranked.begin(), ranked.end(), [](const Cut& a, const Cut& b) {
-        return std::pair(a.distance, a.frame) < std::pair(b.distance, b.frame);
-    });
+    std::ranges::sort(ranked, {}, [](const Cut& cut) { return std::pair(cut.distance, cut.frame); });
     cuts.resize(first);
     std::set<int> taken;  // frames; only the neighbours of a frame can be near it
     for (const Cut& cut : ranked) {
@@ -60,8 +58,7 @@ void keep_most_alike(std::vector<Cut>& cuts, std::size_t first, int apart) {
         taken.insert(cut.frame);
         cuts.push_back(cut);
     }
-    std::sort(cuts.begin() + static_cast<std::ptrdiff_t>(first), cuts.end(),
-              [](const Cut& a, const Cut& b) { return a.frame < b.frame; });
+    std::ranges::sort(cuts.begin() + static_cast<std::ptrdiff_t>(first), cuts.end(), {}, &Cut::frame);
 }
 
 }  // namespace

@@ -21,16 +21,6 @@ glm::dvec3 in_clip(const mobb::Clip& clip, const Skeleton& skeleton, int frame, 
     return glm::dvec3(disk.x, disk.y, 0) + glm::dvec3(skeleton.at(frame)[static_cast<std::size_t>(joint)]);
 }
 
-/// The joints of the body: the root and all below it.
-std::vector<int> body_of(const Skeleton& skeleton) {
-    const std::vector<bool> below = subtree(skeleton.joints, skeleton.root);
-    std::vector<int> out;
-    for (std::size_t i = 0; i < below.size(); ++i) {
-        if (below[i]) out.push_back(static_cast<int>(i));
-    }
-    return out;
-}
-
 std::vector<int> carrying(const Skeleton& skeleton, int first, int end) {
     const std::vector<int> body = body_of(skeleton);
     std::vector<std::size_t> carries(skeleton.joints.size(), 0);
@@ -61,6 +51,15 @@ double usual_lowest(const Skeleton& skeleton, int first, int end, int joint) {
 }
 
 }  // namespace
+
+std::vector<int> body_of(const Skeleton& skeleton) {
+    const std::vector<bool> below = subtree(skeleton.joints, skeleton.root);
+    std::vector<int> out;
+    for (std::size_t i = 0; i < below.size(); ++i) {
+        if (below[i]) out.push_back(static_cast<int>(i));
+    }
+    return out;
+}
 
 bool lasts(int frames, double dt) { return (frames - 1 + kRoundedFrame) * dt >= kLeastContact; }
 

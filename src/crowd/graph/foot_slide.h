@@ -20,6 +20,9 @@ inline constexpr double kLow = 0.03;          ///< metres
 inline constexpr double kSlow = 0.2;          ///< metres per second, in space
 inline constexpr double kLeastContact = 0.1;  ///< seconds from the first frame to the last
 
+/// The joints of the body: the root and all below it. Indices into the skeleton's joints.
+std::vector<int> body_of(const Skeleton& skeleton);
+
 /// Frames in which a joint stands.
 struct Contact {
     int joint = 0;  ///< index into the skeleton's joints

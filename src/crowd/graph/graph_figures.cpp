@@ -4,20 +4,14 @@
 #include <crowd/graph/graph_figures.h>
 #include <crowd/graph/pose_distance.h>
 #include <crowd/graph/rigs.h>
-#include <import/import.h>
-#include <scene/motion_graph.h>
 
 #include <tbb/parallel_for.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <stdexcept>
-#include <string>
 #include <unordered_map>
-#include <utility>
-#include <vector>
 
 namespace mobbscope {
 
@@ -41,30 +35,23 @@ constexpr std::size_t kMostTransitions = 20'000'000;
 
 constexpr double kRounding = 1e-6;  // relative, and in metres or metres per second
 
-/// The track of a move's clip, or of a longer part of its recording.
-PoseTrack track_of(const Scene& scene, const SceneClip& of, const mobb::Clip& clip, const Skeleton& skeleton,
-                   const std::vector<GraphRig>& rigs, int rig) {
-    try {
-        return pose_track(clip, skeleton, rig, joints_of(rigs[static_cast<std::size_t>(rig)], skeleton));
-    } catch (const std::invalid_argument& error) {
-        throw InputError(scene.file.string(), "clip " + in_quotes(of.name),
-                         std::string(error.what()) + ", which rig " + std::to_string(rig) +
-                             " of the graph counts; build the graph again");
-    }
-}
-
-/// A move's poses.
 struct MovePoses {
-    std::optional<PoseTrack> track;
-    int entry = 0;  ///< frames of the track
+    std::optional<PoseTrack> track;  ///< of the move's clip, or of a longer part of its recording
+    int entry = 0;                   ///< frames of the track
     int exit = 0;
 };
 
 MovePoses poses_of(const Scene& scene, const GraphMove& move, const std::vector<GraphRig>& rigs,
                    const RecordedMove& recorded) {
     if (!recorded.skeleton || move.rig < 0) return {};
-    const SceneClip& clip = scene.clips[static_cast<std::size_t>(move.clip)];
-    return {track_of(scene, clip, *recorded.clip, *recorded.skeleton, rigs, move.rig), recorded.entry, recorded.exit};
+    try {
+        const auto joints = joints_of(rigs[static_cast<std::size_t>(move.rig)], *recorded.skeleton);
+        return {pose_track(*recorded.clip, *recorded.skeleton, move.rig, joints), recorded.entry, recorded.exit};
+    } catch (const std::invalid_argument& error) {
+        throw InputError(scene.file, "clip " + in_quotes(scene.clips[static_cast<std::size_t>(move.clip)].name),
+                         std::string(error.what()) + ", which rig " + std::to_string(move.rig) +
+                             " of the graph counts; build the graph again");
+    }
 }
 
 /// The root's velocity at both ends of a move, metres per second, with the heading of the stance along +x.
@@ -162,13 +149,6 @@ RecordedMove recorded_move(const Scene& scene, const GraphMove& move, Importer& 
     options.trim = {std::max(0.0, begin - in_front * dt), end + (reach + 1) * dt};
     const ImportedClip longer = importer.clips(scene.file.parent_path() / *clip.source, options).front();
     return {longer.clip, longer.skeleton, in_front, in_front + count};
-}
-
-double way_of(const mobb::Clip& clip, const GraphMove& move) {
-    const auto samples = clip.samples();
-    double way = step(samples.back(), move.exit.position);
-    for (std::size_t i = 1; i < samples.size(); ++i) way += step(samples[i - 1], {samples[i].x, samples[i].y});
-    return way;
 }
 
 GraphFigures graph_figures(const Scene& scene) {

@@ -7,7 +7,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,9 +47,6 @@ struct GraphFigures {
 
 /// The scene has a graph.
 GraphFigures graph_figures(const Scene& scene);
-
-/// Metres that the root goes in a move, from its first sample to its exit.
-double way_of(const mobb::Clip& clip, const GraphMove& move);
 
 /// A move as its source has it, not warped, with some frames from before and after it where the source has them.
 struct RecordedMove {

@@ -1,13 +1,11 @@
 #include <base/threads.h>
 #include <crowd/graph/hub_choice.h>
-#include <scene/motion_graph.h>
 
 #include <glm/geometric.hpp>
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -29,9 +27,7 @@ std::vector<HubCut> cuts_of(const std::vector<const Hub*>& hubs) {
     for (std::size_t h = 0; h < hubs.size(); ++h) {
         for (const Cut& cut : hubs[h]->cuts) out.push_back({cut, static_cast<int>(h)});
     }
-    std::sort(out.begin(), out.end(), [](const HubCut& a, const HubCut& b) {
-        return std::tuple(a.cut.recording, a.cut.frame, a.hub) < std::tuple(b.cut.recording, b.cut.frame, b.hub);
-    });
+    std::ranges::sort(out, {}, [](const HubCut& of) { return std::tuple(of.cut.recording, of.cut.frame, of.hub); });
     return out;
 }
 

@@ -4,7 +4,6 @@
 #include <crowd/graph/cut_search.h>
 #include <scene/motion_graph.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

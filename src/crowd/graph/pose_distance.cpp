@@ -69,9 +69,7 @@ Alignment PoseWindows::compare(const PoseWindows& a, int frame_a, const PoseWind
     const std::size_t n = a.size_;
     const float* p = a.moment(frame_a).data();
     const float* q = b.moment(frame_b).data();
-    double along = 0;
-    double across = 0;
-    double up = 0;
+    double along = 0, across = 0, up = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const double ax = p[i];
         const double ay = p[n + i];

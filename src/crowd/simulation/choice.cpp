@@ -7,9 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <span>
-#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -226,7 +224,7 @@ class Chooser {
 
     void take_least_harm() {
         if (choice_.candidates.empty()) {
-            throw InputError(moves_.fitted().scene().file.string(), "",
+            throw InputError(moves_.fitted().scene().file,
                              "the graph's moves lead beyond all bounds; check their stances");
         }
         const auto stays = [](const Candidate& candidate) { return !candidate.leaves_floor; };

@@ -10,10 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace mobbscope {

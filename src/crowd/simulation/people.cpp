@@ -64,7 +64,7 @@ mobb::ClipPtr whole_motion(const Scene& run, const std::vector<mobb::ChainPartPt
         }
         return std::make_shared<const mobb::Clip>(std::move(whole));
     } catch (const std::invalid_argument& error) {
-        throw InputError(run.file.string(), "", "what " + in_quotes(name) + " plays is no chain: " + error.what());
+        throw InputError(run.file, "what " + in_quotes(name) + " plays is no chain: " + error.what());
     }
 }
 
@@ -79,10 +79,10 @@ void check_samples(const Scene& run) {
         }
     }
     if (samples <= kMostWalkedSamples + kSamplesOfPlay * plays) return;
-    throw InputError(run.file.string(), "",
-                     "its people walk " + std::to_string(samples) + " samples in " + counted(plays, "play", "plays") +
-                         ", more than " + std::to_string(kMostWalkedSamples) + " and " +
-                         std::to_string(kSamplesOfPlay) + " for each play; let them play shorter clips");
+    throw InputError(run.file, "its people walk " + std::to_string(samples) + " samples in " +
+                                   counted(plays, "play", "plays") + ", more than " +
+                                   std::to_string(kMostWalkedSamples) + " and " + std::to_string(kSamplesOfPlay) +
+                                   " for each play; let them play shorter clips");
 }
 
 }  // namespace

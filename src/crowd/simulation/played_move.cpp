@@ -1,9 +1,6 @@
 #include <crowd/simulation/played_move.h>
-#include <mobb/lanes.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <functional>
 #include <queue>
 #include <stdexcept>
 #include <string>
@@ -74,19 +73,17 @@ class Simulator {
 
     void refuse_unplayable() const {
         const std::string file = moves_.fitted().scene().file.string();
-        if (moves_.unturned().empty()) throw InputError(file, "", "the graph has no move; add one");
+        if (moves_.unturned().empty()) throw InputError(file, "the graph has no move; add one");
         for (const int move : moves_.unturned()) {
             if (moves_.until_next(move) < kLeastMove) {
-                throw InputError(file, "",
-                                 "move " + std::to_string(move) + " of the graph lasts " +
-                                     brief(moves_.until_next(move)) + " s; a crowd plays moves of " +
-                                     brief(kLeastMove) + " s and more: remove it");
+                throw InputError(file, "move " + std::to_string(move) + " of the graph lasts " +
+                                           brief(moves_.until_next(move)) + " s; a crowd plays moves of " +
+                                           brief(kLeastMove) + " s and more: remove it");
             }
             if (!moves_.after(move).empty()) continue;
             const GraphMove& last = moves_.move(move);
-            throw InputError(file, "",
-                             "hub " + in_quotes(moves_.graph().hubs[static_cast<std::size_t>(last.to)].name) +
-                                 " of the graph is a dead end: no move begins there; remove what leads to it");
+            throw InputError(file, "hub " + in_quotes(moves_.graph().hubs[static_cast<std::size_t>(last.to)].name) +
+                                       " of the graph is a dead end: no move begins there; remove what leads to it");
         }
     }
 

@@ -3,7 +3,6 @@
 
 #include <crowd/simulation/choice.h>
 #include <crowd/simulation/move_set.h>
-#include <crowd/simulation/reservation_grid.h>
 #include <scene/crowd_run.h>
 #include <scene/scene.h>
 

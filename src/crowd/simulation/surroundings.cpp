@@ -8,12 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <optional>
 #include <tuple>
-#include <vector>
 
 namespace mobbscope {
 

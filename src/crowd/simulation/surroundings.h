@@ -6,11 +6,9 @@
 #include <mobb/query.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace mobbscope {

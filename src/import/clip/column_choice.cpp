@@ -85,33 +85,15 @@ class FormulaParser {
         steps_.push_back(step);
     }
 
-    void sum() {
-        product();
+    void sum() { chain(&FormulaParser::product, '+', Kind::plus, '-', Kind::minus); }
+    void product() { chain(&FormulaParser::factor, '*', Kind::times, '/', Kind::over); }
+    void chain(void (FormulaParser::*part)(), char one, Kind of_one, char other, Kind of_other) {
+        (this->*part)();
         while (true) {
-            if (take('+')) {
-                product();
-                add({Kind::plus});
-            } else if (take('-')) {
-                product();
-                add({Kind::minus});
-            } else {
-                return;
-            }
-        }
-    }
-
-    void product() {
-        factor();
-        while (true) {
-            if (take('*')) {
-                factor();
-                add({Kind::times});
-            } else if (take('/')) {
-                factor();
-                add({Kind::over});
-            } else {
-                return;
-            }
+            const bool is_one = take(one);
+            if (!is_one && !take(other)) return;
+            (this->*part)();
+            add({is_one ? of_one : of_other});
         }
     }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <iterator>
 #include <span>
+#include <vector>
 
 namespace mobbscope {
 
@@ -32,113 +33,44 @@ std::optional<double> size_of(std::span<const Unit> units, std::string_view word
     return at == units.end() ? std::nullopt : std::optional(at->size);
 }
 
-struct Alias {
-    constexpr Alias(std::string_view word_, Column column_, std::string_view unit_ = {}, bool is_weak_ = false)
-        : word(word_), unit(unit_), column(column_), is_weak(is_weak_) {}
-
-    std::string_view word;
-    std::string_view unit;  ///< of its values, where the word implies one
+/// Names of one column, as PlainName::word. "timesteptime", "personx" and "vehiclex" are SUMO's, "globaltime" and
+/// "localx" NGSIM's, "particle" trackpy's.
+struct Aliases {
     Column column;
-    bool is_weak;
+    std::vector<std::string_view> words;
+    bool is_weak = false;
+    std::string_view unit{};  ///< of its values, where the words imply one
 };
 
-/// As PlainName::word.
-constexpr Alias kAliases[] = {
-    {"id", Column::id},
-    {"track", Column::id, "", true},
-    {"trackid", Column::id},
-    {"trackno", Column::id},
-    {"tracknumber", Column::id},
-    {"trackingid", Column::id},
-    {"trajid", Column::id, "", true},
-    {"trajectoryid", Column::id, "", true},
-    {"agent", Column::id, "", true},
-    {"agentid", Column::id},
-    {"ped", Column::id, "", true},
-    {"pedid", Column::id},
-    {"pedestrian", Column::id, "", true},
-    {"pedestrianid", Column::id},
-    {"person", Column::id, "", true},
-    {"personid", Column::id},
-    {"persid", Column::id},
-    {"vehicleid", Column::id},
-    {"vehid", Column::id},
-    {"objectid", Column::id},
-    {"objid", Column::id},
-    {"entityid", Column::id, "", true},
-    {"humanid", Column::id, "", true},
-    {"bodyid", Column::id, "", true},
-    {"playerid", Column::id, "", true},
-    {"userid", Column::id, "", true},
-    {"occupant", Column::id, "", true},
-    {"occupantid", Column::id, "", true},
-    {"uid", Column::id, "", true},
-    {"pid", Column::id, "", true},
-    {"particle", Column::id},  // trackpy
-    {"t", Column::t},
-    {"time", Column::t},
-    {"seconds", Column::t},
-    {"secs", Column::t},
-    {"sec", Column::t},
-    {"milliseconds", Column::t, "ms", true},
-    {"simtime", Column::t},
-    {"elapsedtime", Column::t, "", true},
-    {"timesteptime", Column::t},  // SUMO
-    {"timestamp", Column::t, "", true},
-    {"globaltime", Column::t, "ms"},  // NGSIM
-    {"frame", Column::frame},
-    {"fr", Column::frame},
-    {"frameid", Column::frame},
-    {"frameno", Column::frame},
-    {"framenr", Column::frame},
-    {"framenum", Column::frame},
-    {"framenumber", Column::frame},
-    {"frameindex", Column::frame},
-    {"frameidx", Column::frame},
-    {"timestep", Column::frame, "", true},
-    {"step", Column::frame, "", true},
-    {"tick", Column::frame, "", true},
-    {"x", Column::x},
-    {"y", Column::y},
-    {"cx", Column::x},
-    {"cy", Column::y},
-    {"xcenter", Column::x},
-    {"ycenter", Column::y},
-    {"xcentre", Column::x},
-    {"ycentre", Column::y},
-    {"centerx", Column::x},
-    {"centery", Column::y},
-    {"centrex", Column::x},
-    {"centrey", Column::y},
-    {"posx", Column::x},
-    {"posy", Column::y},
-    {"xpos", Column::x},
-    {"ypos", Column::y},
-    {"positionx", Column::x},
-    {"positiony", Column::y},
-    {"xposition", Column::x},
-    {"yposition", Column::y},
-    {"coordx", Column::x},
-    {"coordy", Column::y},
-    {"xcoord", Column::x},
-    {"ycoord", Column::y},
-    {"xcoordinate", Column::x},
-    {"ycoordinate", Column::y},
-    {"easting", Column::x, "", true},
-    {"northing", Column::y, "", true},
-    {"worldx", Column::x, "", true},
-    {"worldy", Column::y, "", true},
-    {"xworld", Column::x, "", true},
-    {"yworld", Column::y, "", true},
-    {"personx", Column::x, "", true},  // SUMO, as are those of vehicles
-    {"persony", Column::y, "", true},
-    {"vehiclex", Column::x, "", true},
-    {"vehicley", Column::y, "", true},
-    {"localx", Column::x, "ft"},  // NGSIM
-    {"localy", Column::y, "ft"},
-    {"r", Column::r},
-    {"radius", Column::r},
-};
+const std::vector<Aliases>& aliases() {
+    static const std::vector<Aliases> table{
+        {Column::id,
+         {"id", "trackid", "trackno", "tracknumber", "trackingid", "agentid", "pedid", "pedestrianid", "personid",
+          "persid", "vehicleid", "vehid", "objectid", "objid", "particle"}},
+        {Column::id,
+         {"track", "trajid", "trajectoryid", "agent", "ped", "pedestrian", "person", "entityid", "humanid", "bodyid",
+          "playerid", "userid", "occupant", "occupantid", "uid", "pid"},
+         true},
+        {Column::t, {"t", "time", "seconds", "secs", "sec", "simtime", "timesteptime"}},
+        {Column::t, {"globaltime"}, false, "ms"},
+        {Column::t, {"elapsedtime", "timestamp"}, true},
+        {Column::t, {"milliseconds"}, true, "ms"},
+        {Column::frame,
+         {"frame", "fr", "frameid", "frameno", "framenr", "framenum", "framenumber", "frameindex", "frameidx"}},
+        {Column::frame, {"timestep", "step", "tick"}, true},
+        {Column::x,
+         {"x", "cx", "xcenter", "xcentre", "centerx", "centrex", "posx", "xpos", "positionx", "xposition", "coordx",
+          "xcoord", "xcoordinate"}},
+        {Column::x, {"localx"}, false, "ft"},
+        {Column::x, {"easting", "worldx", "xworld", "personx", "vehiclex"}, true},
+        {Column::y,
+         {"y", "cy", "ycenter", "ycentre", "centery", "centrey", "posy", "ypos", "positiony", "yposition", "coordy",
+          "ycoord", "ycoordinate"}},
+        {Column::y, {"localy"}, false, "ft"},
+        {Column::y, {"northing", "worldy", "yworld", "persony", "vehicley"}, true},
+        {Column::r, {"r", "radius"}}};
+    return table;
+}
 
 }  // namespace
 
@@ -170,8 +102,11 @@ PlainName plain_name(std::string_view name) {
 
 std::optional<KnownColumn> known_column(std::string_view name) {
     const PlainName plain = plain_name(name);
-    const auto alias = std::ranges::find(kAliases, plain.word, &Alias::word);
-    if (alias == std::end(kAliases)) return std::nullopt;
+    const auto holds_word = [&](const Aliases& of) {
+        return std::ranges::find(of.words, plain.word) != of.words.end();
+    };
+    const auto alias = std::ranges::find_if(aliases(), holds_word);
+    if (alias == aliases().end()) return std::nullopt;
     KnownColumn out{alias->column};
     const std::string_view unit = plain.unit.empty() ? alias->unit : std::string_view(plain.unit);
     out.is_weak = alias->is_weak;

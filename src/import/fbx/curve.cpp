@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
 
 namespace mobbscope {
@@ -170,11 +171,10 @@ double bezier(const FbxKey& from, const FbxKey& to, double seconds) {
 FbxExtrapolation extrapolation(const FbxDocument& document, FbxDocument::Index curve, std::string_view name) {
     FbxExtrapolation out;
     const FbxDocument::Index record = document.find(curve, name);
-    if (record == FbxDocument::kNone) return out;
-    const FbxDocument::Index type = document.find(record, "Type");
-    if (type == FbxDocument::kNone || document.values(type).empty()) return out;
+    const std::span<const FbxValue> type = document.values(document.find(record, "Type"));
+    if (type.empty()) return out;
     // A letter: in text as a word, in binary as a number.
-    const FbxValue& value = document.values(type)[0];
+    const FbxValue& value = type[0];
     const std::int64_t letter = value.text.empty() ? value.integer : value.text[0];
     switch (letter) {
         case 'A':
@@ -192,8 +192,8 @@ FbxExtrapolation extrapolation(const FbxDocument& document, FbxDocument::Index c
         default:
             break;
     }
-    const FbxDocument::Index times = document.find(record, "Repetition");
-    if (times != FbxDocument::kNone && !document.values(times).empty()) out.times = document.values(times)[0].real;
+    const std::span<const FbxValue> times = document.values(document.find(record, "Repetition"));
+    if (!times.empty()) out.times = times[0].real;
     return out;
 }
 
@@ -266,13 +266,8 @@ double FbxCurve::outside(double seconds) const {
 
 std::shared_ptr<const FbxCurve> fbx_curve(FbxDocument& document, FbxDocument::Index record, double ticks_per_second) {
     const auto part = [&](std::string_view name) { return document.find(record, name); };
-    const auto read = [&](FbxDocument::Index at) {
-        return at == FbxDocument::kNone ? std::vector<std::int64_t>{} : document.integers(at);
-    };
-    const std::vector<std::int64_t> times = read(part("KeyTime"));
-    const FbxDocument::Index values_at = part("KeyValueFloat");
-    const std::vector<double> values =
-        values_at == FbxDocument::kNone ? std::vector<double>{} : document.numbers(values_at);
+    const std::vector<std::int64_t> times = document.integers(part("KeyTime"));
+    const std::vector<double> values = document.numbers(part("KeyValueFloat"));
     if (times.size() != values.size()) {
         document.fail(record, "has " + std::to_string(times.size()) + " times for " + std::to_string(values.size()) +
                                   " values; export the file again");
@@ -288,11 +283,9 @@ std::shared_ptr<const FbxCurve> fbx_curve(FbxDocument& document, FbxDocument::In
     }
 
     // One entry stands for as many keys as KeyAttrRefCount says, with four numbers of KeyAttrDataFloat.
-    const std::vector<std::int64_t> flags = read(part("KeyAttrFlags"));
-    const std::vector<std::int64_t> counts = read(part("KeyAttrRefCount"));
-    const FbxDocument::Index data_at = part("KeyAttrDataFloat");
-    const std::vector<std::uint32_t> data =
-        data_at == FbxDocument::kNone ? std::vector<std::uint32_t>{} : document.float_bits(data_at);
+    const std::vector<std::int64_t> flags = document.integers(part("KeyAttrFlags"));
+    const std::vector<std::int64_t> counts = document.integers(part("KeyAttrRefCount"));
+    const std::vector<std::uint32_t> data = document.float_bits(part("KeyAttrDataFloat"));
     if (counts.size() != flags.size() || data.size() != 4 * flags.size()) {
         document.fail(record, "has " + std::to_string(flags.size()) + " flags, " + std::to_string(data.size()) +
                                   " tangents and " + std::to_string(counts.size()) +

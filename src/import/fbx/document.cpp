@@ -66,11 +66,7 @@ void append(std::string_view bytes, bool is_big_endian, std::vector<Number>& out
 
 FbxDocument::FbxDocument(std::string_view bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {
     is_text_ = !bytes.starts_with(kFbxBinaryMark);
-    if (is_text_) {
-        FbxTextReader(*this).read();
-    } else {
-        FbxBinaryReader(*this).read();
-    }
+    is_text_ ? read_fbx_text(*this) : read_fbx_binary(*this);
 }
 
 void FbxDocument::set_version(int version) {
@@ -82,7 +78,8 @@ void FbxDocument::set_version(int version) {
     }
 }
 
-FbxDocument::Index FbxDocument::find_among(Index first, Index end, std::string_view name) const {
+FbxDocument::Index FbxDocument::find(Index record, std::string_view name) const {
+    const auto [first, end] = inside(record);
     for (Index at = first; at < end; at = records_[at].end) {
         if (records_[at].name == name) return at;
     }

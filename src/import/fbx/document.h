@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -45,26 +46,25 @@ class FbxDocument {
     int version() const { return version_; }
     const std::string& file() const { return file_; }
     const FbxRecord& record(Index record) const { return records_[record]; }
+    /// Of kNone none.
     std::span<const FbxValue> values(Index record) const {
+        if (record == kNone) return {};
         return std::span(values_).subspan(records_[record].first_value, records_[record].values);
     }
 
-    /// Calls `visit` with each record directly inside `record`, or with those of the file.
+    static constexpr Index kNone = UINT32_MAX;
+    static constexpr Index kFile = kNone - 1;  ///< what all records are inside of
+    /// Calls `visit` with each record directly inside of one; of kNone none.
     template <class Visit>
     void each_inside(Index record, const Visit& visit) const {
-        each(record + 1, records_[record].end, visit);
+        const auto [first, end] = inside(record);
+        for (Index at = first; at < end; at = records_[at].end) visit(at);
     }
-    template <class Visit>
-    void each_top(const Visit& visit) const {
-        each(0, static_cast<Index>(records_.size()), visit);
-    }
-    /// The first record of that name directly inside `record`, or of the file; kNone if there is none.
-    static constexpr Index kNone = UINT32_MAX;
-    Index find(Index record, std::string_view name) const { return find_among(record + 1, records_[record].end, name); }
-    Index find_top(std::string_view name) const { return find_among(0, static_cast<Index>(records_.size()), name); }
+    /// The first one of that name; kNone if there is none.
+    Index find(Index record, std::string_view name) const;
 
-    /// The numbers of a record, an array or values one by one. Throws InputError, naming the place, if the array is
-    /// damaged, holds another number of elements than it claims, or is too much (see `charge`).
+    /// The numbers of a record, an array or values one by one; of kNone none. Throws InputError, naming the place, if
+    /// the array is damaged, holds another number of elements than it claims, or is too much (see `charge`).
     std::vector<double> numbers(Index record);
     std::vector<std::int64_t> integers(Index record);
     /// The same for 32-bit floats that stand for packed bits: their bits. 64-bit ones are made 32-bit first.
@@ -82,13 +82,14 @@ class FbxDocument {
     friend class FbxBinaryReader;
     friend class FbxTextReader;
 
-    Index find_among(Index first, Index end, std::string_view name) const;
+    /// First and end of what is inside of a record.
+    std::pair<Index, Index> inside(Index record) const {
+        if (record == kNone) return {0, 0};
+        if (record == kFile) return {0, static_cast<Index>(records_.size())};
+        return {record + 1, records_[record].end};
+    }
     /// Throws InputError for a version that is too old.
     void set_version(int version);
-    template <class Visit>
-    void each(Index first, Index end, const Visit& visit) const {
-        for (Index at = first; at < end; at = records_[at].end) visit(at);
-    }
     template <class Number>
     std::vector<Number> read(Index record);
     /// The bytes of an array, unpacked into `room` where they are packed.

@@ -39,13 +39,8 @@ constexpr std::size_t kMostReused = 10'000'000;  // keys of curves that several 
 
 /// What a file's first record of the names leads to, as an integer.
 std::optional<std::int64_t> integer_at(const FbxDocument& document, std::initializer_list<std::string_view> path) {
-    FbxDocument::Index at = FbxDocument::kNone;
-    bool is_top = true;
-    for (const std::string_view name : path) {
-        at = is_top ? document.find_top(name) : document.find(at, name);
-        is_top = false;
-        if (at == FbxDocument::kNone) return {};
-    }
+    FbxDocument::Index at = FbxDocument::kFile;
+    for (const std::string_view name : path) at = document.find(at, name);
     const std::span<const FbxValue> values = document.values(at);
     return values.empty() ? std::nullopt : std::optional(values[0].integer);
 }
@@ -166,22 +161,20 @@ class FbxSceneBuilder {
 
   private:
     void add_settings() {
-        const FbxDocument::Index settings = document_.find_top("GlobalSettings");
         Axes axes;
         std::optional<FbxValue> unit;
-        if (settings != FbxDocument::kNone) {
-            objects_.each_property_in(settings, [&](std::string_view name, std::span<const FbxValue> values) {
-                const FbxValue& value = values[0];
-                const int sign = value.integer < 0 ? -1 : 1;
-                if (name == "UpAxis") axes.up.index = value.integer;
-                if (name == "UpAxisSign") axes.up.sign = sign;
-                if (name == "FrontAxis") axes.front.index = value.integer;
-                if (name == "FrontAxisSign") axes.front.sign = sign;
-                if (name == "CoordAxis") axes.right.index = value.integer;
-                if (name == "CoordAxisSign") axes.right.sign = sign;
-                if (name == "UnitScaleFactor") unit = value;
-            });
-        }
+        objects_.each_property_in(document_.find(FbxDocument::kFile, "GlobalSettings"),
+                                  [&](std::string_view name, std::span<const FbxValue> values) {
+                                      const FbxValue& value = values[0];
+                                      const int sign = value.integer < 0 ? -1 : 1;
+                                      if (name == "UpAxis") axes.up.index = value.integer;
+                                      if (name == "UpAxisSign") axes.up.sign = sign;
+                                      if (name == "FrontAxis") axes.front.index = value.integer;
+                                      if (name == "FrontAxisSign") axes.front.sign = sign;
+                                      if (name == "CoordAxis") axes.right.index = value.integer;
+                                      if (name == "CoordAxisSign") axes.right.sign = sign;
+                                      if (name == "UnitScaleFactor") unit = value;
+                                  });
         take_axes(axes);
         const double centimetres = unit ? unit->real : 1;
         if (centimetres >= kLeastUnit && centimetres <= kMostUnit) {
@@ -244,14 +237,11 @@ class FbxSceneBuilder {
             int& link = scene_.nodes[child->second].parent;
             if (link < 0) link = static_cast<int>(parent->second);
         }
-        const std::vector<int> reached = parents_first(scene_.nodes);
-        if (reached.size() == scene_.nodes.size()) return;
-        std::vector<bool> is_reached(scene_.nodes.size());
-        for (const int node : reached) is_reached[as_index(node)] = true;
-        const auto lost = static_cast<std::size_t>(std::ranges::find(is_reached, false) - is_reached.begin());
+        const std::vector<int> lost = nodes_in_circles(scene_.nodes);
+        if (lost.empty()) return;
         throw InputError(scene_.file, "Connections",
-                         in_quotes(scene_.nodes[lost].name) + ", one of " +
-                             counted(scene_.nodes.size() - reached.size(), "node", "nodes") +
+                         in_quotes(scene_.nodes[as_index(lost.front())].name) + ", one of " +
+                             counted(lost.size(), "node", "nodes") +
                              ", hangs on itself in a circle; export the file again");
     }
 

@@ -28,15 +28,15 @@ bool has(std::span<const FbxValue> values, std::size_t at, FbxValue::Kind kind) 
 
 FbxObjects::FbxObjects(const FbxDocument& document) : document_(document) {
     using Kind = FbxValue::Kind;
-    document.each_top([&](FbxDocument::Index top) {
+    document.each_inside(FbxDocument::kFile, [&](FbxDocument::Index top) {
         const std::string_view name = document.record(top).name;
         if (name == "Definitions") {
             document.each_inside(top, [&](FbxDocument::Index type) {
                 const std::span<const FbxValue> values = document.values(type);
                 const FbxDocument::Index of = document.find(type, "PropertyTemplate");
-                if (!has(values, 0, Kind::text) || of == FbxDocument::kNone) return;
                 const FbxDocument::Index properties = document.find(of, "Properties70");
-                if (properties != FbxDocument::kNone) templates_.try_emplace(values[0].text, properties);
+                if (has(values, 0, Kind::text) && properties != FbxDocument::kNone)
+                    templates_.try_emplace(values[0].text, properties);
             });
         } else if (name == "Objects") {
             document.each_inside(top, [&](FbxDocument::Index record) {

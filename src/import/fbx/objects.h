@@ -56,8 +56,7 @@ class FbxObjects {
     /// Calls `visit` with each property in the Properties70 of a record.
     template <class Visit>
     void each_property_in(FbxDocument::Index record, const Visit& visit) const {
-        const FbxDocument::Index properties = document_.find(record, "Properties70");
-        if (properties != FbxDocument::kNone) each_listed(properties, visit, SIZE_MAX);
+        each_listed(document_.find(record, "Properties70"), visit, SIZE_MAX);
     }
 
   private:

@@ -61,52 +61,8 @@ void each_fbx_number(std::string_view list, const Visit& visit) {
 /// "byte 1234".
 std::string at_byte(std::size_t byte);
 
-/// Fills a document from a binary file.
-class FbxBinaryReader {
-  public:
-    explicit FbxBinaryReader(FbxDocument& document) : document_(document), bytes_(document.bytes_) {}
-    void read();
-
-  private:
-    struct Open {
-        FbxDocument::Index record = 0;
-        std::size_t end = 0;  ///< byte
-    };
-
-    [[noreturn]] void fail(std::size_t place, const std::string& message) const;
-    template <class Number>
-    Number take(std::size_t end);
-    std::uint64_t take_offset(std::size_t end);
-    std::string_view take_bytes(std::uint64_t size, std::size_t end);
-    void take_value(std::size_t end);
-    void take_array(char type, std::size_t end);
-
-    FbxDocument& document_;
-    std::string_view bytes_;
-    std::size_t at_ = 0;
-};
-
-/// Fills a document from a text file.
-class FbxTextReader {
-  public:
-    explicit FbxTextReader(FbxDocument& document) : document_(document), bytes_(document.bytes_) {}
-    void read();
-
-  private:
-    [[noreturn]] void fail(const std::string& message) const;
-    /// Past blanks and comments; false at the end.
-    bool skip_blanks();
-    void count_lines(std::string_view text);
-    std::string_view take_word();
-    bool begins_record() const;
-    void take_values(FbxRecord& record);
-    void take_array(FbxValue& array);
-    void find_version() const;
-
-    FbxDocument& document_;
-    std::string_view bytes_;
-    std::size_t at_ = 0;
-    std::size_t line_ = 1;
-};
+/// Fill a document. Throw InputError.
+void read_fbx_binary(FbxDocument& document);
+void read_fbx_text(FbxDocument& document);
 
 }  // namespace mobbscope

@@ -58,9 +58,9 @@ glm::dvec3 fbx_angles(const glm::dquat& rotation, int order) {
     return glm::degrees(radians);
 }
 
-FbxLocal FbxTransform::local() const {
+TranslationRotationScale FbxTransform::local() const {
     using enum FbxProperty;
-    FbxLocal out;
+    TranslationRotationScale out;
     out.scale = (*this)[scaling];
     const glm::dvec3& angles = (*this)[rotation];
     out.rotation = has_rotation_space ? fbx_rotation((*this)[pre_rotation], 0) * fbx_rotation(angles, rotation_order) *
@@ -74,7 +74,7 @@ FbxLocal FbxTransform::local() const {
 }
 
 FbxGlobal fbx_global(const FbxTransform& transform, const FbxGlobal* parent) {
-    const FbxLocal local = transform.local();
+    const TranslationRotationScale local = transform.local();
     Affine unscaled{glm::mat3_cast(local.rotation), local.translation};
     FbxGlobal out;
     if (!parent || transform.inherit == FbxInherit::with_shear) {

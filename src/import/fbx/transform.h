@@ -46,13 +46,6 @@ glm::dquat fbx_rotation(const glm::dvec3& degrees, int order);
 /// The angles of a rotation in that order, within 180 degrees.
 glm::dvec3 fbx_angles(const glm::dquat& rotation, int order);
 
-/// A node in the one above it: scale, then rotate, then translate.
-struct FbxLocal {
-    glm::dvec3 translation{0};
-    glm::dquat rotation{1, 0, 0, 0};
-    glm::dvec3 scale{1};
-};
-
 struct FbxTransform {
     std::array<glm::dvec3, kFbxProperties> properties{};  ///< by FbxProperty
     int rotation_order = 0;
@@ -66,7 +59,7 @@ struct FbxTransform {
     /// Scale, then rotate, then translate (FBX SDK, "Computing transformation matrices"): T Roff Rp Rpre R Rpost^-1
     /// Rp^-1 Soff Sp S Sp^-1. Geometric transforms move what hangs on a node, not the nodes below it, so they are not
     /// here.
-    FbxLocal local() const;
+    TranslationRotationScale local() const;
 };
 
 /// A node in the file's axes, with what those below it take on of its scale.

@@ -5,13 +5,11 @@
 #include <import/nodes/gltf_accessor.h>
 #include <import/nodes/gltf_animation.h>
 #include <import/nodes/gltf_characters.h>
-#include <import/nodes/gltf_file.h>
-#include <tiny_gltf.h>
+#include <import/nodes/gltf_model.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
 #include <memory>
 #include <set>
 #include <utility>
@@ -34,57 +32,6 @@ std::string place_of_node(const tinygltf::Model& model, int node) {
     return "node " + std::to_string(node) + " " + in_quotes(name_of(model, node));
 }
 
-std::vector<unsigned char> outside_bytes(const GltfOutsideBuffer& buffer, const GltfParts& parts,
-                                         const std::filesystem::path& gltf) {
-    if (buffer.byte_length == 0) return {};
-    if (buffer.path.empty()) {
-        const std::string_view chunk = parts.binary->substr(0, buffer.byte_length);
-        return {chunk.begin(), chunk.end()};
-    }
-    const std::string place = "buffer " + std::to_string(buffer.buffer);
-    std::string bytes;
-    try {
-        bytes = read_file(gltf.parent_path() / buffer.path);
-    } catch (const InputError& error) {
-        throw InputError(gltf.string(), place, error.what());
-    }
-    if (bytes.size() < buffer.byte_length) {
-        throw InputError(gltf.string(), place,
-                         (gltf.parent_path() / buffer.path).string() + " holds " + std::to_string(bytes.size()) +
-                             " bytes of " + std::to_string(buffer.byte_length) + "; export or copy it again");
-    }
-    bytes.resize(buffer.byte_length);
-    return {bytes.begin(), bytes.end()};
-}
-
-tinygltf::Model load_model(const GltfParts& parts, const GltfText& text, const std::filesystem::path& file) {
-    std::vector<std::vector<unsigned char>> outside;
-    for (const GltfOutsideBuffer& buffer : text.outside) outside.push_back(outside_bytes(buffer, parts, file));
-
-    tinygltf::TinyGLTF loader;
-    tinygltf::Model model;
-    std::string error;
-    std::string warning;
-    bool is_loaded = false;
-    try {
-        is_loaded = loader.LoadASCIIFromString(&model, &error, &warning, text.json.data(),
-                                               static_cast<unsigned int>(text.json.size()), "");
-    } catch (const std::exception& thrown) {
-        error = thrown.what();
-    }
-    if (!is_loaded) {
-        // What remains after our checks are data URIs; tinygltf's message would repeat all of it.
-        const bool is_uri = error.starts_with("Failed to decode 'uri'");
-        throw InputError(file.string(), is_uri ? "buffer " + std::to_string(model.buffers.size()) : "",
-                         is_uri ? "its data URI does not hold byteLength bytes in base64; export the file again"
-                                : "cannot be read as glTF: " + in_quotes(error.substr(0, error.find('\n'))));
-    }
-    for (std::size_t i = 0; i < outside.size(); ++i) {
-        model.buffers[as_index(text.outside[i].buffer)].data = std::move(outside[i]);
-    }
-    return model;
-}
-
 glm::dvec3 vec3(const std::vector<double>& v, const glm::dvec3& otherwise) {
     return v.size() == 3 ? glm::dvec3{v[0], v[1], v[2]} : otherwise;
 }
@@ -92,8 +39,8 @@ glm::dvec3 vec3(const std::vector<double>& v, const glm::dvec3& otherwise) {
 /// Fills a scene from a model whose indices exist.
 class SceneBuilder {
   public:
-    SceneBuilder(const tinygltf::Model& model, const GltfText& text, const std::string& file)
-        : model_(model), text_(text), accessors_(model, file) {
+    SceneBuilder(const GltfModel& from, const std::string& file)
+        : from_(from), model_(from.model), accessors_(from.model, file) {
         scene_.file = file;
         scene_.format = "gltf";
         scene_.unit = 1;  // the specification: metres, y up
@@ -110,7 +57,7 @@ class SceneBuilder {
         std::vector<GltfSkin> skins;
         for (const tinygltf::Skin& skin : model_.skins) skins.push_back({skin.joints, skin.skeleton});
         scene_.characters = gltf_characters(scene_, skins, channels_);
-        scene_.body = text_.hips;
+        scene_.body = from_.hips;
         return std::move(scene_);
     }
 
@@ -165,13 +112,8 @@ class SceneBuilder {
                 known = parent;
             }
         }
-        // With one parent at most, what no root leads to hangs on a cycle.
-        const std::vector<int> order = parents_first(scene_.nodes);
-        if (order.size() == scene_.nodes.size()) return;
-        std::vector<bool> is_reached(scene_.nodes.size());
-        for (const int node : order) is_reached[as_index(node)] = true;
-        const auto lost = std::find(is_reached.begin(), is_reached.end(), false) - is_reached.begin();
-        fail_node(static_cast<int>(lost), "is its own ancestor, or below a node that is; break the cycle");
+        const std::vector<int> lost = nodes_in_circles(scene_.nodes);
+        if (!lost.empty()) fail_node(lost.front(), "is its own ancestor, or below a node that is; break the cycle");
     }
 
     void add_animation(std::size_t index) {
@@ -213,8 +155,8 @@ class SceneBuilder {
         animation.moved.assign(moved.begin(), moved.end());
         animation.pose = gltf_pose(rest_, channels);
         channels_.insert(channels_.end(), channels.begin(), channels.end());
-        const auto elsewhere = text_.unread.find(index);
-        const std::string unread = elsewhere == text_.unread.end() ? "" : unread_pointers(elsewhere->second);
+        const auto elsewhere = from_.unread.find(index);
+        const std::string unread = elsewhere == from_.unread.end() ? "" : unread_pointers(elsewhere->second);
         if (!unread.empty()) {
             animation.warnings.push_back(unread + ", which " + (elsewhere->second.size() == 1 ? "moves" : "move") +
                                          " no node: passed over");
@@ -241,7 +183,7 @@ class SceneBuilder {
     }
 
     Numbers times_of(int accessor) {
-        Numbers times = accessors_.read(accessor, GltfShape::scalar);
+        Numbers times = accessors_.read(accessor, TINYGLTF_TYPE_SCALAR);
         if (!checked_times_.insert(accessor).second) return times;
         if (model_.accessors[as_index(accessor)].componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
             accessors_.fail(accessor, "key times must be floats; export the file again");
@@ -275,7 +217,7 @@ class SceneBuilder {
         const bool is_rotation = channel.property == NodeProperty::rotation;
         const bool is_cubic = channel.interpolation == Interpolation::cubic_spline;
         const std::size_t width = is_rotation ? 4 : 3;
-        channel.values = accessors_.read(sampler.output, is_rotation ? GltfShape::vec4 : GltfShape::vec3);
+        channel.values = accessors_.read(sampler.output, is_rotation ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3);
         const std::size_t expected = times->size() * (is_cubic ? 3 : 1);
         if (channel.values->size() != expected * width) {
             accessors_.fail(sampler.output, "has " + std::to_string(channel.values->size() / width) +
@@ -301,8 +243,8 @@ class SceneBuilder {
         }
     }
 
-    const tinygltf::Model& model_;
-    const GltfText& text_;
+    const GltfModel& from_;
+    const tinygltf::Model& model_;  ///< of it
     NodeScene scene_;
     std::vector<GltfChannel> channels_;  ///< of all animations
     std::shared_ptr<std::vector<GltfRest>> rest_ = std::make_shared<std::vector<GltfRest>>();
@@ -316,9 +258,7 @@ class SceneBuilder {
 MotionFile parse_gltf(std::string_view bytes, const std::filesystem::path& file) {
     const std::string name = file.string();
     const GltfParts parts = split_gltf(bytes, lower_extension(file) == ".glb", name);
-    const GltfText text = checked_gltf_text(parts, name);
-    const tinygltf::Model model = load_model(parts, text, file);
-    return node_motion_file(SceneBuilder(model, text, name).build());
+    return node_motion_file(SceneBuilder(read_gltf_model(parts, file), name).build());
 }
 
 }  // namespace mobbscope

@@ -21,16 +21,7 @@ constexpr std::size_t kFreeNumbers = 2'000'000;
 
 /// In bytes.
 std::size_t component_size(int type) {
-    switch (type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return 1;
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return 2;
-        default:
-            return 4;
-    }
+    return as_index(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type)));
 }
 
 template <typename T>
@@ -66,11 +57,6 @@ std::size_t bytes_of(const tinygltf::Model& model) {
     return bytes;
 }
 
-int type_of(GltfShape shape) {
-    if (shape == GltfShape::scalar) return TINYGLTF_TYPE_SCALAR;
-    return shape == GltfShape::vec3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_VEC4;
-}
-
 }  // namespace
 
 /// Equal elements at a constant distance, all within their buffer.
@@ -93,12 +79,12 @@ bool GltfAccessors::is_real(int index) const {
     return accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT || accessor.normalized;
 }
 
-Numbers GltfAccessors::read(int index, GltfShape shape) {
+Numbers GltfAccessors::read(int index, int type) {
     const tinygltf::Accessor& accessor = model_.accessors[as_index(index)];
-    const std::size_t components = shape == GltfShape::scalar ? 1 : shape == GltfShape::vec3 ? 3 : 4;
-    if (accessor.type != type_of(shape)) {
-        const std::string type = components == 1 ? "SCALAR" : "VEC" + std::to_string(components);
-        fail(index, "must be of type " + type + " where an animation uses it; export the file again");
+    const std::size_t components = as_index(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
+    if (accessor.type != type) {
+        const std::string wanted = components == 1 ? "SCALAR" : "VEC" + std::to_string(components);
+        fail(index, "must be of type " + wanted + " where an animation uses it; export the file again");
     }
     if (const auto known = read_.find(index); known != read_.end()) return known->second;
 

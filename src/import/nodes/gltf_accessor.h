@@ -16,8 +16,6 @@ struct Accessor;
 
 namespace mobbscope {
 
-enum class GltfShape { scalar, vec3, vec4 };
-
 /// Reads accessors, each once. Refers to the model and the file's name. The model's indices are those of
 /// checked_gltf_text: they exist.
 class GltfAccessors {
@@ -25,8 +23,9 @@ class GltfAccessors {
     GltfAccessors(const tinygltf::Model& model, const std::string& file);
 
     /// All elements of an accessor as finite numbers, component after component: sparse ones filled in, normalised
-    /// integers scaled to [-1, 1] or [0, 1]. At least one element. Throws InputError naming the accessor.
-    Numbers read(int index, GltfShape shape);
+    /// integers scaled to [-1, 1] or [0, 1]. At least one element. `type`: TINYGLTF_TYPE_SCALAR, _VEC3 or _VEC4. Throws
+    /// InputError naming the accessor.
+    Numbers read(int index, int type);
 
     /// True if its numbers are floats or normalised integers, not integers taken as they are.
     bool is_real(int index) const;

@@ -102,14 +102,6 @@ Affine local_at(const GltfRest& rest, const ChannelsOfNode& channels, double sec
 
 }  // namespace
 
-Affine TranslationRotationScale::affine() const {
-    glm::dmat3 linear = glm::mat3_cast(rotation);
-    linear[0] *= scale.x;
-    linear[1] *= scale.y;
-    linear[2] *= scale.z;
-    return {linear, translation};
-}
-
 std::function<void(std::optional<double>, std::span<const PosedNode>, std::span<Affine>)> gltf_pose(
     std::shared_ptr<const std::vector<GltfRest>> rest, const std::vector<GltfChannel>& channels) {
     std::map<int, ChannelsOfNode> moved;

@@ -13,15 +13,6 @@
 
 namespace mobbscope {
 
-/// Scale, then rotate, then translate.
-struct TranslationRotationScale {
-    glm::dvec3 translation{0};
-    glm::dquat rotation{1, 0, 0, 0};  ///< of unit length
-    glm::dvec3 scale{1};
-
-    Affine affine() const;
-};
-
 /// Where a node stands at rest, relative to its parent: `matrix` where no channel moves it, or its translation alone is
 /// moved; else `parts` with what the channels give in its place.
 struct GltfRest {

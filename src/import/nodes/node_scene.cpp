@@ -267,6 +267,14 @@ std::vector<int> topmost_joints(const Rig& rig) {
 
 }  // namespace
 
+Affine TranslationRotationScale::affine() const {
+    glm::dmat3 linear = glm::mat3_cast(rotation);
+    linear[0] *= scale.x;
+    linear[1] *= scale.y;
+    linear[2] *= scale.z;
+    return {linear, translation};
+}
+
 std::vector<bool> moved_nodes(const NodeScene& scene) {
     std::vector<bool> out(scene.nodes.size());
     for (const NodeAnimation& animation : scene.animations) {
@@ -293,6 +301,16 @@ std::vector<int> parents_first(const std::vector<Node>& nodes) {
         order.insert(order.end(), below.begin(), below.end());
     }
     return order;
+}
+
+std::vector<int> nodes_in_circles(const std::vector<Node>& nodes) {
+    std::vector<bool> is_reached(nodes.size());
+    for (const int node : parents_first(nodes)) is_reached[as_index(node)] = true;
+    std::vector<int> out;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (!is_reached[i]) out.push_back(static_cast<int>(i));
+    }
+    return out;
 }
 
 MotionTimes key_times(const std::vector<Numbers>& lists) {

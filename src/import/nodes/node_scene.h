@@ -3,6 +3,7 @@
 
 #include <import/skeleton/motion.h>
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
@@ -26,6 +27,15 @@ struct Affine {
 
     /// First `other`, then this.
     Affine operator*(const Affine& other) const { return {linear * other.linear, linear * other.offset + offset}; }
+};
+
+/// Of a node in the one above it: scale, then rotate, then translate.
+struct TranslationRotationScale {
+    glm::dvec3 translation{0};
+    glm::dquat rotation{1, 0, 0, 0};  ///< of unit length
+    glm::dvec3 scale{1};
+
+    Affine affine() const;
 };
 
 struct Node {
@@ -83,6 +93,9 @@ std::vector<bool> moved_nodes(const NodeScene& scene);
 
 /// Nodes ordered so that parents come before their children, siblings in the order of their indices.
 std::vector<int> parents_first(const std::vector<Node>& nodes);
+
+/// The nodes that none without a parent leads to: they hang on themselves in a circle.
+std::vector<int> nodes_in_circles(const std::vector<Node>& nodes);
 
 /// The scene's animations as motions.
 MotionFile node_motion_file(NodeScene scene);

@@ -1,15 +1,13 @@
 #include <import/clip/column_choice.h>
+#include <import/clip/sampling.h>
 #include <import/tracks/csv.h>
 #include <import/tracks/remarks.h>
-#include <import/tracks/tracks.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <deque>
-#include <numeric>
 #include <stdexcept>
-#include <unordered_map>
 #include <utility>
 
 namespace mobbscope {
@@ -76,11 +74,14 @@ class CsvParser {
             if (!take_units()) add_row();
             while (next_row()) add_row();
         }
-        if (table_.tracks.empty())
+        if (tracks_.empty())
             throw InputError(file_, at_line(lines_.number()), "there is no row after the header; add samples");
-        if (table_.has_id) {
-            for (CsvTrack& track : table_.tracks) sort(track);
-        }
+        const auto twice = [this](const Track& track, const TrackPoint& row) {
+            return time_word() + ' ' + short_double(row.frame) + " of track " + in_quotes(track.id) +
+                   " stands already in line ";
+        };
+        const bool sorts = table_.has_id && (table_.has_time || table_.has_frame);
+        table_.tracks = sorts ? tracks_.take(file_, twice) : tracks_.take();
         if (table_.has_time && in_milliseconds_) table_.rounding = kMillisecond;
         tell();
         return std::move(table_);
@@ -269,19 +270,12 @@ class CsvParser {
             }
             // A table with centres of its own needs none of this.
             if (!all || (box.words[0] != "x" && has_word("x"))) continue;
-            const auto middle = [&](std::size_t low, std::size_t other, std::string_view begin, std::string_view end) {
-                return std::string(begin) + names[low] + std::string(end) + "+" + std::string(begin) + names[other] +
-                       std::string(end);
-            };
-            for (std::size_t i = 0; i < 2; ++i) {
-                const std::string sum = middle(i, i + 2, "\"", "\"");
-                formula(i == 0 ? Column::x : Column::y)
-                    .emplace(box.has_middles ? "(" + sum + ")/2" : sum + "/2", std::span<const std::string>(names_));
-            }
-            const auto centre = [&](std::size_t i) {
-                const std::string sum = middle(i, i + 2, "", "");
+            const auto centre = [&](std::size_t i, const std::string& quote = "") {
+                const std::string sum = quote + names[i] + quote + "+" + quote + names[i + 2] + quote;
                 return box.has_middles ? "(" + sum + ")/2" : sum + "/2";
             };
+            formula(Column::x).emplace(centre(0, "\""), std::span<const std::string>(names_));
+            formula(Column::y).emplace(centre(1, "\""), std::span<const std::string>(names_));
             table_.warnings.push_back({"the columns " + quoted_list({names.begin(), names.end()}) +
                                            " are taken for boxes: their centres are " + centre(0) + ", " + centre(1) +
                                            "; give columns (x=" + names[0] + ",y=" + names[1] + ") if that is wrong",
@@ -394,18 +388,12 @@ class CsvParser {
     void add_row() {
         split_row();
         const std::string_view id = table_.has_id ? identifier() : std::string_view();
-        // Many files have the rows of a track one after another.
-        if (table_.tracks.empty() || table_.tracks[last_].id != id) {
-            const auto [track, is_new] = track_of_.try_emplace(std::string(id), table_.tracks.size());
-            if (is_new) table_.tracks.push_back({std::string(id), {}, {}});
-            last_ = track->second;
-        }
-        CsvTrack& track = table_.tracks[last_];
-        track.rows.push_back(row());
-        in_milliseconds_ = in_milliseconds_ && is_in_milliseconds(track.rows.back().t);
-        track.lines.push_back(lines_.number());
+        const TrackPoint here = row();
+        in_milliseconds_ = in_milliseconds_ && is_in_milliseconds(here.frame);
         // Tracks may lie across each other in any order, the rows of one motion may not.
-        if (!table_.has_id && (table_.has_time || table_.has_frame) && track.rows.size() > 1) check_order(track);
+        if (!table_.has_id && (table_.has_time || table_.has_frame) && !tracks_.empty()) check_order(here.frame);
+        last_ = here.frame;
+        tracks_.add(id, here);
     }
 
     std::string_view identifier() const {
@@ -450,11 +438,12 @@ class CsvParser {
         from.empty() ? fail(message + "option columns") : fail(from.front(), message + "units");
     }
 
-    TimedDisk row() const {
-        const TimedDisk row{table_.has_frame ? value_of(Column::frame, kMaxFrame) : value_of(Column::t, mobb::kMaxTime),
-                            {value_of(Column::x, mobb::kMaxLength), value_of(Column::y, mobb::kMaxLength),
-                             value_of(Column::r, mobb::kMaxLength)}};
-        if (row.disk.r < 0) {
+    TrackPoint row() const {
+        const TrackPoint row{
+            table_.has_frame ? value_of(Column::frame, kMaxFrame) : value_of(Column::t, mobb::kMaxTime),
+            value_of(Column::x, mobb::kMaxLength), value_of(Column::y, mobb::kMaxLength), lines_.number(),
+            value_of(Column::r, mobb::kMaxLength)};
+        if (row.r < 0) {
             const std::vector<std::size_t> from = formula(Column::r)->columns();
             const std::string message = "the radius is negative; give 0 or more";
             from.empty() ? fail(message) : fail(from.front(), message);
@@ -462,39 +451,16 @@ class CsvParser {
         return row;
     }
 
-    void check_order(const CsvTrack& track) const {
-        const double before = track.rows[track.rows.size() - 2].t;
-        if (track.rows.back().t > before) return;
+    void check_order(double time) const {
+        if (time > last_) return;
         const std::string likely = likely_column(Column::id);
         fail(column_of_time(),
-             time_word() + " does not come after " + short_double(before) +
+             time_word() + " does not come after " + short_double(last_) +
                  " of the row before; sort the rows and remove doubles" +
                  (likely.empty() || options_.columns
                       ? ""
                       : ", or, if these are several tracks, say which column names them, such as columns id=" +
                             shown(likely)));
-    }
-
-    /// Rows in order of their times, of which no two are one.
-    void sort(CsvTrack& track) const {
-        if (!(table_.has_time || table_.has_frame)) return;
-        if (!std::ranges::is_sorted(track.rows, {}, &TimedDisk::t)) {
-            std::vector<std::size_t> order(track.rows.size());
-            std::iota(order.begin(), order.end(), std::size_t{0});
-            std::ranges::stable_sort(order, {}, [&](std::size_t i) { return track.rows[i].t; });
-            CsvTrack sorted{track.id, {}, {}};
-            for (const std::size_t i : order) {
-                sorted.rows.push_back(track.rows[i]);
-                sorted.lines.push_back(track.lines[i]);
-            }
-            track = std::move(sorted);
-        }
-        const auto twice = std::ranges::adjacent_find(track.rows, {}, &TimedDisk::t);
-        if (twice == track.rows.end()) return;
-        const auto at = static_cast<std::size_t>(twice - track.rows.begin());
-        throw InputError(file_, at_line(track.lines[at + 1]),
-                         time_word() + ' ' + short_double(twice->t) + " of track " + in_quotes(track.id) +
-                             " stands already in line " + std::to_string(track.lines[at]) + "; remove one");
     }
 
     std::string time_word() const { return table_.has_frame ? "the frame" : "the time"; }
@@ -552,8 +518,8 @@ class CsvParser {
     std::vector<std::string> names_;
     std::array<std::optional<ColumnFormula>, std::size(kColumns)> formulas_{};  ///< in order of kColumns
     Remarks remarks_;
-    std::unordered_map<std::string, std::size_t> track_of_;
-    std::size_t last_ = 0;         ///< the track that had a row last
+    TrackCollector tracks_;
+    double last_ = 0;              ///< the time or frame of the last row
     bool in_milliseconds_ = true;  ///< all values of t
     mutable bool decimal_commas_ = false;
     CsvTable table_;
@@ -602,22 +568,11 @@ FieldCounts counts_of(std::string_view line, char separator) {
     return out;
 }
 
-/// Takes the next line off a text that is neither blank nor a comment; "" at the end.
-std::string_view take_line(std::string_view& text) {
-    while (!text.empty()) {
-        const std::size_t end = text.find('\n');
-        const std::string_view line = trimmed(text.substr(0, end));
-        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-        if (!line.empty() && line[0] != '#') return line;
-    }
-    return "";
-}
-
 }  // namespace
 
 bool looks_like_table(std::string_view text) {
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-    const std::string_view line = take_line(text);
+    const std::string_view line = take_row(text);
     const bool is_text = std::ranges::none_of(line, [](char c) { return c >= 0 && c < ' ' && c != '\t'; });
     if (line.empty() || !is_text || std::string_view("{[<%").find(line[0]) != std::string_view::npos) return false;
     const char separator = separator_of(line);
@@ -627,7 +582,7 @@ bool looks_like_table(std::string_view text) {
                (header.numbers == 0 ? header.known > 0 || header.fields > 2 : 2 * header.numbers >= header.fields);
     // Blanks and tabs part trajectories too, and words of sentences: under those there is no row of as many numbers.
     if (header.numbers > 0) return false;
-    const FieldCounts row = counts_of(take_line(text), separator);
+    const FieldCounts row = counts_of(take_row(text), separator);
     return header.known >= 3 || (header.fields >= 3 && row.fields == header.fields && 2 * row.numbers >= row.fields);
 }
 

@@ -3,7 +3,7 @@
 
 #include <import/clip/import_options.h>
 #include <import/clip/imported_clip.h>
-#include <import/clip/sampling.h>
+#include <import/tracks/tracks.h>
 
 #include <filesystem>
 #include <memory>
@@ -15,21 +15,12 @@
 
 namespace mobbscope {
 
-/// The rows of one id; times increase.
-struct CsvTrack {
-    std::string id;  ///< empty without an id column
-    std::vector<TimedDisk> rows;
-    std::vector<int> lines;  ///< of each row in the file, from 1
-
-    int first_line() const { return lines.front(); }
-};
-
 /// The rows of a file: nothing scaled, nothing sampled.
 struct CsvTable {
     int header_line = 1;  ///< in the file, from 1
     bool has_id = false;
-    bool has_time = false;    ///< seconds in t of each row
-    bool has_frame = false;   ///< frame numbers there; without either t is 0
+    bool has_time = false;    ///< seconds in TrackPoint::frame of each row
+    bool has_frame = false;   ///< frame numbers there; without either it is 0
     bool has_radius = false;  ///< else r of every row is 0
     double rounding = 0;      ///< seconds: what all times are rounded to; 0: that is not known
 
@@ -38,7 +29,8 @@ struct CsvTable {
     std::string unit_why{};                 ///< who says so: "the column x/cm"; empty: nobody
     std::vector<ImportWarning> warnings{};  ///< what was passed over or taken for something
     std::vector<std::string> others{};      ///< names of columns that were passed over, each once
-    std::vector<CsvTrack> tracks{};         ///< at least one, each with at least one row; in order of first appearance
+    /// The rows of each id, "" without an id column; frames increase where there are any. In order of first appearance.
+    std::vector<Track> tracks{};
 };
 
 /// Of the options those that say what columns mean count: columns, and radius where it names one. `file` stands for the

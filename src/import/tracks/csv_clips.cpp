@@ -1,4 +1,5 @@
 // Tables to clips: samples, radii, and what a table offers to each option.
+#include <import/clip/sampling.h>
 #include <import/tracks/csv.h>
 #include <import/tracks/track_steps.h>
 
@@ -32,11 +33,6 @@ std::optional<double> frame_rate(const CsvTable& table, const ImportOptions& opt
     return options.fps ? options.fps : table.rate;
 }
 
-/// The table's warnings go first.
-void add_warnings(const CsvTable& table, std::vector<ImportWarning>& warnings) {
-    warnings.insert(warnings.begin(), table.warnings.begin(), table.warnings.end());
-}
-
 /// A table with ids as the crowd that it is. `dt`: seconds between the rows of one without times; `rate`: frames per
 /// second of one with frame numbers.
 TrackFile tracks_of(const CsvTable& table, double dt, double rate) {
@@ -50,16 +46,11 @@ TrackFile tracks_of(const CsvTable& table, double dt, double rate) {
     if (!table.has_frame) out.least_step.reset();
     out.rounding = table.rounding;
     const bool has_when = table.has_time || table.has_frame;
-    for (const CsvTrack& track : table.tracks) {
-        Track& points = out.tracks.emplace_back(Track{track.id, {}});
-        points.points.reserve(track.rows.size());
-        for (std::size_t i = 0; i < track.rows.size(); ++i) {
-            const TimedDisk& row = track.rows[i];
-            const double t = has_when ? row.t : static_cast<double>(i) * dt;
-            points.points.push_back({t, row.disk.x, row.disk.y, track.lines[i], row.disk.r});
-        }
-    }
+    out.tracks = table.tracks;
     if (!has_when) {
+        for (Track& track : out.tracks) {
+            for (std::size_t i = 0; i < track.points.size(); ++i) track.points[i].frame = static_cast<double>(i) * dt;
+        }
         out.least_step = dt;
         out.warnings.push_back("the rows have no times: all tracks start together, with a row every " + brief(dt) +
                                " s; name a column t if they do not");
@@ -83,13 +74,19 @@ void check_columns(const CsvTable& table, const std::string& file, const ImportO
         throw InputError(file, header, "the header names no column t; name one or give dt (seconds between rows)");
 }
 
+std::vector<TimedDisk> timed(const Track& track) {
+    std::vector<TimedDisk> out;
+    for (const TrackPoint& row : track.points) out.push_back({row.frame, {row.x, row.y, row.r}});
+    return out;
+}
+
 /// Without ids the rows are one motion.
 class MotionMaker {
   public:
     MotionMaker(const CsvTable& table, const ImportOptions& options)
         : table_(table),
           track_(table.tracks.front()),
-          rows_(track_.rows),
+          rows_(timed(track_)),
           options_(options),
           has_time_(table.has_time || table.has_frame),
           scale_(unit_scale(table, options)) {
@@ -144,7 +141,7 @@ class MotionMaker {
     std::string resampled(double fps) const {
         const std::size_t row = *first_out_of_step(rows_, table_.rounding);
         const double dt = (rows_.back().t - rows_.front().t) / static_cast<double>(rows_.size() - 1);
-        return "the times are not uniform (line " + std::to_string(track_.lines[row]) + ": " +
+        return "the times are not uniform (line " + std::to_string(track_.points[row].line) + ": " +
                to_thousandth(rows_[row].t) + " s, in step would be " +
                to_thousandth(rows_.front().t + static_cast<double>(row) * dt) + " s); the path is resampled at " +
                brief(fps) + " fps";
@@ -169,7 +166,7 @@ class MotionMaker {
     }
 
     const CsvTable& table_;
-    const CsvTrack& track_;
+    const Track& track_;
     std::vector<TimedDisk> rows_;
     ImportOptions options_;
     bool has_time_;
@@ -196,9 +193,11 @@ std::vector<ImportedClip> csv_clips(const CsvTable& table, const std::filesystem
                             of_tracks);
     } else {
         clips = clips_by_track(table.tracks, file, options,
-                               [&](const CsvTrack&) { return std::optional(MotionMaker(table, options).make()); });
+                               [&](const Track&) { return std::optional(MotionMaker(table, options).make()); });
     }
-    for (ImportedClip& clip : clips) add_warnings(table, clip.facts.warnings);
+    for (ImportedClip& clip : clips) {
+        clip.facts.warnings.insert(clip.facts.warnings.begin(), table.warnings.begin(), table.warnings.end());
+    }
     return clips;
 }
 
@@ -206,24 +205,24 @@ ImportOffer csv_offer(const CsvTable& table, const std::filesystem::path&, const
     ImportOffer out;
     const std::optional<double> rate = options.dt ? std::optional(1 / *options.dt) : frame_rate(table, options);
     const bool has_when = table.has_time || table.has_frame;
-    double first = table.tracks.front().rows.front().t;
+    double first = table.tracks.front().points.front().frame;
     double last = first;
     bool uniform = true;
     bool alone = true;  // every track has one row
-    for (const CsvTrack& track : table.tracks) {
-        const std::size_t rows = track.rows.size();
-        first = std::min(first, track.rows.front().t);
-        last = std::max(last, has_when ? track.rows.back().t : static_cast<double>(rows - 1) * options.dt.value_or(0));
+    for (const Track& track : table.tracks) {
+        const std::size_t rows = track.points.size();
+        first = std::min(first, track.points.front().frame);
+        last = std::max(last,
+                        has_when ? track.points.back().frame : static_cast<double>(rows - 1) * options.dt.value_or(0));
         alone = alone && rows == 1;
-        if (has_when && !table.has_id) uniform = rows == 1 || is_uniform(track.rows, table.rounding);
+        if (has_when && !table.has_id) uniform = rows == 1 || is_uniform(timed(track), table.rounding);
     }
     out.seconds =
         table.has_frame ? (last - first) / rate.value_or(std::numeric_limits<double>::infinity()) : last - first;
     if (has_when && table.has_id && !alone) {
-        const std::vector<Track> tracks = tracks_of(table, 0, 1).tracks;
-        const double usual = *most_frequent_step(tracks, table.rounding);
-        uniform =
-            std::ranges::all_of(tracks, [&](const Track& t) { return grid_of(t, usual, table.rounding).in_step; });
+        const double usual = *most_frequent_step(table.tracks, table.rounding);
+        uniform = std::ranges::all_of(table.tracks,
+                                      [&](const Track& t) { return grid_of(t, usual, table.rounding).in_step; });
     }
     // Rows in step are the samples.
     if (table.has_frame && !options.dt) {

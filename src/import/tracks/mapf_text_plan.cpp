@@ -255,11 +255,7 @@ class TextPlanParser {
 bool looks_like_mapf_text_plan(std::string_view text) {
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
     bool first_is_count = false;
-    while (!text.empty()) {
-        const std::size_t end = text.find('\n');
-        const std::string_view line = trimmed(text.substr(0, end));
-        text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
-        if (line.empty() || line.front() == '#') continue;
+    for (std::string_view line = take_row(text); !line.empty(); line = take_row(text)) {
         if (const auto label = read_label(line)) return label->cells.starts_with('(');
         if (const auto key = key_of(line)) return std::ranges::find(kFirstKeys, *key) != std::end(kFirstKeys);
         if (first_is_count) return is_list_of_cells(line);

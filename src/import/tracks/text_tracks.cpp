@@ -425,18 +425,11 @@ class TextTracksParser {
 
 bool looks_like_text_tracks(std::string_view text) {
     constexpr std::size_t kFewest = 3;  // columns: what lacks one is told so
-    while (!text.empty()) {
-        const std::size_t end = text.find('\n');
-        const std::string_view line = trimmed(text.substr(0, end));
-        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-        if (line.empty() || line[0] == '#') continue;
-        std::vector<Word> words;
-        split(line, kMaxColumns, words);
-        const auto numbers =
-            std::ranges::count_if(words, [](const Word& word) { return parse_double(word.text).has_value(); });
-        return words.size() >= kFewest && static_cast<std::size_t>(numbers) + 1 >= words.size();
-    }
-    return false;
+    std::vector<Word> words;
+    split(take_row(text), kMaxColumns, words);
+    const auto numbers =
+        std::ranges::count_if(words, [](const Word& word) { return parse_double(word.text).has_value(); });
+    return words.size() >= kFewest && static_cast<std::size_t>(numbers) + 1 >= words.size();
 }
 
 TrackFile parse_text_tracks(std::string_view text, const std::string& file) {

@@ -1,34 +1,44 @@
 #include <import/tracks/tracks.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace mobbscope {
 
-void TrackCollector::add(const std::string& id, const TrackPoint& point, std::string_view label) {
+void TrackCollector::add(std::string_view id, const TrackPoint& point, std::string_view label) {
     // Many files have a track's points one after another.
     if (tracks_.empty() || tracks_[last_].id != id) {
-        const auto [at, is_new] = index_.try_emplace(id, tracks_.size());
-        if (is_new) tracks_.push_back({id, {}, std::string(label)});
+        const auto [at, is_new] = index_.try_emplace(std::string(id), tracks_.size());
+        if (is_new) tracks_.push_back({std::string(id), {}, std::string(label)});
         last_ = at->second;
     }
     tracks_[last_].points.push_back(point);
 }
 
-std::vector<Track> TrackCollector::take(const std::string& file) {
+std::string TrackCollector::is_twice(const Track& track, const TrackPoint& point) {
+    return in_quotes(track.id) + " is in frame " + short_double(point.frame) + " already in line ";
+}
+
+std::vector<Track> TrackCollector::take(const std::string& file,
+                                        const std::function<std::string(const Track&, const TrackPoint&)>& twice) {
     for (Track& track : tracks_) {
         // Most are in order, which is found out sooner than they are sorted.
         if (!std::ranges::is_sorted(track.points, {}, &TrackPoint::frame))
             std::ranges::stable_sort(track.points, {}, &TrackPoint::frame);
-        const auto twice =
-            std::adjacent_find(track.points.begin(), track.points.end(),
-                               [](const TrackPoint& a, const TrackPoint& b) { return a.frame == b.frame; });
-        if (twice == track.points.end()) continue;
-        throw InputError(file, at_line((twice + 1)->line),
-                         in_quotes(track.id) + " is in frame " + short_double(twice->frame) + " already in line " +
-                             std::to_string(twice->line) + "; remove one");
+        const auto at = std::ranges::adjacent_find(track.points, {}, &TrackPoint::frame);
+        if (at == track.points.end()) continue;
+        throw InputError(file, at_line((at + 1)->line), twice(track, *at) + std::to_string(at->line) + "; remove one");
     }
-    return std::move(tracks_);
+    return take();
+}
+
+std::string_view take_row(std::string_view& text) {
+    while (!text.empty()) {
+        const std::size_t end = text.find('\n');
+        const std::string_view line = trimmed(text.substr(0, end));
+        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+        if (!line.empty() && line[0] != '#') return line;
+    }
+    return "";
 }
 
 OptionOffer unit_offer(double taken, const std::string& why) {

@@ -9,10 +9,12 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -71,18 +73,26 @@ inline constexpr double kMaxFrame = 9007199254740992.0;
 class TrackCollector {
   public:
     /// `label`: the track's class; of several the first one stays.
-    void add(const std::string& id, const TrackPoint& point, std::string_view label = {});
+    void add(std::string_view id, const TrackPoint& point, std::string_view label = {});
     bool empty() const { return tracks_.empty(); }
 
     /// The tracks, each in order of its frames. Throws InputError, naming `file` and the line, if a track is at two
-    /// places in one frame.
-    std::vector<Track> take(const std::string& file);
+    /// places in one frame; `twice` says so of the first one, up to the line of it.
+    std::vector<Track> take(const std::string& file,
+                            const std::function<std::string(const Track&, const TrackPoint&)>& twice = is_twice);
+    /// As they came.
+    std::vector<Track> take() { return std::move(tracks_); }
 
   private:
+    static std::string is_twice(const Track& track, const TrackPoint& point);
+
     std::vector<Track> tracks_;
     std::unordered_map<std::string, std::size_t> index_;
     std::size_t last_ = 0;  ///< the track that had a point last
 };
+
+/// Takes the next line off a text that is neither blank nor a comment, without the blanks at its ends; "" at the end.
+std::string_view take_row(std::string_view& text);
 
 /// Whether a text begins like one of those that parse_text_tracks reads: rows of numbers between blanks.
 bool looks_like_text_tracks(std::string_view text);

@@ -6,6 +6,7 @@
 #include <render/drawlist/shared_values.h>
 #include <render/drawlist/view_projection.h>
 #include <render/image/image.h>
+#include <render/image/rect.h>
 
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
@@ -13,6 +14,7 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -203,21 +205,6 @@ struct HighlightLine {
     friend bool operator==(const HighlightLine&, const HighlightLine&) = default;
 };
 
-/// An axis-aligned rectangle on the screen, pixels from the upper left corner.
-struct Rect {
-    glm::vec2 min{0};
-    glm::vec2 max{0};
-    glm::vec2 size() const { return max - min; }
-    glm::vec2 center() const { return (min + max) * 0.5f; }
-    bool overlaps(const Rect& o) const {
-        return min.x < o.max.x && o.min.x < max.x && min.y < o.max.y && o.min.y < max.y;
-    }
-    bool contains(const Rect& o) const {
-        return min.x <= o.min.x && min.y <= o.min.y && max.x >= o.max.x && max.y >= o.max.y;
-    }
-    Rect grown(float by) const { return {min - by, max + by}; }
-};
-
 /// A filled rectangle with round corners over the picture; a radius of half its side makes a disk.
 struct OverlayPanel {
     Rect rect;
@@ -311,12 +298,27 @@ struct DrawnOverlay {
     std::vector<TextRun> texts;              ///< over all
 };
 
+/// Tells what was made from all else that was: copies have the same.
+class Revision {
+  public:
+    friend bool operator==(const Revision&, const Revision&) = default;
+
+  private:
+    static std::uint64_t next() {
+        static std::atomic<std::uint64_t> last = 0;
+        return ++last;
+    }
+    std::uint64_t number_ = next();
+};
+
 struct DrawList : PictureFrame, DrawnWorld, DrawnOverlay {
     Palette palette;
     /// Behind everything; none: the palette's, which is what steps back does so towards. With opacity below 1 the
     /// picture is seen through where nothing is drawn.
     std::optional<Rgba> background;
     std::vector<std::string> agents;  ///< names of what ObjectId::agent counts
+    /// Who changes a list that was painted, other than its highlights, gives it a new one.
+    Revision revision;
 };
 
 /// By the sign along each axis: bit i of the index is set where it is positive along extent i.

@@ -87,31 +87,16 @@ bool on_screen(const ViewProjection& projection, const DiskInstance& disk) {
     return on_screen(projection, corners);
 }
 
-std::string_view name(BoxState state) {
-    constexpr std::array<std::string_view, 7> kNames{"level",   "under_test", "apart_in_time", "separated",
-                                                     "overlap", "hit",        "annotation"};
-    return kNames[static_cast<std::size_t>(state)];
-}
+// What enumerators are called, in order.
+constexpr std::array kBoxStates{"level", "under_test", "apart_in_time", "separated", "overlap", "hit", "annotation"};
+constexpr std::array kLegendMarks{"disk", "ring", "double_ring", "box", "line", "remark"};
+constexpr std::array kOverlays{"caption", "legend", "inset"};
+constexpr std::array kHighlightRoles{"selection", "hover", "candidate", "conflict", "ghost"};
+constexpr std::array kTextRoles{"label", "tick", "name", "note", "caption", "legend", "header", "map"};
 
-std::string_view name(LegendEntry::Mark mark) {
-    constexpr std::array<std::string_view, 6> kNames{"disk", "ring", "double_ring", "box", "line", "remark"};
-    return kNames[static_cast<std::size_t>(mark)];
-}
-
-std::string_view name(Overlay::Kind kind) {
-    constexpr std::array<std::string_view, 3> kNames{"caption", "legend", "inset"};
-    return kNames[static_cast<std::size_t>(kind)];
-}
-
-std::string_view name(HighlightLine::Role role) {
-    constexpr std::array<std::string_view, 5> kNames{"selection", "hover", "candidate", "conflict", "ghost"};
-    return kNames[static_cast<std::size_t>(role)];
-}
-
-std::string_view name(TextRole role) {
-    constexpr std::array<std::string_view, 8> kNames{"label",   "tick",   "name",   "note",
-                                                     "caption", "legend", "header", "map"};
-    return kNames[static_cast<std::size_t>(role)];
+template <class Names, class Enum>
+const char* name_in(const Names& names, Enum of) {
+    return names[static_cast<std::size_t>(of)];
 }
 
 std::string color_text(Rgba color) {
@@ -124,16 +109,24 @@ std::string color_text(Rgba color) {
     return out;
 }
 
-template <class Vector>
-void vector(JsonWriter& out, const char* key, const Vector& v) {
+void write(JsonWriter& out, const char* key, float value) { out.member(key, double{value}); }
+template <int N, class Number>
+void write(JsonWriter& out, const char* key, const glm::vec<N, Number>& value) {
     out.begin_array(key, Layout::row);
-    for (int i = 0; i < v.length(); ++i) out.value(static_cast<double>(v[i]));
+    for (int i = 0; i < N; ++i) out.value(static_cast<double>(value[i]));
     out.end_array();
 }
+template <class T>
+void write(JsonWriter& out, const char* key, const T& value) {
+    out.member(key, value);
+}
 
-void number(JsonWriter& out, const char* key, float value) { out.member(key, double{value}); }
-
-void color(JsonWriter& out, const char* key, Rgba value) { out.member(key, color_text(value)); }
+/// A key and its value, and so on.
+template <class T, class... More>
+void members(JsonWriter& out, const char* key, const T& value, const More&... more) {
+    write(out, key, value);
+    if constexpr (sizeof...(more) > 0) members(out, more...);
+}
 
 /// Rows of an array.
 template <class Items, class Write>
@@ -146,9 +139,8 @@ void rows(JsonWriter& out, const char* key, const Items& items, const Write& wri
 }
 
 void write_object(JsonWriter& out, const Objects& objects, const std::optional<ObjectId>& id, const char* kind) {
-    out.member("id", objects.number(id));
-    out.member("participant", id ? std::optional(id->agent) : std::nullopt);
-    out.member(kind, id ? std::optional(id->index) : std::nullopt);
+    members(out, "id", objects.number(id), "participant", id ? std::optional(id->agent) : std::nullopt, kind,
+            id ? std::optional(id->index) : std::nullopt);
 }
 
 void write_seen(JsonWriter& out, const Objects& objects, const std::optional<ObjectId>& id, bool on_screen) {
@@ -159,11 +151,8 @@ void write_seen(JsonWriter& out, const Objects& objects, const std::optional<Obj
 
 void write_camera(JsonWriter& out, const ViewProjection& projection) {
     out.begin_object("camera");
-    vector(out, "eye", projection.eye);
-    vector(out, "right", projection.right);
-    vector(out, "up", projection.up);
-    vector(out, "back", projection.back);
-    out.member("perspective", projection.perspective);
+    members(out, "eye", projection.eye, "right", projection.right, "up", projection.up, "back", projection.back,
+            "perspective", projection.perspective);
     out.begin_array("clip_from_world", Layout::row);
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 4; ++row) out.value(double{projection.clip_from_world[column][row]});
@@ -174,145 +163,91 @@ void write_camera(JsonWriter& out, const ViewProjection& projection) {
 
 void write_disk(JsonWriter& out, const DiskInstance& disk, const Objects& objects, const ViewProjection& projection) {
     write_object(out, objects, disk.id, "sample");
-    vector(out, "base", disk.base);
-    number(out, "radius", disk.radius);
-    number(out, "height", disk.height());
-    if (disk.lean() > 0) {
-        vector(out, "top", disk.top);
-        number(out, "top_radius", disk.top_radius);
-    }
-    color(out, "color", disk.color);
+    members(out, "base", disk.base, "radius", disk.radius, "height", disk.height());
+    if (disk.lean() > 0) members(out, "top", disk.top, "top_radius", disk.top_radius);
+    members(out, "color", color_text(disk.color));
     write_seen(out, objects, disk.id, on_screen(projection, disk));
 }
 
 void write_box(JsonWriter& out, const BoxInstance& box, const Objects& objects, const ViewProjection& projection) {
     const std::optional<ObjectId> id = box.pickable ? std::optional(box.id) : std::nullopt;
     write_object(out, objects, id, "node");
-    out.member("level", box.order.level);
-    out.member("state", name(box.state));
-    vector(out, "center", box.center);
-    out.list("extents", box.extents, [&](const glm::vec3& e) { out.numbers({e.x, e.y, e.z}); });
-    color(out, "fill", box.fill);
-    color(out, "edge", box.edge);
-    number(out, "width", box.width);
-    vector(out, "dash", box.dash);
+    members(out, "level", box.order.level, "state", name_in(kBoxStates, box.state), "center", box.center);
+    out.list("extents", box.extents, [&](const glm::vec3& e) { out.value(e); });
+    members(out, "fill", color_text(box.fill), "edge", color_text(box.edge), "width", box.width, "dash", box.dash);
     write_seen(out, objects, id, on_screen(projection, box_corners(box)));
 }
 
-void write_line(JsonWriter& out, const LineInstance& line, const ViewProjection& projection) {
-    out.member("layer", static_cast<int>(line.order.layer));
-    vector(out, "from", line.from);
-    vector(out, "to", line.to);
-    color(out, "color", line.color);
-    number(out, "width", line.width);
-    vector(out, "dash", line.dash);
-    number(out, "cap", line.cap);
-    number(out, "hidden", line.hidden);
-    out.member("on_screen", on_screen(projection, std::array{line.from, line.to}));
-}
-
-void write_highlight(JsonWriter& out, const HighlightLine& line, const ViewProjection& projection) {
-    out.member("role", name(line.role));
-    vector(out, "from", line.from);
-    vector(out, "to", line.to);
-    color(out, "color", line.color);
-    number(out, "width", line.width);
-    out.member("on_screen", on_screen(projection, std::array{line.from, line.to}));
-}
-
 void write_panel(JsonWriter& out, const OverlayPanel& panel) {
-    vector(out, "min", panel.rect.min);
-    vector(out, "max", panel.rect.max);
-    number(out, "radius", panel.radius);
-    color(out, "fill", panel.fill);
-    color(out, "border", panel.border);
-    number(out, "border_width", panel.border_width);
+    members(out, "min", panel.rect.min, "max", panel.rect.max, "radius", panel.radius, "fill", color_text(panel.fill),
+            "border", color_text(panel.border), "border_width", panel.border_width);
 }
 
-void write_overlay(JsonWriter& out, const Overlay& overlay) {
-    out.member("name", name(overlay.kind));
-    vector(out, "min", overlay.rect.min);
-    vector(out, "max", overlay.rect.max);
-    out.member("folded", overlay.folded);
-    out.member("no_room", overlay.no_room);
-    out.member("more", overlay.more.has_value());
+/// In an order of their own, of boxes those last that stand for no node; equal ones by what else tells them apart.
+bool comes_first(const BoxInstance& a, const BoxInstance& b) {
+    if (a.pickable != b.pickable) return a.pickable;
+    if (a.pickable && a.id != b.id) return before(a.id, b.id);
+    return std::tie(a.order, a.state, a.center.x, a.center.y, a.center.z) <
+           std::tie(b.order, b.state, b.center.x, b.center.y, b.center.z);
+}
+bool comes_first(const DiskInstance& a, const DiskInstance& b) { return before(a.id, b.id); }
+bool comes_first(const LineInstance& a, const LineInstance& b) {
+    return std::tie(a.order, a.from.x, a.from.y, a.from.z, a.to.x, a.to.y, a.to.z) <
+           std::tie(b.order, b.from.x, b.from.y, b.from.z, b.to.x, b.to.y, b.to.z);
 }
 
-void write_overlay_line(JsonWriter& out, const OverlayLine& line) {
-    vector(out, "from", line.from);
-    vector(out, "to", line.to);
-    color(out, "color", line.color);
-    number(out, "width", line.width);
-    vector(out, "dash", line.dash);
-}
-
-void write_text(JsonWriter& out, const TextRun& text, const PictureSize& size) {
-    out.member("text", text.text);
-    out.member("role", name(text.role));
-    vector(out, "at", text.baseline);
-    number(out, "size", text.size);
-    out.member("face", text.face == FontFace::mono ? "mono" : "text");
-    color(out, "color", text.color);
-    const Rect picture{{0, 0}, glm::vec2(size.width, size.height)};
-    out.member("on_screen", picture.overlaps(text.box));
-}
-
-/// In an order of their own: boxes that stand for no node come last; equal ones by what else tells them apart.
-std::vector<BoxInstance> sorted(std::vector<BoxInstance> boxes) {
-    std::sort(boxes.begin(), boxes.end(), [](const BoxInstance& a, const BoxInstance& b) {
-        if (a.pickable != b.pickable) return a.pickable;
-        if (a.pickable && a.id != b.id) return before(a.id, b.id);
-        return std::tie(a.order, a.state, a.center.x, a.center.y, a.center.z) <
-               std::tie(b.order, b.state, b.center.x, b.center.y, b.center.z);
-    });
-    return boxes;
-}
-
-std::vector<DiskInstance> sorted(const SharedValues<DiskInstance>& all) {
-    std::vector<DiskInstance> disks(all.begin(), all.end());
-    std::sort(disks.begin(), disks.end(),
-              [](const DiskInstance& a, const DiskInstance& b) { return before(a.id, b.id); });
-    return disks;
-}
-
-std::vector<LineInstance> sorted(std::vector<LineInstance> lines) {
-    std::sort(lines.begin(), lines.end(), [](const LineInstance& a, const LineInstance& b) {
-        return std::tie(a.order, a.from.x, a.from.y, a.from.z, a.to.x, a.to.y, a.to.z) <
-               std::tie(b.order, b.from.x, b.from.y, b.from.z, b.to.x, b.to.y, b.to.z);
-    });
-    return lines;
+template <class Items, class T = typename Items::value_type>
+std::vector<T> sorted(const Items& all) {
+    std::vector<T> out(all.begin(), all.end());
+    std::sort(out.begin(), out.end(), [](const T& a, const T& b) { return comes_first(a, b); });
+    return out;
 }
 
 }  // namespace
 
 void write_draw_list(std::ostream& stream, const DrawList& list, const IdImage* ids) {
     const Objects objects(list, ids);
+    const ViewProjection& seen_by = list.projection;
+    const Rect picture{{0, 0}, glm::vec2(list.size.width, list.size.height)};
     JsonWriter out(stream, JsonWriter::Digits::few);
     out.begin_object();
-    vector(out, "size", glm::ivec2(list.size.width, list.size.height));
-    color(out, "background", list.background.value_or(list.palette.background));
+    members(out, "size", glm::ivec2(list.size.width, list.size.height), "background",
+            color_text(list.background.value_or(list.palette.background)));
     out.values("participants", list.agents);
-    write_camera(out, list.projection);
-    rows(out, "disks", sorted(list.disks),
-         [&](const DiskInstance& disk) { write_disk(out, disk, objects, list.projection); });
-    rows(out, "boxes", sorted(list.boxes),
-         [&](const BoxInstance& box) { write_box(out, box, objects, list.projection); });
-    rows(out, "lines", sorted(list.lines), [&](const LineInstance& line) { write_line(out, line, list.projection); });
+    write_camera(out, seen_by);
+    rows(out, "disks", sorted(list.disks), [&](const DiskInstance& disk) { write_disk(out, disk, objects, seen_by); });
+    rows(out, "boxes", sorted(list.boxes), [&](const BoxInstance& box) { write_box(out, box, objects, seen_by); });
+    rows(out, "lines", sorted(list.lines), [&](const LineInstance& line) {
+        members(out, "layer", static_cast<int>(line.order.layer), "from", line.from, "to", line.to, "color",
+                color_text(line.color), "width", line.width, "dash", line.dash, "cap", line.cap, "hidden", line.hidden,
+                "on_screen", on_screen(seen_by, std::array{line.from, line.to}));
+    });
     if (!list.highlights.empty()) {
-        rows(out, "highlights", list.highlights,
-             [&](const HighlightLine& line) { write_highlight(out, line, list.projection); });
+        rows(out, "highlights", list.highlights, [&](const HighlightLine& line) {
+            members(out, "role", name_in(kHighlightRoles, line.role), "from", line.from, "to", line.to, "color",
+                    color_text(line.color), "width", line.width, "on_screen",
+                    on_screen(seen_by, std::array{line.from, line.to}));
+        });
     }
     out.member("headline", list.headline);
     rows(out, "legend", list.legend, [&](const LegendEntry& entry) {
-        out.member("mark", name(entry.mark));
-        color(out, "color", entry.color);
-        out.member("text", entry.text);
+        members(out, "mark", name_in(kLegendMarks, entry.mark), "color", color_text(entry.color), "text", entry.text);
     });
-    rows(out, "overlays", list.overlays, [&](const Overlay& overlay) { write_overlay(out, overlay); });
+    rows(out, "overlays", list.overlays, [&](const Overlay& overlay) {
+        members(out, "name", name_in(kOverlays, overlay.kind), "min", overlay.rect.min, "max", overlay.rect.max,
+                "folded", overlay.folded, "no_room", overlay.no_room, "more", overlay.more.has_value());
+    });
     rows(out, "panels", list.panels, [&](const OverlayPanel& panel) { write_panel(out, panel); });
-    rows(out, "overlay_lines", list.overlay_lines, [&](const OverlayLine& line) { write_overlay_line(out, line); });
+    rows(out, "overlay_lines", list.overlay_lines, [&](const OverlayLine& line) {
+        members(out, "from", line.from, "to", line.to, "color", color_text(line.color), "width", line.width, "dash",
+                line.dash);
+    });
     rows(out, "marks", list.marks, [&](const OverlayPanel& mark) { write_panel(out, mark); });
-    rows(out, "texts", list.texts, [&](const TextRun& text) { write_text(out, text, list.size); });
+    rows(out, "texts", list.texts, [&](const TextRun& text) {
+        members(out, "text", text.text, "role", name_in(kTextRoles, text.role), "at", text.baseline, "size", text.size,
+                "face", text.face == FontFace::mono ? "mono" : "text", "color", color_text(text.color), "on_screen",
+                picture.overlaps(text.box));
+    });
     out.end_object();
 }
 

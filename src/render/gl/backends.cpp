@@ -171,7 +171,7 @@ std::vector<BackendReport> report_backends(const std::function<void(Renderer&)>&
         const auto draw_here = [&] {
             Renderer renderer(row.open());
             draw(renderer);
-            return renderer.version() + '\n' + renderer.device();
+            return renderer.context().version() + '\n' + renderer.context().device();
         };
         try {
             const std::string told = done_in_child(draw_here, kLongest);

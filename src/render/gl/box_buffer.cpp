@@ -24,7 +24,7 @@ void BoxBuffer::keep(const DrawnWorld& world, DrawStatistics& statistics) {
             shape.id[1] = box->id.g();
         }
         shapes.push_back(shape);
-        looks.push_back({box->fill, box->edge, box->dash, glm::vec3(box->width, 0.5f * box->width, kHiddenEdge)});
+        looks.push_back({box->fill, {box->edge, box->dash, {box->width, 0.5f * box->width, kHiddenEdge}}});
         orders_.push_back(box->order);
     }
     if (shapes != shapes_) {

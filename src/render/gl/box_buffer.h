@@ -9,6 +9,14 @@
 
 namespace mobbscope {
 
+/// How a line, or the edges of a box, are drawn.
+struct LineLook {
+    Rgba color;
+    Dash dash;
+    glm::vec3 shape;  ///< width and cap in pixels, opacity kept when hidden
+    friend bool operator==(const LineLook&, const LineLook&) = default;
+};
+
 /// In drawing order. The shapes stay as long as lists have the same; how boxes look may change with every camera.
 class BoxBuffer {
   public:
@@ -20,9 +28,7 @@ class BoxBuffer {
     };
     struct Look {
         Rgba fill;
-        Rgba edge;
-        Dash dash;
-        glm::vec3 line;  ///< width and cap in pixels, opacity kept when hidden
+        LineLook line;
         friend bool operator==(const Look&, const Look&) = default;
     };
 
@@ -32,8 +38,15 @@ class BoxBuffer {
     const std::vector<DrawOrder>& orders() const { return orders_; }
     const std::vector<Look>& looks() const { return looks_; }
     const std::vector<Shape>& shapes() const { return shapes_; }
-    const Buffer& shape_buffer() const { return shape_buffer_; }
-    const Buffer& look_buffer() const { return look_buffer_; }
+
+    /// Describes centres (attribute 0) and extents (1 to 3).
+    VertexLayout<Shape> describe_shapes(InstanceRange range) const {
+        const VertexLayout<Shape> out(shape_buffer_, 1, range);
+        out.floats(0, 3, offsetof(Shape, center));
+        for (GLuint i = 0; i < 3; ++i) out.floats(1 + i, 3, offsetof(Shape, extents) + i * sizeof(glm::vec3));
+        return out;
+    }
+    VertexLayout<Look> looks_from(InstanceRange range) const { return VertexLayout<Look>(look_buffer_, 1, range); }
 
   private:
     std::vector<Shape> shapes_;

@@ -2,10 +2,7 @@
 #include <render/drawlist/pen.h>
 #include <render/drawlist/view_projection.h>
 #include <render/gl/disk_pass.h>
-#include <render/gl/face_pass.h>
 #include <render/gl/gl_objects.h>
-
-#include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <array>
@@ -38,8 +35,7 @@ constexpr GLint kColors = 2;
 
 constexpr float kFlatBlock = 0.15f;        // of its distance: how far a block may reach and still have one scale
 constexpr std::size_t kMostBridged = 512;  // disks beside the picture that are drawn to save a draw call
-constexpr std::size_t kMostSidesAtOnce = std::size_t{1} << 18;  // in one draw call, of all its disks
-constexpr std::size_t kMostInBatch = 32;  // blocks in one draw call: between calls the nearest come first
+constexpr std::size_t kMostInBatch = 32;   // blocks in one draw call: between calls the nearest come first
 
 ColorBytes bytes_of(Rgba color) {
     ColorBytes out;
@@ -86,10 +82,8 @@ bool block_may_be_seen(const DiskBlock& block, const ViewProjection& projection)
 
 }  // namespace
 
-DiskPass::DiskPass(GlContext& context) : program_(context, "disk"), tint_(context, "composite", "tint") {
-    glBindVertexArray(tile_array_.name());
-    glBindBuffer(GL_ARRAY_BUFFER, tiles_.name());
-    VertexLayout(sizeof(Rect), 1).floats(0, 4, 0);
+DiskPass::DiskPass(GlContext& context)
+    : policy_(context.policy()), program_(context, "disk"), tint_(context, "composite", "tint") {
     GLint rows = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &rows);
     most_disks_ = std::min(kMostNumbers - 1, kColorColumns * static_cast<std::size_t>(rows));
@@ -133,7 +127,7 @@ const DiskPass::Cylinder& DiskPass::cylinder(int sides) {
     add_face(false);
     glBindVertexArray(made.array.name());
     upload(made.vertices, vertices);
-    const VertexLayout corner(sizeof(Vertex), 0);
+    const VertexLayout<Vertex> corner(made.vertices, 0);
     corner.floats(0, 4, offsetof(Vertex, corner));
     corner.floats(1, 3, offsetof(Vertex, normal));
     upload(made.indices, indices, GL_ELEMENT_ARRAY_BUFFER);
@@ -183,11 +177,7 @@ void DiskPass::store_colors(DrawStatistics& statistics) {
     const std::size_t rows = (disks.size() + kColorColumns - 1) / kColorColumns;
     std::vector<ColorBytes> colors(rows * kColorColumns);
     std::ranges::transform(disks, colors.begin(), [](const DiskInstance& disk) { return bytes_of(disk.color); });
-    glBindTexture(GL_TEXTURE_2D, colors_.name());
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, kColorColumns, static_cast<GLsizei>(rows), 0, GL_RGBA, GL_UNSIGNED_BYTE,
-                 colors.data());
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    fill_texture(colors_, GL_RGBA8, {kColorColumns, static_cast<int>(rows)}, GL_RGBA, GL_UNSIGNED_BYTE, colors.data());
     statistics.state_bytes += disks.size() * sizeof(ColorBytes);
     has_colors_ = true;
 }
@@ -280,18 +270,14 @@ void DiskPass::draw(const Batch& batch, DrawStatistics& statistics) {
     const Stored& stored = detail_ == Detail::coarse ? store(batch.level, statistics) : store_fine(statistics);
     const Cylinder& shape = cylinder(batch.sides);
     glBindVertexArray(shape.array.name());
-    // OpenGL 3.3 has no first instance: the attributes begin there instead.
-    glBindBuffer(GL_ARRAY_BUFFER, stored.pieces.name());
-    const VertexLayout piece(sizeof(DiskPiece), 1);
-    const std::size_t begin = batch.range.first * sizeof(DiskPiece);
-    piece.floats(2, 4, begin + offsetof(DiskPiece, base));
-    piece.floats(3, 4, begin + offsetof(DiskPiece, top));
-    piece.integers(5, 2, begin + offsetof(DiskPiece, id));
-    piece.floats(6, 3, begin + offsetof(DiskPiece, above));
-    piece.floats(7, 3, begin + offsetof(DiskPiece, below));
-    glUniform1f(program_.uniform("inner"), std::cos(std::numbers::pi_v<float> / static_cast<float>(batch.sides)));
-    glBindBuffer(GL_ARRAY_BUFFER, stored.sources.name());
-    VertexLayout(sizeof(std::uint32_t), 1).integers(4, 1, batch.range.first * sizeof(std::uint32_t));
+    const VertexLayout<DiskPiece> piece(stored.pieces, 1, {batch.range.first});
+    piece.floats(2, 4, offsetof(DiskPiece, base));
+    piece.floats(3, 4, offsetof(DiskPiece, top));
+    piece.integers(5, 2, offsetof(DiskPiece, id));
+    piece.floats(6, 3, offsetof(DiskPiece, above));
+    piece.floats(7, 3, offsetof(DiskPiece, below));
+    VertexLayout<std::uint32_t>(stored.sources, 1, {batch.range.first}).integers(4, 1, 0);
+    program_.set("inner", std::cos(std::numbers::pi_v<float> / static_cast<float>(batch.sides)));
     const std::size_t face = 6 * static_cast<std::size_t>(batch.sides);
     const bool upper = batch.part == Part::side_and_upper_face || batch.part == Part::all;
     const bool lower = batch.part == Part::side_and_lower_face || batch.part == Part::all;
@@ -334,19 +320,16 @@ void DiskPass::begin(const Surfaces& surfaces, DrawStatistics& statistics) {
 bool DiskPass::draw_more(const DrawList& list, std::size_t most, DrawStatistics& statistics) {
     if (undrawn_.empty()) return true;
     program_.use();
-    glUniformMatrix4fv(program_.uniform("clip_from_world"), 1, GL_FALSE,
-                       glm::value_ptr(list.projection.clip_from_world));
-    glUniform3fv(program_.uniform("light"), 1, glm::value_ptr(towards_light(list.projection)));
-    glUniform1f(program_.uniform("scale"), PixelScale(list.projection).near());
+    const ViewProjection& projection = list.projection;
+    program_.set("clip_from_world", projection.clip_from_world);
+    program_.set("light", towards_light(projection));
+    program_.set("scale", PixelScale(projection).near());
     // Without perspective nothing is too near to be drawn.
-    const float near_depth =
-        list.projection.perspective ? list.projection.near_depth : std::numeric_limits<float>::lowest();
-    glUniform1f(program_.uniform("near_depth"), near_depth);
-    glUniform1f(program_.uniform("most_lean"), levels_->most_lean());
-    glUniform3fv(program_.uniform("back"), 1, glm::value_ptr(list.projection.back));
+    program_.set("near_depth", projection.perspective ? projection.near_depth : std::numeric_limits<float>::lowest());
+    program_.set("most_lean", levels_->most_lean());
+    program_.set("back", projection.back);
     // With two corners at the sides the outline is right, however few the others are.
-    const glm::vec2 across = detail_ == Detail::coarse ? glm::vec2(list.projection.right) : glm::vec2(1, 0);
-    glUniform2fv(program_.uniform("across"), 1, glm::value_ptr(across));
+    program_.set("across", detail_ == Detail::coarse ? glm::vec2(projection.right) : glm::vec2(1, 0));
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
@@ -355,11 +338,11 @@ bool DiskPass::draw_more(const DrawList& list, std::size_t most, DrawStatistics&
     while (most > 0 && !undrawn_.empty()) {
         Batch& batch = undrawn_.back();
         Batch now = batch;
-        const std::size_t at_once = std::max<std::size_t>(1, kMostSidesAtOnce / static_cast<std::size_t>(batch.sides));
+        const std::size_t at_once =
+            std::max<std::size_t>(1, policy_.most_sides / static_cast<std::size_t>(batch.sides));
         now.range.count = std::min({now.range.count, most, at_once});
         draw(now, statistics);
-        // Software keeps the corners of a draw call until it is done: of a hundred thousand disks they are gigabytes.
-        if (now.range.count < batch.range.count) glFinish();
+        if (policy_.finishes && now.range.count < batch.range.count) glFinish();
         most -= now.range.count;
         batch.range.first += now.range.count;
         batch.range.count -= now.range.count;
@@ -380,12 +363,12 @@ void DiskPass::tint(const DrawList& list, const Texture& surface, DrawStatistics
     glBindTexture(multisampled ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D, surface.name());
     glActiveTexture(GL_TEXTURE0);
     tint_.use();
-    glUniform1i(tint_.uniform("surfaces"), kSurfaces);
-    glUniform1i(tint_.uniform("surface_samples"), kSurfaceSamples);
-    glUniform1i(tint_.uniform("colors"), kColors);
-    glUniform1i(tint_.uniform("sample_index"), -1);
-    glUniform3fv(tint_.uniform("background"), 1, glm::value_ptr(list.palette.background));
-    glUniform2f(tint_.uniform("viewport"), static_cast<float>(list.size.width), static_cast<float>(list.size.height));
+    tint_.set("surfaces", kSurfaces);
+    tint_.set("surface_samples", kSurfaceSamples);
+    tint_.set("colors", kColors);
+    tint_.set("sample_index", -1);
+    tint_.set("background", glm::vec3(list.palette.background));
+    tint_.set("viewport", list.size);
     std::vector<BoxInstance> around;
     for (const DiskBlock& block : levels_->blocks()) {
         if (!block_may_be_seen(block, list.projection)) continue;
@@ -393,20 +376,16 @@ void DiskPass::tint(const DrawList& list, const Texture& surface, DrawStatistics
         box.center = block.middle;
         for (int axis = 0; axis < 3; ++axis) box.extents[static_cast<std::size_t>(axis)][axis] = block.reach;
     }
-    const std::vector<Rect> tiles = covering_tiles(around, list.projection);
-    glBindVertexArray(tile_array_.name());
-    statistics.overlay_bytes += upload(tiles_, tiles);
+    if (!tiles_.cover(around, list.projection, statistics)) return;
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     if (multisampled) glEnable(GL_SAMPLE_MASK);
     for (GLint sample = 0; sample < std::max(samples, 1); ++sample) {
         if (multisampled) {
             glSampleMaski(0, 1u << sample);
-            glUniform1i(tint_.uniform("sample_index"), sample);
+            tint_.set("sample_index", sample);
         }
-        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(tiles.size()));
-        statistics.triangles += 2 * tiles.size();
-        ++statistics.draw_calls;
+        tiles_.draw(statistics);
     }
     glDisable(GL_SAMPLE_MASK);
 }

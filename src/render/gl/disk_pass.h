@@ -4,6 +4,7 @@
 #include <render/drawlist/draw_list.h>
 #include <render/gl/disk_levels.h>
 #include <render/gl/gl_objects.h>
+#include <render/gl/tiles.h>
 
 #include <map>
 #include <optional>
@@ -76,9 +77,9 @@ class DiskPass {
     std::vector<Batch> coarse_batches(const ViewProjection& projection);
     void draw(const Batch& batch, DrawStatistics& statistics);
 
+    DrawingPolicy policy_;
     ShaderProgram program_, tint_;
-    VertexArray tile_array_;
-    Buffer tiles_;    ///< of the picture, in which disks may be seen
+    Tiles tiles_;     ///< in which disks may be seen
     Texture colors_;  ///< of all disks in drawing order
     bool has_colors_ = false;
     std::size_t most_disks_ = 0;         ///< of one picture

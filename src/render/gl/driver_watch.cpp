@@ -9,7 +9,6 @@
 #include <malloc.h>
 #include <signal.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -79,14 +78,9 @@ pid_t fork_to_watch(Told* told) {
     std::cout.flush();
     std::cerr.flush();
     std::fflush(nullptr);
-    const pid_t parent = ::getpid();
-    const pid_t child = ::fork();
-    if (child != 0) return child;
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    // It may have ended before.
-    if (::getppid() != parent) ::_exit(0);
-    note_crashes(told->crash);
-    return 0;
+    const pid_t child = fork_tied();
+    if (child == 0) note_crashes(told->crash);
+    return child;
 }
 
 /// While it lives, signals that end a program go to the child.

@@ -4,9 +4,7 @@
 #include <render/drawlist/draw_list.h>
 #include <render/gl/box_buffer.h>
 #include <render/gl/gl_objects.h>
-
-#include <span>
-#include <vector>
+#include <render/gl/tiles.h>
 
 namespace mobbscope {
 
@@ -33,12 +31,7 @@ class FacePass {
     ShaderProgram faces_;
     ShaderProgram composite_;
     VertexArray array_;
-    VertexArray tile_array_;
-    Buffer tiles_;
-    GLsizei tile_count_ = 0;
+    Tiles tiles_;
 };
-
-/// Disjoint rectangles in whole pixels, inside the picture, that together cover all these boxes.
-std::vector<Rect> covering_tiles(std::span<const BoxInstance> boxes, const ViewProjection& projection);
 
 }  // namespace mobbscope

@@ -4,7 +4,7 @@
 
 #include <glad/gl.h>
 
-#include <stdexcept>
+#include <utility>
 
 namespace mobbscope {
 
@@ -17,6 +17,12 @@ void GLAD_API_PTR on_message(GLenum /*source*/, GLenum type, GLuint /*id*/, GLen
                              const GLchar* message, const void* context) {
     if (type != GL_DEBUG_TYPE_ERROR) return;
     static_cast<GlContext*>(const_cast<void*>(context))->complain(message);
+}
+
+/// What the current context says of itself; empty if nothing.
+std::string gl_string(GLenum name) {
+    const GLubyte* text = glGetString(name);
+    return text ? reinterpret_cast<const char*>(text) : "";
 }
 
 }  // namespace
@@ -34,9 +40,12 @@ bool GlContext::try_make_current() noexcept {
     loaded = nullptr;
     if (!gladLoadGLUserPtr(load, this) || !GLAD_GL_VERSION_3_3) return false;
     loaded = this;
+    device_ = gl_string(GL_RENDERER);
+    version_ = gl_string(GL_VERSION);
+    policy_ = DrawingPolicy::of(device_);
     if (GLAD_GL_KHR_debug) {
         glEnable(GL_DEBUG_OUTPUT);
-        glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+        if (policy_.errors_at_once) glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
         glDebugMessageCallback(on_message, this);
     }
     return true;
@@ -47,16 +56,25 @@ void GlContext::make_current() {
 }
 
 void GlContext::check(std::string_view doing) {
-    // The callback tells more than the flag, but it may be missing or switched off.
-    const bool told = !complaints_.empty();
-    for (GLenum error = glGetError(); error != GL_NO_ERROR; error = glGetError()) {
-        if (!told) complain("OpenGL error " + std::to_string(error));
+    std::vector<std::string> told;
+    {
+        const std::lock_guard lock(telling_);
+        told.swap(complaints_);
     }
-    if (complaints_.empty()) return;
+    // The driver says more than the number, but it may be late, or silent.
+    const bool silent = told.empty();
+    for (GLenum error = glGetError(); error != GL_NO_ERROR; error = glGetError()) {
+        if (silent) told.push_back("OpenGL error " + std::to_string(error));
+    }
+    if (told.empty()) return;
     std::string text;
-    for (const std::string& complaint : complaints_) text += (text.empty() ? "" : "; ") + complaint;
-    complaints_.clear();
+    for (const std::string& error : told) text += (text.empty() ? "" : "; ") + error;
     throw MachineError(std::string(name()) + ", " + std::string(doing) + ": " + text);
+}
+
+void GlContext::complain(std::string message) {
+    const std::lock_guard lock(telling_);
+    complaints_.push_back(std::move(message));
 }
 
 }  // namespace mobbscope

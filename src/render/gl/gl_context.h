@@ -2,7 +2,10 @@
 /// libGL: each backend's library is opened when it is asked for, and glad takes its functions from there.
 #pragma once
 
+#include <render/gl/drawing_policy.h>
+
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -39,19 +42,26 @@ class GlContext {
     /// The same; throws MachineError if it cannot be done.
     void make_current();
 
-    /// Throws MachineError with all errors of OpenGL since the last call. `doing` says what was under way.
+    // Of a context that was current once.
+    /// What OpenGL calls what draws: "llvmpipe (LLVM 15.0.6, 256 bits)".
+    const std::string& device() const { return device_; }
+    /// Its version of OpenGL, with the driver's where that names it: "3.3 (Core Profile) Mesa 22.3.6".
+    const std::string& version() const { return version_; }
+    /// How pictures are made in it.
+    const DrawingPolicy& policy() const { return policy_; }
+
+    /// Throws MachineError if there was an error of OpenGL since the last call, with what is known of it. `doing` says
+    /// what was under way.
     void check(std::string_view doing);
 
-    /// Notes an error for the next check.
-    void complain(std::string message) { complaints_.push_back(std::move(message)); }
+    /// What the driver says of an error; from any thread.
+    void complain(std::string message);
 
     /// What the shader compiler says of shaders that it takes: no user can do anything about it, tests fail on it.
     void warn(std::string message) { warnings_.push_back(std::move(message)); }
     const std::vector<std::string>& warnings() const { return warnings_; }
 
-  protected:
-    GlContext() = default;
-
+    // What a kind of context is.
     using Function = void (*)();
     /// Makes this the calling thread's context; false if that cannot be done. It need not be OpenGL 3.3: that is
     /// checked.
@@ -59,7 +69,13 @@ class GlContext {
     /// The address of an OpenGL function, or null. Called while the context is current.
     virtual Function function(const char* name) const noexcept = 0;
 
+  protected:
+    GlContext() = default;
+
   private:
+    std::string device_, version_;
+    DrawingPolicy policy_;
+    std::mutex telling_;
     std::vector<std::string> complaints_;
     std::vector<std::string> warnings_;
 };

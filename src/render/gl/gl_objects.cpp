@@ -60,11 +60,6 @@ constexpr GLenum kZero[] = {GL_PACK_SWAP_BYTES,  GL_PACK_LSB_FIRST,    GL_PACK_R
 
 }  // namespace
 
-std::string gl_string(GLenum name) {
-    const GLubyte* text = glGetString(name);
-    return text ? reinterpret_cast<const char*>(text) : "";
-}
-
 ShaderProgram::ShaderProgram(GlContext& context, const std::string& vertex, const std::string& fragment)
     : ShaderProgram(context, fragment, render_assets::embedded(vertex + ".vert"),
                     render_assets::embedded(fragment + ".frag")) {}
@@ -79,12 +74,6 @@ ShaderProgram::ShaderProgram(GlContext& context, const std::string& name, std::s
     glAttachShader(program_.name(), fragment_shader.name());
     glLinkProgram(program_.name());
     judge(context, name, program_.name(), GL_LINK_STATUS, glGetProgramiv, glGetProgramInfoLog);
-}
-
-void ShaderProgram::use() const { glUseProgram(program_.name()); }
-
-GLint ShaderProgram::uniform(const char* uniform_name) const {
-    return glGetUniformLocation(program_.name(), uniform_name);
 }
 
 void reset_state() {
@@ -108,6 +97,16 @@ void reset_state() {
     for (const GLenum zero : kZero) glPixelStorei(zero, 0);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+}
+
+void fill_texture(const Texture& texture, GLenum internal_format, PictureSize size, GLenum format, GLenum type,
+                  const void* pixels) {
+    glBindTexture(GL_TEXTURE_2D, texture.name());
+    glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(internal_format), size.width, size.height, 0, format, type,
+                 pixels);
+    // The default filter wants all levels.
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
 void blend_over() {

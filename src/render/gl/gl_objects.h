@@ -2,8 +2,13 @@
 #pragma once
 
 #include <render/gl/gl_context.h>
+#include <render/image/image.h>
 
 #include <glad/gl.h>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -22,9 +27,6 @@ struct DrawStatistics {
     std::size_t triangles = 0;      ///< that were asked for
     std::size_t draw_calls = 0;
 };
-
-/// What the current context says of itself, as GL_VERSION; empty if nothing.
-std::string gl_string(GLenum name);
 
 /// Owns one OpenGL name; 0 is none.
 template <class Kind>
@@ -82,11 +84,21 @@ class ShaderProgram {
     ShaderProgram(GlContext& context, const std::string& vertex, const std::string& fragment);
     ShaderProgram(GlContext& context, const std::string& name, std::string_view vertex, std::string_view fragment);
 
-    void use() const;
-    /// The uniform's location; -1, which OpenGL ignores, where the compiler dropped it.
-    GLint uniform(const char* uniform_name) const;
+    void use() const { glUseProgram(program_.name()); }
+
+    // Of the program in use; where the compiler dropped the uniform they do nothing.
+    void set(const char* uniform, GLint value) const { glUniform1i(location(uniform), value); }
+    void set(const char* uniform, float value) const { glUniform1f(location(uniform), value); }
+    void set(const char* uniform, glm::vec2 value) const { glUniform2f(location(uniform), value.x, value.y); }
+    void set(const char* uniform, glm::vec3 value) const { glUniform3f(location(uniform), value.x, value.y, value.z); }
+    void set(const char* uniform, const glm::mat4& value) const {
+        glUniformMatrix4fv(location(uniform), 1, GL_FALSE, glm::value_ptr(value));
+    }
+    void set(const char* uniform, PictureSize value) const { set(uniform, glm::vec2(value.width, value.height)); }
 
   private:
+    GLint location(const char* uniform) const { return glGetUniformLocation(program_.name(), uniform); }
+
     GlObject<ProgramKind> program_;
 };
 
@@ -98,30 +110,49 @@ void reset_state();
 /// Colours over what is there, by their opacity. What is there is opaque and stays so.
 void blend_over();
 
-/// Attributes of one buffer, described in order of location while the vertex array and the buffer are bound.
+/// Which elements of a buffer are drawn; OpenGL 3.3 has no first instance: attributes begin there instead.
+struct InstanceRange {
+    std::size_t first = 0;
+    std::size_t step = 1;
+};
+
+/// Attributes of the elements of a buffer, described in order of location while the vertex array is bound. Binds the
+/// buffer.
+template <class Element>
 class VertexLayout {
   public:
-    /// `stride`: bytes from one instance to the next. `divisor`: 1 for instances, 0 for vertices.
-    VertexLayout(std::size_t stride, GLuint divisor) : stride_(static_cast<GLsizei>(stride)), divisor_(divisor) {}
+    /// `divisor`: 1 for instances, 0 for vertices.
+    explicit VertexLayout(const Buffer& buffer, GLuint divisor = 1, InstanceRange range = {})
+        : begin_(range.first * sizeof(Element)),
+          stride_(static_cast<GLsizei>(range.step * sizeof(Element))),
+          divisor_(divisor) {
+        glBindBuffer(GL_ARRAY_BUFFER, buffer.name());
+    }
 
     void floats(GLuint location, GLint count, std::size_t offset) const {
-        glVertexAttribPointer(location, count, GL_FLOAT, GL_FALSE, stride_, reinterpret_cast<const void*>(offset));
+        glVertexAttribPointer(location, count, GL_FLOAT, GL_FALSE, stride_, at(offset));
         enable(location);
     }
     void integers(GLuint location, GLint count, std::size_t offset) const {
-        glVertexAttribIPointer(location, count, GL_UNSIGNED_INT, stride_, reinterpret_cast<const void*>(offset));
+        glVertexAttribIPointer(location, count, GL_UNSIGNED_INT, stride_, at(offset));
         enable(location);
     }
 
   private:
+    const void* at(std::size_t offset) const { return reinterpret_cast<const void*>(begin_ + offset); }
     void enable(GLuint location) const {
         glEnableVertexAttribArray(location);
         glVertexAttribDivisor(location, divisor_);
     }
 
+    std::size_t begin_;
     GLsizei stride_;
     GLuint divisor_;
 };
+
+/// Binds a texture to the active unit and gives it pixels, one level of them and unblended; null: none yet.
+void fill_texture(const Texture& texture, GLenum internal_format, PictureSize size, GLenum format, GLenum type,
+                  const void* pixels);
 
 /// Replaces the contents of a buffer. Returns how many bytes these are.
 template <class T>

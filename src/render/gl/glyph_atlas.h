@@ -19,28 +19,16 @@ struct PlacedGlyph {
 };
 
 struct GlyphAtlas {
-    int width = 0;
-    int height = 0;
+    PictureSize size;
     std::vector<std::uint8_t> coverage;
     std::vector<PlacedGlyph> glyphs;
 };
 
-/// Face, size, code point, and how many quarters of a pixel (0..3) the pen stands to the right.
-using GlyphKey = std::tuple<FontFace, float, char32_t, int>;
+/// Rasterised glyphs by face, size, code point, and how many quarters of a pixel (0..3) the pen stands to the right.
+using KeptGlyphs = std::map<std::tuple<FontFace, float, char32_t, int>, GlyphBitmap>;
 
-/// Rasterised glyphs, kept from picture to picture.
-class GlyphCache {
-  public:
-    /// Valid until the next forget_some.
-    const GlyphBitmap& glyph(const GlyphKey& key);
-    /// Forgets all when they have become many, as they do while a window changes its size.
-    void forget_some();
-
-  private:
-    std::map<GlyphKey, GlyphBitmap> glyphs_;
-};
-
-/// Every glyph stands in it once for each size and quarter of a pixel that it is wanted at.
-GlyphAtlas make_atlas(std::span<const TextRun> texts, GlyphCache& cache);
+/// Every glyph stands in it once for each size and quarter of a pixel that it is wanted at. `kept`: from picture to
+/// picture; all are forgotten when they have become many, as they do while a window changes its size.
+GlyphAtlas make_atlas(std::span<const TextRun> texts, KeptGlyphs& kept);
 
 }  // namespace mobbscope

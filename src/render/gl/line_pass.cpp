@@ -1,8 +1,6 @@
 #include <render/gl/gl_objects.h>
 #include <render/gl/line_pass.h>
 
-#include <glm/gtc/type_ptr.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,9 +10,7 @@ namespace mobbscope {
 struct LinePass::Instance {
     glm::vec3 from;
     glm::vec3 to;
-    Rgba color;
-    Dash dash;
-    glm::vec3 shape;
+    LineLook look;
 };
 
 namespace {
@@ -53,11 +49,12 @@ bool may_be_seen(const BoxBuffer::Shape& box, const ViewProjection& projection) 
     return true;
 }
 
-/// Colour, dash, and width, cap and what is kept when hidden, of lines and of the edges of boxes.
-void describe_look(const VertexLayout& layout, std::size_t color, std::size_t dash, std::size_t line) {
-    layout.floats(kColor, 4, color);
-    layout.floats(kColor + 1, 4, dash);
-    layout.floats(kColor + 2, 3, line);
+/// Of lines and of the edges of boxes.
+template <class Element>
+void describe_look(const VertexLayout<Element>& layout, std::size_t look) {
+    layout.floats(kColor, 4, look + offsetof(LineLook, color));
+    layout.floats(kColor + 1, 4, look + offsetof(LineLook, dash));
+    layout.floats(kColor + 2, 3, look + offsetof(LineLook, shape));
 }
 
 /// How far lines may come forward, in clip space: by a share of their distance from the eye. Where something is drawn
@@ -75,52 +72,31 @@ float most_bias(const ViewProjection& projection) {
 
 LinePass::LinePass(GlContext& context, const BoxBuffer& boxes) : boxes_(boxes), program_(context, "line") {}
 
-/// The attributes of a buffer's lines from the first on, as OpenGL 3.3 has no first instance.
-void LinePass::bind_lines(const Buffer& lines, std::size_t first) {
-    glBindVertexArray(line_array_.name());
-    glBindBuffer(GL_ARRAY_BUFFER, lines.name());
-    const VertexLayout line(sizeof(Instance), 1);
-    const std::size_t begin = first * sizeof(Instance);
-    line.floats(0, 3, begin + offsetof(Instance, from));
-    line.floats(1, 3, begin + offsetof(Instance, to));
-    describe_look(line, begin + offsetof(Instance, color), begin + offsetof(Instance, dash),
-                  begin + offsetof(Instance, shape));
-}
-
-void LinePass::bind_boxes(std::size_t first, std::size_t step) {
-    glBindVertexArray(box_array_.name());
-    glBindBuffer(GL_ARRAY_BUFFER, boxes_.shape_buffer().name());
-    const VertexLayout shape(step * sizeof(BoxBuffer::Shape), 1);
-    const std::size_t begin = first * sizeof(BoxBuffer::Shape);
-    shape.floats(0, 3, begin + offsetof(BoxBuffer::Shape, center));
-    for (GLuint axis = 0; axis < 3; ++axis) {
-        shape.floats(1 + axis, 3, begin + offsetof(BoxBuffer::Shape, extents) + axis * sizeof(glm::vec3));
-    }
-    glBindBuffer(GL_ARRAY_BUFFER, boxes_.look_buffer().name());
-    const std::size_t look = first * sizeof(BoxBuffer::Look);
-    describe_look(VertexLayout(step * sizeof(BoxBuffer::Look), 1), look + offsetof(BoxBuffer::Look, edge),
-                  look + offsetof(BoxBuffer::Look, dash), look + offsetof(BoxBuffer::Look, line));
-}
-
 void LinePass::begin(const glm::mat4& clip_from_world, PictureSize size) {
     program_.use();
-    glUniformMatrix4fv(program_.uniform("clip_from_world"), 1, GL_FALSE, glm::value_ptr(clip_from_world));
-    glUniform2f(program_.uniform("viewport"), static_cast<float>(size.width), static_cast<float>(size.height));
-    glUniform1i(program_.uniform("hidden"), 0);
-    glUniform1f(program_.uniform("depth_bias"), 0);
+    program_.set("clip_from_world", clip_from_world);
+    program_.set("viewport", size);
+    program_.set("hidden", 0);
+    program_.set("depth_bias", 0.0f);
     blend_over();
     glDepthMask(GL_FALSE);
 }
 
 void LinePass::draw(const Batch& batch, const Buffer& lines, DrawStatistics& statistics) {
-    glUniform1i(program_.uniform("edges"), batch.of_boxes);
-    const std::size_t drawn = (batch.count + batch.step - 1) / batch.step;
+    program_.set("edges", batch.of_boxes);
+    const std::size_t drawn = (batch.count + batch.range.step - 1) / batch.range.step;
     const GLsizei count = static_cast<GLsizei>(drawn);
     if (batch.of_boxes) {
-        bind_boxes(batch.first, batch.step);
+        glBindVertexArray(box_array_.name());
+        boxes_.describe_shapes(batch.range);
+        describe_look(boxes_.looks_from(batch.range), offsetof(BoxBuffer::Look, line));
         glDrawArraysInstanced(GL_TRIANGLES, 0, 72, count);
     } else {
-        bind_lines(lines, batch.first);
+        glBindVertexArray(line_array_.name());
+        const VertexLayout<Instance> line(lines, 1, batch.range);
+        line.floats(0, 3, offsetof(Instance, from));
+        line.floats(1, 3, offsetof(Instance, to));
+        describe_look(line, offsetof(Instance, look));
         glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
     }
     statistics.triangles += (batch.of_boxes ? 24 : 2) * drawn;
@@ -133,14 +109,14 @@ std::vector<LinePass::Batch> LinePass::batches(const DrawList& list, const std::
     std::vector<Batch> out;
     const auto add = [&](bool of_boxes, std::size_t index) {
         const bool goes_on = !out.empty() && out.back().of_boxes == of_boxes &&
-                             index <= out.back().first + out.back().count + kDrawnAlong;
-        if (!goes_on) out.push_back({of_boxes, index, 0});
-        out.back().count = index + 1 - out.back().first;
+                             index <= out.back().range.first + out.back().count + kDrawnAlong;
+        if (!goes_on) out.push_back({of_boxes, 0, {index}});
+        out.back().count = index + 1 - out.back().range.first;
     };
     std::size_t line = 0;
     std::size_t seen = 0;
     for (std::size_t box = 0; box < boxes_.size(); ++box) {
-        if (boxes_.looks()[box].edge.a <= 0 || !may_be_seen(boxes_.shapes()[box], list.projection)) continue;
+        if (boxes_.looks()[box].line.color.a <= 0 || !may_be_seen(boxes_.shapes()[box], list.projection)) continue;
         ++seen;
         while (line < lines.size() && !(boxes_.orders()[box] < lines[line]->order)) add(false, line++);
         add(true, box);
@@ -148,7 +124,7 @@ std::vector<LinePass::Batch> LinePass::batches(const DrawList& list, const std::
     while (line < lines.size()) add(false, line++);
     if (seen > most_boxes) {
         for (Batch& batch : out) {
-            if (batch.of_boxes) batch.step = (seen + most_boxes - 1) / most_boxes;
+            if (batch.of_boxes) batch.range.step = (seen + most_boxes - 1) / most_boxes;
         }
     }
     return out;
@@ -162,24 +138,23 @@ void LinePass::draw_scene(const DrawList& list, std::size_t most_boxes, DrawStat
     instances.reserve(lines.size());
     bool some_show_through = std::any_of(all.begin(), all.end(), [](const Batch& batch) { return batch.of_boxes; });
     for (const LineInstance* line : lines) {
-        instances.push_back(
-            {line->from, line->to, line->color, line->dash, glm::vec3(line->width, line->cap, line->hidden)});
+        instances.push_back({line->from, line->to, {line->color, line->dash, {line->width, line->cap, line->hidden}}});
         some_show_through = some_show_through || line->hidden > 0;
     }
     statistics.overlay_bytes += upload(scene_lines_, instances);
     begin(list.projection.clip_from_world, list.size);
     // Edges touch the disks that they bound; they lie in front of them, and the same edge must not be taken for hidden.
-    glUniform1f(program_.uniform("depth_bias"), 8e-4f);
-    glUniform1f(program_.uniform("most_bias"), most_bias(list.projection));
+    program_.set("depth_bias", 8e-4f);
+    program_.set("most_bias", most_bias(list.projection));
     glEnable(GL_DEPTH_TEST);
     const auto draw_all = [&] {
         for (const Batch& batch : all) draw(batch, scene_lines_, statistics);
     };
     if (some_show_through) {
         glDepthFunc(GL_GREATER);
-        glUniform1i(program_.uniform("hidden"), 1);
+        program_.set("hidden", 1);
         draw_all();
-        glUniform1i(program_.uniform("hidden"), 0);
+        program_.set("hidden", 0);
     }
     glDepthFunc(GL_LEQUAL);
     draw_all();
@@ -190,7 +165,7 @@ void LinePass::draw_highlights(const DrawList& list, DrawStatistics& statistics)
     std::vector<Instance> instances;
     instances.reserve(list.highlights.size());
     for (const HighlightLine& line : list.highlights) {
-        instances.push_back({line.from, line.to, line.color, kSolid, glm::vec3(line.width, 0, 0)});
+        instances.push_back({line.from, line.to, {line.color, kSolid, {line.width, 0, 0}}});
     }
     statistics.overlay_bytes += upload(highlights_, instances);
     // The depths of the picture are the world's, and what is pointed out may lie before or beyond it: only what the eye
@@ -200,14 +175,14 @@ void LinePass::draw_highlights(const DrawList& list, DrawStatistics& statistics)
     if (list.projection.perspective) flat[3][2] = -list.projection.near_depth;
     begin(flat, list.size);
     glDisable(GL_DEPTH_TEST);
-    draw({false, 0, instances.size()}, highlights_, statistics);
+    draw({false, instances.size()}, highlights_, statistics);
 }
 
 void LinePass::keep_overlay(const DrawnOverlay& overlay, DrawStatistics& statistics) {
     std::vector<Instance> instances;
     for (const OverlayLine& line : overlay.overlay_lines) {
         instances.push_back(
-            {glm::vec3(line.from, 0), glm::vec3(line.to, 0), line.color, line.dash, glm::vec3(line.width, 0, 0)});
+            {glm::vec3(line.from, 0), glm::vec3(line.to, 0), {line.color, line.dash, {line.width, 0, 0}}});
     }
     overlay_count_ = instances.size();
     if (overlay_count_ > 0) statistics.overlay_bytes += upload(overlay_lines_, instances);
@@ -221,7 +196,7 @@ void LinePass::draw_overlay(PictureSize size, DrawStatistics& statistics) {
     pixels[3] = {-1, 1, 0, 1};
     begin(pixels, size);
     glDisable(GL_DEPTH_TEST);
-    draw({false, 0, overlay_count_}, overlay_lines_, statistics);
+    draw({false, overlay_count_}, overlay_lines_, statistics);
 }
 
 }  // namespace mobbscope

@@ -28,19 +28,17 @@ class LinePass {
 
   private:
     struct Instance;
-    /// Successive lines, or boxes whose edges are drawn; of `count` every `step`-th.
+    /// Successive lines, or boxes whose edges are drawn; `count` before steps leave some out.
     struct Batch {
         bool of_boxes = false;
-        std::size_t first = 0, count = 0;
-        std::size_t step = 1;
+        std::size_t count = 0;
+        InstanceRange range{};
     };
     void begin(const glm::mat4& clip_from_world, PictureSize size);
     std::vector<Batch> batches(const DrawList& list, const std::vector<const LineInstance*>& lines,
                                std::size_t most_boxes) const;
     /// `lines`: what a batch of lines is of.
     void draw(const Batch& batch, const Buffer& lines, DrawStatistics& statistics);
-    void bind_lines(const Buffer& lines, std::size_t first);
-    void bind_boxes(std::size_t first, std::size_t step);
 
     const BoxBuffer& boxes_;
     ShaderProgram program_;

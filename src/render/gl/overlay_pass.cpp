@@ -28,11 +28,7 @@ void OverlayPass::keep(const DrawnOverlay& overlay, DrawStatistics& statistics) 
         const GlyphAtlas atlas = make_atlas(overlay.texts, glyphs_);
         statistics.overlay_bytes += atlas.coverage.size();
         glActiveTexture(GL_TEXTURE0);
-        glBindTexture(GL_TEXTURE_2D, atlas_.name());
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, atlas.width, atlas.height, 0, GL_RED, GL_UNSIGNED_BYTE,
-                     atlas.coverage.data());
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        fill_texture(atlas_, GL_R8, atlas.size, GL_RED, GL_UNSIGNED_BYTE, atlas.coverage.data());
         for (const PlacedGlyph& glyph : atlas.glyphs) {
             instances.push_back({glyph.rect, glyph.color, Rgba(0), glm::vec2(0), glyph.texel});
         }
@@ -48,19 +44,17 @@ void OverlayPass::draw_texts(PictureSize size, DrawStatistics& statistics) { dra
 void OverlayPass::draw(std::size_t first, std::size_t end, PictureSize size, DrawStatistics& statistics) {
     if (first == end) return;
     glBindVertexArray(array_.name());
-    glBindBuffer(GL_ARRAY_BUFFER, instances_.name());
-    const VertexLayout item(sizeof(Instance), 1);
-    const std::size_t begin = first * sizeof(Instance);
-    item.floats(0, 4, begin + offsetof(Instance, rect));
-    item.floats(1, 4, begin + offsetof(Instance, fill));
-    item.floats(2, 4, begin + offsetof(Instance, border));
-    item.floats(3, 2, begin + offsetof(Instance, corner));
-    item.floats(4, 2, begin + offsetof(Instance, texel));
+    const VertexLayout<Instance> item(instances_, 1, {first});
+    item.floats(0, 4, offsetof(Instance, rect));
+    item.floats(1, 4, offsetof(Instance, fill));
+    item.floats(2, 4, offsetof(Instance, border));
+    item.floats(3, 2, offsetof(Instance, corner));
+    item.floats(4, 2, offsetof(Instance, texel));
     glDisable(GL_DEPTH_TEST);
     blend_over();
     program_.use();
-    glUniform2f(program_.uniform("viewport"), static_cast<float>(size.width), static_cast<float>(size.height));
-    glUniform1i(program_.uniform("atlas"), 0);
+    program_.set("viewport", size);
+    program_.set("atlas", 0);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, atlas_.name());
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(end - first));

@@ -28,7 +28,7 @@ class OverlayPass {
     Buffer instances_;  ///< panels, then marks and glyphs
     std::size_t panels_ = 0, all_ = 0;
     Texture atlas_;
-    GlyphCache glyphs_;
+    KeptGlyphs glyphs_;
 };
 
 }  // namespace mobbscope

@@ -30,15 +30,6 @@ void flip_rows(std::vector<T>& values, int width, int height, int per_pixel) {
     }
 }
 
-/// By the names of Mesa's, Google's and Microsoft's software renderers.
-bool draws_in_software(std::string_view device) {
-    for (const char* software :
-         {"llvmpipe", "softpipe", "swrast", "Software Rasterizer", "SwiftShader", "SWR", "GDI"}) {
-        if (device.find(software) != std::string_view::npos) return true;
-    }
-    return false;
-}
-
 Rgba ground_of(const DrawList& list) { return list.background.value_or(list.palette.background); }
 
 bool is_seen_through(const DrawList& list) { return ground_of(list).a < 1; }
@@ -47,23 +38,12 @@ Rgba opaque_ground_of(const DrawList& list) {
     return is_seen_through(list) ? list.palette.background : ground_of(list);
 }
 
-/// What `draw_on` gives of a ground; where the background is seen through, of two: what is drawn covers each pixel as
-/// much as it hides their difference.
-template <class DrawOn>
-Image on_its_background(const DrawList& list, const DrawOn& draw_on) {
-    if (!is_seen_through(list)) return draw_on(ground_of(list));
-    const Rgba ground = list.palette.background;
-    const Rgba other = list.palette.dark ? Rgba(1) : Rgba(0, 0, 0, 1);
-    const Image on_ground = draw_on(ground);
-    return with_transparent_background({on_ground, ground}, {draw_on(other), other}, *list.background);
-}
-
 // Of a picture that is painted in parts.
 constexpr std::size_t kDisksAtFirst = 32;
 constexpr double kPartSeconds = 0.01;
 
+constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 // Whose edges are drawn; of a coarse picture they would take longer than all else.
-constexpr std::size_t kAllBoxes = std::numeric_limits<std::size_t>::max();
 constexpr std::size_t kMostBoxesCoarse = 1000;
 
 std::unique_ptr<GlContext> made_current(std::unique_ptr<GlContext> context) {
@@ -77,9 +57,6 @@ std::unique_ptr<GlContext> made_current(std::unique_ptr<GlContext> context) {
 struct Renderer::State {
     explicit State(std::unique_ptr<GlContext> drawn_in)
         : context(made_current(std::move(drawn_in))),
-          device(gl_string(GL_RENDERER)),
-          version(gl_string(GL_VERSION)),
-          software(draws_in_software(device)),
           disks(*context),
           faces(*context, boxes),
           lines(*context, boxes),
@@ -105,37 +82,59 @@ struct Renderer::State {
     struct Canvas {
         std::optional<Targets> targets;
         std::optional<DiskPass::Surfaces> surfaces;  ///< that the targets have
-
-        void prepare(PictureSize size, int samples) {
-            if (targets && targets->size() == size && targets->samples() == samples) return;
-            targets.reset();
-            targets.emplace(size, samples);
-            surfaces.reset();
-        }
+        int samples = 0;                             ///< that were asked for
     };
+
+    /// Whether a picture may have fewer samples than were asked for, where memory lacks.
+    enum class Fewer { allowed, refused };
+
+    void prepare(Canvas& canvas, PictureSize size, int samples, Fewer fewer) {
+        if (canvas.targets && canvas.targets->size() == size && canvas.samples == samples &&
+            (fewer == Fewer::allowed || canvas.targets->samples() == samples))
+            return;
+        canvas = {std::nullopt, std::nullopt, samples};
+        context->check("drawing");
+        try {
+            canvas.targets.emplace(size, samples);
+        } catch (const LacksMemory&) {
+            if (samples == 1) throw;
+            const std::string lacks = "this OpenGL (" + std::string(context->name()) + ") lacks memory for " +
+                                      std::to_string(samples) + " samples of each pixel: ";
+            if (fewer == Fewer::refused) throw MachineError(lacks + "take fewer, or make the picture smaller");
+            prepare(canvas, size, 1, Fewer::refused);
+            canvas.samples = samples;
+            notice = lacks + "edges are less smooth";
+        }
+    }
 
     /// What is left of a picture that is painted in parts.
     enum class Part { disks, colors, faces, lines, words };
     struct Work {
-        const DrawList* list = nullptr;
-        Canvas* canvas = nullptr;
-        Rgba ground{0};
+        Revision of;
+        Canvas* canvas;
+        Rgba ground;
         Part next = Part::disks;
         std::size_t disks_at_once = kDisksAtFirst;
+        std::size_t most_boxes = kAll;
     };
 
     DiskPass::Surfaces surfaces_of(const DrawList& list, int samples) {
         return disks.surfaces(list, samples > 1 ? Detail::fine : Detail::coarse);
     }
 
-    /// Which disks are seen where is the dearest part of a picture. Where the one before had the same, of whatever
-    /// colours, it is taken from that: a query's steps and a time cursor move through them.
-    void begin_disks(Work& on, const DrawList& list) {
-        Canvas& canvas = *on.canvas;
+    /// Into the result's framebuffer, on a ground that is taken for opaque. Which disks are seen where is the dearest
+    /// part of a picture. Where the one before had the same, of whatever colours, it is taken from that: a query's
+    /// steps and a time cursor move through them.
+    void begin_paint(const DrawList& list, Canvas& canvas, int samples, Rgba ground, Fewer fewer) {
+        begin(list.size);
+        check_samples(samples);
+        prepare(canvas, list.size, samples, fewer);
+        boxes.keep(list, statistics);
+        work.emplace(Work{list.revision, &canvas, ground});
         surfaces = surfaces_of(list, canvas.targets->samples());
         disks.begin(surfaces, statistics);
         if (canvas.surfaces == surfaces) {
-            on.next = Part::colors;
+            work->next = Part::colors;
             return;
         }
         canvas.surfaces.reset();
@@ -144,20 +143,8 @@ struct Renderer::State {
         glClearDepth(1);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     }
-
-    /// At most so many.
-    void draw_disks(Work& on, const DrawList& list, std::size_t most) {
-        glBindFramebuffer(GL_FRAMEBUFFER, on.canvas->targets->surfaces().name());
-        if (!disks.draw_more(list, most, statistics)) return;
-        on.canvas->surfaces = surfaces;
-        on.next = Part::colors;
-    }
-
-    void draw_colors(const Canvas& canvas, const DrawList& list, Rgba ground) {
-        glBindFramebuffer(GL_FRAMEBUFFER, canvas.targets->scene().name());
-        glClearColor(ground.r, ground.g, ground.b, 1);
-        glClear(GL_COLOR_BUFFER_BIT);
-        if (!canvas.surfaces->batches.empty()) disks.tint(list, canvas.targets->surface(), statistics);
+    void begin_paint(const DrawList& list, int samples, Rgba ground, Fewer fewer) {
+        begin_paint(list, samples > 1 ? fine : coarse, samples, ground, fewer);
     }
 
     void draw_faces(const Targets& targets, const DrawList& list) {
@@ -169,27 +156,21 @@ struct Renderer::State {
         faces.composite(targets.sums(), targets.weights(), list.size, statistics);
     }
 
-    /// Into the result's framebuffer, on a ground that is taken for opaque.
-    void begin_paint(const DrawList& list, int samples, Rgba ground) {
-        begin(list.size);
-        check_samples(samples);
-        Canvas& canvas = samples > 1 ? fine : coarse;
-        canvas.prepare(list.size, samples);
-        boxes.keep(list, statistics);
-        work = Work{&list, &canvas, ground};
-        begin_disks(*work, list);
-    }
-
     /// Draws the next part; true once the picture stands.
     bool draw_part(const DrawList& list, std::size_t most_disks) {
-        const Targets& targets = *work->canvas->targets;
-        glBindFramebuffer(GL_FRAMEBUFFER, targets.scene().name());
+        Canvas& canvas = *work->canvas;
+        const Targets& targets = *canvas.targets;
+        glBindFramebuffer(GL_FRAMEBUFFER, (work->next == Part::disks ? targets.surfaces() : targets.scene()).name());
         switch (work->next) {
             case Part::disks:
-                draw_disks(*work, list, most_disks);
+                if (!disks.draw_more(list, most_disks, statistics)) return false;
+                canvas.surfaces = surfaces;
+                work->next = Part::colors;
                 return false;
             case Part::colors:
-                draw_colors(*work->canvas, list, work->ground);
+                glClearColor(work->ground.r, work->ground.g, work->ground.b, 1);
+                glClear(GL_COLOR_BUFFER_BIT);
+                if (!canvas.surfaces->batches.empty()) disks.tint(list, targets.surface(), statistics);
                 work->next = Part::faces;
                 return false;
             case Part::faces:
@@ -197,35 +178,36 @@ struct Renderer::State {
                 work->next = Part::lines;
                 return false;
             case Part::lines:
-                lines.draw_scene(list, kAllBoxes, statistics);
+                lines.draw_scene(list, work->most_boxes, statistics);
                 work->next = Part::words;
                 return false;
             case Part::words:
-                keep_words(list);
+                overlay.keep(list, statistics);
+                lines.keep_overlay(list, statistics);
                 finish(targets, list);
-                painted = {&list, work->canvas};
+                painted = {list.revision, &canvas};
                 work.reset();
-                return true;
         }
         return true;
     }
 
-    void paint(const DrawList& list, int samples, Rgba ground) {
-        begin_paint(list, samples, ground);
-        while (!draw_part(list, std::numeric_limits<std::size_t>::max())) {
+    void paint(const DrawList& list, int samples, Rgba ground, Fewer fewer) {
+        begin_paint(list, samples, ground, fewer);
+        while (!draw_part(list, kAll)) {
         }
     }
 
-    /// For about so long; whether the picture stands.
+    /// For about so long, where the policy has slices; whether the picture stands.
     bool go_on(const DrawList& list, const PaintPace& pace) {
         resume(list.size);
+        const DrawingPolicy& policy = context->policy();
         const double end = pace.clock() + pace.seconds;
         for (;;) {
             const double begun = pace.clock();
             const bool disks_drawn = work->next == Part::disks;
-            if (draw_part(list, work->disks_at_once)) return true;
-            // What was drawn is done when it is asked for, and its time is known then.
-            glFinish();
+            if (draw_part(list, policy.slices ? work->disks_at_once : kAll)) return true;
+            if (!policy.slices) continue;
+            if (policy.finishes) glFinish();
             const double now = pace.clock();
             if (disks_drawn && now - begun < kPartSeconds / 2) work->disks_at_once *= 2;
             if (disks_drawn && now - begun > kPartSeconds)
@@ -235,49 +217,38 @@ struct Renderer::State {
     }
 
     /// Disks and faces on fewer pixels; lines and words, which are narrow, on all.
-    void paint_coarse(const DrawList& list, int divisor, Rgba ground) {
+    void paint_coarse(const DrawList& list, int divisor, Rgba ground, Fewer fewer) {
+        if (divisor == 1) return paint(list, 1, ground, fewer);
         const auto part = [&](int side) { return (side + divisor - 1) / divisor; };
         DrawList small;
         static_cast<PictureFrame&>(small) = static_cast<const PictureFrame&>(list);
         static_cast<DrawnWorld&>(small) = static_cast<const DrawnWorld&>(list);
         small.palette = list.palette;
         small.size = small.projection.size = {part(list.size.width), part(list.size.height)};
-        begin(small.size);
-        low.prepare(small.size, 1);
-        boxes.keep(small, statistics);
-        Work on{&small, &low, ground};
-        begin_disks(on, small);
-        if (on.next == Part::disks) draw_disks(on, small, std::numeric_limits<std::size_t>::max());
-        draw_colors(low, small, ground);
-        glBindFramebuffer(GL_FRAMEBUFFER, low.targets->scene().name());
-        draw_faces(*low.targets, small);
+        begin_paint(small, low, 1, ground, fewer);
+        while (work->next != Part::lines) draw_part(small, kAll);
 
         resume(list.size);
-        coarse.prepare(list.size, 1);
+        prepare(coarse, list.size, 1, fewer);
         coarse.surfaces.reset();
         coarse.targets->enlarge(*low.targets);
-        glBindFramebuffer(GL_FRAMEBUFFER, coarse.targets->scene().name());
-        lines.draw_scene(list, kMostBoxesCoarse, statistics);
-        keep_words(list);
-        finish(*coarse.targets, list);
-        painted = {&list, &coarse};
+        work->canvas = &coarse;
+        work->most_boxes = kMostBoxesCoarse;
+        while (!draw_part(list, kAll)) {
+        }
     }
 
     /// Whether the targets have the scene of a list by itself, without what lies over it.
     bool has_scene(const DrawList& list, int samples) const {
-        return painted.list == &list && samples > 1 && painted.canvas->targets->samples() == samples;
+        return painted.of == list.revision && painted.canvas->samples == samples &&
+               painted.canvas->targets->samples() > 1;
     }
 
     bool has_disks(const DrawList& list, int samples) {
         work.reset();
         const Canvas& canvas = samples > 1 ? fine : coarse;
-        return canvas.targets && canvas.targets->size() == list.size && canvas.targets->samples() == samples &&
-               canvas.surfaces == surfaces_of(list, samples);
-    }
-
-    void keep_words(const DrawList& list) {
-        overlay.keep(list, statistics);
-        lines.keep_overlay(list, statistics);
+        return canvas.targets && canvas.targets->size() == list.size && canvas.samples == samples &&
+               canvas.surfaces == surfaces_of(list, canvas.targets->samples());
     }
 
     /// The picture out of the scene in the targets, its highlights and its words.
@@ -292,15 +263,27 @@ struct Renderer::State {
         note_drawn();
     }
 
-    /// What was painted last.
-    Image read_back(const DrawList& list) {
-        Image image(list.size.width, list.size.height);
-        glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
-        context->check("reading the picture");
-        flip_rows(image.rgba, image.width, image.height, 4);
-        painted = {};
-        return image;
+    /// What `paint_on` makes of a ground, read back; where the background is seen through, of two: what is drawn covers
+    /// each pixel as much as it hides their difference.
+    template <class PaintOn>
+    Image drawn(const DrawList& list, const PaintOn& paint_on) {
+        const auto draw_on = [&](Rgba ground) {
+            paint_on(ground);
+            Image image(list.size.width, list.size.height);
+            glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+            context->check("reading the picture");
+            flip_rows(image.rgba, image.width, image.height, 4);
+            painted = {};
+            return image;
+        };
+        if (!is_seen_through(list)) return draw_on(ground_of(list));
+        const Rgba ground = list.palette.background;
+        const Rgba other = list.palette.dark ? Rgba(1) : Rgba(0, 0, 0, 1);
+        const Image on_ground = draw_on(ground);
+        return with_transparent_background({on_ground, ground}, {draw_on(other), other}, *list.background);
     }
+
+    const Texture& picture() const { return painted.canvas->targets->picture(); }
 
     void check_samples(int samples) const {
         GLint most = 1;
@@ -314,13 +297,11 @@ struct Renderer::State {
     }
 
     std::unique_ptr<GlContext> context;
-    std::string device;
-    std::string version;
-    bool software;
+    std::string notice;
     DrawStatistics statistics;
-    /// What stands where: the list by its address alone; null after a picture was read back.
+    /// What stands where; of nothing after a picture was read back.
     struct Painted {
-        const DrawList* list = nullptr;
+        Revision of;
         Canvas* canvas = nullptr;
     };
     Painted painted;
@@ -345,19 +326,13 @@ Renderer::~Renderer() {
     static_cast<void>(state_.release());
 }
 
-std::string_view Renderer::backend() const { return state_->context->name(); }
-
-const std::string& Renderer::device() const { return state_->device; }
-
-const std::string& Renderer::version() const { return state_->version; }
-
 const DrawStatistics& Renderer::statistics() const { return state_->statistics; }
 
 GlContext& Renderer::context() { return *state_->context; }
 
-bool Renderer::is_software() const { return state_->software; }
+const GlContext& Renderer::context() const { return *state_->context; }
 
-const std::vector<std::string>& Renderer::warnings() const { return state_->context->warnings(); }
+const std::string& Renderer::notice() const { return state_->notice; }
 
 void Renderer::check_samples(int samples) {
     state_->context->make_current();
@@ -365,27 +340,28 @@ void Renderer::check_samples(int samples) {
 }
 
 const Texture& Renderer::paint(const DrawList& list, int samples) {
-    state_->paint(list, samples, opaque_ground_of(list));
-    return state_->painted.canvas->targets->picture();
+    state_->paint(list, samples, opaque_ground_of(list), State::Fewer::allowed);
+    return state_->picture();
 }
 
 const Texture& Renderer::paint_coarse(const DrawList& list, int divisor) {
-    if (divisor == 1) return paint(list, 1);
-    state_->paint_coarse(list, divisor, opaque_ground_of(list));
-    return state_->painted.canvas->targets->picture();
+    state_->paint_coarse(list, divisor, opaque_ground_of(list), State::Fewer::allowed);
+    return state_->picture();
 }
 
 void Renderer::begin_paint(const DrawList& list, int samples) {
-    state_->begin_paint(list, samples, opaque_ground_of(list));
+    state_->begin_paint(list, samples, opaque_ground_of(list), State::Fewer::allowed);
 }
 
-bool Renderer::is_painting(const DrawList& list) const { return state_->work && state_->work->list == &list; }
+bool Renderer::is_painting(const DrawList& list) const { return state_->work && state_->work->of == list.revision; }
 
 const Texture* Renderer::paint_more(const DrawList& list, const PaintPace& pace) {
-    return state_->go_on(list, pace) ? &state_->painted.canvas->targets->picture() : nullptr;
+    return state_->go_on(list, pace) ? &state_->picture() : nullptr;
 }
 
-void Renderer::wait() const { glFinish(); }
+void Renderer::wait() const {
+    if (state_->context->policy().finishes) glFinish();
+}
 
 bool Renderer::has_scene(const DrawList& list, int samples) const { return state_->has_scene(list, samples); }
 
@@ -397,22 +373,16 @@ const Texture& Renderer::paint_highlights(const DrawList& list, int samples) {
     state_->begin(list.size);
     state_->finish(*painted.canvas->targets, list);
     state_->painted = painted;
-    return painted.canvas->targets->picture();
+    return state_->picture();
 }
 
 Image Renderer::draw(const DrawList& list, int samples) {
-    return on_its_background(list, [&](Rgba ground) {
-        state_->paint(list, samples, ground);
-        return state_->read_back(list);
-    });
+    return state_->drawn(list, [&](Rgba ground) { state_->paint(list, samples, ground, State::Fewer::refused); });
 }
 
 Image Renderer::draw_coarse(const DrawList& list, int divisor) {
-    if (divisor == 1) return draw(list, 1);
-    return on_its_background(list, [&](Rgba ground) {
-        state_->paint_coarse(list, divisor, ground);
-        return state_->read_back(list);
-    });
+    return state_->drawn(list,
+                         [&](Rgba ground) { state_->paint_coarse(list, divisor, ground, State::Fewer::refused); });
 }
 
 IdImage Renderer::draw_ids(const DrawList& list) {

@@ -11,7 +11,6 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace mobbscope {
 
@@ -33,43 +32,39 @@ class Renderer {
     ~Renderer();
 
     /// The name of the context in use: "osmesa", "egl", or "window".
-    std::string_view backend() const;
-    /// What OpenGL calls what draws: "llvmpipe (LLVM 15.0.6, 256 bits)".
-    const std::string& device() const;
-    /// Its version of OpenGL, with the driver's where that names it: "3.3 (Core Profile) Mesa 22.3.6".
-    const std::string& version() const;
+    std::string_view backend() const { return context().name(); }
     /// For what else draws in it.
     GlContext& context();
-    /// Whether the processor draws, by the device's name. Then multisampling is dear.
-    bool is_software() const;
+    const GlContext& context() const;
 
     /// What the last picture took; of one that is seen through the second half.
     const DrawStatistics& statistics() const;
 
-    /// What the shader compiler remarked.
-    const std::vector<std::string>& warnings() const;
+    /// What a person is to be told of the pictures that were painted: that they have fewer samples, as memory lacks.
+    /// Empty: nothing.
+    const std::string& notice() const;
 
     /// Throws MachineError, saying the most it can, if the context cannot draw so many samples per pixel.
     void check_samples(int samples);
 
     /// Draws without reading back. `samples` per pixel of the scene (>= 1; 1 is no multisampling, and its cost). The
     /// texture is RGBA8 of the list's size, opaque, its first row the lowest; it holds the picture until the next paint
-    /// or draw. A background that is seen through is drawn as the palette's. Throws MachineError if OpenGL reports an
-    /// error or cannot do the samples.
+    /// or draw. A background that is seen through is drawn as the palette's. Where memory lacks for so many samples it
+    /// has one, and `notice` says so. Throws MachineError if OpenGL reports an error or cannot do the samples.
     const Texture& paint(const DrawList& list, int samples);
 
     /// As paint with one sample, but for disks and faces, which are drawn on every `divisor`-th (>= 1) pixel across and
     /// down, and enlarged.
     const Texture& paint_coarse(const DrawList& list, int divisor);
 
-    /// As paint, in parts: paint_more goes on for about so long, and returns the picture once it stands, else null.
-    /// Until then the list stays as it is, but for its highlights; another picture ends it.
+    /// As paint, in parts, where the policy has slices: paint_more goes on for about so long, and returns the picture
+    /// once it stands, else null. Until then the list stays as it is, but for its highlights; another picture ends it.
     void begin_paint(const DrawList& list, int samples);
     const Texture* paint_more(const DrawList& list, const PaintPace& pace);
     /// Whether paint_more may be called.
     bool is_painting(const DrawList& list) const;
 
-    /// Until all that was drawn stands.
+    /// Until all that was drawn stands, where the policy finishes.
     void wait() const;
 
     /// Whether paint_highlights has less to do than paint.
@@ -83,7 +78,8 @@ class Renderer {
     /// picture and is multisampled, the highlights' lines are all that is uploaded and drawn of the scene.
     const Texture& paint_highlights(const DrawList& list, int samples);
 
-    /// Paints and reads back; has alpha if the list's background is seen through. Throws MachineError as paint does.
+    /// Paints and reads back; has alpha if the list's background is seen through. Throws MachineError as paint does,
+    /// and where memory lacks for the samples.
     Image draw(const DrawList& list, int samples = kPictureSamples);
 
     /// As draw with one sample, but as paint_coarse has it: a preview. `divisor` >= 1; 1 is draw with one sample.

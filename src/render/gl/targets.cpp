@@ -1,7 +1,5 @@
 #include <render/gl/targets.h>
 
-#include <base/error.h>
-
 #include <array>
 
 namespace mobbscope {
@@ -20,12 +18,7 @@ void attach_renderbuffer(const Renderbuffer& buffer, GLenum attachment, GLenum f
 
 void attach_texture(const Texture& texture, GLenum attachment, GLenum internal_format, GLenum format,
                     PictureSize size) {
-    glBindTexture(GL_TEXTURE_2D, texture.name());
-    glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(internal_format), size.width, size.height, 0, format, GL_FLOAT,
-                 nullptr);
-    // One level: another filter than the default one, which wants them all, makes the texture complete.
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    fill_texture(texture, internal_format, size, format, GL_FLOAT, nullptr);
     glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture.name(), 0);
 }
 
@@ -38,9 +31,9 @@ void attach_samples(const Texture& texture, GLenum attachment, GLenum internal_f
 }
 
 void require_complete(const char* what) {
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+    if (glGetError() == GL_OUT_OF_MEMORY) throw LacksMemory();
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         throw MachineError(std::string("this OpenGL cannot draw into ") + what);
-    }
 }
 
 void blit(const Framebuffer& from, const Framebuffer& to, PictureSize size, GLbitfield what) {

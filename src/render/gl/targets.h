@@ -1,16 +1,24 @@
 /// The framebuffers that a picture is made in.
 #pragma once
 
+#include <base/error.h>
 #include <render/gl/gl_objects.h>
 #include <render/image/image.h>
 
 namespace mobbscope {
 
+/// OpenGL has too little memory for a framebuffer.
+class LacksMemory : public MachineError {
+  public:
+    LacksMemory() : MachineError("this OpenGL lacks memory for a picture of this size: make it smaller") {}
+};
+
 /// Framebuffers of one size and number of samples. Without multisampling the scene is drawn straight into the result,
 /// and the faces use its depth.
 class Targets {
   public:
-    /// `samples`: of the scene's framebuffer, 1 (no multisampling) or more.
+    /// `samples`: of the scene's framebuffer, 1 (no multisampling) or more. Throws LacksMemory, or MachineError if this
+    /// OpenGL cannot draw so.
     Targets(PictureSize size, int samples);
 
     PictureSize size() const { return size_; }

@@ -251,25 +251,17 @@ Image heat_map(const Image& reference, std::span<const std::int16_t> differences
 
 void write_diff(JsonWriter& out, const ImageDiff& diff) {
     out.begin_object();
-    out.member("same", diff.same);
-    out.member("passes", diff.passes);
-    out.member("same_size", diff.same_size);
+    out.members("same", diff.same, "passes", diff.passes, "same_size", diff.same_size);
     write_size(out, "size_a", diff.actual_size);
     write_size(out, "size_b", diff.reference_size);
-    out.member("pixels", diff.pixels);
-    out.member("unequal", diff.unequal);
-    out.member("failing", diff.differing);
-    out.member("fraction", diff.fraction());
-    out.member("maximum", diff.largest);
-    out.member("mean", diff.mean);
+    out.members("pixels", diff.pixels, "unequal", diff.unequal, "failing", diff.differing);
+    out.members("fraction", diff.fraction(), "maximum", diff.largest, "mean", diff.mean);
     write_bounds(out, "unequal_bounds", diff.unequal_bounds);
     write_bounds(out, "bounds", diff.bounds);
     out.values("histogram", diff.histogram);
-    out.member("threshold", diff.options.channel_tolerance);
-    out.member("allowed", diff.options.pixel_fraction);
-    out.member("least_pixels", diff.options.least_pixels);
-    out.member("allowed_pixels", diff.allowed());
-    out.member("shift", diff.options.shift);
+    const DiffOptions& options = diff.options;
+    out.members("threshold", options.channel_tolerance, "allowed", options.pixel_fraction);
+    out.members("least_pixels", options.least_pixels, "allowed_pixels", diff.allowed(), "shift", options.shift);
     out.end_object();
 }
 

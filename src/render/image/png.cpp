@@ -9,8 +9,6 @@
 #include <csetjmp>
 #include <cstring>
 #include <new>
-#include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 

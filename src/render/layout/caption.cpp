@@ -1,5 +1,4 @@
 #include <base/text.h>
-#include <explain/query_progress.h>
 #include <explain/query_sentence.h>
 #include <render/layout/annotations.h>
 #include <render/layout/caption.h>
@@ -79,9 +78,7 @@ Caption scene_caption(const FittedScene& fitted, std::span<const DrawnAgent> age
     Caption caption;
     caption.title = fitted.scene().file.empty() ? "scene" : fitted.scene().file.stem().string();
     caption.headlines = {caption.title};
-    if (view.boxes) {
-        caption.detail = fit_words(fitted.options()) + kDot + boxes_text(agents, view.levels);
-    }
+    if (view.boxes) caption.detail = fit_words(fitted.options()) + kDot + boxes_text(agents, view.levels);
     if (!names_fit(shown_count(agents)) && !is_in_grid(fitted.scene(), view)) {
         const std::string left_out = std::to_string(shown_count(agents)) +
                                      (fitted.scene().agents.empty() ? " clips" : " agents") + ", unnamed here";

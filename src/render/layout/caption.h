@@ -2,7 +2,6 @@
 #pragma once
 
 #include <render/drawlist/draw_list.h>
-#include <render/drawlist/picture_options.h>
 #include <scene/drawn_agent.h>
 
 #include <span>

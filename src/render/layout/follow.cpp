@@ -7,12 +7,10 @@
 #include <scene/crowd_scene.h>
 #include <scene/drawn_agent.h>
 #include <scene/motion_graph.h>
-#include <scene/view_state.h>
 
 #include <glm/common.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -94,7 +92,7 @@ Camera framing_followed(const FittedScene& fitted, const ViewState& view, const 
 bool can_follow(const Scene& scene, const std::string& name) {
     if (scene.crowd) return run_agent_by_name(*scene.crowd, name).has_value();
     const std::vector<PlacedAgent> all = placed_agents(scene);
-    return std::any_of(all.begin(), all.end(), [&](const PlacedAgent& who) { return who.name == name; });
+    return std::ranges::find(all, name, &PlacedAgent::name) != all.end();
 }
 
 }  // namespace mobbscope

@@ -1,12 +1,9 @@
-#include <render/drawlist/camera.h>
-#include <render/drawlist/draw_list.h>
 #include <render/layout/framing.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -114,9 +111,7 @@ Camera turning_camera(const Camera& camera, const ShownPoints& points, const Dra
     const glm::dvec3 middle = middle_of(points);
     const double reach = reach_around(points, middle);
     const double high = static_cast<double>(points.most({0, 0, 1})) - middle.z;
-    double top = 0;
-    double bottom = 0;
-    double sides = 0;
+    double top = 0, bottom = 0, sides = 0;
     for (const double height : {-high, high}) {
         top = std::max(top, height * (cosine / half_y + near * sine) + reach * std::abs(near * cosine - sine / half_y));
         bottom = std::max(bottom,

@@ -3,7 +3,6 @@
 #include <render/layout/legend.h>
 #include <render/parts/node_boxes.h>
 #include <render/parts/paths.h>
-#include <render/query/query_boxes.h>
 #include <render/text/labels.h>
 
 #include <glm/common.hpp>

@@ -43,7 +43,6 @@ struct PanelSpacing {
     }
 };
 
-/// A panel and how it is shown.
 struct Place {
     Rect rect;
     bool open = false;
@@ -61,10 +60,8 @@ Rect in_corner(const Rect& area, glm::vec2 corner, glm::vec2 size) {
 std::vector<LegendEntry> shown_rows(std::span<const LegendEntry> all, std::size_t most) {
     std::vector<LegendEntry> out(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(most, all.size())));
     if (out.size() == all.size()) return out;
-    LegendEntry rest;
-    rest.mark = LegendEntry::Mark::remark;
-    rest.text = "and " + std::to_string(all.size() - out.size()) + " more";
-    out.push_back(rest);
+    const std::string rest = "and " + std::to_string(all.size() - out.size()) + " more";
+    out.push_back({.mark = LegendEntry::Mark::remark, .text = rest});
     return out;
 }
 
@@ -121,9 +118,7 @@ class OverlayLayout {
             const float room = area_.size().x - (map_ ? map_->rect.size().x + spacing_.gap : 0);
             caption_ = folded(title, {0, 0}, room, !view_.fold_caption, dot);
         }
-        if (!contents_.legend.empty()) {
-            legend_ = folded("Legend", {0, 1}, area_.size().x, !view_.fold_legend, false);
-        }
+        if (!contents_.legend.empty()) legend_ = folded("Legend", {0, 1}, area_.size().x, !view_.fold_legend, false);
     }
 
     bool is_free(const Rect& rect, std::initializer_list<const std::optional<Place>*> others) const {

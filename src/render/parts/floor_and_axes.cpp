@@ -2,7 +2,6 @@
 #include <mobb/traversal.h>
 #include <render/drawlist/pen.h>
 #include <render/parts/floor_and_axes.h>
-#include <render/text/labels.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -65,20 +64,11 @@ constexpr float kMapSide = 128;  // pixels at scale 1, of the longer side
 }  // namespace
 
 FloorExtent floor_extent_of(glm::dvec3 min, glm::dvec3 max) {
-    FloorExtent floor_extent;
-    const double wide = std::max({max.x - min.x, max.y - min.y, 1e-6});
-    floor_extent.step = nice_step(wide, kCells);
-    const auto below = [&](double v) { return std::floor(v / floor_extent.step - 1e-6) * floor_extent.step; };
-    const auto above = [&](double v) { return std::ceil(v / floor_extent.step + 1e-6) * floor_extent.step; };
-    floor_extent.x0 = below(min.x);
-    floor_extent.y0 = below(min.y);
-    floor_extent.x1 = above(max.x);
-    floor_extent.y1 = above(max.y);
-    floor_extent.lowest = min.z;
-    floor_extent.t0 = min.z;
-    floor_extent.t1 = max.z;
-    floor_extent.time_step = nice_step(std::max(max.z - min.z, 1e-6), kTicks);
-    return floor_extent;
+    const double step = nice_step(std::max({max.x - min.x, max.y - min.y, 1e-6}), kCells);
+    const double time_step = nice_step(std::max(max.z - min.z, 1e-6), kTicks);
+    const auto below = [&](double v) { return std::floor(v / step - 1e-6) * step; };
+    const auto above = [&](double v) { return std::ceil(v / step + 1e-6) * step; };
+    return {below(min.x), above(max.x), below(min.y), above(max.y), step, min.z, max.z, min.z, time_step};
 }
 
 std::vector<glm::vec3> floor_corners(const FloorExtent& s, const DrawnSpace& space) {
@@ -237,13 +227,9 @@ std::vector<LabelRequest> floor_and_axis_labels(const DrawList& list, const Floo
 
 FloorExtent floor_stage(glm::dvec2 area, double begin, double end) {
     const glm::dvec2 half = 0.5 * area;
-    FloorExtent floor_extent = floor_extent_of({-half.x, -half.y, begin}, {half.x, half.y, end});
+    const FloorExtent grid = floor_extent_of({-half.x, -half.y, begin}, {half.x, half.y, end});
     // The floor ends at its walls, wherever the grid has a line.
-    floor_extent.x0 = -half.x;
-    floor_extent.x1 = half.x;
-    floor_extent.y0 = -half.y;
-    floor_extent.y1 = half.y;
-    return floor_extent;
+    return {-half.x, half.x, -half.y, half.y, grid.step, grid.t0, grid.t1, grid.lowest, grid.time_step};
 }
 
 void add_walls(DrawList& list, glm::dvec2 area, double bottom, double top, float scale) {

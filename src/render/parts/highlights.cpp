@@ -107,8 +107,7 @@ std::string names_of(std::span<const DrawnAgent> agents) {
 }
 
 const DrawnAgent& agent_named(std::span<const DrawnAgent> agents, const std::string& name) {
-    const auto is_it = [&](const DrawnAgent& agent) { return agent.name == name; };
-    const auto found = std::find_if(agents.begin(), agents.end(), is_it);
+    const auto found = std::ranges::find(agents, name, &DrawnAgent::name);
     if (found == agents.end()) {
         throw std::invalid_argument("the picture is not of an agent " + in_quotes(name) + ": it is of " +
                                     names_of(agents));

@@ -1,5 +1,4 @@
 #include <mobb/separation.h>
-#include <render/drawlist/draw_list.h>
 #include <render/parts/node_boxes.h>
 
 #include <glm/common.hpp>
@@ -30,8 +29,7 @@ class InkMap {
 
     /// The mean along the box's edges: 1 where edges could cover everything.
     float around(const BoxInstance& box, const ViewProjection& projection) {
-        float sum = 0;
-        float run = 0;
+        float sum = 0, run = 0;
         each_place(box, projection, [&](float& cell, float length) {
             sum += cell * length;
             run += length;

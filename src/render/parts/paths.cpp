@@ -30,6 +30,38 @@ std::int64_t order_index(const DrawnAgent& agent, int sample) {
     return (static_cast<std::int64_t>(agent.index) << 32) + sample;
 }
 
+/// What the ring around a disk is drawn around.
+struct RingPlace {
+    mobb::Disk disk;
+    double time = 0;
+};
+
+RingPlace ring_place(const mobb::PlacedClip& clip, int sample, double time) {
+    // One that stays looks the same all along: the ring lies around its middle.
+    if (!clip.is_linear()) time = 0.5 * (clip.time(sample) + clip.time(sample + 1));
+    return {mobb::swept(clip, sample).at(time), time};
+}
+
+struct RingLine {
+    Rgba color;
+    float width;
+    float radius;  ///< in those of the disk
+    int order;     ///< later ones lie above
+    int pieces = 48;
+};
+
+void add_ring(DrawList& list, const DrawnAgent& agent, int sample, const RingPlace& place, const RingLine& ring) {
+    const mobb::Disk& disk = place.disk;
+    const double radius = disk.r * static_cast<double>(ring.radius);
+    const auto point = [&](int i) {
+        const glm::dvec2 rim = glm::dvec2(disk.x, disk.y) + radius * on_circle<double>(i, ring.pieces);
+        return list.space.point(rim.x, rim.y, place.time);
+    };
+    const auto index = (static_cast<std::int64_t>(agent.index) << 40) + sample * ring.pieces;
+    Pen(list, {DrawLayer::rings, ring.order, index})
+        .path(ring.pieces, point, {.color = ring.color, .width = ring.width, .hidden = 1, .cap = 0.3f * ring.width});
+}
+
 }  // namespace
 
 Rgba line_color_of(const DrawnAgent& agent, const Palette& palette) {
@@ -111,42 +143,6 @@ void add_floor_trace(DrawList& list, const DrawnAgent& agent, mobb::SampleRange 
     Pen(list, {DrawLayer::surroundings, 1, order_index(agent, range.first + 1)})
         .joined_path(range.first, range.end() - 1, on_floor, too_short, {color, width});
 }
-
-namespace {
-
-/// What the ring around a disk is drawn around.
-struct RingPlace {
-    mobb::Disk disk;
-    double time = 0;
-};
-
-RingPlace ring_place(const mobb::PlacedClip& clip, int sample, double time) {
-    // One that stays looks the same all along: the ring lies around its middle.
-    if (!clip.is_linear()) time = 0.5 * (clip.time(sample) + clip.time(sample + 1));
-    return {mobb::swept(clip, sample).at(time), time};
-}
-
-struct RingLine {
-    Rgba color;
-    float width;
-    float radius;  ///< in those of the disk
-    int order;     ///< later ones lie above
-    int pieces = 48;
-};
-
-void add_ring(DrawList& list, const DrawnAgent& agent, int sample, const RingPlace& place, const RingLine& ring) {
-    const mobb::Disk& disk = place.disk;
-    const double radius = disk.r * static_cast<double>(ring.radius);
-    const auto point = [&](int i) {
-        const glm::dvec2 rim = glm::dvec2(disk.x, disk.y) + radius * on_circle<double>(i, ring.pieces);
-        return list.space.point(rim.x, rim.y, place.time);
-    };
-    const auto index = (static_cast<std::int64_t>(agent.index) << 40) + sample * ring.pieces;
-    Pen(list, {DrawLayer::rings, ring.order, index})
-        .path(ring.pieces, point, {.color = ring.color, .width = ring.width, .hidden = 1, .cap = 0.3f * ring.width});
-}
-
-}  // namespace
 
 void add_cursor_ring(DrawList& list, const DrawnAgent& agent, int sample, double time, float scale, int pieces) {
     const RingPlace place = ring_place(agent.clip(), sample, time);

@@ -1,4 +1,3 @@
-#include <explain/query_progress.h>
 #include <mobb/query.h>
 #include <render/drawlist/pen.h>
 #include <render/parts/node_boxes.h>

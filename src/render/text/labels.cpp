@@ -32,15 +32,9 @@ float line_height(FontFace face, float size) {
 
 TextRun text_at(TextRole role, const std::string& text, FontFace face, float size, Rgba color, glm::vec2 corner) {
     const Font& font = Font::of(face);
-    TextRun run;
-    run.text = text;
-    run.role = role;
-    run.face = face;
-    run.size = size;
-    run.color = color;
-    run.baseline = {corner.x, std::round(corner.y + font.ascent(size))};
-    run.box = {corner, corner + glm::vec2(font.width(text, size), line_height(face, size))};
-    return run;
+    const glm::vec2 baseline(corner.x, std::round(corner.y + font.ascent(size)));
+    const Rect box{corner, corner + glm::vec2(font.width(text, size), line_height(face, size))};
+    return {.text = text, .role = role, .face = face, .size = size, .baseline = baseline, .color = color, .box = box};
 }
 
 LabelLayout::LabelLayout(PictureSize size)

@@ -2,7 +2,7 @@
 #include <render/image/png.h>
 #include <support/temp_folder.h>
 
-#include "app/three_cases.h"
+#include "review/three_cases.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

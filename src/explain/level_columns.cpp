@@ -1,0 +1,37 @@
+#include <base/text.h>
+#include <explain/level_columns.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace mobbscope {
+
+namespace {
+
+struct LevelUnit {
+    std::string_view column;
+    const char* behind = "";
+    double in_unit = 1;  ///< the figure times this is what is shown
+};
+
+constexpr std::array kLevelUnits{LevelUnit{"volume", " m^2*s"}, LevelUnit{"tightness", " %", 100}};
+
+LevelUnit unit_of(const mobb::LevelColumn& column) {
+    const auto* const at = std::ranges::find(kLevelUnits, column.name, &LevelUnit::column);
+    return at == kLevelUnits.end() ? LevelUnit{column.name} : *at;
+}
+
+}  // namespace
+
+std::string level_unit(const mobb::LevelColumn& column) { return unit_of(column).behind; }
+
+std::string level_text(const mobb::LevelColumn& column, const mobb::LevelFigures& figures) {
+    const std::optional<double> value = column.of(figures);
+    if (!value) return "-";
+    return column.whole ? std::to_string(static_cast<std::int64_t>(*value)) : brief(*value * unit_of(column).in_unit);
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,127 @@
+/// The recursion of random queries: every event in one pair, children inside their parents, counts that add up.
+#include <explain/recursion.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <tuple>
+
+#include "explain/random_query.h"
+
+namespace mobbscope {
+namespace {
+
+using mobb::Outcome;
+using mobb::TestKind;
+using mobb::Trace;
+using mobb::test::Random;
+
+bool inside(const mobb::Interval& inner, const mobb::Interval& outer) {
+    return outer.t0 <= inner.t0 && inner.t1 <= outer.t1;
+}
+
+/// Whether any event below a pair's last one in the tree of calls is a hit, by the parents alone.
+bool leads_to_hit(const Trace& trace, int event) {
+    for (int hit = 0; hit < trace.size(); ++hit) {
+        if (trace[hit].outcome != Outcome::hit) continue;
+        for (int at = hit; at >= 0; at = trace[at].parent) {
+            if (at == event) return true;
+        }
+    }
+    return false;
+}
+
+TEST(Recursion, HoldsEveryEventOnceAndChildrenInsideParents) {
+    Random random(5);
+    int hits = 0;
+    int deep = 0;
+    for (int round = 0; round < 300; ++round) {
+        const testing::RandomQuery asked = testing::random_query(random);
+        const Recursion found = recursion_of(asked.trace, asked.a(), asked.b());
+        ASSERT_EQ(found.pair_of.size(), static_cast<std::size_t>(asked.trace.size()));
+        int events = 0;
+        std::set<std::tuple<int, int>> nodes;
+        for (std::size_t k = 0; k < found.pairs.size(); ++k) {
+            const RecursionPair& pair = found.pairs[k];
+            EXPECT_TRUE(nodes.insert({pair.a, pair.b}).second) << "a pair of nodes is visited once";
+            events += pair.last - pair.first + 1;
+            for (int e = pair.first; e <= pair.last; ++e) {
+                EXPECT_EQ(found.pair_of[static_cast<std::size_t>(e)], static_cast<int>(k));
+                EXPECT_EQ(asked.trace[e].a, pair.a);
+                EXPECT_EQ(asked.trace[e].b, pair.b);
+                EXPECT_EQ(asked.trace[e].depth, pair.depth);
+            }
+            EXPECT_EQ(pair.outcome, asked.trace[pair.last].outcome);
+            EXPECT_GE(pair.end, pair.last + 1);
+            EXPECT_LT(pair.depth, found.depth);
+            if (pair.parent < 0) {
+                EXPECT_EQ(k, 0u);
+                EXPECT_EQ(pair.end, asked.trace.size());
+                continue;
+            }
+            const RecursionPair& above = found.pairs[static_cast<std::size_t>(pair.parent)];
+            EXPECT_EQ(above.depth + 1, pair.depth);
+            EXPECT_GT(pair.first, above.last);
+            EXPECT_LE(pair.end, above.end);
+            EXPECT_TRUE(inside(pair.time_a, above.time_a));
+            EXPECT_TRUE(inside(pair.time_b, above.time_b));
+            deep += pair.depth > 3;
+        }
+        EXPECT_EQ(events, asked.trace.size());
+        EXPECT_EQ(found.total().tests, asked.trace.counts());
+        hits += !found.pairs.empty() && found.pairs[0].hit;
+    }
+    EXPECT_GT(hits, 50);
+    EXPECT_GT(deep, 100);
+}
+
+TEST(Recursion, CountsWhatHadBeenCountedAtEachStep) {
+    Random random(6);
+    std::int64_t wasted_in_all = 0;
+    int needed_in_all = 0;
+    for (int round = 0; round < 60; ++round) {
+        const testing::RandomQuery asked = testing::random_query(random);
+        if (asked.trace.size() > 400) continue;
+        const Recursion found = recursion_of(asked.trace, asked.a(), asked.b());
+        for (int step = 0; step < asked.trace.size(); ++step) {
+            Trace part;
+            std::int64_t wasted = 0;
+            for (int e = 0; e <= step; ++e) {
+                const Trace::Event event = asked.trace[e];
+                part.push(event);
+                const bool overlap = event.test.is_box() && event.outcome == Outcome::overlap;
+                if (!overlap) continue;
+                // Done when the next event belongs to no pair below it.
+                bool done = true;
+                if (step + 1 < asked.trace.size()) {
+                    int next = asked.trace[step + 1].parent;
+                    while (next > e) next = asked.trace[next].parent;
+                    done = next != e;
+                    if (asked.trace[step + 1].a == event.a && asked.trace[step + 1].b == event.b) done = false;
+                }
+                const bool needed = leads_to_hit(asked.trace, e) ||
+                                    (e + 1 < asked.trace.size() && asked.trace[e + 1].outcome == Outcome::hit &&
+                                     asked.trace[e + 1].a == event.a && asked.trace[e + 1].b == event.b);
+                needed_in_all += needed;
+                if (done && !needed) ++wasted;
+            }
+            const StepCounts& counts = found.so_far[static_cast<std::size_t>(step)];
+            ASSERT_EQ(counts.tests, part.counts()) << round << ' ' << step;
+            ASSERT_EQ(counts.wasted, wasted) << round << ' ' << step;
+        }
+        wasted_in_all += found.total().wasted;
+    }
+    EXPECT_GT(wasted_in_all, 50);
+    EXPECT_GT(needed_in_all, 50);
+}
+
+TEST(Recursion, OfAnEmptyTraceIsEmpty) {
+    Random random(7);
+    const testing::RandomQuery asked = testing::random_query(random);
+    const Recursion found = recursion_of(Trace(), asked.a(), asked.b());
+    EXPECT_TRUE(found.pairs.empty());
+    EXPECT_EQ(found.depth, 0);
+    EXPECT_EQ(found.total().wasted, 0);
+}
+
+}  // namespace
+}  // namespace mobbscope
