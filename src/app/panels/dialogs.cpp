@@ -17,14 +17,14 @@ namespace mobbscope::app {
 namespace {
 
 void answer(Ui& ui, Files::Unsaved choice) {
-    ui.session.queue.push([&session = ui.session, choice] { session.files.answer_unsaved(choice); });
+    ui.later([choice](Files& files) { files.answer_unsaved(choice); });
 }
 
 void unsaved(Ui& ui) {
     begin_dialog(ui, "unsaved", {440, 150});
     dialog_title(ui, "Save the changes?");
     ImGui::TextWrapped("%s has changes that are not saved. They are lost if you go on without saving.",
-                       ui.session.workspace.title().c_str());
+                       ui.workspace.title().c_str());
     ImGui::Dummy({0, ui.px(6)});
     if (marked_button(ui, "Save", "unsaved.save", true) || pressed(ImGuiKey_Enter)) {
         answer(ui, Files::Unsaved::save);
@@ -44,11 +44,10 @@ void unsaved(Ui& ui) {
 /// Files were dropped while something is open.
 void dropped(Ui& ui) {
     constexpr std::size_t kMostNames = 6;
-    Session& session = ui.session;
-    const std::vector<std::filesystem::path>& files = session.dialogs.input.files;
+    const std::vector<std::filesystem::path>& files = ui.session.dialogs.input.files;
     begin_dialog(ui, "dropped", {480, 150 + 22 * static_cast<float>(std::min(files.size(), kMostNames + 1))});
     dialog_title(ui,
-                 session.files.may_add() ? "Add to this scene, or open instead?" : "Open in place of what is open?");
+                 ui.session.files.may_add() ? "Add to this scene, or open instead?" : "Open in place of what is open?");
     for (std::size_t i = 0; i < std::min(files.size(), kMostNames); ++i) {
         ImGui::TextUnformatted(fitted_text(own_name(files[i]), ImGui::GetContentRegionAvail().x).c_str());
     }
@@ -57,12 +56,12 @@ void dropped(Ui& ui) {
     }
     ImGui::Dummy({0, ui.px(6)});
     const auto answer = [&](const char* command) {
-        session.queue.push([&session, command, argument = as_argument(files)] {
+        ui.later([command, argument = as_argument(files)](Session& session) {
             session.dialogs.close();
             run_command(session, command, argument);
         });
     };
-    if (!session.files.may_add()) {
+    if (!ui.session.files.may_add()) {
         if (marked_button(ui, "Open instead", "dropped.open", true) || pressed(ImGuiKey_Enter)) answer("file.open");
     } else {
         if (marked_button(ui, "Add", "dropped.add", true) || pressed(ImGuiKey_Enter)) answer("file.add");
@@ -70,10 +69,10 @@ void dropped(Ui& ui) {
         if (marked_button(ui, "Open instead", "dropped.open") || pressed(Key::o)) answer("file.open");
     }
     ImGui::SameLine();
-    if (marked_button(ui, "Cancel", "dropped.cancel")) session.queue.push([&session] { session.dialogs.close(); });
+    if (marked_button(ui, "Cancel", "dropped.cancel")) ui.later(&Dialogs::close);
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextDisabled(!session.files.may_add() ? "Enter or Escape" : "Enter, O or Escape");
+    ImGui::TextDisabled(!ui.session.files.may_add() ? "Enter or Escape" : "Enter, O or Escape");
     end_dialog();
 }
 
@@ -99,8 +98,7 @@ constexpr std::array<std::pair<Dialog, Draw>, 14> kDrawn{
 }  // namespace
 
 void dialogs(Ui& ui) {
-    Session& session = ui.session;
-    const Dialog now = session.dialogs.now;
+    const Dialog now = ui.session.dialogs.now;
     if (now == Dialog::none) return;
     // Of lists and fields in a dialog Escape closes these first.
     const BeforeEscape before = row_of(now).before_escape;
@@ -109,7 +107,7 @@ void dialogs(Ui& ui) {
     std::ranges::find(kDrawn, now, &std::pair<Dialog, Draw>::first)->second(ui);
     // A field in it that is typed into is left first.
     const bool typing = ui.field.typing || in_popup || in_text;
-    if (pressed(ImGuiKey_Escape) && !typing) session.queue.push([&session] { session.dialogs.close(); });
+    if (pressed(ImGuiKey_Escape) && !typing) ui.later(&Dialogs::close);
 }
 
 void about(Ui& ui) {

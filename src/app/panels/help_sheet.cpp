@@ -214,15 +214,14 @@ bool move_over_lines(int& picked, const std::vector<Line>& lines) {
 std::span<const std::pair<const char*, const char*>> mouse_help() { return kMouse; }
 
 void help_sheet(Ui& ui) {
-    Session& session = ui.session;
-    DialogInput& input = session.dialogs.input;
+    DialogInput& input = ui.session.dialogs.input;
     begin_dialog(ui, "help", {980, 680});
     dialog_title(ui, "Help");
     const FieldEvents events = text_field(ui, "Search commands and keys");
     ui.mark("help.search");
     ImGui::Dummy({0, ui.px(2)});
     const bool searched = !words_of(input.text).empty();
-    const std::vector<Line> lines = searched ? lines_with(session, input.text) : all_lines(session);
+    const std::vector<Line> lines = searched ? lines_with(ui.session, input.text) : all_lines(ui.session);
     const bool moved = move_over_lines(input.picked, lines);
     const HelpColumns columns = help_columns(ui, lines);
     ImGui::BeginChild(searched ? "found" : "lines", {0, -ImGui::GetFrameHeightWithSpacing() - ui.px(4)});
@@ -242,9 +241,10 @@ void help_sheet(Ui& ui) {
         input.fresh = true;
     }
     if (taken >= 0 && taken < static_cast<int>(lines.size())) {
-        if (const Command* command = lines[static_cast<std::size_t>(taken)].command) run_from_help(session, *command);
+        if (const Command* command = lines[static_cast<std::size_t>(taken)].command)
+            run_from_help(ui.session, *command);
     }
-    if (marked_button(ui, "Close", "help.close")) session.queue.push([&session] { session.dialogs.close(); });
+    if (marked_button(ui, "Close", "help.close")) ui.later(&Dialogs::close);
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("Up and Down go through the list; Enter does what is picked.");

@@ -53,7 +53,7 @@ void search(Ui& ui, float left, float right) {
     const float x = std::max(left + gap, std::min(middle - width / 2, right - gap - width));
     const float height = ImGui::GetFrameHeight() - ui.px(4);
     ImGui::SetCursorPos({x, ui.px(2)});
-    if (ImGui::InvisibleButton("##search", {width, height})) invoke(ui.session, "go.palette");
+    if (ImGui::InvisibleButton("##search", {width, height})) ui.invoke("go.palette");
     ui.mark_only("menu.search");
     const ImVec2 min = ImGui::GetItemRectMin();
     const ImVec2 max = ImGui::GetItemRectMax();
@@ -76,10 +76,9 @@ void search(Ui& ui, float left, float right) {
 /// The file's name between two places, at the right, with a dot when it is not saved; returns where it begins. A long
 /// name loses its end.
 float file_title(Ui& ui, float left, float right) {
-    const Session& session = ui.session;
-    const std::string title = session.shown_title();
+    const std::string title = ui.session.shown_title();
     const float pad = ui.px(12);
-    const bool modified = session.shows_unsaved();
+    const bool modified = ui.session.shows_unsaved();
     const float dot = modified ? ui.px(14) : 0;
     const float room = right - left - 2 * pad - dot;
     const float width = std::min(ImGui::CalcTextSize(title.c_str()).x, std::max(room, ui.px(40)));
@@ -91,7 +90,7 @@ float file_title(Ui& ui, float left, float right) {
     ImGui::InvisibleButton("##title", {width + dot, ImGui::GetFrameHeight()});
     ui.mark_only("menu.title");
     if (ImGui::IsItemHovered()) {
-        const std::string file = session.workspace.file && !session.screen ? session.workspace.file->string() : title;
+        const std::string file = ui.workspace.file && !ui.session.screen ? ui.workspace.file->string() : title;
         ImGui::SetTooltip("%s%s", file.c_str(), modified ? "\nnot saved" : "");
     }
     draw.PushClipRect({x, 0}, {x + width, 2 * middle}, true);

@@ -33,13 +33,11 @@ float splitter(Ui& ui, const char* name, ImVec2 size, bool upright) {
 template <class Draw>
 void panel(Ui& ui, std::string_view called, ImVec2 size, const Draw& draw) {
     const std::string name(called);
-    const Session& session = ui.session;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), ui.px(5)});
-    ImGui::BeginChild((session.workspace.in_excerpt() ? name + " of excerpt" : name).c_str(), size, false,
+    ImGui::BeginChild((ui.workspace.in_excerpt() ? name + " of excerpt" : name).c_str(), size, false,
                       ImGuiWindowFlags_AlwaysUseWindowPadding);
     int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("opening"));
-    if (std::exchange(shown, session.workspace.document().opening) != session.workspace.document().opening)
-        ImGui::SetScrollY(0);
+    if (std::exchange(shown, ui.workspace.document().opening) != ui.workspace.document().opening) ImGui::SetScrollY(0);
     ui.focus.panel(name);
     draw();
     ImGui::EndChild();
@@ -134,14 +132,14 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     spacing();
     panel(ui, screen ? panels[2].name : "right", {right, room.y}, [&] {
         if (screen) return panels[2].draw(ui);
-        if (is_crowd(ui.session.workspace) && !ui.session.workspace.view().query) {
+        if (is_crowd(ui.workspace) && !ui.workspace.view().query) {
             crowd_panel(ui, ui.session.crowds);
         } else {
             query_panel(ui, ui.session.queries, pictures);
         }
         selection_panel(ui);
     });
-    ui.session.workspace.hovered = ui.hovered;
+    ui.workspace.hovered = ui.hovered;
     status_bar(ui, ui.session.queries, {io.DisplaySize.x, status});
     ImGui::PopStyleVar();
     ImGui::End();
