@@ -93,24 +93,24 @@ void orbit(benchmark::State& state, Backend backend, int agents, Panels panels) 
     window.frame();
     window.button(true);
     window.frame();
-    const Camera before = window.session().view().camera;
+    const Camera before = window.session().workspace.view().camera;
     measure(state, window, [&](std::size_t frame) { return around(middle, 150, frame); });
-    if (window.session().view().camera == before) state.SkipWithError("the mouse did not turn the scene");
+    if (window.session().workspace.view().camera == before) state.SkipWithError("the mouse did not turn the scene");
 }
 
 /// Two clips of `seconds`, their query in the view; the second agent is dragged by its handle.
 void drag(benchmark::State& state, Backend backend, double seconds) {
     BenchWindow window(backend, bench::pair(seconds));
-    window.session().select({Selection::Kind::path, {.agent = 1}, -1});
+    window.session().workspace.select({Selection::Kind::path, {.agent = 1}, -1});
     window.rest();
     const glm::vec2 handle = window.middle_of("handle.move");
     window.move(handle);
     window.frame();
     window.button(true);
     window.frame();
-    const auto before = window.session().document().fitted;
+    const auto before = window.session().workspace.document().fitted;
     measure(state, window, [&](std::size_t frame) { return around(handle - glm::vec2(30, 0), 30, 3 * frame); });
-    if (window.session().document().fitted == before) state.SkipWithError("the mouse did not move the agent");
+    if (window.session().workspace.document().fitted == before) state.SkipWithError("the mouse did not move the agent");
 }
 
 /// The mouse over the picture, no button held: the picture stays.
@@ -126,13 +126,13 @@ void play(benchmark::State& state, Backend backend, int agents, Show show, bool 
     scene.view.show = show;
     scene.view.time = 5;
     BenchWindow window(backend, scene);
-    if (follows) run_command(window.session(), "crowd.follow", window.session().crowd()->agents.front().name);
+    if (follows) run_command(window.session(), "crowd.follow", window.session().workspace.crowd()->agents.front().name);
     window.rest();
     run_command(window.session(), "time.play");
     window.frame();
-    const double before = *window.session().view().time;
+    const double before = *window.session().workspace.view().time;
     measure(state, window, [&](std::size_t frame) { return around({120, 400}, 60, frame); });
-    if (*window.session().view().time == before) state.SkipWithError("time stood still");
+    if (*window.session().workspace.view().time == before) state.SkipWithError("time stood still");
 }
 
 /// The mouse over a panel: neither picture nor what is under the mouse changes.
