@@ -271,7 +271,8 @@ class CsvParser {
             // A table with centres of its own needs none of this.
             if (!all || (box.words[0] != "x" && has_word("x"))) continue;
             const auto centre = [&](std::size_t i, const std::string& quote = "") {
-                const std::string sum = quote + names[i] + quote + "+" + quote + names[i + 2] + quote;
+                std::string sum = quote;
+                sum.append(names[i]).append(quote).append("+").append(quote).append(names[i + 2]).append(quote);
                 return box.has_middles ? "(" + sum + ")/2" : sum + "/2";
             };
             formula(Column::x).emplace(centre(0, "\""), std::span<const std::string>(names_));
