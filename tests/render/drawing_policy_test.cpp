@@ -119,7 +119,9 @@ TEST_P(DrawingPolicyTest, ErrorsAreToldAtOnceWhereThatIsAskedFor) {
         EXPECT_NO_THROW(renderer.context().check("nothing"));
         glEnable(0xFFFF);
         EXPECT_THROW(renderer.context().check("a mistake"), MachineError) << "an error is one either way";
-        renderer.context().complain("of an error that was told before");
+        EXPECT_NO_THROW(renderer.context().check("nothing since"));
+        renderer.context().complain("later than its number");
+        EXPECT_THROW(renderer.context().check("a late word"), MachineError) << "what the driver says is told once";
         EXPECT_NO_THROW(renderer.context().check("nothing since"));
     }
     if (before) ::setenv("MOBBSCOPE_GL_DEBUG", kept.c_str(), 1);
