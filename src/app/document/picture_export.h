@@ -51,7 +51,7 @@ std::span<const ExportOption> export_options();
 /// What the dialog holds beside them.
 struct ExportDialog {
     std::string file;                ///< as typed
-    int opening = -1;                ///< of the document that the file's name was made for (Session::opening)
+    int opening = -1;                ///< of the document that the file's name was made for (Document::opening)
     std::filesystem::path agreed{};  ///< that may be overwritten: the person said so, or it was written here
     PictureSize shape{};             ///< that keeps_shape keeps
     PictureSize made{};              ///< ... the size that was last made from it
