@@ -29,6 +29,11 @@ std::shared_ptr<const NamedFit> fit_of(const Scene& scene, std::string name, con
         out.trees.push_back(tree);
         if (progress) progress(out.trees.size(), scene.clips.size());
     }
+    for (const FittedScene* source : sources) {
+        for (const auto& fit : source->fits()) {
+            if (fit->name == out.name && fit->options == options && fit->trees == out.trees) return fit;
+        }
+    }
     return std::make_shared<const NamedFit>(std::move(out));
 }
 
@@ -43,6 +48,13 @@ FittedScene::FittedScene(Scene scene, const mobb::FitOptions& options, std::span
     : scene_(std::make_shared<const Scene>(std::move(scene))),
       placed_agents_(std::make_shared<const std::vector<PlacedAgent>>(mobbscope::placed_agents(*scene_))),
       fits_{fit_of(*scene_, "", options, previous, progress)} {}
+
+FittedScene::FittedScene(std::shared_ptr<const Scene> scene, std::vector<std::shared_ptr<const NamedFit>> fits,
+                         std::size_t in_use)
+    : scene_(std::move(scene)),
+      placed_agents_(std::make_shared<const std::vector<PlacedAgent>>(mobbscope::placed_agents(*scene_))),
+      fits_(std::move(fits)),
+      in_use_(in_use) {}
 
 FittedScene FittedScene::with_fit(std::string name, const mobb::FitOptions& options,
                                   std::span<const FittedScene* const> previous, const Progress& progress) const {
@@ -76,16 +88,12 @@ const std::vector<GridCell>& FittedScene::grid() const {
     return grid_->cells;
 }
 
-std::size_t FittedScene::bytes_beyond(const FittedScene& other) const {
-    std::unordered_set<const void*> shared{other.scene_.get()};
-    for (const auto& fit : other.fits_) {
+std::size_t FittedScene::bytes_beyond(std::span<const std::shared_ptr<const NamedFit>> others) const {
+    std::unordered_set<const void*> shared;
+    for (const auto& fit : others) {
         for (const auto& tree : fit->trees) shared.insert({tree.get(), &tree->clip()});
     }
     std::size_t bytes = 0;
-    if (shared.insert(scene_.get()).second) {
-        bytes += scene_->clips.size() * sizeof(SceneClip) + scene_->agents.size() * sizeof(Agent) +
-                 scene_->queries.size() * sizeof(SceneQuery) + placed_agents_->size() * sizeof(PlacedAgent);
-    }
     for (const auto& fit : fits_) {
         for (const auto& tree : fit->trees) {
             if (shared.insert(tree.get()).second) bytes += tree->bytes();

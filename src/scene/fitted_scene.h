@@ -47,6 +47,9 @@ class FittedScene {
     /// The same with several scenes to share trees of; none is null.
     FittedScene(Scene scene, const mobb::FitOptions& options, std::span<const FittedScene* const> previous,
                 const Progress& progress = {});
+    /// The scene with fits that were made for it: none is null, there is at least one, and `in_use` is one of them.
+    FittedScene(std::shared_ptr<const Scene> scene, std::vector<std::shared_ptr<const NamedFit>> fits,
+                std::size_t in_use);
 
     /// The same scene with one more fit; the fit in use stays. Trees of any fit of this or of `previous` are shared as
     /// above. Throws std::invalid_argument for a name that is empty or taken, and as the constructor does.
@@ -61,6 +64,7 @@ class FittedScene {
     std::size_t fit_in_use() const { return in_use_; }
 
     const Scene& scene() const { return *scene_; }
+    const std::shared_ptr<const Scene>& shared_scene() const { return scene_; }  ///< never null
     const mobb::FitOptions& options() const { return fits_[in_use_]->options; }
     const mobb::Tree& tree(int clip) const { return *shared_tree(clip); }
     const std::shared_ptr<const mobb::Tree>& shared_tree(int clip) const {
@@ -74,8 +78,8 @@ class FittedScene {
 
     mobb::PlacedTree placed(const PlacedAgent& who) const { return {tree(who.clip), who.placement}; }
 
-    /// Memory for what this holds and `other` does not share: its lists, clips and trees.
-    std::size_t bytes_beyond(const FittedScene& other) const;
+    /// Memory for the clips and trees of these fits that `others` do not share.
+    std::size_t bytes_beyond(std::span<const std::shared_ptr<const NamedFit>> others) const;
 
   private:
     std::shared_ptr<const Scene> scene_;

@@ -45,6 +45,7 @@ struct SceneClip {
     double start = 0;  ///< seconds: when it starts among the tracks of its source, see SourceFacts::t0
     std::shared_ptr<const ClipWarp> warp{};  ///< of a part of a motion: `clip` and `skeleton` are warped; null: not
     std::optional<ClipTurn> turn{};  ///< of one with a source: by which clip and skeleton were bent after the import
+    friend bool operator==(const SceneClip&, const SceneClip&) = default;
 };
 
 /// One side of a query: a clip and where it is placed.
@@ -53,6 +54,7 @@ struct PlacedAgent {
     int clip = 0;      ///< index into Scene::clips
     mobb::Placement placement;
     int agent = -1;  ///< index into Scene::agents, or -1
+    friend bool operator==(const PlacedAgent&, const PlacedAgent&) = default;
 };
 
 struct Agent {
@@ -63,18 +65,21 @@ struct Agent {
     /// In a scene made from a run: the agent's index in the run, and its play if the scene shows a moment; else -1.
     int run_agent = -1;
     int play = -1;
+    friend bool operator==(const Agent&, const Agent&) = default;
 };
 
 /// The answer that a capture recorded.
 struct Expectation {
     bool collides = false;
     std::optional<mobb::Contact> contact;
+    friend bool operator==(const Expectation&, const Expectation&) = default;
 };
 
 struct SceneQuery {
     PlacedAgent a, b;
     std::optional<Expectation> expect;
     std::shared_ptr<const mobb::Trace> trace{};  ///< null: none; shared, so that a query is cheap to copy
+    friend bool operator==(const SceneQuery&, const SceneQuery&) = default;
 };
 
 struct Scene {

@@ -3,6 +3,7 @@
 #include <scene/scene_edits.h>
 
 #include <algorithm>
+#include <charconv>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -10,6 +11,9 @@
 namespace mobbscope {
 
 namespace {
+
+/// Behind a name; more is part of the name itself.
+constexpr int kMostNumber = 999'999;
 
 Agent& agent_at(Scene& scene, int agent) { return scene.agents.at(static_cast<std::size_t>(agent)); }
 
@@ -77,9 +81,27 @@ void move_sources(Scene& scene, const std::filesystem::path& from, const std::fi
 }  // namespace
 
 std::string UnusedNames::take(const std::string& wanted) {
-    std::string name = wanted;
-    int& number = last_number_.try_emplace(wanted, 1).first->second;
-    while (!taken_.insert(name).second) name = wanted + ' ' + std::to_string(++number);
+    return taken_.insert(wanted).second ? wanted : take_numbered(wanted, 1);
+}
+
+std::string UnusedNames::take_next(const std::string& name) {
+    const std::size_t space = name.rfind(' ');
+    int number = 0;
+    if (space != std::string::npos && space > 0) {
+        const char* end = name.data() + name.size();
+        const auto [read_to, error] = std::from_chars(name.data() + space + 1, end, number);
+        if (error != std::errc() || read_to != end || number < 1 || number > kMostNumber) number = 0;
+    }
+    return number > 0 ? take_numbered(name.substr(0, space), number) : take_numbered(name, 1);
+}
+
+std::string UnusedNames::take_numbered(const std::string& stem, int last) {
+    int& number = last_number_.try_emplace(stem, 1).first->second;
+    number = std::max(number, last);
+    std::string name;
+    do {
+        name = stem + ' ' + std::to_string(++number);
+    } while (!taken_.insert(name).second);
     return name;
 }
 
@@ -126,7 +148,7 @@ int add_agent(Scene& scene, int clip, const mobb::Placement& placement) {
 
 int duplicate_agent(Scene& scene, int agent) {
     Agent copy = agent_at(scene, agent);
-    copy.name = UnusedNames(scene.agents).take(copy.name);
+    copy.name = UnusedNames(scene.agents).take_next(copy.name);
     copy.color.reset();  // the palette tells the two apart
     const PairInView shown(scene);
     scene.agents.push_back(std::move(copy));

@@ -21,8 +21,13 @@ class UnusedNames {
     }
     /// `wanted`, or with " 2", " 3", ... behind it. Nobody gets it again.
     std::string take(const std::string& wanted);
+    /// For a copy of what has that name: "A 2" for "A", and "A 3", not "A 2 2", for "A 2".
+    std::string take_next(const std::string& name);
 
   private:
+    /// `stem` with the first number behind it, after `last`, that is not taken.
+    std::string take_numbered(const std::string& stem, int last);
+
     std::unordered_set<std::string> taken_;
     std::unordered_map<std::string, int> last_number_;  ///< up to which all that are wanted are taken
 };

@@ -94,6 +94,7 @@ template <auto member>
 ViewOption field(ViewOption row) {
     row.schema = R"({"description": ")" + std::string(row.what) + "\", " + row.schema + '}';
     row.same = [](const ViewState& a, const ViewState& b) { return a.*member == b.*member; };
+    row.copy = [](const ViewState& from, ViewState& to) { to.*member = from.*member; };
     return row;
 }
 

@@ -90,6 +90,7 @@ struct ViewOption {
     std::function<void(const JsonPlace&, ViewState&)> read{};    ///< throws InputError
     std::function<void(JsonWriter&, const ViewState&)> write{};  ///< its value
     std::function<bool(const ViewState&, const ViewState&)> same{};
+    std::function<void(const ViewState& from, ViewState& to)> copy{};
     /// Reads an option's text, of a toggle "true" or "false"; throws std::invalid_argument. Of agents one of them,
     /// which a list adds, or kNobody or an empty text for none.
     std::function<void(const std::string&, ViewState&)> parse{};

@@ -100,14 +100,14 @@ TEST_F(AnswersTest, PressesWithinASecondAreCoarseEachAndFineAtTheEndAlone) {
     EXPECT_EQ(picture().rgba, shell.viewport_picture().rgba);
 }
 
-TEST_F(AnswersTest, EachPressIsUndoneByItselfAlsoOfThoseThatCameTogether) {
+TEST_F(AnswersTest, EachPressIsALookOfItsOwnAlsoOfThoseThatCameTogether) {
     run_command(session, "view.disks");
     rest();
     key(Key::n2);
     key(Key::b);
     frame();
     ASSERT_FALSE(session.workspace.view().boxes);
-    session.edits.undo();
+    session.edits.previous_view();
     EXPECT_TRUE(session.workspace.view().boxes);
     EXPECT_EQ(session.workspace.view().camera.preset, CameraPreset::top);
 }

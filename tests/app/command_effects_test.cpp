@@ -215,6 +215,13 @@ std::vector<Case> cases() {
     add({"edit.redo", "", {kSelectB, {"agent.move", "4 5"}, {"edit.undo", ""}}, [](CommandWorld& w) {
              EXPECT_EQ(w.agent(1).placement.translate, glm::dvec2(4, 5));
          }});
+    add({"view.previous", "", {{"view.top", ""}, {"view.boxes", ""}}, [](CommandWorld& w) {
+             EXPECT_TRUE(w.view().boxes);
+             EXPECT_EQ(w.view().camera.preset, CameraPreset::top);
+         }});
+    add({"view.next", "", {{"view.boxes", ""}, {"view.previous", ""}}, [](CommandWorld& w) {
+             EXPECT_FALSE(w.view().boxes);
+         }});
     look("edit.history", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::history); });
     add({"edit.go_to",
          "1",
@@ -301,7 +308,7 @@ std::vector<Case> cases() {
          }});
     add({"view.zoom", "2", {{"view.zoom", "1"}}, [](CommandWorld& w) {
              const double near_by = w.view().camera.distance;
-             w.session.edits.undo();
+             w.session.edits.previous_view();
              run_command(w.session, "view.zoom", "1");
              EXPECT_NEAR(w.view().camera.distance, 2 * near_by, 1e-6 * near_by);
          }});
@@ -742,7 +749,8 @@ TEST(CommandEffects, AreWhatTheyAreSaidToBe) {
             EXPECT_NE(session.workspace.document().fitted, before);
             EXPECT_TRUE(session.workspace.modified());
             run_command(session, "edit.undo");
-            EXPECT_EQ(session.workspace.document().fitted, before) << "the very state from before";
+            EXPECT_EQ(&session.workspace.scene(), &before->scene()) << "the very scene from before";
+            EXPECT_EQ(session.workspace.fitted().options(), before->options());
             EXPECT_EQ(session.workspace.modified(), was_modified);
         } catch (const std::exception& error) {
             ADD_FAILURE() << error.what();

@@ -190,7 +190,7 @@ TEST(CommandTable, WhatIsInvokedRunsInOrderOnceTheFrameIsDrawn) {
     EXPECT_EQ(session.workspace.view().camera.preset, CameraPreset::side) << "what a command enqueues runs too";
     ASSERT_EQ(session.notifications.all().size(), 1u);
     EXPECT_FALSE(session.queue.run());
-    run_command(session, "edit.undo");
+    run_command(session, "view.previous");
     EXPECT_EQ(session.workspace.view(), before);
 }
 

@@ -139,7 +139,7 @@ TEST(ImportDialog, AWrongUnitIsMendedFromItsMessageByTwoClicks) {
     EXPECT_EQ(w.session.imports.edited.field, "unit");
     EXPECT_EQ(all_messages(w.session), "") << "it stands at the field now";
     EXPECT_TRUE(w.has("import.unit.warning"));
-    const FittedScene* const before = w.session.workspace.document().fitted.get();
+    const auto before = w.session.workspace.document().fitted;
 
     w.click("import.unit");
     w.click("import.unit.cm");
@@ -152,7 +152,7 @@ TEST(ImportDialog, AWrongUnitIsMendedFromItsMessageByTwoClicks) {
     EXPECT_EQ(w.session.workspace.history.undo_title(), "changing the unit of walk: cm");
 
     w.key("Ctrl+Z");
-    EXPECT_EQ(w.session.workspace.document().fitted.get(), before);
+    EXPECT_EQ(&w.session.workspace.scene(), &before->scene());
     EXPECT_EQ(w.session.dialogs.now, Dialog::import_clip) << "undo works in the dialog";
     w.key("Ctrl+Y");
     EXPECT_EQ(w.clip().options.unit, "cm");

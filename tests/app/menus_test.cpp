@@ -244,8 +244,8 @@ TEST(Menus, AQueryOpensWhereItWasLeft) {
     const int end = w.session.workspace.recorded()->trace.size() - 1;
     EXPECT_EQ(w.session.workspace.step(), end) << "its first opening shows the answer";
     w.run("key Q\nclick query.0\nexpect /query/step 2\nkey PageDown\nkey PageUp\nexpect /query/step 2");
-    // Undo goes where one was, and what it left is still known.
-    w.run("run step.to 1\nkey Q\nkey Ctrl+Z\nexpect /query/step 1\nkey Ctrl+Z\nexpect /query/step 2");
+    // The previous view is where one was, and what it left is still known.
+    w.run("run step.to 1\nkey Q\nkey Ctrl+[\nexpect /query/step 1\nkey Ctrl+[\nexpect /query/step 2");
     // The queries before it may go.
     w.run("run query.select 2\nrun step.to 0\nrun query.select 0\nrun query.remove\nrun query.select 1");
     EXPECT_EQ(w.session.workspace.step(), 0);

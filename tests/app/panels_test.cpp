@@ -253,13 +253,12 @@ TEST(StillCamera, ItFramesOnCommandAndKeepsItsScaleWhenTheWindowIsResized) {
     ASSERT_NE(w.session.views.picture->size.height, height);
     EXPECT_EQ(w.session.workspace.view().camera.target, home.target);
     EXPECT_NEAR(pixels(), scale, 1e-3 * scale);
-    w.session.edits.undo();
-    w.session.edits.undo();
+    w.session.edits.previous_view();
     w.window.settle();
     EXPECT_EQ(w.session.workspace.view().camera.target, opened.target);
     EXPECT_NEAR(w.session.workspace.view().camera.distance * height,
                 opened.distance * w.session.views.picture->size.height, 1e-6 * opened.distance * height)
-        << "where undo leads, too";
+        << "where the way back leads, too";
 }
 
 TEST(StillCamera, HomeFindsAnotherHeightOfASecondUnlessOneWasChosen) {

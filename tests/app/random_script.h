@@ -33,7 +33,7 @@ class RandomScript {
 
     /// What is done next in a window that shows `marks`; some things take several lines.
     std::string next(const Session& session, const Marks& marks) {
-        switch (random_.integer(0, 15)) {
+        switch (random_.integer(0, 18)) {
             case 0:
             case 1:
             case 2:
@@ -58,6 +58,10 @@ class RandomScript {
                 return random_.chance(0.3) ? resize() : "key Ctrl+Z";
             case 14:
                 return "key Space\nframes 2\n" + drag(marks) + (random_.chance(0.5) ? "\nkey Space" : "");
+            case 15:
+            case 16:
+            case 17:
+                return edit(session);
             default:
                 return "type " + std::string(1, letter()) + std::to_string(random_.integer(-3, 9));
         }
@@ -115,6 +119,15 @@ class RandomScript {
         constexpr std::array<const char*, 12> kArguments{"0", "1", "2",   "3",      "0.5", "2.5",
                                                          "7", "A", "1:2", "leaves", "3 1", "-20 15"};
         return out + ' ' + any(kArguments);
+    }
+
+    /// Of an agent, if there is one.
+    std::string edit(const Session& session) {
+        const std::vector<Agent>& agents = session.workspace.scene().agents;
+        constexpr std::array<const char*, 8> kEdits{"agent.nudge 1 0.5",   "agent.turn 30",        "agent.duplicate",
+                                                    "agent.remove",        "tree.leaf 3",          "tree.kind umobb",
+                                                    "agent.color #1060a0", "agent.rename somebody"};
+        return (agents.empty() ? "" : "run go.agent \"" + any(agents).name + "\"\n") + "run " + any(kEdits);
     }
 
     mobb::test::Random random_;

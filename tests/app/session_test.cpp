@@ -66,19 +66,132 @@ TEST(Undo, InteractionsThatEndedStandApart) {
     EXPECT_EQ(e.x(), 4) << "an edit after an undo is its own";
 }
 
-TEST(Undo, LookingAroundIsOneStepOfItsKindAndCostsNoRedo) {
+TEST(Undo, TakesTheEditBackAndKeepsTheView) {
     Edited e;
+    run_command(e.session, "tree.leaf", "12");
     run_command(e.session, "view.top");
+    run_command(e.session, "view.boxes");
+    EXPECT_EQ(e.session.workspace.history.undo_title(), "changing the leaves: 12");
+    const ViewState seen = e.session.workspace.view();
+    e.session.edits.undo();
+    EXPECT_EQ(e.session.workspace.scene().fit.leaf, 4);
+    EXPECT_EQ(e.x(), 4);
+    EXPECT_EQ(e.session.workspace.view(), seen);
     run_command(e.session, "view.side");
-    e.session.edits.undo();
-    EXPECT_EQ(e.session.workspace.view().camera.preset, CameraPreset::iso);
-    EXPECT_TRUE(e.session.workspace.view().floor);
-    EXPECT_EQ(e.x(), 4);
-    e.session.edits.undo();
-    run_command(e.session, "view.front");
-    EXPECT_TRUE(e.session.workspace.history.can_redo());
+    EXPECT_TRUE(e.session.workspace.history.can_redo()) << "looking around costs no redo";
     e.session.edits.redo();
-    EXPECT_EQ(e.x(), 4);
+    EXPECT_EQ(e.session.workspace.scene().fit.leaf, 12);
+    EXPECT_EQ(e.session.workspace.view().camera.preset, CameraPreset::side);
+}
+
+TEST(Undo, TakesBackWhatTheEditItselfShowed) {
+    Edited e;
+    const auto edited = [](Scene& scene) {
+        scene.fit.leaf = 9;
+        scene.view.levels = {3, 3, false};
+    };
+    e.session.workspace.edit({"both", ""}, edited);
+    run_command(e.session, "view.top");
+    e.session.edits.undo();
+    EXPECT_EQ(e.session.workspace.view().levels, LevelRange{});
+    EXPECT_EQ(e.session.workspace.view().camera.preset, CameraPreset::top);
+    e.session.edits.redo();
+    EXPECT_EQ(e.session.workspace.view().levels.first, 3);
+    run_command(e.session, "view.level", "1");
+    e.session.edits.undo();
+    EXPECT_EQ(e.session.workspace.view().levels.first, 1) << "it was changed again since";
+}
+
+TEST(Undo, FindsTheQueryInViewAgainAmongOthers) {
+    Edited e;
+    Session& session = e.session;
+    const auto shown = [&]() -> std::string {
+        const std::optional<int> query = session.workspace.view().query;
+        if (!query) return "";
+        const SceneQuery asked = session.workspace.fitted().queries()[static_cast<std::size_t>(*query)];
+        return asked.a.name + asked.b.name;
+    };
+    run_command(session, "query.select", "0");
+    const std::string first = shown();
+    run_command(session, "query.remove");
+    const std::string next = shown();
+    EXPECT_NE(next, first);
+    session.edits.undo();
+    EXPECT_EQ(shown(), first);
+    session.edits.redo();
+    EXPECT_EQ(shown(), next);
+    run_command(session, "query.select", "1");
+    const std::string last = shown();
+    session.edits.undo();
+    EXPECT_EQ(shown(), last) << "that was opened since";
+    EXPECT_EQ(session.workspace.view().query, 2);
+    run_command(session, "query.select", "0");
+    session.edits.redo();
+    EXPECT_EQ(shown(), "") << "nobody asks it there";
+}
+
+TEST(Undo, BringsBackTheSceneThatWasSaved) {
+    Edited e;
+    e.session.files.save();
+    ASSERT_FALSE(e.session.workspace.modified());
+    const FittedScene* saved = e.session.workspace.saved.get();
+    for (int i = 0; i < 3; ++i) {
+        e.session.workspace.close_group();
+        e.move(10 + i);
+    }
+    e.session.edits.go_to_state(0);
+    EXPECT_TRUE(e.session.workspace.modified());
+    e.session.edits.go_to_state(1);
+    EXPECT_FALSE(e.session.workspace.modified());
+    EXPECT_EQ(&e.session.workspace.scene(), &saved->scene());
+}
+
+TEST(Undo, TakesMemoryForWhatChangedWhateverTheSceneHolds) {
+    const auto bytes_of_edits = [](int agents) {
+        Scene scene = Edited().session.workspace.scene();
+        while (static_cast<int>(scene.agents.size()) < agents) duplicate_agent(scene, 0);
+        History history(document_of(std::move(scene), nullptr));
+        for (int i = 0; i < 20; ++i) {
+            Scene next = history.now().fitted->scene();
+            i % 2 == 0 ? place_agent(next, agents / 2, {{i, 0}, 0, 0}) : static_cast<void>(duplicate_agent(next, 0));
+            history.change(with_scene(history.now(), std::move(next)), {"edit", ""});
+        }
+        return history.bytes();
+    };
+    EXPECT_GT(bytes_of_edits(10), 0u);
+    EXPECT_EQ(bytes_of_edits(10), bytes_of_edits(3000));
+}
+
+TEST(Undo, LeadsThroughEveryKindOfEditAndBack) {
+    Edited e;
+    Session& session = e.session;
+    std::vector<std::string> states{to_json(session.workspace.scene())};
+    const auto done = [&](std::string_view command, const std::string& argument = "") {
+        session.workspace.close_group();
+        run_command(session, command, argument);
+        states.push_back(to_json(session.workspace.scene()));
+    };
+    run_command(session, "go.agent", "A");
+    done("agent.duplicate");
+    done("agent.rename", "a long name that is nobody else's");
+    done("tree.kind", "umobb");
+    done("agent.color", "#123456");
+    session.views.split("loose", {.leaf = 9});
+    states.push_back(to_json(session.workspace.scene()));
+    done("tree.leaf", "7");
+    run_command(session, "go.agent", "B");
+    done("agent.remove");
+    run_command(session, "go.agent", "C");
+    done("agent.nudge", "1 2");
+    const std::size_t first = session.workspace.history.count() - states.size();
+    for (std::size_t i = states.size(); i-- > 0;) {
+        session.edits.go_to_state(first + i);
+        EXPECT_EQ(to_json(session.workspace.scene()), states[i]) << i;
+    }
+    for (const std::size_t i : {3u, 7u, 1u, 8u, 0u, 5u}) {
+        session.edits.go_to_state(first + i);
+        EXPECT_EQ(to_json(session.workspace.scene()), states[i]) << i;
+    }
 }
 
 TEST(Undo, GoesBackFiveHundredStatesAtMost) {
@@ -93,23 +206,7 @@ TEST(Undo, GoesBackFiveHundredStatesAtMost) {
     EXPECT_EQ(e.x(), 10 + 599 - 499);
 }
 
-TEST(Undo, LookingAroundAfterAnUndoIsTakenBackToo) {
-    Edited e;
-    const ViewState start = e.session.workspace.view();
-    run_command(e.session, "view.boxes");
-    const ViewState end = e.session.workspace.view();
-    e.session.edits.undo();
-    e.session.edits.undo();
-    run_command(e.session, "view.top");
-    e.session.edits.undo();
-    EXPECT_EQ(e.session.workspace.view(), start) << "what cannot be taken back further is as it was";
-    EXPECT_FALSE(e.session.workspace.history.can_undo());
-    while (e.session.workspace.history.can_redo()) e.session.edits.redo();
-    EXPECT_EQ(e.session.workspace.view(), end);
-    EXPECT_EQ(e.x(), 4);
-}
-
-TEST(Undo, WhatPlaysIsOneStepAndSoIsADragMeanwhile) {
+TEST(Undo, TakesBackADragWhileItPlaysAtOnce) {
     Edited e;
     e.session.workspace.close_group();
     const std::size_t before = e.session.workspace.history.count();
@@ -118,49 +215,24 @@ TEST(Undo, WhatPlaysIsOneStepAndSoIsADragMeanwhile) {
         e.session.playback.advance(0.01);
         e.move(5 + i);
     }
-    e.session.workspace.close_group();
-    for (int i = 0; i < 20; ++i) {
-        e.session.playback.advance(0.01);
-        e.session.workspace.change_view([&](ViewState& view) { view.camera.yaw_deg = i; });
-    }
-    EXPECT_NEAR(*e.session.workspace.view().time, 0.4, 1e-9);
-    EXPECT_EQ(e.session.workspace.history.count(), before + 3);
-    e.session.edits.undo();
-    EXPECT_EQ(e.x(), 24);
-    EXPECT_EQ(e.session.workspace.history.undo_title(), "moving A");
+    EXPECT_EQ(e.session.workspace.history.count(), before + 1);
     e.session.edits.undo();
     EXPECT_EQ(e.x(), 4);
-    EXPECT_EQ(e.session.workspace.history.undo_title(), "playing");
-    e.session.edits.undo();
-    EXPECT_EQ(e.session.workspace.view().time, std::nullopt);
+    EXPECT_NEAR(*e.session.workspace.view().time, 0.2, 1e-9) << "it stands where it has come to";
 }
 
 TEST(Undo, StopsWhatPlays) {
     Edited e;
-    run_command(e.session, "time.play");
-    e.session.playback.advance(0.1);
-    e.session.edits.undo();
-    EXPECT_FALSE(e.session.playback.playing());
-    e.session.edits.redo();
-    EXPECT_EQ(e.session.workspace.view().time, 0.1);
-    run_command(e.session, "time.play");
-    e.session.edits.undo();
-    e.session.edits.redo();
-    EXPECT_FALSE(e.session.playback.playing());
-}
-
-TEST(Undo, WhatStandsStillWhilePlayingIsNoStep) {
-    Edited e;
-    run_command(e.session, "time.at", "0.5");
-    run_command(e.session, "view.top");
-    e.session.playback.speed = 0;
-    run_command(e.session, "time.play");
-    const std::size_t before = e.session.workspace.history.count();
-    for (int i = 0; i < 3; ++i) e.session.playback.advance(0.1);
-    EXPECT_EQ(e.session.workspace.history.count(), before);
-    e.session.playback.speed = 1;
-    for (int i = 0; i < 3; ++i) e.session.playback.advance(0.1);
-    EXPECT_EQ(e.session.workspace.history.count(), before + 1);
+    for (const char* back : {"edit.undo", "edit.redo", "view.previous", "view.next"}) {
+        run_command(e.session, "time.play");
+        e.session.playback.advance(0.1);
+        if (std::string_view(back) == "view.next") {
+            e.session.edits.previous_view();
+            run_command(e.session, "time.play");
+        }
+        run_command(e.session, back);
+        EXPECT_FALSE(e.session.playback.playing()) << back;
+    }
 }
 
 TEST(Undo, ForgetsTheOldestOfWhatTakesTooMuchMemory) {
@@ -176,17 +248,13 @@ TEST(Undo, ForgetsTheOldestOfWhatTakesTooMuchMemory) {
             session.workspace.view()};
     };
     const Document start = session.workspace.document();
-    const std::size_t each = fitted_with(20).fitted->bytes_beyond(*start.fitted);
+    const std::size_t each = fitted_with(20).fitted->bytes_beyond(start.fitted->fits());
     History history(start, 3 * each);
     for (int i = 0; i < 10; ++i) {
         history.change(fitted_with(20 + i), {"fitting", ""});
-        Document seen = history.now();
-        seen.view.boxes = !seen.view.boxes;
-        history.change_view(std::move(seen), {"boxes", "look boxes"});
         EXPECT_LE(history.bytes(), 3 * each);
     }
-    EXPECT_GE(history.count(), 7u) << "views take nothing";
-    EXPECT_LE(history.count(), 9u);
+    EXPECT_EQ(history.count(), 3u);
     while (history.can_undo()) history.undo();
     EXPECT_GT(history.now().fitted->options().leaf, 24) << "the oldest that is left";
     history.reset(start);
@@ -210,7 +278,9 @@ TEST(Undo, AFailedEditChangesNothing) {
     EXPECT_TRUE(e.session.workspace.history.can_undo());
 }
 
-TEST(Session, UndoTakesBackOneKindOfLookingAtATime) {
+// --- previous and next view
+
+TEST(PreviousView, TakesBackOneKindOfLookingAtATime) {
     CrossingFolder folder;
     Session session(false);
     session.files.open({folder.scene});
@@ -220,15 +290,81 @@ TEST(Session, UndoTakesBackOneKindOfLookingAtATime) {
     session.workspace.change_view([](ViewState& view) { view.step = {Step::Unit::event, 5}; });
     session.workspace.change_view([](ViewState& view) { view.camera.preset = CameraPreset::top; });
     session.workspace.change_view([](ViewState& view) { view.camera.preset = CameraPreset::side; });
-    session.edits.undo();
+    const ViewState end = session.workspace.view();
+    EXPECT_FALSE(session.workspace.history.can_undo()) << "nothing was edited";
+    session.edits.previous_view();
     EXPECT_EQ(session.workspace.view().camera, camera);
     EXPECT_EQ(session.workspace.view().step.value, 5) << "the steps are another matter";
-    session.edits.undo();
+    session.edits.previous_view();
     EXPECT_EQ(session.workspace.view().step, Step{});
     EXPECT_EQ(session.workspace.view().query, 0);
-    session.edits.undo();
+    session.edits.previous_view();
     EXPECT_EQ(session.workspace.view().query, std::nullopt);
-    EXPECT_FALSE(session.workspace.history.can_undo());
+    EXPECT_FALSE(session.workspace.history.can_look_back());
+    session.edits.previous_view();
+    for (int i = 0; i < 3; ++i) session.edits.next_view();
+    EXPECT_EQ(session.workspace.view(), end);
+    EXPECT_FALSE(session.workspace.history.can_look_forward());
+    session.edits.next_view();
+    session.edits.previous_view();
+    run_command(session, "view.front");
+    EXPECT_FALSE(session.workspace.history.can_look_forward()) << "another way was taken";
+}
+
+TEST(PreviousView, LeavesTheSceneAsItWasEdited) {
+    Edited e;
+    run_command(e.session, "view.top");
+    e.move(7);
+    run_command(e.session, "view.side");
+    e.session.edits.previous_view();
+    EXPECT_EQ(e.session.workspace.view().camera.preset, CameraPreset::top);
+    e.session.edits.previous_view();
+    EXPECT_EQ(e.session.workspace.view().camera.preset, CameraPreset::iso);
+    EXPECT_EQ(e.x(), 7);
+}
+
+TEST(PreviousView, FindsItsQueryUnderAnotherIndexOrNot) {
+    Edited e;
+    Session& session = e.session;
+    run_command(session, "go.agent", "A");
+    run_command(session, "agent.duplicate");
+    const std::size_t queries = session.workspace.fitted().queries().size();
+    session.workspace.change_view([&](ViewState& view) { view.query = static_cast<int>(queries) - 1; });
+    const SceneQuery shown = session.workspace.fitted().queries()[queries - 1];
+    run_command(session, "view.top");
+    session.workspace.change_view([](ViewState& view) { view.query.reset(); });
+    session.workspace.edit({"removing", ""}, [&](Scene& scene) {
+        for (int i = 0; i < static_cast<int>(scene.agents.size()); ++i) {
+            if (i == shown.a.agent || i == shown.b.agent) continue;
+            return remove_agent(scene, i);
+        }
+    });
+    session.edits.previous_view();
+    ASSERT_TRUE(session.workspace.view().query);
+    const SceneQuery again =
+        session.workspace.fitted().queries()[static_cast<std::size_t>(*session.workspace.view().query)];
+    EXPECT_EQ(again.a.name + again.b.name, shown.a.name + shown.b.name);
+    session.edits.next_view();
+    session.workspace.edit({"removing", ""}, [&](Scene& scene) { remove_agent(scene, again.a.agent); });
+    session.edits.previous_view();
+    EXPECT_EQ(session.workspace.view().query, std::nullopt) << "nobody asks it any more";
+}
+
+TEST(PreviousView, WhatPlaysIsOneLook) {
+    Edited e;
+    run_command(e.session, "time.at", "0.5");
+    e.session.playback.speed = 0;
+    run_command(e.session, "view.top");
+    run_command(e.session, "time.play");
+    for (int i = 0; i < 3; ++i) e.session.playback.advance(0.1);
+    EXPECT_EQ(e.session.workspace.history.look_back_title(), "moving the view") << "what stands still is no look";
+    e.session.playback.speed = 1;
+    for (int i = 0; i < 20; ++i) e.session.playback.advance(0.01);
+    e.session.edits.previous_view();
+    EXPECT_EQ(e.session.workspace.view().time, 0.5);
+    EXPECT_EQ(e.session.workspace.view().camera.preset, CameraPreset::top);
+    e.session.edits.next_view();
+    EXPECT_NEAR(*e.session.workspace.view().time, 0.7, 1e-9);
 }
 
 TEST(Session, AFileThatIsNotThereAsksNothing) {
@@ -798,18 +934,20 @@ TEST(Messages, OfTheLastDocumentGoBehindTheBell) {
 
 /// Each press of a button remembers the past, in case that what it drags is put back.
 TEST(History, ACopyHasTheSameStatesAndIsItsOwn) {
-    Session session(false);
-    session.files.open_demo();
-    while (session.jobs.job()) session.poll();
+    Edited e;
+    Session& session = e.session;
     session.workspace.change_view([](ViewState& view) { view.floor = !view.floor; });
     History copy = session.workspace.history;
     EXPECT_EQ(&copy.now(), &session.workspace.history.now()) << "no state is copied";
     const bool floor = session.workspace.view().floor;
+    copy.look_back();
     copy.undo();
     copy.amend_views([](ViewState& view) { view.labels = !view.labels; });
     EXPECT_EQ(copy.now().view.floor, !floor);
     EXPECT_EQ(session.workspace.view().floor, floor);
+    EXPECT_EQ(e.x(), 4);
     session.edits.undo();
+    EXPECT_EQ(e.x(), 0);
     EXPECT_NE(session.workspace.view().labels, copy.now().view.labels);
 }
 

@@ -44,6 +44,7 @@ const std::vector<Steps> kSituations{
     {{"window.scale", "2"}},
     {{"go.agent", "A"}, {"agent.move", "3 3"}},
     {{"go.agent", "A"}, {"agent.move", "3 3"}, {"edit.undo", ""}},
+    {{"view.top", ""}, {"view.previous", ""}},
 };
 
 /// A window, again and again on a new folder's scene after what was done.

@@ -1,10 +1,13 @@
-// Whatever is done in the window, undo leads back to where it began, and redo to where it was.
+// Whatever is done in the window, undo leads back to the scene that it began with, redo to what it was, and so do the
+// previous view and the next.
 #include <app/commands/camera_commands.h>
 #include <app/script/script.h>
 #include <app/window/headless_window.h>
 #include <base/error.h>
+#include <base/json_writer.h>
 #include <base/text.h>
 #include <scene/load_files.h>
+#include <scene/view_options.h>
 
 #include <support/temp_folder.h>
 
@@ -34,16 +37,23 @@ int script_budget() {
     return text ? std::atoi(text) : 36;
 }
 
-/// A document as text, what it is an excerpt of included. A camera's distance goes with the height of the picture.
-std::string as_json(const Document& document, int picture_height) {
+/// A document's scene as text, and that which it is an excerpt of.
+std::string scene_text(const Document& document) {
     Scene scene = document.fitted->scene();
-    scene.view = document.view;
-    Camera& camera = scene.view.camera;
-    std::string distance;
-    if (camera.target) distance = formatted("%.9g", std::exchange(camera.distance, 1) / picture_height);
-    std::string text = to_json(scene) + distance;
-    if (document.excerpt_of) text += as_json({document.excerpt_of->fitted, document.excerpt_of->view}, picture_height);
+    scene.view = {};
+    std::string text = to_json(scene) + std::to_string(document.beside.size());
+    if (document.excerpt_of) text += scene_text({document.excerpt_of->fitted, {}});
     return text;
+}
+
+/// How it is seen. A camera's distance goes with the height of the picture.
+std::string view_text(ViewState view, int picture_height) {
+    std::string distance;
+    if (view.camera.target) distance = formatted("%.9g", std::exchange(view.camera.distance, 1) / picture_height);
+    std::ostringstream text;
+    JsonWriter out(text);
+    write_view(out, view);
+    return text.str() + distance;
 }
 
 /// A window in which random things are done.
@@ -74,8 +84,9 @@ class Worked {
         follow_opening();
     }
 
-    /// The document as text.
-    std::string now() const { return as_json(session.workspace.document(), viewport_size(session.views).height); }
+    std::string scene() const { return scene_text(session.workspace.document()); }
+    std::string view() const { return view_text(session.workspace.view(), viewport_size(session.views).height); }
+    /// The scene of the oldest state.
     const std::string& begun() const { return begun_; }
 
     Session session;
@@ -94,7 +105,7 @@ class Worked {
         settle();
         History history = session.workspace.history;
         while (history.can_undo()) history.undo();
-        begun_ = as_json(history.now(), viewport_size(session.views).height);
+        begun_ = scene_text(history.now());
     }
 
     void run(const std::string& line) {
@@ -118,7 +129,7 @@ class Worked {
     int opening_ = -1;
 };
 
-TEST(UndoScripts, AnyScriptUndoneIsWhereItBeganAndRedoneWhereItWas) {
+TEST(UndoScripts, AnyScriptUndoneIsTheSceneOfTheBeginAndRedoneAsItWas) {
     if (!mobbscope::testing::open_or_skip(Backend::osmesa)) return;
     const mobbscope::testing::TempFolder folder;
     const std::filesystem::path demos = demo_scene_file().parent_path();
@@ -126,6 +137,7 @@ TEST(UndoScripts, AnyScriptUndoneIsWhereItBeganAndRedoneWhereItWas) {
                                                    demos / "circles.json",
                                                    folder.write("run.json", testing::crowded_run())};
     std::size_t undone = 0;
+    int looked = 0;
     for (int seed = 0; seed < script_budget(); ++seed) {
         Worked worked(seed, files[static_cast<std::size_t>(seed / 4) % files.size()]);
         // Few of them are long.
@@ -134,24 +146,40 @@ TEST(UndoScripts, AnyScriptUndoneIsWhereItBeganAndRedoneWhereItWas) {
         Session& session = worked.session;
         const auto lines = static_cast<std::size_t>(std::count(worked.done.begin(), worked.done.end(), '\n'));
         ASSERT_LE(session.workspace.history.count(), 1 + 3 * lines) << "a statement is a state, or a few of them";
+        const std::string view = worked.view();
+        int looks = 0;
+        for (; session.workspace.history.can_look_back(); ++looks) {
+            ASSERT_LE(looks, 1000) << "looking back does not end";
+            session.edits.previous_view();
+            worked.window.frame();
+        }
+        looked += looks;
+        for (; looks > 0; --looks) {
+            ASSERT_TRUE(session.workspace.history.can_look_forward());
+            session.edits.next_view();
+            worked.window.frame();
+        }
+        ASSERT_EQ(worked.view(), view);
         std::vector<std::string> past;
         while (session.workspace.history.can_undo()) {
-            past.push_back(worked.now());
+            past.push_back(worked.scene());
             ASSERT_LE(past.size(), 1000u) << "undo does not end";
             session.edits.undo();
             worked.window.frame();
         }
-        ASSERT_EQ(worked.now(), worked.begun());
+        ASSERT_EQ(worked.scene(), worked.begun());
         undone += past.size();
         for (; !past.empty(); past.pop_back()) {
             ASSERT_TRUE(session.workspace.history.can_redo());
             session.edits.redo();
             worked.window.frame();
-            ASSERT_EQ(worked.now(), past.back());
+            ASSERT_EQ(worked.scene(), past.back());
         }
+        ASSERT_EQ(worked.view(), view) << "undone and redone, it is seen as before";
         ASSERT_EQ(worked.window.shell().frames_drawn(), 0) << "nobody looks";
     }
-    EXPECT_GT(undone, 2u * static_cast<std::size_t>(script_budget())) << "too little is done to prove anything";
+    EXPECT_GT(2 * undone, static_cast<std::size_t>(script_budget())) << "too little is done to prove anything";
+    EXPECT_GT(looked, script_budget());
 }
 
 }  // namespace

@@ -130,6 +130,22 @@ TEST(SceneEdits, NewAgentsHaveNamesOfTheirOwn) {
     EXPECT_EQ(query_count(scene), 15u) << "all pairs are asked, with the new ones";
 }
 
+TEST(SceneEdits, ACopyOfACopyHasTheNextNumber) {
+    Scene scene = parse(kAgents);
+    int copy = 0;
+    for (const char* name : {"A 2", "A 3", "A 4"}) {
+        copy = duplicate_agent(scene, copy);
+        EXPECT_EQ(scene.agents[static_cast<std::size_t>(copy)].name, name);
+    }
+    UnusedNames names;
+    for (const char* name : {"walk 7", "7", " 7", "Tom 007", "x 99999999999", "x -3"}) names.take(name);
+    EXPECT_EQ(names.take_next("walk 7"), "walk 8");
+    EXPECT_EQ(names.take_next("7"), "7 2");
+    EXPECT_EQ(names.take_next("Tom 007"), "Tom 8");
+    EXPECT_EQ(names.take_next("x 99999999999"), "x 99999999999 2");
+    EXPECT_EQ(names.take_next("x -3"), "x -3 2");
+}
+
 TEST(SceneEdits, ClipsBecomeAgentsWithTheFirstAgent) {
     Scene scene = parse();
     const int added = add_agent(scene, 0, {{5, 0}, 0, 0});

@@ -37,6 +37,26 @@ QueryKey query_key(const FittedScene& fitted, int query) {
     return {asked.a.name, asked.b.name, static_cast<int>(same)};
 }
 
+std::optional<int> find_query(const FittedScene& fitted, const QueryKey& key) {
+    const auto& [a, b, same] = key;
+    const Scene& scene = fitted.scene();
+    if (scene.queries.empty()) {
+        const auto index_of = [&](const std::string& name) {
+            return static_cast<std::size_t>(std::ranges::find(scene.agents, name, &Agent::name) - scene.agents.begin());
+        };
+        const std::size_t first = index_of(a);
+        const std::size_t second = index_of(b);
+        if (first >= second || second >= scene.agents.size() || fitted.queries().empty()) return std::nullopt;
+        return static_cast<int>(query_of_pair(scene, first, second));
+    }
+    int left = same;
+    for (std::size_t i = 0; i < scene.queries.size(); ++i) {
+        const SceneQuery& query = scene.queries[i];
+        if (query.a.name == a && query.b.name == b && left-- == 0) return static_cast<int>(i);
+    }
+    return std::nullopt;
+}
+
 StepKey step_key(const FittedScene& fitted, int query) { return {query_key(fitted, query), fitted.options().tree}; }
 
 Document document_of(Scene scene, const FittedScene* previous, const Progress& progress) {
@@ -88,9 +108,16 @@ ViewState fitting(ViewState view, const FittedScene& fitted) {
     if (view.query && static_cast<std::size_t>(*view.query) >= fitted.queries().size()) view.query.reset();
     if (!view.follow.empty() && !can_follow(fitted.scene(), view.follow)) view.follow.clear();
     drop_unknown_names(fitted.scene(), view);
+    // A node of a tree that was fitted anew is another one, or none.
+    if (view.projection && !has_projection(fitted, view)) view.projection.reset();
     // A run is always seen at some time.
     if (fitted.scene().crowd && !view.time) view.time = run_time(fitted.scene(), view);
     return view;
+}
+
+void clamp_views(Document& document) {
+    document.view = fitting(document.view, *document.fitted);
+    for (SceneView& other : document.beside) other.view = fitting(other.view, *other.fitted);
 }
 
 }  // namespace mobbscope::app

@@ -21,6 +21,9 @@ using QueryKey = std::tuple<std::string, std::string, int>;
 /// Requires a query of that index.
 QueryKey query_key(const FittedScene& fitted, int query);
 
+/// The index of that query; none if nobody asks it.
+std::optional<int> find_query(const FittedScene& fitted, const QueryKey& key);
+
 /// A query as its steps are remembered: other kinds of trees take other tests.
 using StepKey = std::pair<QueryKey, mobb::TreeKind>;
 /// ... with the fit in use. Requires a query of that index.
@@ -78,5 +81,7 @@ bool quick_to_fit(const Scene& scene, const FittedScene& present, const FittedSc
 
 /// A view of another scene, or of this one before an edit, made to fit what there is.
 ViewState fitting(ViewState view, const FittedScene& fitted);
+/// The same of all views of a document.
+void clamp_views(Document& document);
 
 }  // namespace mobbscope::app

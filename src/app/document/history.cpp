@@ -1,4 +1,6 @@
 #include <app/document/history.h>
+#include <scene/scene_delta.h>
+#include <scene/view_options.h>
 
 #include <algorithm>
 #include <map>
@@ -10,16 +12,126 @@ namespace mobbscope::app {
 
 namespace {
 
-/// A person goes back a few; every state of a large scene costs memory.
+/// A person goes back a few.
 constexpr std::size_t kMostStates = 500;
+
+/// A view as it is now, but for what differs between `base` and `goal`: an edit changed that, and it is taken back or
+/// brought back. What was changed again since stays.
+ViewState carried_view(const ViewState& now, const ViewState& base, const ViewState& goal) {
+    ViewState out = now;
+    for (const ViewOption& option : view_options()) {
+        if (option.same(now, base)) option.copy(goal, out);
+    }
+    return out;
+}
+
+/// The fits of all views, from left to right.
+std::vector<std::shared_ptr<const FittedScene>> fits_by_place(const Document& document) {
+    std::vector<std::shared_ptr<const FittedScene>> out;
+    for (const SceneView& other : document.beside) out.push_back(other.fitted);
+    out.insert(out.begin() + static_cast<std::ptrdiff_t>(document.place), document.fitted);
+    return out;
+}
+
+/// Another view is the active one.
+void activate(Document& document, std::size_t place, const std::vector<std::shared_ptr<const FittedScene>>& fits,
+              const std::vector<ViewState>& views) {
+    document.place = place;
+    document.beside.clear();
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        if (i != place) document.beside.push_back({fits[i], views[i]});
+    }
+    document.fitted = fits[place];
+    document.view = views[place];
+}
 
 }  // namespace
 
+struct History::Packed {
+    SceneDelta scene;
+    std::weak_ptr<const Scene> same;  ///< the scene itself, while others hold it: the saved one stays that one
+    std::vector<std::shared_ptr<const NamedFit>> fits;
+    std::size_t in_use = 0;
+    std::vector<std::size_t> in_use_beside;
+
+    std::shared_ptr<const Scene> unpacked(const Scene& base) const {
+        std::shared_ptr<const Scene> known = same.lock();
+        return known ? known : std::make_shared<const Scene>(scene.applied(base));
+    }
+};
+
+History::Layout History::layout_of(const Document& document) {
+    Layout out{{}, document.place, document.linked_cameras};
+    for (const SceneView& other : document.beside) out.views.push_back(other.view);
+    out.views.insert(out.views.begin() + static_cast<std::ptrdiff_t>(document.place), document.view);
+    return out;
+}
+
+/// `state`, which is the present one, beside the scene that will be.
+History::State History::packed(const State& state, const Scene& base) {
+    State out = state;
+    const FittedScene& fitted = *out.document.fitted;
+    Packed packed{SceneDelta(fitted.scene(), base), fitted.shared_scene(), fitted.fits(), fitted.fit_in_use(), {}};
+    for (SceneView& other : out.document.beside) {
+        packed.in_use_beside.push_back(other.fitted->fit_in_use());
+        other.fitted.reset();
+    }
+    out.document.fitted.reset();
+    out.packed = std::make_shared<const Packed>(std::move(packed));
+    return out;
+}
+
+void History::unpack(State& state, const Scene& base) {
+    const Packed& packed = *state.packed;
+    const FittedScene fitted(packed.unpacked(base), packed.fits, packed.in_use);
+    state.document.fitted = std::make_shared<const FittedScene>(fitted);
+    for (std::size_t i = 0; i < packed.in_use_beside.size(); ++i) {
+        state.document.beside[i].fitted =
+            std::make_shared<const FittedScene>(fitted.using_fit(packed.in_use_beside[i]));
+    }
+    state.packed.reset();
+}
+
+/// The document `to`, seen as `from` is but for what an edit between them changed: from `base` to `goal` on the way
+/// that is gone.
+Document History::carried(const Document& from, const Document& to, const Layout& base, const Layout& goal) {
+    // An excerpt and its whole are seen each in their way.
+    if (from.opening != to.opening) return to;
+    Document out = to;
+    const Layout now = layout_of(from);
+    const std::vector<std::shared_ptr<const FittedScene>> fits_now = fits_by_place(from);
+    const std::vector<std::shared_ptr<const FittedScene>> fits = fits_by_place(to);
+    const auto carry = [&](std::size_t place, std::size_t at_goal) {
+        ViewState view = carried_view(now.views[place], base.views[place], goal.views[at_goal]);
+        // A query that was opened since may have another index, or another name, there.
+        if (const std::optional<int>& kept = now.views[place].query; kept && kept != base.views[place].query) {
+            const std::optional<int> found = find_query(*fits[at_goal], query_key(*fits_now[place], *kept));
+            const bool as_many = fits[at_goal]->queries().size() == fits_now[place]->queries().size();
+            if (found || !as_many) view.query = found;
+        }
+        return view;
+    };
+    std::vector<ViewState> views = goal.views;
+    if (now.views.size() == goal.views.size()) {
+        for (std::size_t place = 0; place < views.size(); ++place) views[place] = carry(place, place);
+        activate(out, now.place, fits, views);
+    } else {
+        views[goal.place] = carry(now.place, goal.place);
+        activate(out, goal.place, fits, views);
+    }
+    out.linked_cameras = now.linked_cameras == base.linked_cameras ? goal.linked_cameras : now.linked_cameras;
+    out.steps = from.steps;
+    out.steps.insert(to.steps.begin(), to.steps.end());
+    clamp_views(out);
+    return out;
+}
+
 void History::reset(Document document) {
     states_.clear();
-    states_.push_back(std::make_shared<const State>(State{std::move(document), {}, false, 0}));
+    states_.push_back(std::make_shared<const State>(State{std::move(document)}));
     now_ = 0;
     group_ = Group::ended;
+    forget_looks();
 }
 
 std::size_t History::bytes() const {
@@ -27,17 +139,29 @@ std::size_t History::bytes() const {
                            [](std::size_t sum, const auto& state) { return sum + state->bytes; });
 }
 
-void History::amend(Document document) { amend(std::move(document), states_[now_]->name); }
-
-void History::amend(Document document, const EditName& name) {
-    State state = *states_[now_];
-    // A view that moves changes nothing of what is held.
-    if (document.fitted != state.document.fitted || state.bytes == 0) {
-        state.bytes = now_ > 0 ? document.fitted->bytes_beyond(*states_[now_ - 1]->document.fitted) : 0;
-    }
-    state.document = std::move(document);
-    state.name = name;
+/// The present state is another one; its neighbours' scenes are said by what differs from its own.
+void History::set_present(State state) {
+    const std::shared_ptr<const FittedScene> before = states_[now_]->document.fitted;
+    const std::shared_ptr<const FittedScene> after = state.document.fitted;
     states_[now_] = std::make_shared<const State>(std::move(state));
+    if (&before->scene() == &after->scene()) return;
+    for (const std::size_t neighbour : {now_ - 1, now_ + 1}) {
+        if (neighbour >= states_.size()) continue;
+        State moved = *states_[neighbour];
+        unpack(moved, before->scene());
+        const std::size_t trees = after->bytes_beyond(moved.document.fitted->fits());
+        states_[neighbour] = std::make_shared<const State>(packed(moved, after->scene()));
+        if (neighbour > now_) continue;
+        State now = *states_[now_];
+        now.bytes = trees + states_[neighbour]->packed->scene.bytes();
+        states_[now_] = std::make_shared<const State>(std::move(now));
+    }
+}
+
+void History::amend(Document document) {
+    State state = *states_[now_];
+    state.document = std::move(document);
+    set_present(std::move(state));
 }
 
 void History::amend_views(const std::function<void(ViewState&)>& change) {
@@ -47,6 +171,7 @@ void History::amend_views(const std::function<void(ViewState&)>& change) {
         State changed = *state;
         change(changed.document.view);
         for (SceneView& other : changed.document.beside) change(other.view);
+        for (Layout* layout : {&changed.before, &changed.after}) std::ranges::for_each(layout->views, change);
         if (std::shared_ptr<const ExcerptSource>& source = changed.document.excerpt_of) {
             std::shared_ptr<const ExcerptSource>& amended = sources[source];
             if (!amended) {
@@ -58,23 +183,24 @@ void History::amend_views(const std::function<void(ViewState&)>& change) {
         }
         state = std::make_shared<const State>(std::move(changed));
     }
+    for (Looks* looks : {&looks_before_, &looks_after_}) {
+        for (auto& look : *looks) {
+            Look changed = *look;
+            change(changed.view);
+            look = std::make_shared<const Look>(std::move(changed));
+        }
+    }
 }
 
-/// Behind the present state, which it becomes; what follows stays.
-void History::append(State state) {
-    Document document = state.document;
-    states_.insert(states_.begin() + static_cast<std::ptrdiff_t>(++now_),
-                   std::make_shared<const State>(std::move(state)));
-    amend(std::move(document));
+void History::forget_oldest() {
     while (now_ > 0 && (states_.size() > kMostStates || bytes() > most_bytes_)) {
         states_.erase(states_.begin());
         --now_;
     }
     // Nothing leads to the oldest, so nothing that is done joins it.
-    if (!states_.front()->looked && states_.front()->name.title.empty()) return;
+    if (states_.front()->name.title.empty()) return;
     State oldest = *states_.front();
     oldest.name = {};
-    oldest.looked = false;
     states_.front() = std::make_shared<const State>(std::move(oldest));
 }
 
@@ -82,27 +208,94 @@ void History::change(Document document, const EditName& name) {
     const bool joins =
         group_ == Group::open && now_ > 0 && !name.group.empty() && states_[now_]->name.group == name.group;
     states_.resize(now_ + 1);
+    if (document.opening != now().opening) forget_looks();
+    look_group_.clear();
+    State next{std::move(document)};
+    next.name = name;
+    next.after = layout_of(next.document);
     if (joins) {
-        amend(std::move(document), name);
+        const State& present = *states_[now_];
+        next.before = present.before;
+        next.bytes = present.bytes;
+        // What was looked at meanwhile, such as the time that plays, is none of the edit's changes.
+        const Layout now = layout_of(present.document);
+        if (now.views.size() == next.before.views.size()) {
+            for (std::size_t i = 0; i < now.views.size(); ++i) {
+                next.before.views[i] = carried_view(now.views[i], present.after.views[i], next.before.views[i]);
+            }
+        }
+        set_present(std::move(next));
     } else {
-        append({std::move(document), name, false, 0});
+        const State& present = *states_[now_];
+        next.before = layout_of(present.document);
+        State last = packed(present, next.document.fitted->scene());
+        next.bytes = next.document.fitted->bytes_beyond(present.document.fitted->fits()) + last.packed->scene.bytes();
+        states_[now_] = std::make_shared<const State>(std::move(last));
+        states_.push_back(std::make_shared<const State>(std::move(next)));
+        ++now_;
     }
+    forget_oldest();
     group_ = Group::open;
 }
 
-void History::change_view(Document document, const EditName& name) {
-    if (states_[now_]->looked && states_[now_]->name.group == name.group) return amend(std::move(document), name);
-    append({std::move(document), name, true, 0});
-    group_ = Group::ended;
+void History::step_to(std::size_t neighbour) {
+    const std::shared_ptr<const State> leaving = states_[now_];
+    State arriving = *states_[neighbour];
+    unpack(arriving, leaving->document.fitted->scene());
+    arriving.document = neighbour < now_
+                            ? carried(leaving->document, arriving.document, leaving->after, leaving->before)
+                            : carried(leaving->document, arriving.document, arriving.before, arriving.after);
+    if (arriving.document.opening != leaving->document.opening) forget_looks();
+    states_[now_] = std::make_shared<const State>(packed(*leaving, arriving.document.fitted->scene()));
+    states_[neighbour] = std::make_shared<const State>(std::move(arriving));
+    now_ = neighbour;
 }
 
-void History::undo() { go_to(now_ - 1); }
-
-void History::redo() { go_to(now_ + 1); }
-
 void History::go_to(std::size_t state) {
-    now_ = state;
+    while (now_ != state) step_to(now_ < state ? now_ + 1 : now_ - 1);
     group_ = Group::ended;
+    look_group_.clear();
+}
+
+void History::forget_looks() {
+    looks_before_.clear();
+    looks_after_.clear();
+    look_group_.clear();
+}
+
+/// The present view, as it is found again.
+History::Look History::left(const std::string& title) const {
+    Look out{now().view, {}, title};
+    if (now().view.query) out.query = query_key(*now().fitted, *now().view.query);
+    return out;
+}
+
+void History::look(Document document, const EditName& name) {
+    if (name.group.empty() || look_group_ != name.group) {
+        looks_before_.push_back(std::make_shared<const Look>(left(name.title)));
+        if (looks_before_.size() > kMostStates) looks_before_.erase(looks_before_.begin());
+    } else {
+        Look same = *looks_before_.back();
+        same.title = name.title;
+        looks_before_.back() = std::make_shared<const Look>(std::move(same));
+    }
+    looks_after_.clear();
+    look_group_ = name.group;
+    group_ = Group::ended;
+    amend(std::move(document));
+}
+
+void History::turn_to_look(Looks& from, Looks& to) {
+    const std::shared_ptr<const Look> next = std::move(from.back());
+    from.pop_back();
+    to.push_back(std::make_shared<const Look>(left(next->title)));
+    Document document = now();
+    document.view = next->view;
+    if (next->query) document.view.query = find_query(*document.fitted, *next->query);
+    clamp_views(document);
+    group_ = Group::ended;
+    look_group_.clear();
+    amend(std::move(document));
 }
 
 }  // namespace mobbscope::app

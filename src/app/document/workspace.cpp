@@ -87,15 +87,12 @@ void Workspace::change_view(const std::function<void(ViewState&)>& change, const
     if (next.view.theme != view().theme) settings_->theme = next.view.theme;
     remember_step(next);
     const EditName as = name ? *name : name_of_looking(document(), next.view);
-    history.change_view(std::move(next), as);
+    history.look(std::move(next), as);
     changed();
 }
 
 void Workspace::change_document(Document next, const EditName& name) {
-    // A node of a tree that was fitted anew is another one, or none.
-    if (next.view.projection && !has_projection(*next.fitted, next.view)) next.view.projection.reset();
-    next.view = fitting(next.view, *next.fitted);
-    for (SceneView& other : next.beside) other.view = fitting(other.view, *other.fitted);
+    clamp_views(next);
     remember_step(next);
     history.change(std::move(next), name);
     changed();

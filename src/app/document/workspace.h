@@ -124,8 +124,7 @@ class Workspace {
     Scene changed_scene(const std::function<void(Scene&)>& change) const;
     /// Changes the scene at once. Throws as changed_scene does: nothing is changed then.
     void edit(const EditName& name, const std::function<void(Scene&)>& change);
-    /// Changes how it is seen; undo takes back looking of one kind (see History::change_view) in one go. No name: as
-    /// what it changes says.
+    /// Changes how it is seen, which undo leaves as it is (see History::look). No name: as what it changes says.
     void change_view(const std::function<void(ViewState&)>& change, const std::optional<EditName>& name = {});
     /// The next document of the history.
     void change_document(Document next, const EditName& name);

@@ -255,6 +255,8 @@ Json state_json(const Session& session) {
     if (session.notifications.unread() > 0) json["unread"] = session.notifications.unread();
     json["undo"] = text_or_null(session.workspace.history.undo_title());
     json["redo"] = text_or_null(session.workspace.history.redo_title());
+    json["previous_view"] = text_or_null(session.workspace.history.look_back_title());
+    json["next_view"] = text_or_null(session.workspace.history.look_forward_title());
     json["job"] = nullptr;
     if (const Job* job = session.jobs.job()) json["job"] = {{"title", job->title()}, {"progress", job->progress()}};
     if (session.dialogs.now == Dialog::import_clip) json["import"] = import_json(session.imports, session.workspace);

@@ -67,9 +67,21 @@ void Edits::redo() {
 }
 
 void Edits::go_to_state(std::size_t state) {
+    put_back([state](History& history) { history.go_to(state); });
+}
+
+void Edits::previous_view() {
+    if (workspace_.history.can_look_back()) put_back(&History::look_back);
+}
+
+void Edits::next_view() {
+    if (workspace_.history.can_look_forward()) put_back(&History::look_forward);
+}
+
+void Edits::put_back(const std::function<void(History&)>& turn) {
     const int before = workspace_.document().opening;
     playback_.stop();
-    workspace_.history.go_to(state);
+    turn(workspace_.history);
     ++counts_.put_back;
     // What is made for an excerpt is not put into the whole, nor the other way round.
     if (workspace_.document().opening != before) {

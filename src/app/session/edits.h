@@ -34,13 +34,18 @@ class Edits {
     /// become agents. Throws std::invalid_argument for an empty name, or that of another agent.
     void rename_agent(int agent, const std::string& name);
 
-    /// Back, and on again; what plays stops.
+    /// Back through the edits, and on again; what plays stops.
     void undo();
     void redo();
+    /// Back through how the scene was seen, and on again; likewise.
+    void previous_view();
+    void next_view();
     /// To a state of the history, < its count().
     void go_to_state(std::size_t state);
 
   private:
+    void put_back(const std::function<void(History&)>& turn);
+
     Workspace& workspace_;
     Jobs& jobs_;
     Playback& playback_;

@@ -87,11 +87,7 @@ void Files::load(const std::string& title, const LoadAll& load_all, const std::v
         const auto work = [this, load_all, files, view,
                            present = parts_.workspace.document().fitted](JobControl& control) -> Job::Finish {
             Document document = document_of(load_all(control), nullptr, progress_of(control));
-            if (view) {
-                document.view = *view;
-                // The file may have changed since.
-                if (view->projection && !has_projection(*document.fitted, *view)) document.view.projection.reset();
-            }
+            if (view) document.view = *view;
             return [this, document = std::move(document), files, present] {
                 const auto put_in = [this, document, files] { replace(document, files); };
                 // It takes the place of what was put aside.

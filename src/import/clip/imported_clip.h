@@ -88,6 +88,8 @@ struct SourceFacts {
     /// Seconds on the file's own clock: its earliest point, which is time 0 of the clock of all its tracks. None: the
     /// clip is no track.
     std::optional<double> t0{};
+
+    friend bool operator==(const SourceFacts&, const SourceFacts&) = default;
 };
 
 struct Skeleton;
