@@ -8,7 +8,6 @@
 #include <scene/arrangement.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <utility>
 
