@@ -117,8 +117,9 @@ class LevelCells {
 
     ImVec2 size() const { return {width_, height_ * static_cast<float>(lines_)}; }
     std::pair<ImVec2, ImVec2> place_of(int level) const {
+        const int line = level / in_line_;
         const float x = corner_.x + cell() * static_cast<float>(level % in_line_);
-        const float y = corner_.y + height_ * static_cast<float>(level / in_line_);
+        const float y = corner_.y + height_ * static_cast<float>(line);
         return {{x + 1, y + 1}, {x + cell() - 1, y + height_ - 1}};
     }
     int level_at(ImVec2 at) const {

@@ -115,7 +115,7 @@ Caption query_caption(const Palette& palette, std::span<const DrawnAgent> sides,
 
 void mention(Caption& caption, const std::string& text) {
     caption.detail = caption.detail.empty() ? text : text + kDot + caption.detail;
-    for (std::string& detail : caption.short_details) detail = text + kDot + detail;
+    for (std::string& detail : caption.short_details) detail.insert(0, text + kDot);
 }
 
 void mention_cursor_outside(Caption& caption, double time, double begin, double end) {
