@@ -102,30 +102,35 @@ std::string step_sentence(std::span<const DrawnAgent> sides, const mobb::Trace& 
            ": " + outcome_text(sides, event);
 }
 
-std::vector<std::string> step_sentences(std::span<const DrawnAgent> sides, const mobb::Trace& trace, int step) {
-    std::vector<std::string> out{step_sentence(sides, trace, step)};
-    std::vector<DrawnAgent> terse(sides.begin(), sides.end());
-    for (DrawnAgent& side : terse) side.label = shortened(side.label, 10);
-    // Too short to tell them apart, the colours and the legend still do.
-    if (terse[0].label == terse[1].label) {
-        terse[0].label = "A";
-        terse[1].label = "B";
-    }
-    out.push_back(step_sentence(terse, trace, step));
-    const std::string number = "step " + std::to_string(step) + ": ";
-    terse[0].label = "A";
-    terse[1].label = "B";
-    out.push_back(number + outcome_text(terse, trace[step]));
-    out.push_back(outcome_text(terse, trace[step]));
+std::vector<DrawnAgent> with_short_names(std::span<const DrawnAgent> sides, std::size_t most) {
+    std::vector<DrawnAgent> out(sides.begin(), sides.end());
+    const bool same = sides[0].label == sides[1].label;
+    do {
+        for (std::size_t i = 0; i < out.size(); ++i) out[i].label = shortened(sides[i].label, most);
+        ++most;
+    } while (!same && out[0].label == out[1].label);
     return out;
+}
+
+std::vector<std::string> step_sentences(std::span<const DrawnAgent> sides, const mobb::Trace& trace, int step) {
+    return {step_sentence(sides, trace, step), step_sentence(with_short_names(sides, kShortName), trace, step)};
+}
+
+std::vector<std::string> outcome_sentences(std::span<const DrawnAgent> sides, const mobb::Trace& trace, int step) {
+    const std::string number = "step " + std::to_string(step) + ": ";
+    return {number + outcome_text(with_short_names(sides, kShortName), trace[step]),
+            number + outcome_text(with_short_names(sides, kShortestName), trace[step])};
 }
 
 std::string answer_sentence(std::span<const DrawnAgent> sides, const RecordedQuery& recorded) {
     const std::string pair = sides[0].label + " and " + sides[1].label;
-    const mobb::TestCounts& tests = recorded.tests;
-    std::string text =
-        recorded.contact ? pair + " collide at " + with_unit(recorded.contact->time, "s") : pair + " never collide";
-    text += "; " + counted(tests[mobb::TestKind::time], "time test", "time tests");
+    return (recorded.contact ? pair + " collide at " + with_unit(recorded.contact->time, "s")
+                             : pair + " never collide") +
+           "; " + cost_words(recorded.tests);
+}
+
+std::string cost_words(const mobb::TestCounts& tests) {
+    std::string text = counted(tests[mobb::TestKind::time], "time test", "time tests");
     for (const mobb::BoxKind kind : mobb::kBoxKinds) {
         const std::string test = std::string(mobb::info(kind).title) + " test";
         if (tests[kind] > 0) text += ", " + counted(tests[kind], test, test + "s");

@@ -19,14 +19,26 @@ std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::E
 /// "step 14 of 0..61": where a step stands in a trace, in the same words everywhere.
 std::string step_of(int step, const mobb::Trace& trace);
 
+inline constexpr std::size_t kShortName = 10, kShortestName = 5;  // characters
+
+/// The two with names of at most so many (>= 5) characters, or as many more as tell them apart.
+std::vector<DrawnAgent> with_short_names(std::span<const DrawnAgent> sides, std::size_t most);
+
 /// What a step shows: "step 14 of 0..61: A 2.1 against B 2.3: separated along B's long axis by 0.183 m".
 std::string step_sentence(std::span<const DrawnAgent> sides, const mobb::Trace& trace, int step);
 
-/// The same in fewer and fewer words, for pictures with less room; all tell the whole outcome. Never empty.
+/// The same, and with short names, for pictures with less room.
 std::vector<std::string> step_sentences(std::span<const DrawnAgent> sides, const mobb::Trace& trace, int step);
+
+/// Only which step it is and what it found: "step 14: separated along B's long axis by 0.183 m"; with short names, and
+/// with shorter ones.
+std::vector<std::string> outcome_sentences(std::span<const DrawnAgent> sides, const mobb::Trace& trace, int step);
 
 /// The query's answer and what it cost.
 std::string answer_sentence(std::span<const DrawnAgent> sides, const RecordedQuery& recorded);
+
+/// "12 time tests, 7 2D box tests, 5 pairs of samples".
+std::string cost_words(const mobb::TestCounts& tests);
 
 /// "0.183 m", "0.42 s": three digits or millimetres, whichever is more.
 std::string with_unit(double value, const char* unit);

@@ -179,6 +179,7 @@ void order_and_filter(Ui& ui, const Review& review) {
         const std::string name(order);
         if (ImGui::Selectable(("by " + name).c_str(), name == now)) ui.invoke("review.order", name);
         ui.mark("review.order." + name);
+        if (name == now) ui.focus.begin_here();
     }
     ImGui::EndCombo();
 }

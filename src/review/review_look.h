@@ -34,7 +34,7 @@ inline constexpr double kMostReviewZoom = 64;
 struct ReviewLook {
     ReviewMode mode = ReviewMode::side_by_side;
     double blink_seconds = 0.5;  ///< that each picture stays
-    double divider = 0.5;        ///< of the slider: share of the picture's width that shows the golden
+    double divider = 0.5;        ///< of the slider: share of what is seen of the picture, across, that shows the golden
     double zoom = 0;             ///< pixels of the window for one of the picture; 0: all of it is seen
     double fits = 1;             ///< the zoom at which all is seen, as the panel last had it
     glm::dvec2 middle{0.5};      ///< what is in the middle, as shares of width and height

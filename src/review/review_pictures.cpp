@@ -192,8 +192,14 @@ void draw_grid(Ui& ui, const PictureView& view, const PicturePlace& place) {
     for (int y = first.y; y <= last.y; ++y) draw.AddLine(place.at(first.x, y), place.at(last.x, y), color);
 }
 
+/// Where the slider's line may be: along what is seen of the picture.
+ChartAxis divider_axis(const PictureView& view, const PicturePlace& place) {
+    const float first = std::clamp(place.at(0, 0).x, view.min.x, view.max.x - 1);
+    return {0, 1, first, std::clamp(place.at(place.size.x, 0).x, first + 1, view.max.x)};
+}
+
 float divider_pixel(const ReviewLook& look, const PictureView& view, const PicturePlace& place) {
-    return std::clamp(std::round(place.at(look.divider * place.size.x, 0).x), view.min.x, view.max.x);
+    return std::round(divider_axis(view, place).pixel(look.divider));
 }
 
 void draw_divider(Ui& ui, const PictureView& view, float x) {
@@ -270,7 +276,7 @@ void drag_pictures(Ui& ui, const ReviewLook& look, const PictureView& view, cons
         moves_divider = near || (view.second && look.zoom == 0);
     }
     if (moves_divider) {
-        const double share = std::clamp(place.pixel(mouse).x / place.size.x, 0.0, 1.0);
+        const double share = std::clamp(divider_axis(view, place).value(mouse.x), 0.0, 1.0);
         return change_look(ui, [share](ReviewLook& changed) { changed.divider = share; });
     }
     const ImVec2 moved = ImGui::GetIO().MouseDelta;

@@ -333,6 +333,73 @@ TEST(Keyboard, NumbersAreTypedWithTheirUnitAndBroughtIntoRange) {
     EXPECT_EQ(w.session.keys.focus, "") << "the mouse had begun";
 }
 
+TEST(Keyboard, AClickOnANumberIsGoneOnWithByDigits) {
+    KeyboardWindow w;
+    const auto press = [&](Key key, char letter) {
+        w.window.shell().feed(KeyPress{key, true});
+        w.window.shell().feed(TypedText{static_cast<char32_t>(letter)});
+        w.window.shell().feed(KeyPress{key, false});
+    };
+    // As fast as a hand may be: nothing waits for a frame.
+    const auto click = [&](const std::string& mark) {
+        const glm::vec2 at = w.at(mark);
+        w.window.shell().feed(MouseMove{at});
+        w.window.shell().feed(MouseButton{0, true});
+        w.window.shell().feed(MouseButton{0, false});
+    };
+    const Camera camera = w.session.workspace.view().camera;
+    click("tree.leaf");
+    press(Key::n1, '1');
+    press(Key::n2, '2');
+    w.key("Enter");
+    EXPECT_EQ(w.session.workspace.scene().fit.leaf, 12);
+    click("agent.1");
+    w.window.settle();
+    const auto placement = [&] { return w.session.workspace.scene().agents[1].placement; };
+    click("agent.y");
+    press(Key::minus, '-');
+    press(Key::n1, '1');
+    press(Key::period, '.');
+    press(Key::n5, '5');
+    // A click on a field above takes what was typed, and begins there.
+    w.window.settle();
+    click("agent.x");
+    press(Key::n3, '3');
+    w.key("Enter");
+    EXPECT_EQ(placement().translate, glm::dvec2(3, -1.5));
+    EXPECT_EQ(w.session.workspace.view().camera, camera);
+    EXPECT_FALSE(w.session.workspace.view().time);
+    // A hand that trembles still clicks; one that moves drags.
+    w.hold("agent.x", {3, 2});
+    w.send(MouseButton{0, false});
+    EXPECT_EQ(w.session.keys.focus, "agent.x");
+    EXPECT_EQ(placement().translate.x, 3);
+    w.key("Escape");
+    w.hold("agent.x", {40, 0});
+    w.send(MouseButton{0, false});
+    EXPECT_EQ(w.session.keys.focus, "");
+    EXPECT_GT(placement().translate.x, 3);
+}
+
+TEST(Keyboard, TheFirstArrowGoesOnFromTheChosenRowOfAListThatTheMouseHasOpened) {
+    KeyboardWindow w;
+    run_command(w.session, "tree.kind", "umobb");
+    w.window.settle();
+    w.click("tree.kind");
+    w.key("Down");
+    const std::string next = w.session.keys.focus;
+    w.key("Up");
+    EXPECT_EQ(w.session.keys.focus, "tree.kind.umobb");
+    EXPECT_NE(next, "tree.kind.umobb");
+    w.key("Up");
+    EXPECT_EQ(w.session.keys.focus, "tree.kind.mobb");
+    w.key("Escape");
+    // A menu has no row that is chosen: it begins with its first.
+    w.click("menu.file");
+    w.key("Down");
+    EXPECT_EQ(w.session.keys.focus, "menu.file.open");
+}
+
 TEST(Keyboard, ADialogGivesTheFocusBack) {
     KeyboardWindow w;
     w.key("Tab", 2);

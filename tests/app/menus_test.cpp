@@ -1,5 +1,6 @@
 // Right-click menus, what a toolbar has no room for, folded sections, the status bar, the list of the history.
 #include <app/commands/command.h>
+#include <app/panels/recursion_picture.h>
 #include <app/script/script.h>
 #include <app/window/headless_window.h>
 #include <render/drawlist/pick.h>
@@ -128,6 +129,60 @@ TEST(Menus, RowsTestsAndTimesHaveMenus) {
     EXPECT_FALSE(w.session.workspace.view().time);
     w.run("click context.time.at");
     EXPECT_NEAR(w.session.workspace.view().time.value_or(-1), 0.5 * (span.t0 + span.t1), 0.02);
+}
+
+TEST(Menus, AClickOnTheRecursionGoesToTheTestThatItsTooltipTells) {
+    MenuWindow w;
+    w.run("run query.select 0\nrun step.first");
+    const Recursion& recursion = w.session.queries.findings()->recursion;
+    const Rect icicle = w.marks().at("query.icicle");
+    const int row = std::clamp(static_cast<int>(icicle.size().y) / recursion.depth, 2, 20);
+    int inner = 0;
+    for (const PairCell& cell : icicle_cells(recursion, static_cast<int>(icicle.size().x), row)) {
+        const RecursionPair& pair = recursion.pairs[static_cast<std::size_t>(cell.pair)];
+        const glm::vec2 at = icicle.min + 0.5f * glm::vec2(cell.x0 + cell.x1, cell.y0 + cell.y1);
+        if (at.y >= icicle.max.y) continue;
+        w.run("click " + std::to_string(at.x) + ' ' + std::to_string(at.y));
+        EXPECT_EQ(w.session.workspace.step(), pair.last);
+        inner += pair.last > pair.first;
+    }
+    EXPECT_GT(inner, 0) << "else first and last test are one";
+}
+
+TEST(Menus, EveryLevelOfADeepTreeHasAButton) {
+    for (const double width : {120.0, 256.0, 420.0}) {
+        MenuWindow w;
+        std::string samples = "t,x,y,r\n";
+        for (int i = 0; i < 5000; ++i) {
+            samples += std::to_string(i) + ',' + std::to_string(0.5 * i) + ',' + std::to_string(i % 7) + ",0.3\n";
+        }
+        w.folder.write("long.csv", samples);
+        w.session.settings.left_width = width;
+        w.session.files.open({w.folder.file("long.csv")});
+        while (w.session.jobs.job()) w.session.poll();
+        w.run("run tree.leaf 1");
+        while (w.session.jobs.job()) w.session.poll();
+        w.window.settle();
+        const int depth = w.session.workspace.fitted().tree(0).depth();
+        ASSERT_EQ(depth, 14);
+        for (int level = 0; level < depth; ++level) {
+            const std::string button = "view.level." + std::to_string(level);
+            ASSERT_TRUE(w.has(button)) << button << " at " << width;
+            EXPECT_GE(w.marks().at(button).size().x, 12) << button << " at " << width;
+            w.run("click " + button);
+            EXPECT_EQ(w.session.workspace.view().levels, (LevelRange{level, level, false})) << width;
+        }
+    }
+}
+
+TEST(Menus, AnExcerptSaysWhatOneGoesBackTo) {
+    MenuWindow w;
+    w.run("run query.capture 0");
+    ASSERT_TRUE(w.session.workspace.in_excerpt());
+    EXPECT_EQ(w.session.workspace.title(), "A and B of scene.json");
+    EXPECT_EQ(command_named("crowd.back").title, "Back to the whole scene");
+    w.run("click crowd.back");
+    EXPECT_EQ(w.session.workspace.title(), "scene.json");
 }
 
 TEST(Menus, KeysOpenTheMenuOfWhatHasTheFocusOrIsSelected) {

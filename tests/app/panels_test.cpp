@@ -422,6 +422,13 @@ TEST(Panels, ThePaletteGoesThroughItsListAndAsksForArguments) {
     w.key("Enter");
     EXPECT_EQ(w.session.workspace.view().theme, Theme::light);
     w.key("Ctrl+P");
+    w.type("theme");
+    w.key("Enter");
+    EXPECT_EQ(w.session.dialogs.input.picked, 1) << "it begins with what is chosen";
+    w.key("Up");
+    w.key("Enter");
+    EXPECT_EQ(w.session.workspace.view().theme, Theme::dark);
+    w.key("Ctrl+P");
     w.key("Escape");
     EXPECT_EQ(w.session.dialogs.now, Dialog::none);
 }

@@ -52,6 +52,17 @@ TEST(Settings, RememberTwentyEachOnce) {
     EXPECT_EQ(std::count(settings.recent.begin(), settings.recent.end(), "/folder/15"), 1);
 }
 
+TEST(Settings, AFolderHasItsNameWithOrWithoutASlashBehindIt) {
+    Settings settings;
+    settings.remember("/folder/scenes/");
+    settings.remember("/folder/scenes");
+    EXPECT_EQ(settings.recent, std::vector<std::filesystem::path>{"/folder/scenes"});
+    // Older versions kept the slash.
+    const TempFolder folder;
+    const auto old = folder.write("settings.json", R"({"recent": ["/a/b/", "/c", "/a/b", "/"]})");
+    EXPECT_EQ(load_settings(old).recent, (std::vector<std::filesystem::path>{"/a/b", "/c", "/"}));
+}
+
 TEST(Settings, JunkIsPassedOver) {
     const TempFolder folder;
     EXPECT_EQ(load_settings(folder.path() / "none.json"), Settings{});

@@ -2,6 +2,7 @@
 #include <explain/query_sentence.h>
 #include <mobb/random_motion.h>
 #include <mobb/traversal.h>
+#include <render/layout/caption.h>
 #include <render/pictures/build_draw_list.h>
 #include <render/query/query_boxes.h>
 #include <render/query/separation_gap.h>
@@ -380,6 +381,44 @@ TEST(QuerySentence, SaysWhatAStepShows) {
     EXPECT_NE(sentence.find(with_unit(query.recorded.trace[step].gap, "m")), std::string::npos) << sentence;
     EXPECT_EQ(query.recorded.contact, std::nullopt);
     EXPECT_TRUE(answer_sentence(query.sides, query.recorded).starts_with("A and B never collide; "));
+}
+
+TEST(QuerySentence, NamesItsAgentsHoweverShortItIs) {
+    Query query(testing::miss_scene());
+    const int step = query.find(mobb::BoxKind::obb2d, mobb::Outcome::separated);
+    ASSERT_GE(step, 0);
+    for (const auto& [a, b] :
+         {std::pair<std::string, std::string>{"A", "C"}, {"pedestrian 0012 of zara01", "pedestrian 0112 of zara01"}}) {
+        query.sides[0].label = a;
+        query.sides[1].label = b;
+        std::vector<std::string> all = step_sentences(query.sides, query.recorded.trace, step);
+        for (const std::string& less : outcome_sentences(query.sides, query.recorded.trace, step)) all.push_back(less);
+        for (const std::string& sentence : all) {
+            EXPECT_EQ(sentence.find("B's"), std::string::npos) << sentence;
+            EXPECT_TRUE(sentence.starts_with("step " + std::to_string(step))) << sentence;
+        }
+        const std::vector<DrawnAgent> terse = with_short_names(query.sides, 5);
+        EXPECT_NE(terse[0].label, terse[1].label);
+    }
+}
+
+TEST(QuerySentence, ANarrowCaptionKeepsStepTreeAndCounts) {
+    const Query query(testing::miss_scene());
+    const int step = query.find(mobb::BoxKind::obb2d, mobb::Outcome::separated);
+    const Caption caption = query_caption(palette(Theme::dark), query.sides, query.recorded, step);
+    for (const float room : {120.0f, 150.0f, 250.0f, 600.0f}) {
+        const CaptionLines lines =
+            caption_lines(caption, room, 1, room < 400 ? CaptionSize::small : CaptionSize::large);
+        const auto joined = [](const std::vector<std::string>& all) {
+            std::string out;
+            for (const std::string& line : all) out += line + ' ';
+            return out;
+        };
+        EXPECT_TRUE(joined(lines.headline).starts_with("step " + std::to_string(step))) << room;
+        const std::string detail = joined(lines.detail);
+        EXPECT_TRUE(detail.starts_with("MOBB, leaf ")) << detail;
+        EXPECT_NE(detail.find(" pairs of samples "), std::string::npos) << room << ": " << detail;
+    }
 }
 
 TEST(QuerySentence, SaysWhichBoxesWereTested) {

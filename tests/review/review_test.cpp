@@ -760,6 +760,26 @@ TEST(Review, TheSliderFollowsMouseAndKeys) {
     EXPECT_NE(golden, at_the_end) << "the line is there";
 }
 
+TEST(Review, TheSliderStaysInWhatIsSeenOfThePictures) {
+    ReviewWorld w;
+    w.open();
+    w.show("moved");
+    w.key("5");
+    w.key("D");
+    ASSERT_GT(w.review().look.zoom, 0);
+    const Rect view = w.window->shell().marks().all().at("picture.0");
+    for (const double middle : {0.1, 0.5, 0.9}) {
+        w.review().look.zoom = 8 * w.review().look.fits;
+        w.review().look.middle.x = middle;
+        w.window->settle();
+        EXPECT_NEAR(w.middle("review.divider").x, view.center().x, 1) << middle;
+    }
+    w.drag(w.middle("review.divider"), {40, 0});
+    EXPECT_NEAR(w.middle("review.divider").x, view.center().x + 40, 1);
+    w.drag(w.middle("review.divider"), {view.size().x, 0});
+    EXPECT_EQ(w.review().look.divider, 1);
+}
+
 TEST(Review, TheWheelKeepsThePixelUnderTheMouse) {
     ReviewWorld w;
     w.open();

@@ -1,5 +1,6 @@
 #include <app/commands/arguments.h>
 #include <app/commands/command.h>
+#include <app/commands/palette_entries.h>
 #include <app/document/agents.h>
 #include <base/text.h>
 
@@ -126,6 +127,12 @@ void invoke(Session& session, std::string_view id, const std::string& argument) 
 void ask_for_argument(Session& session, const Command& command) {
     DialogInput input{.text = command.present ? command.present(session) : "", .command = std::string(command.id)};
     input.selected = !input.text.empty();
+    if (command.chosen) {
+        const std::vector<std::string> all = matching_choices(session, command, input.text);
+        const auto is_chosen = [&](const std::string& choice) { return command.chosen(session, choice); };
+        const auto chosen = std::ranges::find_if(all, is_chosen);
+        if (chosen != all.end()) input.picked = static_cast<int>(chosen - all.begin());
+    }
     session.dialogs.open(Dialog::palette, std::move(input));
 }
 

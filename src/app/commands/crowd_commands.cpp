@@ -246,8 +246,9 @@ std::vector<Command> crowd_commands() {
         Command("conflicts.open", "Open the conflict as a scene",
                 "Opens the two of a conflict as a scene with the query between them.", open_conflict,
                 {.argument = "[N]", .enabled = has_conflicts}),
-        Command("crowd.back", "Back to the crowd", "Leaves the scene of two for the crowd that they were taken from.",
-                &Excerpts::leave, {.shortcut = "Backspace", .enabled = &Workspace::in_excerpt}),
+        Command("crowd.back", "Back to the whole scene",
+                "Leaves the scene of two for the scene or run that they were taken from.", &Excerpts::leave,
+                {.shortcut = "Backspace", .enabled = &Workspace::in_excerpt}),
     };
     return in_menu("Go/Crowd", rows);
 }

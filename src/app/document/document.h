@@ -36,7 +36,7 @@ struct QuerySteps {
     bool by_one = false;           ///< the last move was a single step
 };
 
-/// What an excerpt was taken from. An excerpt is a scene of its own, made of two paths of a run or a crowd.
+/// What an excerpt was taken from. An excerpt is a scene of its own, made of two paths of a run or a scene.
 struct ExcerptSource {
     std::shared_ptr<const FittedScene> fitted;  ///< of the whole; never null
     ViewState view;                             ///< of the whole, when it was left

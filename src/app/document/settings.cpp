@@ -184,11 +184,9 @@ std::filesystem::path folder_named_by(const char* variable) {
 }  // namespace
 
 void Settings::remember(const std::filesystem::path& file) {
-    std::error_code error;
-    std::filesystem::path absolute = std::filesystem::absolute(file, error).lexically_normal();
-    if (error) absolute = file;
-    std::erase(recent, absolute);
-    recent.insert(recent.begin(), std::move(absolute));
+    std::filesystem::path whole = whole_path(file);
+    std::erase(recent, whole);
+    recent.insert(recent.begin(), std::move(whole));
     if (recent.size() > kMostRecent) recent.resize(kMostRecent);
 }
 
@@ -211,7 +209,8 @@ Settings load_settings(const std::filesystem::path& file) {
         const double read = at->get<double>();
         if (read >= number.least && read <= number.most) settings.*number.value = read;
     }
-    settings.recent = paths_at(json, "recent", kMostRecent);
+    const std::vector<std::filesystem::path> recent = paths_at(json, "recent", kMostRecent);
+    for (auto opened = recent.rbegin(); opened != recent.rend(); ++opened) settings.remember(*opened);
     const std::filesystem::path folder = setting_text(json, "folder");
     if (folder.is_absolute()) settings.folder = folder;
     settings.theme = theme_from_name(setting_text(json, "theme"));

@@ -43,13 +43,12 @@ bool Workspace::modified() const {
 }
 
 std::string Workspace::title() const {
-    if (in_excerpt()) {
-        std::string title = scene().agents.empty() ? "excerpt" : scene().agents.front().name;
-        if (scene().agents.size() > 1) title += " and " + scene().agents[1].name;
-        return title + " of " + (file ? file->filename().string() : "a crowd");
-    }
-    if (file) return file->filename().string();
-    return scene().file.empty() ? "untitled" : scene().file.stem().string();
+    std::string whole = scene().file.empty() ? "untitled" : scene().file.stem().string();
+    if (file) whole = file->filename().string();
+    if (!in_excerpt()) return whole;
+    std::string title = scene().agents.empty() ? "excerpt" : scene().agents.front().name;
+    if (scene().agents.size() > 1) title += " and " + scene().agents[1].name;
+    return title.append(" of ").append(whole);
 }
 
 const RecordedQuery* Workspace::recorded() const {

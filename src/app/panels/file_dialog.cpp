@@ -210,9 +210,9 @@ std::vector<FilePlace> places(const Workspace& workspace) {
 std::vector<FilePlace> recent_folders(const Settings& settings) {
     std::vector<FilePlace> out;
     for (const std::filesystem::path& file : settings.recent) {
-        const std::filesystem::path folder = file.has_extension() ? file.parent_path() : file;
+        const std::filesystem::path folder = is_folder(file) ? file : file.parent_path();
         const bool known = std::ranges::any_of(out, [&](const FilePlace& place) { return place.folder == folder; });
-        if (!known) out.push_back({folder.filename().string(), folder});
+        if (!known) out.push_back({own_name(folder), folder});
         if (out.size() == kMostRecentFolders) break;
     }
     return out;

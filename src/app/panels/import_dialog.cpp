@@ -102,10 +102,12 @@ void offered_choices(Ui& ui, Imports& imports, const ImportField& field) {
     const bool scrolls = count > kMostChoiceRows;
     const float row = ImGui::GetTextLineHeightWithSpacing();
     if (scrolls) ImGui::BeginChild("##choices", {0, row * (kMostChoiceRows + 0.5f)});
-    clipped_rows(ui, "offered", count, row, [&](int i) {
+    const auto draw = [&](int i) {
         const OfferedChoice& choice = *found[static_cast<std::size_t>(i)];
         if (choice_row(ui, field, choice.label, choice.value, field.text() == choice.value)) taken = choice.value;
-    });
+    };
+    const auto chosen = std::ranges::find(found, field.text(), &OfferedChoice::value);
+    clipped_rows(ui, "offered", count, row, draw, chosen == found.end() ? 0 : static_cast<int>(chosen - found.begin()));
     if (scrolls) ImGui::EndChild();
     if (taken) {
         set_option(ui, field, *taken);
@@ -240,7 +242,7 @@ void clip_chooser(Ui& ui, int index) {
     const auto& clips = ui.workspace.scene().clips;
     form_label(ui, "Clip", "Which clip of the scene");
     if (!begin_dropdown(ui, "import.clip", clips[static_cast<std::size_t>(index)].name, "Clip")) return;
-    clipped_rows(ui, "clips", static_cast<int>(clips.size()), ImGui::GetTextLineHeightWithSpacing(), [&](int i) {
+    const auto draw = [&](int i) {
         const SceneClip& clip = clips[static_cast<std::size_t>(i)];
         ImGui::PushID(i);
         ImGui::BeginDisabled(!clip.source);
@@ -249,7 +251,8 @@ void clip_chooser(Ui& ui, int index) {
         ImGui::PopID();
         ui.mark("import.clip." + std::to_string(i), OwnKeys::none, clip.name);
         if (i == index) ui.focus.begin_here();
-    });
+    };
+    clipped_rows(ui, "clips", static_cast<int>(clips.size()), ImGui::GetTextLineHeightWithSpacing(), draw, index);
     if (pressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
     ImGui::EndCombo();
 }

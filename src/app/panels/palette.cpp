@@ -51,9 +51,10 @@ void run(Session& session, const Command& command, const std::string& argument) 
 /// that was taken, or -1.
 template <class Draw>
 int pick_from_list(DialogInput& input, int count, bool entered, const Draw& draw) {
-    const bool moved = move_picked(input.picked, count);
+    bool moved = move_picked(input.picked, count);
     int taken = entered && count > 0 ? input.picked : -1;
     ImGui::BeginChild("list");
+    moved |= ImGui::IsWindowAppearing();
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     ImGuiListClipper clipper;
     clipper.Begin(count);

@@ -29,8 +29,8 @@ void query_header(Ui& ui) {
     flow(button_width("close"));
     query_button(ui, "close", "query.none");
     if (ui.workspace.in_excerpt()) {
-        flow(button_width("back to the crowd"));
-        command_button(ui, "back to the crowd", "crowd.back", "crowd.back");
+        flow(button_width("back to the whole scene"));
+        command_button(ui, "back to the whole scene", "crowd.back", "crowd.back");
     }
     ImGui::PopStyleVar();
 }

@@ -119,9 +119,13 @@ void draw_cell(ImDrawList& list, const Style& style, const StripCell& cell, ImVe
     }
 }
 
-std::string tooltip(const QueryFindings& findings, const mobb::Trace& trace, const StripCell& cell) {
-    if (cell.end - cell.first == 1) return step_sentence(findings.sides, trace, cell.first);
-    std::string out = "events " + std::to_string(cell.first) + " to " + std::to_string(cell.end - 1);
+/// The event that a cell leads to: its first, or the present one if it is in it.
+int event_of(const StripCell& cell, int step) { return step >= cell.first && step < cell.end ? step : cell.first; }
+
+std::string tooltip(const QueryFindings& findings, const mobb::Trace& trace, const StripCell& cell, int step) {
+    std::string out = step_sentence(findings.sides, trace, event_of(cell, step));
+    if (cell.end - cell.first == 1) return out;
+    out += "\nevents " + std::to_string(cell.first) + " to " + std::to_string(cell.end - 1) + " stand here";
     for (std::size_t m = kEventMarks; m-- > 0;) {
         if (cell.marks[m] == 0) continue;
         out += "\n" + std::to_string(cell.marks[m]) + "  " + headline(static_cast<EventMark>(m));
@@ -235,7 +239,7 @@ void QueryPictures::icicle(Ui& ui, QueryInspector& queries, ImVec2 size) {
     ImGui::SetTooltip("%s\n%d events here and below%s",
                       step_sentence(findings->sides, ui.workspace.recorded()->trace, pair.last).c_str(),
                       pair.end - pair.first, more.c_str());
-    if (clicked) ui.invoke("step.to", std::to_string(pair.first));
+    if (clicked) ui.invoke("step.to", std::to_string(pair.last));
 }
 
 void QueryPictures::strip(Ui& ui, QueryInspector& queries, float width, float height) {
@@ -249,14 +253,15 @@ void QueryPictures::strip(Ui& ui, QueryInspector& queries, float width, float he
     ImGui::InvisibleButton("strip", {width, height});
     ui.mark_only("query.strip");
     const auto cell_at = [&](float x) {
-        const float inside = std::clamp(x - at.x, 0.0f, width - 1);
-        const auto index = static_cast<std::size_t>(inside / width * static_cast<float>(cells.size()));
-        return cells[std::min<std::size_t>(index, cells.size() - 1)];
+        const auto cell =
+            std::partition_point(cells.begin(), cells.end() - 1, [&](const StripCell& c) { return at.x + c.x1 <= x; });
+        return *cell;
     };
-    context_menu(ui, [&] {
-        return test_menu(ui.workspace, queries, cell_at(ImGui::GetMousePosOnOpeningCurrentPopup().x).first);
-    });
     const int step = ui.workspace.step();
+    context_menu(ui, [&] {
+        const StripCell cell = cell_at(ImGui::GetMousePosOnOpeningCurrentPopup().x);
+        return test_menu(ui.workspace, queries, event_of(cell, step));
+    });
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(at, {at.x + width, at.y + height}, ui.style.raised);
     const float room = height - ui.px(4);  // the rest is for the marker
@@ -273,8 +278,8 @@ void QueryPictures::strip(Ui& ui, QueryInspector& queries, float width, float he
     const bool active = ImGui::IsItemActive();
     if (!active && !ImGui::IsItemHovered()) return;
     const StripCell cell = cell_at(ImGui::GetIO().MousePos.x);
-    ImGui::SetTooltip("%s", tooltip(*findings, trace, cell).c_str());
-    if (active && (step < cell.first || step >= cell.end)) ui.invoke("step.to", std::to_string(cell.first));
+    ImGui::SetTooltip("%s", tooltip(*findings, trace, cell, step).c_str());
+    if (active && event_of(cell, step) != step) ui.invoke("step.to", std::to_string(event_of(cell, step)));
 }
 
 }  // namespace mobbscope::app

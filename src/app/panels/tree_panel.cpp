@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace mobbscope::app {
 
@@ -91,8 +92,6 @@ void time_scale(Ui& ui, Jobs& jobs) {
     if (wanted) ui.invoke("tree.time_scale", short_double(*wanted));
 }
 
-constexpr float kLeastCell = 10.5f;  // pixels at scale 1: a level's number
-
 /// Left and Right go to the next level; with Shift they make a range longer or shorter.
 void level_keys(Ui& ui, int depth) {
     LevelRange wanted = ui.workspace.view().levels;
@@ -106,6 +105,38 @@ void level_keys(Ui& ui, int depth) {
     if (wanted != ui.workspace.view().levels) ui.invoke("view.level", to_string(wanted));
 }
 
+/// A cell for each level, as wide as its number at least: in as many lines as that takes.
+class LevelCells {
+  public:
+    LevelCells(ImVec2 corner, float width, float least, int depth)
+        : corner_(corner), width_(width), height_(ImGui::GetFrameHeight()), depth_(depth) {
+        const int most = std::clamp(static_cast<int>(width / least), 1, depth);
+        lines_ = (depth + most - 1) / most;
+        in_line_ = (depth + lines_ - 1) / lines_;
+    }
+
+    ImVec2 size() const { return {width_, height_ * static_cast<float>(lines_)}; }
+    std::pair<ImVec2, ImVec2> place_of(int level) const {
+        const int line = level / in_line_;
+        const float x = corner_.x + cell() * static_cast<float>(level % in_line_);
+        const float y = corner_.y + height_ * static_cast<float>(line);
+        return {{x + 1, y + 1}, {x + cell() - 1, y + height_ - 1}};
+    }
+    int level_at(ImVec2 at) const {
+        const int column = std::clamp(static_cast<int>((at.x - corner_.x) / cell()), 0, in_line_ - 1);
+        const int line = std::clamp(static_cast<int>((at.y - corner_.y) / height_), 0, lines_ - 1);
+        return std::min(line * in_line_ + column, depth_ - 1);
+    }
+
+  private:
+    float cell() const { return width_ / static_cast<float>(in_line_); }
+
+    ImVec2 corner_;
+    float width_, height_;
+    int depth_;
+    int lines_ = 1, in_line_ = 1;
+};
+
 /// Which levels are drawn: a cell for each, lit where it is. A click shows one level, a drag or Shift a range.
 void shown_levels(Ui& ui, int depth) {
     const LevelRange shown = ui.workspace.view().levels;
@@ -115,41 +146,40 @@ void shown_levels(Ui& ui, int depth) {
     const float leaves = ImGui::CalcTextSize("leaves").x + 2 * padding.x;
     // A tiny window may leave none; ImGui takes no button of no width.
     const float room = std::max(1.0f, ImGui::GetContentRegionAvail().x);
-    const bool beside = (room - leaves - ui.px(6)) / static_cast<float>(depth) >= ui.px(kLeastCell);
-    const ImVec2 size{beside ? room - leaves - ui.px(6) : room, ImGui::GetFrameHeight()};
-    ImGui::InvisibleButton("##levels", size);
+    const float beside = room - leaves - ui.px(6);
+    const ImFont& mono = *ui.style.mono;
+    const float least = text_size(mono, std::to_string(depth - 1)).x + ui.px(3);
+    const bool in_one_line = least * static_cast<float>(depth) <= beside;
+    const LevelCells cells(corner, in_one_line ? beside : room, least, depth);
+    ImGui::InvisibleButton("##levels", cells.size());
     ui.mark("view.level", OwnKeys::left_right);
     level_keys(ui, depth);
-    const float cell = size.x / static_cast<float>(depth);
-    const auto level_at = [&](float x) { return std::clamp(static_cast<int>((x - corner.x) / cell), 0, depth - 1); };
     const ImGuiIO& io = ImGui::GetIO();
     if (ImGui::IsItemActive()) {
-        const int here = level_at(io.MousePos.x);
-        const int from = io.KeyShift && !shown.leaves ? shown.first : level_at(io.MouseClickedPos[0].x);
+        const int here = cells.level_at(io.MousePos);
+        const int from = io.KeyShift && !shown.leaves ? shown.first : cells.level_at(io.MouseClickedPos[0]);
         const LevelRange wanted{std::min(from, here), std::max(from, here), false};
         if (wanted != shown) ui.invoke("view.level", to_string(wanted));
     }
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, ui.style.window, ui.px(4));
-    const int over = ImGui::IsItemHovered() ? level_at(io.MousePos.x) : -1;
+    const ImVec2 end{corner.x + cells.size().x, corner.y + cells.size().y};
+    draw.AddRectFilled(corner, end, ui.style.window, ui.px(4));
+    const int over = ImGui::IsItemHovered() ? cells.level_at(io.MousePos) : -1;
     for (int level = 0; level < depth; ++level) {
-        const ImVec2 min{corner.x + cell * static_cast<float>(level) + 1, corner.y + 1};
-        const ImVec2 max{corner.x + cell * static_cast<float>(level + 1) - 1, corner.y + size.y - 1};
+        const auto [min, max] = cells.place_of(level);
+        ui.marks.add("view.level." + std::to_string(level), {{min.x, min.y}, {max.x, max.y}});
         const bool lit = !shown.leaves && !ui.workspace.view().query && level >= std::min(shown.first, depth - 1) &&
                          level <= shown.last;
         if (lit || level == over)
             draw.AddRectFilled(min, max, lit ? to_im(with_alpha(ui.style.palette.accent, 0.45f)) : ui.style.raised,
                                ui.px(3));
         const std::string label = std::to_string(level);
-        const ImFont& mono = *ui.style.mono;
         const ImVec2 text = text_size(mono, label);
-        // Of very deep trees only the cells remain.
-        if (text.x > cell) continue;
         draw_text(draw, mono, {0.5f * (min.x + max.x - text.x), 0.5f * (min.y + max.y - text.y)},
                   lit ? ui.style.text : ui.style.quiet, label);
     }
-    draw.AddRect(corner, {corner.x + size.x, corner.y + size.y}, ui.style.border, ui.px(4));
-    if (beside) {
+    draw.AddRect(corner, end, ui.style.border, ui.px(4));
+    if (in_one_line) {
         ImGui::SameLine(0, ui.px(6));
     } else {
         ImGui::SetCursorScreenPos({corner.x, ImGui::GetCursorScreenPos().y});

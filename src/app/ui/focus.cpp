@@ -146,6 +146,10 @@ bool Focus::in_popup(const Chord& chord) {
     if (chord.ctrl || chord.alt) return false;
     // A menu opens what the mouse rests on: it is away until it moves.
     ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
+    // Of what the mouse has opened, keys go on from the row that is chosen.
+    if (const Stop* chosen = here() ? nullptr : where_popup_begins(); chosen && chosen->begins) {
+        at_.back() = chosen->name;
+    }
     const Stop* stop = here();
     const std::string_view key = name(chord.key);
     if (key.size() != 1) searched_.clear();
@@ -597,11 +601,16 @@ void Focus::follow_popups() {
     while (at_.size() > open + 1) at_.pop_back();
     while (at_.size() < open + 1) at_.emplace_back();
     if (open == 0 || here() || !visible_) return;
+    if (const Stop* begin = where_popup_begins()) at_.back() = begin->name;
+}
+
+/// The row that is chosen, else the first one.
+const Focus::Stop* Focus::where_popup_begins() const {
     const Stop* begin = nullptr;
     for (const Stop& stop : stops_) {
         if (reachable(stop) && (!begin || (stop.begins && !begin->begins))) begin = &stop;
     }
-    if (begin) at_.back() = begin->name;
+    return begin;
 }
 
 /// ... and so does a dialog.

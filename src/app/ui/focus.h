@@ -115,6 +115,7 @@ class Focus {
     /// The first one from there on in the order of drawing, or against it, that may be come to by Tab.
     const Stop* from_order(std::size_t begin, bool back, const Stop* left) const;
     const Stop& entered(const Stop& stop) const;
+    const Stop* where_popup_begins() const;
     void follow_popups();
     void follow_dialog();
     void draw_ring(const Style& style) const;

@@ -60,6 +60,9 @@ struct FieldInput {
     bool fresh = false;   ///< the field does not have the keys yet
     int waits = 2;        ///< frames until it must have them
     bool typing = false;  ///< else it is dragged
+
+    /// Keys that are pressed meanwhile are for the field.
+    bool waits_for_keys() const { return typing && waits > 0; }
 };
 
 /// All that a panel gets.

@@ -311,19 +311,34 @@ bool begin_dropdown(Ui& ui, const std::string& mark, const std::string& shown, s
     return open;
 }
 
-void clipped_rows(Ui& ui, const char* name, int count, float height, const std::function<void(int)>& draw) {
+void clipped_rows(Ui& ui, const char* name, int count, float height, const std::function<void(int)>& draw,
+                  int shown_first) {
     ui.focus.begin_list(ImGui::GetID(name), count);
     ImGuiListClipper clipper;
     clipper.Begin(count, height);
     if (const auto wanted = ui.focus.wanted_row()) clipper.ForceDisplayRangeByIndices(*wanted, *wanted + 1);
+    const bool scrolls = shown_first > 0 && ImGui::IsWindowAppearing();
+    if (scrolls) clipper.ForceDisplayRangeByIndices(shown_first, shown_first + 1);
     while (clipper.Step()) {
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
             ui.focus.row(i);
             draw(i);
+            if (scrolls && i == shown_first) ImGui::SetScrollHereY();
         }
     }
     ui.focus.end_list();
 }
+
+namespace {
+
+/// Whether what is done in the field that was drawn last begins now. What was typed elsewhere has this frame to be
+/// taken.
+bool begins_input(const FieldInput& input, const std::string& mark) {
+    const bool others = input.typing && input.mark != mark;
+    return ImGui::IsItemActivated() ? !others : ImGui::IsItemActive() && input.mark != mark;
+}
+
+}  // namespace
 
 std::optional<std::string> text_edit(Ui& ui, const std::string& mark, const std::string& now) {
     FieldInput& input = ui.field;
@@ -331,7 +346,7 @@ std::optional<std::string> text_edit(Ui& ui, const std::string& mark, const std:
     std::string shown = now;
     ImGui::InputText(("##" + mark).c_str(), own ? &input.text : &shown);
     ui.mark(mark);
-    if (ImGui::IsItemActivated()) input = {.mark = mark, .text = shown, .before = now, .typing = true};
+    if (begins_input(input, mark)) input = {.mark = mark, .text = shown, .before = now, .waits = 0, .typing = true};
     if (!own || ImGui::IsItemActive()) return std::nullopt;
     const FieldInput done = std::exchange(input, {});
     if (!ImGui::IsItemDeactivated() || done.text == done.before) return std::nullopt;
@@ -412,16 +427,26 @@ std::optional<double> type_number(Ui& ui, const NumberField& field) {
     return typed_number(ui, field, done.text);
 }
 
+/// Whether the mouse has moved so far that it is no click.
+bool is_dragged() { return ImGui::IsMouseDragPastThreshold(ImGuiMouseButton_Left); }
+
+/// A click or Enter gives the field the keys.
+void begin_typing(Ui& ui, const NumberField& field, double value) {
+    const std::string text = number_text(field, value);
+    ui.field = {.mark = field.mark, .text = text, .before = text, .fresh = true, .typing = true};
+    ui.want_frame_in(0);
+}
+
 std::optional<double> drag_number(Ui& ui, const NumberField& field, double per_pixel) {
     FieldInput& input = ui.field;
-    if (ImGui::IsItemActivated()) input = {.mark = field.mark, .value = field.now, .given = field.now};
+    if (begins_input(input, field.mark)) input = {.mark = field.mark, .value = field.now, .given = field.now};
     if (input.typing || input.mark != field.mark) return std::nullopt;
     const bool held = ImGui::IsItemActive();
     if (held)
         input.value =
             std::clamp(stepped(field, input.value, per_pixel * ImGui::GetIO().MouseDelta.x), field.least, field.most);
     const double wanted = whole_or_not(field, input.value);
-    const bool gives = wanted != input.given && (field.live || !held);
+    const bool gives = wanted != input.given && is_dragged() && (field.live || !held);
     input.given = gives ? wanted : input.given;
     if (!held) input = {};
     return gives ? std::optional(wanted) : std::nullopt;
@@ -432,9 +457,7 @@ std::optional<double> number_keys(Ui& ui, const NumberField& field) {
     double value = field.now;
     for (const Chord& chord : ui.focus.take(field.mark)) {
         if (chord.key == Key::enter) {
-            const std::string text = number_text(field, value);
-            ui.field = {.mark = field.mark, .text = text, .before = text, .fresh = true, .typing = true};
-            ui.want_frame_in(0);
+            begin_typing(ui, field, value);
             continue;
         }
         const double size = chord.shift ? 0.1 : chord.ctrl ? 10 : 1;
@@ -469,13 +492,8 @@ std::optional<double> number_field(Ui& ui, const NumberField& field) {
     const bool held = ui.field.mark == field.mark;
     const bool over = ImGui::IsItemHovered();
     const bool enabled = (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) == 0;
-    const bool ctrl_clicked =
-        ImGui::IsItemDeactivated() && io.KeyCtrl && !ImGui::IsMouseDragPastThreshold(ImGuiMouseButton_Left);
-    if (ctrl_clicked || (over && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))) {
-        const std::string text = number_text(field, field.now);
-        ui.field = {.mark = field.mark, .text = text, .before = text, .fresh = true, .typing = true};
-        ui.want_frame_in(0);
-    }
+    const bool released = ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left);
+    if (released && over && !is_dragged()) begin_typing(ui, field, field.now);
     if (over || held) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImGuiStyle& style = ImGui::GetStyle();

@@ -92,8 +92,8 @@ std::string fitted_name(const std::string& name, float room);
 /// another text; Escape takes it back.
 std::optional<std::string> text_edit(Ui& ui, const std::string& mark, const std::string& now);
 
-/// A number that is dragged, stepped with Up and Down, and typed after Enter or a double click. Shift makes steps and
-/// drags finer, Ctrl coarser.
+/// A number that is dragged, stepped with Up and Down, and typed after Enter or a click. Shift makes steps and drags
+/// finer, Ctrl coarser.
 struct NumberField {
     std::string mark;  ///< its name for scripts
     std::string what;  ///< "The samples of a leaf", for what is said of a number that is out of range
@@ -113,8 +113,10 @@ std::optional<double> number_field(Ui& ui, const NumberField& field);
 /// A list with a row of equal height for each item: as high as its rows, at most `most_rows` before it scrolls.
 void rows(Ui& ui, const char* name, int count, int most_rows, const std::function<void(int)>& draw);
 
-/// Rows alone, of which those are drawn that are seen or that the keys go to. `height`: of one, pixels.
-void clipped_rows(Ui& ui, const char* name, int count, float height, const std::function<void(int)>& draw);
+/// Rows alone, of which those are drawn that are seen or that the keys go to. `height`: of one, pixels. `shown_first`:
+/// the row that is scrolled to where the list appears.
+void clipped_rows(Ui& ui, const char* name, int count, float height, const std::function<void(int)>& draw,
+                  int shown_first = 0);
 
 /// A list's row across the panel: a name, and a short remark at its right end. Returns true when it is clicked.
 struct Row {

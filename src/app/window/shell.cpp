@@ -171,9 +171,10 @@ struct Shell::State final : PictureMaker {
         session.queue.run();
     }
 
-    /// A dialog has opened whose field does not have the keys yet: what is typed meanwhile is meant for it.
+    /// A field of a dialog or of a panel does not have the keys yet: what is typed meanwhile is meant for it.
     bool waits_for_field() {
-        if (!row_of(session.dialogs.now).has_field || !session.dialogs.input.fresh)
+        const bool in_dialog = row_of(session.dialogs.now).has_field && session.dialogs.input.fresh;
+        if (!in_dialog && !field.waits_for_keys())
             waited = 0;
         else if (++waited <= kFramesToFocus)
             return true;

@@ -8,32 +8,43 @@
 #include <scene/arrangement.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
+#include <utility>
 
 namespace mobbscope {
 
 namespace {
 
-constexpr std::size_t kMostDetails = 2;
 constexpr const char* kDot = "  \u00B7  ";
 
 struct Sizes {
     float headline, detail, indent, between;
-    explicit Sizes(float scale)
-        : headline(std::round(16 * scale)),
+    std::size_t most_lines;  ///< of the headline, and of the detail
+    Sizes(float scale, CaptionSize size)
+        : headline(std::round((size == CaptionSize::large ? 16.0f : 12.0f) * scale)),
           detail(std::round(12 * scale)),
           indent(std::round(1.1f * headline)),
-          between(std::round(3 * scale)) {}
+          between(std::round(3 * scale)),
+          most_lines(size == CaptionSize::large ? 2 : 4) {}
 };
 
-/// The rest of too many lines is cut off visibly rather than run down the picture; so are words too long for a line.
-void cut(std::vector<std::string>& lines, std::size_t most, float text_size, float room) {
-    if (most > 0) {
-        for (std::size_t i = most; i < lines.size(); ++i) lines[most - 1] += ' ' + lines[i];
+/// The first of the texts that so many lines hold. The rest of the last one is cut off visibly rather than run down the
+/// picture, and so are words too long for a line; returns whether nothing is cut off.
+bool wrap(std::span<const std::string> texts, std::size_t most, float text_size, float room,
+          std::vector<std::string>& lines) {
+    for (const std::string& text : texts) {
+        lines = wrap_text(text, FontFace::text, text_size, room);
+        if (lines.size() <= most) break;
     }
+    for (std::size_t i = most; i < lines.size(); ++i) lines[most - 1] += ' ' + lines[i];
     lines.resize(std::min(lines.size(), most));
-    for (std::string& line : lines) line = fit_text(line, FontFace::text, text_size, room);
+    bool whole = true;
+    for (std::string& line : lines) {
+        std::string fits = fit_text(line, FontFace::text, text_size, room);
+        whole &= fits == line;
+        line = std::move(fits);
+    }
+    return whole;
 }
 
 std::string levels_text(const LevelRange& levels, int last) {
@@ -91,8 +102,12 @@ Caption query_caption(const Palette& palette, std::span<const DrawnAgent> sides,
                       int step) {
     Caption caption;
     caption.headlines = step_sentences(sides, recorded.trace, step);
+    caption.short_headlines = outcome_sentences(sides, recorded.trace, step);
     caption.title = step_of(step, recorded.trace);
-    caption.detail = fit_words(sides[0].placed.tree().options()) + kDot + answer_sentence(sides, recorded);
+    const std::string fit = fit_words(sides[0].placed.tree().options()) + kDot;
+    caption.detail = fit + answer_sentence(sides, recorded);
+    caption.short_details = {fit + answer_sentence(with_short_names(sides, kShortName), recorded),
+                             fit + cost_words(recorded.tests)};
     const mobb::Outcome outcome = recorded.trace[step].outcome;
     caption.mark = outcome_style(box_state(outcome), palette).color;
     return caption;
@@ -100,6 +115,7 @@ Caption query_caption(const Palette& palette, std::span<const DrawnAgent> sides,
 
 void mention(Caption& caption, const std::string& text) {
     caption.detail = caption.detail.empty() ? text : text + kDot + caption.detail;
+    for (std::string& detail : caption.short_details) detail.insert(0, text + kDot);
 }
 
 void mention_cursor_outside(Caption& caption, double time, double begin, double end) {
@@ -114,23 +130,25 @@ void mention_hidden(Caption& caption, std::span<const std::string> hidden, std::
     mention(caption, std::to_string(hidden.size()) + " of " + std::to_string(all) + " are hidden");
 }
 
-CaptionLines caption_lines(const Caption& caption, float room, float scale, std::size_t most_headlines) {
-    const Sizes sizes(scale);
+CaptionLines caption_lines(const Caption& caption, float room, float scale, CaptionSize size) {
+    const Sizes sizes(scale, size);
     room -= caption.mark.a > 0 ? sizes.indent : 0;
-    CaptionLines out;
-    for (const std::string& headline : caption.headlines) {
-        out.headline = wrap_text(headline, FontFace::text, sizes.headline, room);
-        if (out.headline.size() <= most_headlines) break;
+    std::vector<std::string> headlines = caption.headlines;
+    std::vector<std::string> details{caption.detail};
+    if (size == CaptionSize::small) {
+        headlines.insert(headlines.end(), caption.short_headlines.begin(), caption.short_headlines.end());
+        details.insert(details.end(), caption.short_details.begin(), caption.short_details.end());
     }
-    cut(out.headline, most_headlines, sizes.headline, room);
-    out.detail = wrap_text(caption.detail, FontFace::text, sizes.detail, room);
-    cut(out.detail, kMostDetails, sizes.detail, room);
+    CaptionLines out;
+    out.size = size;
+    out.whole_headline = wrap(headlines, sizes.most_lines, sizes.headline, room, out.headline);
+    out.whole_detail = wrap(details, sizes.most_lines, sizes.detail, room, out.detail);
     return out;
 }
 
 glm::vec2 caption_size(const Caption& caption, const CaptionLines& lines, float scale) {
     if (lines.headline.empty() && lines.detail.empty()) return glm::vec2(0);
-    const Sizes sizes(scale);
+    const Sizes sizes(scale, lines.size);
     const bool marked = caption.mark.a > 0;
     glm::vec2 size(0);
     const auto add = [&](const std::string& line, float text_size) {
@@ -144,7 +162,7 @@ glm::vec2 caption_size(const Caption& caption, const CaptionLines& lines, float 
 }
 
 void add_caption(DrawList& list, const Caption& caption, const CaptionLines& lines, glm::vec2 corner, float scale) {
-    const Sizes sizes(scale);
+    const Sizes sizes(scale, lines.size);
     glm::vec2 at = corner;
     if (caption.mark.a > 0 && !lines.headline.empty()) {
         const float r = 0.3f * sizes.headline;

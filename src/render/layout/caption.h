@@ -13,8 +13,10 @@ namespace mobbscope {
 struct Caption {
     std::vector<std::string> headlines;  ///< the sentence that answers what is seen, in fewer and fewer words; or none
     std::string detail;                  ///< read second
-    std::string title;                   ///< what is left of it when it is folded; empty: its last headline
-    Rgba mark{0};                        ///< colour of the dot before the headline; opacity 0: none
+    /// The same in fewer and fewer words, for what is too narrow even for small letters; or none.
+    std::vector<std::string> short_headlines{}, short_details{};
+    std::string title;  ///< what is left of it when it is folded; empty: its last headline
+    Rgba mark{0};       ///< colour of the dot before the headline; opacity 0: none
 };
 
 /// What the scene is and which boxes are shown, with their volume.
@@ -36,14 +38,19 @@ void mention_hidden(Caption& caption, std::span<const std::string> hidden, std::
 /// Says in the detail that a time cursor is not drawn, as it lies outside what the paths take.
 void mention_cursor_outside(Caption& caption, double time, double begin, double end);
 
-/// A caption cut to a picture: the first headline of at most so many lines, and the detail below it.
+/// How large a caption's headline is: of a narrow picture as small as the detail, in more lines.
+enum class CaptionSize { large, small };
+
+/// A caption cut to a picture: the first words that its lines hold.
 struct CaptionLines {
     std::vector<std::string> headline;
     std::vector<std::string> detail;
+    CaptionSize size = CaptionSize::large;
+    bool whole_headline = true, whole_detail = true;  ///< nothing is cut off
 };
 
-/// `room`: pixels across, with the dot. A last headline that is too long is cut off visibly.
-CaptionLines caption_lines(const Caption& caption, float room, float scale, std::size_t most_headlines);
+/// `room`: pixels across, with the dot. Last words that are too long are cut off visibly.
+CaptionLines caption_lines(const Caption& caption, float room, float scale, CaptionSize size);
 
 /// What it covers, pixels: with its dot.
 glm::vec2 caption_size(const Caption& caption, const CaptionLines& lines, float scale);

@@ -65,13 +65,6 @@ std::vector<LegendEntry> shown_rows(std::span<const LegendEntry> all, std::size_
     return out;
 }
 
-/// Whether nothing of the headline is cut off.
-bool is_whole(const Caption& caption, const CaptionLines& lines) {
-    std::string shown;
-    for (const std::string& line : lines.headline) shown += (shown.empty() ? "" : " ") + line;
-    return std::ranges::find(caption.headlines, shown) != caption.headlines.end();
-}
-
 class OverlayLayout {
   public:
     OverlayLayout(DrawList& list, const OverlayContents& contents, const ViewState& view, const Metrics& metrics)
@@ -155,10 +148,13 @@ class OverlayLayout {
         const float beside_header = area_.size().x - (map_ ? map_->rect.size().x + spacing_.gap : 0);
         const bool both = map_ && !view_.fold_inset && beside_map >= 0.5f * area_.size().x;
         const float room = (both ? beside_map : beside_header) - 2 * spacing_.padding - spacing_.chevron;
-        const auto fits = [&](const Caption& caption) {
-            caption_lines_ = caption_lines(caption, room, metrics_.scale, 2);
+        const auto fits = [&](const Caption& caption, CaptionSize at) {
+            caption_lines_ = caption_lines(caption, room, metrics_.scale, at);
             // A sentence that breaks off before the outcome says nothing; a name that is cut still does.
-            if (caption.headlines.size() > 1 && !is_whole(caption, caption_lines_)) return false;
+            if (caption.headlines.size() > 1 && !caption_lines_.whole_headline) return false;
+            // Small letters come before words are left out.
+            const bool has_less = at == CaptionSize::large && !caption.short_details.empty();
+            if (has_less && !caption_lines_.whole_detail) return false;
             const glm::vec2 text = caption_size(caption, caption_lines_, metrics_.scale);
             const glm::vec2 size = spacing_.around(text + glm::vec2(spacing_.chevron, 0));
             const Rect rect = in_corner(area_, {0, 0}, size);
@@ -168,7 +164,10 @@ class OverlayLayout {
         };
         Caption without_detail = contents_.caption;
         without_detail.detail.clear();
-        if (!fits(contents_.caption)) fits(without_detail);
+        without_detail.short_details.clear();
+        for (const Caption& caption : {contents_.caption, without_detail}) {
+            if (fits(caption, CaptionSize::large) || fits(caption, CaptionSize::small)) return;
+        }
     }
 
     void open_legend() {
