@@ -1,3 +1,4 @@
+#include <base/name_list.h>
 #include <base/text.h>
 #include <explain/axis_intervals.h>
 #include <explain/clearance.h>
@@ -11,6 +12,8 @@
 namespace mobbscope {
 
 namespace {
+
+constexpr std::size_t kTerseLabel = 10;  // characters
 
 std::string separating_axis(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
     const auto axis_of = [&](const DrawnAgent& side, int node, int axis) {
@@ -105,7 +108,9 @@ std::string step_sentence(std::span<const DrawnAgent> sides, const mobb::Trace& 
 std::vector<std::string> step_sentences(std::span<const DrawnAgent> sides, const mobb::Trace& trace, int step) {
     std::vector<std::string> out{step_sentence(sides, trace, step)};
     std::vector<DrawnAgent> terse(sides.begin(), sides.end());
-    for (DrawnAgent& side : terse) side.label = shortened(side.label, 10);
+    const NameList names({sides[0].label, sides[1].label});
+    const auto fits = [](const std::string& label) { return code_points(label).size() <= kTerseLabel; };
+    for (DrawnAgent& side : terse) side.label = names.shortened(side.label, fits);
     // Too short to tell them apart, the colours and the legend still do.
     if (terse[0].label == terse[1].label) {
         terse[0].label = "A";
