@@ -170,6 +170,13 @@ std::string short_double(double value) { return digits_of(value); }
 
 std::string brief(double value) { return digits_of(value, std::chars_format::general, 6); }
 
+std::string figure(double value, int digits) {
+    const double size = std::abs(value);
+    // What rounds up to one digit more would else become a power.
+    return size >= std::pow(10, digits) - 0.5 && size < 1e9 ? formatted("%.0f", value)
+                                                            : formatted("%.*g", digits, value);
+}
+
 std::string to_thousandth(double value) {
     std::string out = formatted("%.3f", value);
     out.erase(out.find_last_not_of('0') + 1);

@@ -40,6 +40,9 @@ std::string short_double(double value);
 /// A number for people: six significant digits.
 std::string brief(double value);
 
+/// A figure for people: so many significant digits, and all those before the point: "1.235", "12346".
+std::string figure(double value, int digits = 4);
+
 /// A place or a time for people: to the thousandth, however large, without zeros at the end.
 std::string to_thousandth(double value);
 

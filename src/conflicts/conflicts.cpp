@@ -344,7 +344,7 @@ double PeopleConflicts::seconds() const {
 
 std::string conflict_count(std::size_t conflicts, std::size_t people, double seconds) {
     return counted(conflicts, "conflict", "conflicts") + " among " + counted(people, "agent", "agents") + ", " +
-           brief(seconds) + " s in all";
+           figure(seconds) + " s in all";
 }
 
 std::vector<SceneConflict> conflicts_in(const FittedScene& fitted, const Progress& progress) {

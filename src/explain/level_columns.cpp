@@ -13,11 +13,13 @@ namespace {
 
 struct LevelUnit {
     std::string_view column;
-    const char* behind = "";
-    double in_unit = 1;  ///< the figure times this is what is shown
+    const char* behind = "";   ///< on a terminal
+    const char* written = "";  ///< ... and in words
+    double in_unit = 1;        ///< the figure times this is what is shown
 };
 
-constexpr std::array kLevelUnits{LevelUnit{"volume", " m^2*s"}, LevelUnit{"tightness", " %", 100}};
+constexpr std::array kLevelUnits{LevelUnit{"volume", " m^2*s", " m\u00B2\u00B7s"},
+                                 LevelUnit{"tightness", " %", " %", 100}};
 
 LevelUnit unit_of(const mobb::LevelColumn& column) {
     const auto* const at = std::ranges::find(kLevelUnits, column.name, &LevelUnit::column);
@@ -32,6 +34,14 @@ std::string level_text(const mobb::LevelColumn& column, const mobb::LevelFigures
     const std::optional<double> value = column.of(figures);
     if (!value) return "-";
     return column.whole ? std::to_string(static_cast<std::int64_t>(*value)) : brief(*value * unit_of(column).in_unit);
+}
+
+std::string level_words(const mobb::LevelColumn& column, const mobb::LevelFigures& figures) {
+    const std::string name = std::string(column.name) + ' ';
+    const std::optional<double> value = column.of(figures);
+    if (!value) return name + '-';
+    const LevelUnit unit = unit_of(column);
+    return name + (column.whole ? level_text(column, figures) : figure(*value * unit.in_unit)) + unit.written;
 }
 
 }  // namespace mobbscope

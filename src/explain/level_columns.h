@@ -7,6 +7,9 @@
 
 namespace mobbscope {
 
+/// "volume 1.235 m\u00B2\u00B7s": a figure for people.
+std::string level_words(const mobb::LevelColumn& column, const mobb::LevelFigures& figures);
+
 /// Behind a figure, or the name of its column: " m^2*s"; empty for a number without unit.
 std::string level_unit(const mobb::LevelColumn& column);
 

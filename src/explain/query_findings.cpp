@@ -89,7 +89,7 @@ std::string gain_words(const mobb::TestCounts& tests, const Clearance& clearance
     std::string out = "The direct search would measure " + counted(pairs, "pair", "pairs") + " of samples; this took " +
                       counted(all, "test", "tests");
     if (all > 0 && pairs > all) {
-        return out + formatted(", %.3g times fewer.", static_cast<double>(pairs) / static_cast<double>(all));
+        return out + ", " + figure(static_cast<double>(pairs) / static_cast<double>(all), 3) + " times fewer.";
     }
     return out + (pairs == all ? ", as many." : ": here the trees gain nothing.");
 }

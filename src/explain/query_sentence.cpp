@@ -1,3 +1,4 @@
+#include <base/name_list.h>
 #include <base/text.h>
 #include <explain/axis_intervals.h>
 #include <explain/clearance.h>
@@ -11,6 +12,8 @@
 namespace mobbscope {
 
 namespace {
+
+constexpr std::size_t kTerseLabel = 10;  // characters
 
 std::string separating_axis(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
     const auto axis_of = [&](const DrawnAgent& side, int node, int axis) {
@@ -105,8 +108,10 @@ std::string step_sentence(std::span<const DrawnAgent> sides, const mobb::Trace& 
 std::vector<DrawnAgent> with_short_names(std::span<const DrawnAgent> sides, std::size_t most) {
     std::vector<DrawnAgent> out(sides.begin(), sides.end());
     const bool same = sides[0].label == sides[1].label;
+    const NameList names({sides[0].label, sides[1].label});
     do {
-        for (std::size_t i = 0; i < out.size(); ++i) out[i].label = shortened(sides[i].label, most);
+        const auto fits = [&](const std::string& label) { return code_points(label).size() <= most; };
+        for (std::size_t i = 0; i < out.size(); ++i) out[i].label = names.shortened(sides[i].label, fits);
         ++most;
     } while (!same && out[0].label == out[1].label);
     return out;

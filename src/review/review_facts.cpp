@@ -222,7 +222,7 @@ void numbers(Ui& ui, const ReviewCase& one, const ReviewPictures& pictures) {
 void path_of_file(Ui& ui, const char* label, const std::string& path) {
     text_line(ui.style.quiet, label);
     ImGui::SameLine(ImGui::GetWindowContentRegionMin().x + ui.px(64));
-    const std::string shown = fitted_text(path, ImGui::GetContentRegionAvail().x);
+    const std::string shown = fitted_name(path, ImGui::GetContentRegionAvail().x);
     text_line(ui.style.text, shown);
     if (!ImGui::IsItemHovered()) return;
     ImGui::SetTooltip("%s\nClick to copy", path.c_str());

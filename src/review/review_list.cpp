@@ -107,7 +107,7 @@ void outcome_shape(ImDrawList& list, const Style& style, ImVec2 middle, float si
 namespace {
 
 /// Two lines: the name, and below what came of it. At the left a box to mark it by, its shape beside.
-void case_row(Ui& ui, const Review& review, std::size_t index, float height) {
+void case_row(Ui& ui, const Review& review, std::size_t index, float height, const NameList& names) {
     const ReviewCase& one = review.cases()[index];
     const std::string mark = "case." + one.file.name;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -145,13 +145,12 @@ void case_row(Ui& ui, const Review& review, std::size_t index, float height) {
     const float line = ImGui::GetTextLineHeight();
     const float top = corner.y + (height - 2 * line) / 2;
     const float room = end.x - pad - left;
-    draw.AddText({left, top}, ui.style.text, fitted_text(one.file.name, room).c_str());
-    draw.AddText({left, top + line}, one.drawn() ? outcome_color(ui.style, one) : ui.style.quiet,
-                 fitted_text(outcome_words(one), room).c_str());
+    const std::string name = fitted_name(one.file.name, room, names);
+    const std::string outcome = fitted_text(outcome_words(one), room);
+    draw.AddText({left, top}, ui.style.text, name.c_str());
+    draw.AddText({left, top + line}, one.drawn() ? outcome_color(ui.style, one) : ui.style.quiet, outcome.c_str());
     if (hovered && over_box) ImGui::SetTooltip("Marks the case, to accept it with others (M)");
-    if (hovered && !over_box && ImGui::CalcTextSize(one.file.name.c_str()).x > room) {
-        ImGui::SetTooltip("%s", one.file.name.c_str());
-    }
+    if (!over_box) tell_whole(ui, name + "   " + outcome, one.file.name + "   " + outcome_words(one));
     ImGui::PopID();
     if (!clicked) return;
     const bool marks = over_box || ImGui::GetIO().KeyCtrl;
@@ -208,8 +207,9 @@ void review_list(Ui& ui, const Review& review) {
         if (top < ImGui::GetScrollY()) ImGui::SetScrollY(top);
         if (top + row > ImGui::GetScrollY() + view) ImGui::SetScrollY(top + row - view);
     }
+    const NameList names(review.cases().size(), [&](std::size_t i) { return review.cases()[i].file.name; });
     clipped_rows(ui, "cases", static_cast<int>(rows.size()), height + ui.px(1),
-                 [&](int i) { case_row(ui, review, rows[static_cast<std::size_t>(i)], height); });
+                 [&](int i) { case_row(ui, review, rows[static_cast<std::size_t>(i)], height, names); });
     ImGui::EndChild();
     ImGui::PopStyleVar();
 }

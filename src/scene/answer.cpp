@@ -73,9 +73,13 @@ std::string sentence(const SceneQuery& query, const std::optional<mobb::Contact>
     const std::string a = cleaned(query.a.name);
     const std::string b = cleaned(query.b.name);
     if (!contact) return a + " and " + b + " never collide.";
-    return a + " and " + b + " collide at " + brief(contact->time) + " s: sample " + std::to_string(contact->a_sample) +
-           " of " + a + " and sample " + std::to_string(contact->b_sample) + " of " + b + " are " +
-           brief(contact->distance) + " m apart, their radii add up to " + brief(contact->radii) + " m.";
+    // Two that hardly touch need more digits to be told apart.
+    const bool close = figure(contact->distance) == figure(contact->radii);
+    const auto metres = [close](double value) { return close ? brief(value) : figure(value); };
+    return a + " and " + b + " collide at " + to_thousandth(contact->time) + " s: sample " +
+           std::to_string(contact->a_sample) + " of " + a + " and sample " + std::to_string(contact->b_sample) +
+           " of " + b + " are " + metres(contact->distance) + " m apart, their radii add up to " +
+           metres(contact->radii) + " m.";
 }
 
 std::optional<std::string> disagreement(const SceneQuery& query, const Answer& answer) {
@@ -86,8 +90,9 @@ std::optional<std::string> disagreement(const SceneQuery& query, const Answer& a
     if (!query.expect->collides) return "expected no collision, but " + sentence(query, answer.contact);
     if (!query.expect->contact) return "expected a collision, but " + sentence(query, answer.contact);
     const mobb::Contact& expected = *query.expect->contact;
-    return "expected contact at " + brief(expected.time) + " s between samples " + std::to_string(expected.a_sample) +
-           " and " + std::to_string(expected.b_sample) + ", but " + sentence(query, answer.contact);
+    return "expected contact at " + to_thousandth(expected.time) + " s between samples " +
+           std::to_string(expected.a_sample) + " and " + std::to_string(expected.b_sample) + ", but " +
+           sentence(query, answer.contact);
 }
 
 }  // namespace mobbscope

@@ -1,3 +1,4 @@
+#include <base/name_list.h>
 #include <base/text.h>
 #include <scene/arrangement.h>
 #include <scene/crowd_run.h>
@@ -23,13 +24,17 @@ constexpr std::size_t kLongestLabel = 24;
 constexpr std::array<std::uint32_t, 8> kAgentColors{0xE69F00, 0x56B4E9, 0xCC79A7, 0x0072B2,
                                                     0xF3CF80, 0xABDAF4, 0xE6BCD3, 0x6BA9D0};
 
+Rgba palette_color(int index) { return hex(kAgentColors[static_cast<std::size_t>(index) % kAgentColors.size()]); }
+
+bool fits_a_label(const std::string& name) { return code_points(name).size() <= kLongestLabel; }
+
 DrawnAgent make_drawn_agent(const FittedScene& fitted, const ViewState& view, const PlacedAgent& who, int index,
-                            int color_index) {
+                            const Rgba& color, const NameList& names) {
     const Scene& scene = fitted.scene();
     DrawnAgent out{{fitted.tree(who.clip), shown_placement(fitted, view, who)},
                    who.name,
-                   shortened(who.name, kLongestLabel),
-                   agent_color(scene, who, color_index),
+                   names.shortened(who.name, fits_a_label),
+                   color,
                    index,
                    scene.clips[static_cast<std::size_t>(who.clip)].skeleton.get()};
     if (who.agent < 0) return out;
@@ -72,7 +77,16 @@ Rgba agent_color(const Scene& scene, const PlacedAgent& who, int index) {
         // All that one person plays looks alike.
         if (agent.run_agent >= 0) index = agent.run_agent;
     }
-    return hex(kAgentColors[static_cast<std::size_t>(index) % kAgentColors.size()]);
+    return palette_color(index);
+}
+
+std::array<Rgba, 2> query_colors(const Scene& scene, const PlacedAgent& a, const PlacedAgent& b) {
+    const int index_a = a.agent >= 0 ? a.agent : 0;
+    const Rgba first = agent_color(scene, a, index_a);
+    const Rgba second = agent_color(scene, b, b.agent >= 0 ? b.agent : index_a + 1);
+    if (second != first) return {first, second};
+    const Rgba other = palette_color(index_a + 1);
+    return {first, other != first ? other : palette_color(index_a + 2)};
 }
 
 std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState& view) {
@@ -88,9 +102,11 @@ std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState&
         agent.pinned = pinned.contains(name);
     };
     if (!view.query) {
-        for (const PlacedAgent& who : fitted.placed_agents()) {
+        const std::vector<PlacedAgent>& all = fitted.placed_agents();
+        const NameList names(all.size(), [&](std::size_t i) { return all[i].name; });
+        for (const PlacedAgent& who : all) {
             const int index = static_cast<int>(out.size());
-            out.push_back(make_drawn_agent(fitted, view, who, index, index));
+            out.push_back(make_drawn_agent(fitted, view, who, index, agent_color(scene, who, index), names));
             mark(out.back(), who);
             if (is_in_grid(scene, view)) out.back().cell = fitted.grid()[static_cast<std::size_t>(index)];
         }
@@ -108,13 +124,13 @@ std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState&
                                         (count == 0 ? "none" : std::to_string(count) + ", counted from 0"));
     }
     const SceneQuery query = fitted.queries()[static_cast<std::size_t>(*view.query)];
-    const int color_a = query.a.agent >= 0 ? query.a.agent : 0;
-    out.push_back(make_drawn_agent(fitted, view, query.a, 0, color_a));
-    out.push_back(make_drawn_agent(fitted, view, query.b, 1, query.b.agent >= 0 ? query.b.agent : color_a + 1));
+    const NameList names({query.a.name, query.b.name});
+    const auto [color_a, color_b] = query_colors(scene, query.a, query.b);
+    out.push_back(make_drawn_agent(fitted, view, query.a, 0, color_a, names));
+    out.push_back(make_drawn_agent(fitted, view, query.b, 1, color_b, names));
     mark(out[0], query.a);
     mark(out[1], query.b);
-    // Two sides of one colour or name could not be told apart.
-    if (out[1].color == out[0].color) out[1].color = agent_color(scene, query.b, color_a + 1);
+    // Two sides of one name could not be told apart.
     if (out[1].name == out[0].name) {
         out[0].name += " (A)";
         out[1].name += " (B)";

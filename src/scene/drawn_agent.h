@@ -4,6 +4,7 @@
 #include <base/color.h>
 #include <scene/fitted_scene.h>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +44,9 @@ mobb::Placement shown_placement(const FittedScene& fitted, const ViewState& view
 
 /// The colour of an agent: its own, or the palette's by index. None of them is an outcome's colour.
 Rgba agent_color(const Scene& scene, const PlacedAgent& who, int index);
+
+/// The colours of the two sides of a query: their own, but two that can be told apart.
+std::array<Rgba, 2> query_colors(const Scene& scene, const PlacedAgent& a, const PlacedAgent& b);
 
 /// The scene's agents, of a run made a scene (scene/crowd_scene.h) cut to the view's window of time; with a query
 /// in the view, its two sides; those that the view hides too. Throws std::invalid_argument if the scene has no such

@@ -9,6 +9,7 @@
 #include <render/pictures/candidates.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
+#include <scene/drawn_agent.h>
 #include <support/conflicts.h>
 #include <support/temp_folder.h>
 
@@ -16,6 +17,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -149,6 +152,69 @@ TEST_F(CrowdTest, ACandidateOpensAgainstWhoRuledItOut) {
     ASSERT_TRUE(session.workspace.recorded());
     ASSERT_TRUE(session.workspace.recorded()->contact);
     EXPECT_EQ(*session.workspace.recorded()->contact, candidate.blocker->contact);
+}
+
+/// What a view draws of each agent: name and colour.
+std::map<std::string, Rgba> colors_of(const Workspace& workspace) {
+    std::map<std::string, Rgba> out;
+    for (const DrawnAgent& who : drawn_agents(workspace.fitted(), workspace.view())) out.emplace(who.name, who.color);
+    return out;
+}
+
+TEST_F(CrowdTest, WhoIsOpenedAsASceneKeepsNameAndColour) {
+    const std::map<std::string, Rgba> all = colors_of(session.workspace);
+    const auto expect_same = [&](const std::string& a, const std::string& b) {
+        ASSERT_TRUE(session.workspace.in_excerpt());
+        const std::map<std::string, Rgba> two = colors_of(session.workspace);
+        ASSERT_EQ(two.size(), 2u);
+        for (const std::string& name : {a, b}) {
+            ASSERT_TRUE(two.contains(name)) << name;
+            EXPECT_EQ(two.at(name), all.at(name)) << name;
+        }
+        ViewState without_query = session.workspace.view();
+        without_query.query.reset();
+        for (const DrawnAgent& who : drawn_agents(session.workspace.fitted(), without_query)) {
+            EXPECT_EQ(who.color, all.at(who.name)) << who.name << " in lists and in the picture of all";
+        }
+    };
+    const std::string four = session.workspace.crowd()->agents[3].name;
+    const std::string six = session.workspace.crowd()->agents[5].name;
+    select_agent_named(session.workspace, four);
+    run("crowd.open_pair", six);
+    expect_same(four, six);
+    const std::string file_of_two = (folder.path() / "two.json").string();
+    run("file.save_as", file_of_two);
+    const Scene saved = load_scene(file_of_two);
+    for (const Agent& agent : saved.agents) {
+        ASSERT_TRUE(agent.color) << agent.name;
+        EXPECT_EQ(hex(static_cast<std::uint32_t>(agent.color->r) << 16 | agent.color->g << 8 | agent.color->b),
+                  all.at(agent.name));
+    }
+    run("crowd.back");
+    run("conflicts.find");
+    const SceneConflict conflict = session.crowds.conflicts()->front();
+    run("conflicts.open", "0");
+    if (all.at(conflict.a.name) != all.at(conflict.b.name)) expect_same(conflict.a.name, conflict.b.name);
+    run("crowd.back");
+    const int index = follow_a_discarding_choice();
+    const Candidate candidate = session.crowds.choice()->choice.candidates[static_cast<std::size_t>(index)];
+    const std::string blocker =
+        session.workspace.crowd()->agents[static_cast<std::size_t>(candidate.blocker->agent)].name;
+    const std::string follows = session.workspace.view().follow;
+    run("crowd.open_candidate", std::to_string(index));
+    if (all.at(follows) != all.at(blocker)) expect_same(follows, blocker);
+}
+
+TEST_F(CrowdTest, TwoOfOneColourAreToldApartAsAScene) {
+    // There are eight colours.
+    const std::string first = session.workspace.crowd()->agents[1].name;
+    const std::string second = session.workspace.crowd()->agents[9].name;
+    ASSERT_EQ(colors_of(session.workspace).at(first), colors_of(session.workspace).at(second));
+    const Rgba before = colors_of(session.workspace).at(first);
+    select_agent_named(session.workspace, first);
+    run("crowd.open_pair", second);
+    EXPECT_EQ(colors_of(session.workspace).at(first), before);
+    EXPECT_NE(colors_of(session.workspace).at(second), before);
 }
 
 TEST_F(CrowdTest, BothWaysLeadBackFromTwoToAll) {

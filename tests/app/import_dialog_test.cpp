@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <thread>
 
@@ -127,6 +128,23 @@ struct ImportWindow {
         window.settle();
     }
 };
+
+TEST(ImportDialog, EachOptionThatMendsAWarningIsToldOfOnce) {
+    ImportWindow w;
+    w.open("people.txt");
+    std::set<std::string> options;
+    for (const SceneClip& clip : w.session.workspace.scene().clips) {
+        for (const ImportWarning& warning : clip.facts.warnings) {
+            if (!warning.option.empty()) options.insert(warning.option);
+        }
+    }
+    ASSERT_GE(options.size(), 2u);
+    std::size_t warnings = 0;
+    for (const Message& message : w.session.notifications.all()) {
+        warnings += message.level == MessageLevel::warning ? 1 : 0;
+    }
+    EXPECT_EQ(warnings, options.size()) << all_messages(w.session);
+}
 
 TEST(ImportDialog, AWrongUnitIsMendedFromItsMessageByTwoClicks) {
     ImportWindow w;

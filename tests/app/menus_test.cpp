@@ -251,22 +251,59 @@ TEST(Menus, TheMoreMenuHoldsWhatHasNoRoom) {
 }
 
 TEST(Menus, PanelsKeepToTheirWidthInSmallWindows) {
-    for (const PictureSize size : {PictureSize{800, 600}, {1024, 700}, {1280, 800}}) {
+    for (const PictureSize size : {PictureSize{640, 400}, {800, 600}, {1024, 768}, {1280, 800}, {1440, 900}}) {
         for (const double scale : {1.0, 1.5, 2.0}) {
+            SCOPED_TRACE(std::to_string(size.width) + " at scale " + std::to_string(scale));
             MenuWindow w(size, scale);
-            w.run("run query.select 0\nclick agent.0");
-            const float left = w.marks().at("splitter.left").min.x;
-            const float middle = w.marks().at("splitter.right").min.x;
+            const auto right_of = [&](const char* name) { return w.marks().at(name).max.x; };
+            const auto expect_half = [&] {
+                EXPECT_GE(w.marks().at("viewport").size().x, 0.49f * static_cast<float>(size.width));
+            };
+            expect_half();
+            w.run("run query.select 0");
+            const bool folds = w.has("fold.left");
+            EXPECT_EQ(folds, static_cast<float>(size.width) < 740 * scale);
+            if (w.has("agent.0")) w.run("click agent.0");
             for (const char* name : {"agent.0", "clip.0", "query.0", "tree.kind", "agent.name", "agent.x"}) {
                 if (!w.has(name)) continue;
-                EXPECT_LE(w.marks().at(name).max.x, left) << name << size.width << ' ' << scale;
+                EXPECT_LE(right_of(name), w.marks().at("splitter.left").min.x) << name;
             }
+            const float middle = w.marks().at(folds ? "fold.right" : "splitter.right").min.x;
             for (const char* name : {"timeline.clear", "timeline.time", "query.strip"}) {
                 ASSERT_TRUE(w.has(name)) << name;
-                EXPECT_LE(w.marks().at(name).max.x, middle) << name << size.width << ' ' << scale;
+                EXPECT_LE(right_of(name), middle) << name;
             }
+            if (!folds) continue;
+            // One of them is there at a time.
+            w.run("click fold.right");
+            EXPECT_FALSE(w.has("agent.0"));
+            EXPECT_TRUE(w.has("query.answer"));
+            expect_half();
+            w.run("click fold.right");
+            EXPECT_FALSE(w.has("query.answer"));
+            EXPECT_GT(w.marks().at("viewport").size().x, 0.8f * static_cast<float>(size.width));
+            w.run("click fold.left");
+            EXPECT_TRUE(w.has("agent.0"));
         }
     }
+}
+
+TEST(Menus, WidthsOfPanelsHoldInLargerWindows) {
+    Settings settings;
+    settings.left_width = 400;
+    settings.right_width = 500;
+    const auto widths = [&](PictureSize size) {
+        MenuWindow w(size, 1);
+        w.session.settings = settings;
+        w.window.settle();
+        return std::pair(w.marks().at("splitter.left").min.x,
+                         static_cast<float>(size.width) - w.marks().at("splitter.right").max.x);
+    };
+    EXPECT_EQ(widths({1920, 1080}), std::pair(400.0f, 500.0f));
+    EXPECT_EQ(widths({1500, 900}), std::pair(400.0f, 500.0f));
+    const auto [left, right] = widths({1024, 768});
+    EXPECT_LE(left + right, 512);
+    EXPECT_LT(left, right) << "each keeps its share";
 }
 
 TEST(Menus, ASectionFoldsAndStaysSo) {

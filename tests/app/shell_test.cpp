@@ -125,9 +125,10 @@ TEST_P(ShellTest, MarksGoToAFile) {
 }
 
 TEST_P(ShellTest, ADragOfAWidgetByNameMovesIt) {
-    const double before = session.settings.left_width;
-    run("drag splitter.left 40 0");
-    EXPECT_NEAR(session.settings.left_width, before + 40, 1.5);
+    const float before = window->shell().marks().all().at("splitter.left").min.x;
+    run("drag splitter.left 15 0");
+    EXPECT_NEAR(session.settings.left_width, before + 15, 1.5);
+    EXPECT_NEAR(window->shell().marks().all().at("splitter.left").min.x, before + 15, 1.5) << "it follows the mouse";
 }
 
 TEST_P(ShellTest, APressAndReleaseInOneBatchAreBothSeen) {
@@ -135,12 +136,11 @@ TEST_P(ShellTest, APressAndReleaseInOneBatchAreBothSeen) {
     Shell& shell = window->shell();
     shell.feed(MouseMove{rect.center()});
     shell.feed(MouseButton{0, true});
-    shell.feed(MouseMove{rect.center() + glm::vec2(30, 0)});
+    shell.feed(MouseMove{rect.center() + glm::vec2(15, 0)});
     shell.feed(MouseButton{0, false});
     shell.feed(MouseMove{rect.center() + glm::vec2(300, 0)});
-    const double before = session.settings.left_width;
     window->settle();
-    EXPECT_NEAR(session.settings.left_width, before + 30, 1.5);
+    EXPECT_NEAR(session.settings.left_width, rect.min.x + 15, 1.5);
 }
 
 TEST_P(ShellTest, NoFrameIsWantedWhenNothingHappens) {

@@ -97,6 +97,17 @@ TEST(Text, QuotesAreShortAndOnOneLine) {
     EXPECT_TRUE(is_utf8(in_quotes(std::string(10'000, '\xe9')))) << "whatever a file holds";
 }
 
+TEST(Text, FiguresForPeopleHaveFewDigits) {
+    EXPECT_EQ(figure(6.33056), "6.331");
+    EXPECT_EQ(figure(100), "100");
+    EXPECT_EQ(figure(0.000123456), "0.0001235");
+    EXPECT_EQ(figure(12345.6), "12346") << "all before the point";
+    EXPECT_EQ(figure(1234.56, 3), "1235");
+    EXPECT_EQ(figure(999.7, 3), "1000");
+    EXPECT_EQ(figure(-99999.5, 3), "-100000");
+    EXPECT_EQ(figure(1.5e12), "1.5e+12");
+}
+
 TEST(Text, WhatIsLongIsCutInTheMiddle) {
     EXPECT_EQ(shortened("walker", 10), "walker");
     EXPECT_EQ(shortened("recording number 17", 9), "reco\u2026r 17");

@@ -75,7 +75,7 @@ TEST(Conflicts, TextIsALineAPairAndASummary) {
     EXPECT_EQ(
         run.out,
         "1 and 2: 0.132288 s, 1.43386 to 1.56614 s; least clearance -0.1 m at 1.5 s near (3, 0.15), samples 2 and "
-        "0\n1 conflict among 3 agents, 0.132288 s in all; 1 of 3 pairs tested\n");
+        "0\n1 conflict among 3 agents, 0.1323 s in all; 1 of 3 pairs tested\n");
     const Result held = run_program({"conflicts", file, "--motion", "held"});
     EXPECT_EQ(held.out.find("1 and 2: 0.5 s, 1.5 to 2 s; least clearance -0.1 m at 1.5 s"), 0u) << held.out;
     EXPECT_NE(run.err.find("0.2 m are taken"), std::string::npos) << "what was assumed is said";

@@ -173,7 +173,7 @@ TEST(Query, ACrowdsPairsAreAskedInOrder) {
 TEST(Query, TextIsASentence) {
     const Result run = run_program({"query", kQueryScenes + "collision.json", "--trace", "--all-contacts"});
     EXPECT_EQ(run.status, 0);
-    EXPECT_TRUE(run.out.starts_with("0: A and B collide at 2.43333 s: sample 73 of A and sample 67 of B")) << run.out;
+    EXPECT_TRUE(run.out.starts_with("0: A and B collide at 2.433 s: sample 73 of A and sample 67 of B")) << run.out;
     EXPECT_NE(run.out.find("In contact: 2.43333 to "), std::string::npos);
     EXPECT_NE(run.out.find("samples: hit"), std::string::npos);
     EXPECT_NE(run_program({"query", kQueryScenes + "crossing.json"}).out.find("A and B never collide."),
@@ -202,7 +202,7 @@ TEST(Query, AnAnswerThatIsNotTheExpectedOneIsStatusOne) {
     const Result denied = run_program({"query", expecting(folder, R"({"collides": false})"), "--json"});
     EXPECT_EQ(denied.status, 1);
     EXPECT_EQ(json::parse(denied.out)["results"][0]["collides"], true) << "the answer is told all the same";
-    EXPECT_NE(denied.err.find("query 0: expected no collision, but A and B collide at 2.43333 s"), std::string::npos);
+    EXPECT_NE(denied.err.find("query 0: expected no collision, but A and B collide at 2.433 s"), std::string::npos);
 
     const json contact = results({"query", kQueryScenes + "collision.json", "--json"})[0]["contact"];
     json expectation = {{"collides", true}, {"contact", contact}};

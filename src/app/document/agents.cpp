@@ -79,6 +79,11 @@ std::vector<std::string> path_names(const Workspace& workspace) {
     return out;
 }
 
+NameList names_of_agents(const FittedScene& fitted) {
+    const auto* all = &fitted.placed_agents();
+    return {all->size(), [all](std::size_t i) { return (*all)[i].name; }};
+}
+
 int index_of_name(const std::vector<std::string>& names, std::string_view name, const std::string& what) {
     const auto at = std::find(names.begin(), names.end(), name);
     if (at == names.end()) {

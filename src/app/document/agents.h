@@ -2,6 +2,7 @@
 #pragma once
 
 #include <app/document/workspace.h>
+#include <base/name_list.h>
 
 #include <cstddef>
 #include <functional>
@@ -43,6 +44,9 @@ std::vector<std::string> clip_names(const Workspace& workspace);
 
 /// The names of agents, or of the clips where there are no agents.
 std::vector<std::string> path_names(const Workspace& workspace);
+
+/// ... to be shortened. Lives as long as the scene.
+NameList names_of_agents(const FittedScene& fitted);
 
 /// The index of `name` in `names`, the first of equals. Throws std::invalid_argument, with the nearest name, if there
 /// is none; `what` they name: "agent".

@@ -37,7 +37,7 @@ void describe_node(Described& out, const DrawnAgent& agent, int index) {
     if (tilted) out.facts.emplace_back("side 3", formatted("%.3f m", 2 * world.half[2]));
     const double volume = mobb::volume(tree.tree().box(index), tree.time_scale());
     const double cylinders = mobb::cylinder_volume(tree.tree().clip(), {node.first, node.count});
-    out.facts.emplace_back("volume", formatted("%.4g m\u00B2\u00B7s", volume));
+    out.facts.emplace_back("volume", figure(volume) + " m\u00B2\u00B7s");
     if (volume > 0) out.facts.emplace_back("tightness", formatted("%.1f %%", 100 * cylinders / volume));
 }
 
@@ -72,7 +72,7 @@ void describe_clip(Described& out, const SceneClip& clip) {
     out.name = clip.name;
     out.facts = {{"source", clip.source.value_or("samples in the scene")},
                  {"samples", std::to_string(clip.clip->count())},
-                 {"lasts", formatted("%.3f s at %.5g a second", clip.clip->duration(), 1 / clip.clip->dt())},
+                 {"lasts", formatted("%.3f s at %.4g a second", clip.clip->duration(), 1 / clip.clip->dt())},
                  {"motion", clip.clip->motion() == mobb::Motion::held ? "held: stays until the next sample"
                                                                       : "linear: runs to the next sample"},
                  {"path", formatted("%.2f m, %.2f m/s", figures.length, figures.mean_speed)}};

@@ -55,7 +55,7 @@ std::string remark_of(const Workspace& workspace, const Choice& choice, std::siz
     if (outcome == CandidateOutcome::leaves_floor) return "off floor";
     if (outcome != CandidateOutcome::ruled_out) return std::string(outcome_words(outcome));
     const std::string& other = workspace.crowd()->agents[static_cast<std::size_t>(candidate.blocker->agent)].name;
-    return shortened(cleaned(other), 16) + (candidate.blocker->planned > 0 ? "'s plan" : "") +
+    return cleaned(other) + (candidate.blocker->planned > 0 ? "'s plan" : "") +
            formatted(" at %.2f s", candidate.blocker->contact.time);
 }
 
@@ -143,13 +143,19 @@ void list_head(Ui& ui, CrowdInspector& crowds) {
     ImGui::PopStyleVar(2);
 }
 
-void candidate_row(Ui& ui, CrowdInspector& crowds, const Choice& choice, const ListedCandidate& candidate) {
+void candidate_row(Ui& ui, CrowdInspector& crowds, const Choice& choice, const ListedCandidate& candidate,
+                   const NameList& names) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const Rgba color = outcome_style_of(candidate.outcome, ui.style.palette).color;
     const std::string index = std::to_string(candidate.index);
     const bool pointed_out = crowds.candidate() == static_cast<int>(candidate.index);
-    if (row(ui, {"candidate." + index, candidate.name, candidate.remark, pointed_out, false, ui.px(26),
-                 to_im(readable(color, ui.style.palette))})) {
+    if (row(ui, {.mark = "candidate." + index,
+                 .name = candidate.name,
+                 .remark = candidate.remark,
+                 .selected = pointed_out,
+                 .indent = ui.px(26),
+                 .remark_color = to_im(readable(color, ui.style.palette)),
+                 .fitted = [&](float room) { return fitted_name(candidate.name, room, names); }})) {
         ui.invoke("crowd.candidate", index);
     }
     context_menu(ui, [&] { return candidate_menu(crowds, ui.workspace, static_cast<int>(candidate.index)); });
@@ -179,8 +185,9 @@ void last_choice(Ui& ui, CrowdInspector& crowds) {
     list_head(ui, crowds);
     const std::vector<ListedCandidate> all = listed(crowds, ui.workspace, choice);
     if (all.empty()) words(ui.style.quiet, "None of them is as asked for.");
+    const NameList names(all.size(), [&](std::size_t i) { return all[i].name; });
     rows(ui, "##candidates", static_cast<int>(all.size()), kMostCandidateRows,
-         [&](int i) { candidate_row(ui, crowds, choice, all[static_cast<std::size_t>(i)]); });
+         [&](int i) { candidate_row(ui, crowds, choice, all[static_cast<std::size_t>(i)], names); });
     const int pointed_out = crowds.candidate();
     const bool opens = pointed_out >= 0 && choice.candidates[static_cast<std::size_t>(pointed_out)].blocker;
     ImGui::BeginDisabled(!opens);

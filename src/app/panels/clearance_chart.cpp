@@ -1,5 +1,6 @@
 #include <app/commands/command.h>
 #include <app/panels/query_parts.h>
+#include <app/panels/ruler.h>
 #include <app/ui/swatch.h>
 #include <app/ui/widgets.h>
 #include <base/text.h>
@@ -7,6 +8,7 @@
 #include <render/text/labels.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace mobbscope::app {
@@ -57,17 +59,19 @@ void least_mark(ImDrawList& list, const Style& style, const Chart& chart, const 
     list.AddCircle(at, 3.5f * style.scale, style.text, 0, style.scale);
 }
 
-void chart_ticks(ImDrawList& list, const Style& style, const Chart& chart) {
-    const double span = chart.time.t1 - chart.time.t0;
-    const double parts = std::max(1.0, static_cast<double>((chart.max.x - chart.min.x) / (70 * style.scale)));
-    const double step = nice_step(span, parts);
-    for (const double t : ticks(chart.time.t0, chart.time.t1, step)) {
-        const float x = chart.x.pixel(t);
-        list.AddLine({x, chart.max.y}, {x, chart.max.y + 3 * style.scale}, style.quiet, style.scale);
-        const std::string text = tick_text(t, step) + " s";
-        const float left = x + 3 * style.scale;
-        if (left + text_size(*style.caption, text).x > chart.max.x) continue;
-        draw_text(list, *style.caption, {left, chart.max.y + style.scale}, style.quiet, text);
+/// Metres at round values, as faint lines with the number over them.
+void height_lines(Ui& ui, const Chart& chart) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float line = ui.style.caption->FontSize;
+    const auto height_of = [&](const std::string&) { return 2 * line; };
+    const double step = ruler_step(chart.y.from, chart.y.to, chart.y.first - chart.y.last, height_of);
+    for (const double metres : ticks(chart.y.from, chart.y.to, step)) {
+        const float y = std::floor(chart.y.pixel(metres));
+        // At zero stands the line of contact; a number needs room above it.
+        if (metres == 0 || y - line < chart.min.y) continue;
+        list.AddLine({chart.min.x, y}, {chart.max.x, y}, ui.style.border, ui.px(1));
+        text_at(list, ui.style, chart, {chart.min.x + ui.px(3), y - line}, ui.style.quiet,
+                tick_text(metres, step) + " m");
     }
 }
 
@@ -90,7 +94,7 @@ void QueryPictures::clearance(Ui& ui, QueryInspector& queries, const QueryFindin
     const std::string when = (least.clearance < 0 ? "deepest at " : "least at ") + with_unit(least.least_at, "s");
     number_row(ui, when.c_str(), signed_metres(least.clearance) + " m", least.clearance, "m");
 
-    const float label = ui.style.caption->FontSize + ui.px(4);
+    const float label = ui.style.caption->FontSize + ui.px(6);
     const int width = static_cast<int>(ImGui::GetContentRegionAvail().x);
     if (width < 8) return;
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -116,13 +120,12 @@ void QueryPictures::clearance(Ui& ui, QueryInspector& queries, const QueryFindin
     const float zero = chart.y.pixel(0);
     dashed_line(list, {chart.min.x, zero}, {chart.max.x, zero}, mark_color(ui.style, EventMark::hit), ui.style.scale,
                 ui.px(3));
+    height_lines(ui, chart);
     draw_curve(list, ui.style, chart, columns);
-    text_at(list, ui.style, chart, {chart.min.x + ui.px(3), zero - label + ui.px(2)},
-            mark_text(ui.style, EventMark::hit), "contact");
-    text_at(list, ui.style, chart, {chart.min.x + ui.px(3), chart.min.y + ui.px(1)}, ui.style.quiet,
-            with_unit(most, "m"));
+    text_at(list, ui.style, chart, {chart.min.x + ui.px(3), zero - label}, mark_text(ui.style, EventMark::hit),
+            "contact");
     least_mark(list, ui.style, chart, least);
-    chart_ticks(list, ui.style, chart);
+    ruler(ui, *ui.style.caption, chart.x, chart.max.y, " s");
     if (const auto& now = ui.workspace.view().time; now && *now >= time.t0 && *now <= time.t1) {
         list.AddLine({chart.x.pixel(*now), chart.min.y}, {chart.x.pixel(*now), chart.max.y}, ui.style.accent,
                      ui.px(1.5f));

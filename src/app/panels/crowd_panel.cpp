@@ -30,7 +30,7 @@ void following(Ui& ui) {
         command_button(ui, "stop", "crowd.stop", "crowd.stop");
     }
     if (who == followed) return;
-    command_button(ui, ("follow " + fitted_text(who, ui.px(120))).c_str(), "crowd.follow", "crowd.follow");
+    command_button(ui, ("follow " + fitted_name(who, ui.px(120))).c_str(), "crowd.follow", "crowd.follow");
 }
 
 void plays(Ui& ui) {
@@ -39,6 +39,8 @@ void plays(Ui& ui) {
     const CrowdAgent& agent = ui.workspace.crowd()->agents[static_cast<std::size_t>(*run_agent)];
     const std::size_t now = play_at(agent, run_time(ui.workspace.scene(), ui.workspace.view()));
     if (!section(ui, "PLAYS", cleaned(agent.name) + ", " + std::to_string(agent.plays.size()) + " plays")) return;
+    const NameList names(ui.workspace.scene().clips.size(),
+                         [&](std::size_t i) { return ui.workspace.scene().clips[i].name; });
     rows(ui, "##plays", static_cast<int>(agent.plays.size()), kMostCrowdRows, [&](int i) {
         const Play& play = agent.plays[static_cast<std::size_t>(i)];
         const GraphMove& move = ui.workspace.scene().graph->moves[static_cast<std::size_t>(play.move)];
@@ -49,8 +51,13 @@ void plays(Ui& ui) {
         const ImU32 color = play.kind == PlayKind::forced    ? to_im(readable(palette.hit, palette))
                             : play.kind == PlayKind::pivoted ? to_im(readable(palette.overlap, palette))
                                                              : 0;
-        if (row(ui, {"play." + std::to_string(i), ui.workspace.scene().clips[static_cast<std::size_t>(move.clip)].name,
-                     kind + at_time(play.placement.start), static_cast<std::size_t>(i) == now, false, 0, color})) {
+        const std::string& name = ui.workspace.scene().clips[static_cast<std::size_t>(move.clip)].name;
+        if (row(ui, {.mark = "play." + std::to_string(i),
+                     .name = name,
+                     .remark = kind + at_time(play.placement.start),
+                     .selected = static_cast<std::size_t>(i) == now,
+                     .remark_color = color,
+                     .fitted = [&](float room) { return fitted_name(name, room, names); }})) {
             ui.invoke("crowd.play", std::to_string(i));
         }
         context_menu(ui, [&] { return play_menu(i); });
@@ -80,11 +87,17 @@ void conflicts(Ui& ui, CrowdInspector& crowds) {
         return;
     }
     words(ui.style.quiet, crowds.conflict_summary() + ", the deepest first");
+    const NameList names = names_of_agents(ui.workspace.fitted());
     rows(ui, "##conflicts", static_cast<int>(found->size()), kMostCrowdRows, [&](int i) {
         const SceneConflict& conflict = (*found)[static_cast<std::size_t>(i)];
-        if (row(ui, {"conflict." + std::to_string(i), conflict.a.name + " and " + conflict.b.name,
-                     formatted("%.2f s  %.2f m", conflict.begin(), -conflict.facts.deepest.least_clearance),
-                     ui.workspace.conflict == i, false, 0, to_im(readable(ui.style.palette.hit, ui.style.palette))})) {
+        if (row(ui, {.mark = "conflict." + std::to_string(i),
+                     .name = conflict.a.name + " and " + conflict.b.name,
+                     .remark = formatted("%.2f s  %.2f m", conflict.begin(), -conflict.facts.deepest.least_clearance),
+                     .selected = ui.workspace.conflict == i,
+                     .remark_color = to_im(readable(ui.style.palette.hit, ui.style.palette)),
+                     .fitted = [&](float room) {
+                         return fitted_pair(conflict.a.name, " and ", conflict.b.name, room, names);
+                     }})) {
             ui.workspace.conflict = i;
         }
         context_menu(ui, [&] { return conflict_menu(i); });

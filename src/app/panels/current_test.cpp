@@ -7,6 +7,7 @@
 #include <explain/query_sentence.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <span>
 #include <string>
@@ -225,9 +226,11 @@ void measured_pairs(Ui& ui, const QueryFindings& findings) {
     if (!section(ui, "PAIRS OF SAMPLES, METRES", std::to_string(event.pairs.size()))) return;
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {ui.px(2), ui.px(1)});
     if (ImGui::BeginTable("pairs", 5, ImGuiTableFlags_SizingStretchProp)) {
-        for (const char* head : {"A", "B", "apart", "radii", "clear"}) {
+        const std::array heads{findings.sides[0].label, findings.sides[1].label, std::string("apart"),
+                               std::string("radii"), std::string("clear")};
+        for (const std::string& head : heads) {
             ImGui::TableNextColumn();
-            text_line(ui.style.quiet, head, ui.style.caption);
+            fitted_line(ui, ui.style.quiet, head, ImGui::GetContentRegionAvail().x, ui.style.caption);
         }
         const auto row = [&](const mobb::MeasuredPair& p, bool nearest) {
             ImGui::TableNextRow();

@@ -48,8 +48,9 @@ void dropped(Ui& ui) {
     begin_dialog(ui, "dropped", {480, 150 + 22 * static_cast<float>(std::min(files.size(), kMostNames + 1))});
     dialog_title(ui,
                  ui.session.files.may_add() ? "Add to this scene, or open instead?" : "Open in place of what is open?");
+    const NameList names(files.size(), [&](std::size_t i) { return own_name(files[i]); });
     for (std::size_t i = 0; i < std::min(files.size(), kMostNames); ++i) {
-        ImGui::TextUnformatted(fitted_text(own_name(files[i]), ImGui::GetContentRegionAvail().x).c_str());
+        name_line(ui, ui.style.text, own_name(files[i]), ImGui::GetContentRegionAvail().x, names);
     }
     if (files.size() > kMostNames) {
         ImGui::TextDisabled("and %s more", std::to_string(files.size() - kMostNames).c_str());

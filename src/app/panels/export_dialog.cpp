@@ -88,10 +88,11 @@ bool file_field(Ui& ui, Dialogs& dialogs, const ExportTarget& target) {
     const bool asks = dialogs.input.confirming;
     const std::string said = asks ? "This file exists. Enter overwrites it." : target.says;
     const bool refused = !target.why_not.empty();
-    text_line(refused ? ui.style.error
-              : asks  ? ui.style.warning
-                      : ui.style.quiet,
-              fitted_text(refused ? target.why_not : said, ImGui::GetContentRegionAvail().x));
+    fitted_line(ui,
+                refused ? ui.style.error
+                : asks  ? ui.style.warning
+                        : ui.style.quiet,
+                refused ? target.why_not : said, ImGui::GetContentRegionAvail().x);
     ImGui::PopFont();
     return events.entered;
 }
@@ -464,8 +465,8 @@ void export_dialog(Ui& ui) {
     text_line(ui.style.text, "Export picture", ui.style.title);
     ImGui::SameLine(0, ui.px(14));
     ImGui::AlignTextToFramePadding();
-    text_line(ui.style.quiet, fitted_text(exported_subject(ui.workspace, ui.session.files, ui.session.views),
-                                          ImGui::GetContentRegionAvail().x));
+    fitted_line(ui, ui.style.quiet, exported_subject(ui.workspace, ui.session.files, ui.session.views),
+                ImGui::GetContentRegionAvail().x);
     const ExportTarget target = target_of(ui.workspace, ui.session.settings, ui.session.dialogs);
     const bool entered = file_field(ui, ui.session.dialogs, target);
     const float foot = ImGui::GetFrameHeight() + 3 * ImGui::GetStyle().ItemSpacing.y + ui.px(2);

@@ -305,7 +305,8 @@ void column_heads(Ui& ui, Settings& settings, Dialogs& dialogs, const FileQuesti
 }
 
 /// One line of the list; returns whether it was clicked.
-bool file_row(Ui& ui, Dialogs& dialogs, const FileEntry& entry, std::size_t index, const Columns& columns) {
+bool file_row(Ui& ui, Dialogs& dialogs, const FileEntry& entry, std::size_t index, const Columns& columns,
+              const NameList& names) {
     const FileBrowser& browser = dialogs.browser;
     const float height = ImGui::GetTextLineHeight() + ui.px(6);
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -317,7 +318,9 @@ bool file_row(Ui& ui, Dialogs& dialogs, const FileEntry& entry, std::size_t inde
     const float y = at.y + (height - ImGui::GetFontSize()) / 2;
     const std::string size = entry.folder ? "" : bytes_text(entry.size);
     const float name_room = columns.size - text_size(*ui.style.mono, size).x - ui.px(16);
-    const std::string name = fitted_text(entry.name + (entry.folder ? "/" : ""), name_room);
+    const std::string whole = entry.name + (entry.folder ? "/" : "");
+    const std::string name = fitted_name(whole, name_room, names);
+    tell_whole(ui, name, whole);
     draw.AddText({at.x + ui.px(6), y}, entry.folder ? ui.style.accent : ui.style.text, name.c_str());
     const auto number = [&](float x, const std::string& text) {
         draw_text(draw, *ui.style.mono, {at.x + x, at.y + (height - ui.style.mono->FontSize) / 2}, ui.style.quiet,
@@ -392,14 +395,16 @@ bool listing(Ui& ui, Dialogs& dialogs, Settings& settings, const FileQuestion& q
     }
     std::optional<std::size_t> clicked;
     ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(browser.entries().size()));
+    const std::vector<FileEntry>& entries = browser.entries();
+    const NameList names(entries.size(), [&](std::size_t i) { return entries[i].name; });
+    clipper.Begin(static_cast<int>(entries.size()));
     const int cursor = static_cast<int>(browser.cursor());
     if (moved) clipper.ForceDisplayRangeByIndices(cursor, cursor + 1);
     while (clipper.Step()) {
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
             const auto index = static_cast<std::size_t>(i);
-            if (file_row(ui, dialogs, browser.entries()[index], index, columns)) clicked = index;
-            ui.mark_only(std::string(question.prefix) + ".entry." + browser.entries()[index].name);
+            if (file_row(ui, dialogs, entries[index], index, columns, names)) clicked = index;
+            ui.mark_only(std::string(question.prefix) + ".entry." + entries[index].name);
             if (moved && i == cursor) ImGui::SetScrollHereY();
         }
     }
@@ -424,7 +429,9 @@ void preview(Ui& ui, Dialogs& dialogs) {
     const FileBrowser& browser = dialogs.browser;
     if (browser.entries().empty()) return;
     const FileEntry& entry = browser.entries()[browser.cursor()];
-    ImGui::TextUnformatted(fitted_text(entry.name, ImGui::GetContentRegionAvail().x).c_str());
+    const std::vector<FileEntry>& entries = browser.entries();
+    const NameList files(entries.size(), [&](std::size_t i) { return entries[i].name; });
+    name_line(ui, ui.style.text, entry.name, ImGui::GetContentRegionAvail().x, files);
     const FileSummary* summary = summary_at_cursor(ui, dialogs);
     if (!summary) return text_line(ui.style.quiet, "Reading\u2026");
     words(summary->readable ? ui.style.quiet : ui.style.error, summary->title);
@@ -433,11 +440,12 @@ void preview(Ui& ui, Dialogs& dialogs) {
     for (const auto& [label, value] : summary->facts) {
         text_line(ui.style.quiet, label);
         ImGui::SameLine(ui.px(70));
-        ImGui::TextUnformatted(fitted_text(value, end - ui.px(70)).c_str());
+        fitted_line(ui, ui.style.text, value, end - ui.px(70));
     }
+    const NameList clips(summary->clips.size(), [&](std::size_t i) { return summary->clips[i].first; });
     for (const auto& [name, duration] : summary->clips) {
         const float width = text_size(*ui.style.mono, duration).x;
-        ImGui::TextUnformatted(fitted_text(name, end - width - ui.px(10)).c_str());
+        name_line(ui, ui.style.text, name, end - width - ui.px(10), clips);
         ImGui::SameLine(end - width);
         text_line(ui.style.quiet, duration, ui.style.mono);
     }
@@ -548,8 +556,7 @@ void file_dialog(Ui& ui, Dialogs& dialogs, Settings& settings) {
     if (!line.empty()) {
         if (one_line) ImGui::SameLine();
         ImGui::AlignTextToFramePadding();
-        text_line(input.confirming ? ui.style.warning : ui.style.quiet,
-                  fitted_text(line, ImGui::GetContentRegionAvail().x));
+        fitted_line(ui, input.confirming ? ui.style.warning : ui.style.quiet, line, ImGui::GetContentRegionAvail().x);
     }
     end_dialog();
     if (as_clips) {

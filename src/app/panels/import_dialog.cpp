@@ -120,12 +120,9 @@ void offered_choices(Ui& ui, Imports& imports, const ImportField& field) {
 void choice_field(Ui& ui, Imports& imports, const ImportField& field) {
     const float width = ImGui::CalcItemWidth();
     const std::string now = field.given() ? label_of(field, field.text()) : label_of_default(field);
-    const float room = width - ImGui::GetFrameHeight() - 2 * ImGui::GetStyle().FramePadding.x;
     // As wide as the field, so that its entries are cut no earlier.
     ImGui::SetNextWindowSizeConstraints({width, 0}, {2 * width, ImGui::GetIO().DisplaySize.y});
-    if (!begin_dropdown(ui, field.mark(), fitted_text(now, room), field.option.label, ImGuiComboFlags_HeightLargest)) {
-        return;
-    }
+    if (!begin_dropdown(ui, field.mark(), now, field.option.label, ImGuiComboFlags_HeightLargest)) return;
     offered_choices(ui, imports, field);
     ImGui::EndCombo();
 }

@@ -73,8 +73,7 @@ void search(Ui& ui, float left, float right) {
     draw_text(draw, *ui.style.mono, {max.x - pad - key_width, y}, ui.style.quiet, key);
 }
 
-/// The file's name between two places, at the right, with a dot when it is not saved; returns where it begins. A long
-/// name loses its end.
+/// The file's name between two places, at the right, with a dot when it is not saved; returns where it begins.
 float file_title(Ui& ui, float left, float right) {
     const std::string title = ui.session.shown_title();
     const float pad = ui.px(12);
@@ -93,9 +92,7 @@ float file_title(Ui& ui, float left, float right) {
         const std::string file = ui.workspace.file && !ui.session.screen ? ui.workspace.file->string() : title;
         ImGui::SetTooltip("%s%s", file.c_str(), modified ? "\nnot saved" : "");
     }
-    draw.PushClipRect({x, 0}, {x + width, 2 * middle}, true);
-    draw.AddText({x, middle - ImGui::GetFontSize() / 2}, ui.style.quiet, title.c_str());
-    draw.PopClipRect();
+    draw.AddText({x, middle - ImGui::GetFontSize() / 2}, ui.style.quiet, fitted_name(title, width).c_str());
     return x - dot;
 }
 

@@ -17,12 +17,15 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr float kWidest = 640;      // pixels at scale 1
-constexpr float kNarrowest = 320;   // ... where the picture's legend leaves no room beside it
-constexpr std::size_t kMostUp = 3;  // over the picture; the others are behind the bell
-constexpr float kListWidth = 640;   // pixels at scale 1
-constexpr float kListHeight = 420;  // pixels at scale 1
-constexpr float kBarWidth = 3;      // pixels at scale 1: of the coloured edge that says how bad it is
+constexpr float kWidest = 640;         // pixels at scale 1
+constexpr float kNarrowest = 320;      // ... if the picture is that wide
+constexpr std::size_t kMostUp = 3;     // over the picture; the others are behind the bell
+constexpr std::size_t kMostLines = 4;  // of one over the picture; the mouse and the list tell all
+constexpr float kLeastText = 200;      // pixels at scale 1, beside the buttons; else they stand below
+constexpr float kLeastHeight = 110;    // pixels at scale 1 that one over the picture is given
+constexpr float kListWidth = 640;      // pixels at scale 1
+constexpr float kListHeight = 420;     // pixels at scale 1
+constexpr float kBarWidth = 3;         // pixels at scale 1: of the coloured edge that says how bad it is
 
 ImU32 color_of(const Ui& ui, MessageLevel level) {
     return level == MessageLevel::error     ? ui.style.error
@@ -40,10 +43,10 @@ std::string age_text(const Message& message, double now) {
     return formatted("%.0f h ago", std::floor(seconds / 3600));
 }
 
-/// Where their lower right corner is, and how wide they may be.
+/// Where their lower right corner is, and how large they may be together.
 struct MessagePlace {
     ImVec2 corner;
-    float width;
+    float width, height;
 };
 
 MessagePlace place_of(const Ui& ui, Dialogs& dialogs) {
@@ -52,14 +55,27 @@ MessagePlace place_of(const Ui& ui, Dialogs& dialogs) {
     // Below what a dialog says and asks.
     if (dialogs.now != Dialog::none) {
         const float width = std::min(room.x - 2 * gap, ui.px(kWidest));
-        return {{(room.x + width) / 2, room.y - gap}, width};
+        return {{(room.x + width) / 2, room.y - gap}, width, room.y / 2};
     }
-    // In the corner of the window they cover little of the picture, and beside its legend nothing of that.
+    // In the lower right corner of the picture they cover none of its captions, and nothing beside it.
     const auto& marks = ui.marks.all();
-    const auto legend = marks.find("overlay.legend");
-    const float left = legend == marks.end() ? 0 : legend->second.max.x;
-    const float free = std::max(room.x - left - 2 * gap, ui.px(kNarrowest));
-    return {{room.x - gap, room.y - status_height(ui) - gap}, std::min({free, ui.px(kWidest), room.x - 2 * gap})};
+    const auto edge = [&](const char* mark, float otherwise, const auto& of) {
+        const auto at = marks.find(mark);
+        return at == marks.end() ? otherwise : of(at->second);
+    };
+    const auto min_x = [](const Rect& rect) { return rect.min.x; };
+    const auto min_y = [](const Rect& rect) { return rect.min.y; };
+    const auto max_x = [](const Rect& rect) { return rect.max.x; };
+    const float right = edge("splitter.right", edge("fold.right", room.x, min_x), min_x);
+    const float bottom = edge("splitter.bottom", room.y - status_height(ui), min_y);
+    const float left = edge("splitter.left", edge("fold.left", 0, max_x), max_x);
+    // Beside the legend, or where that leaves too little above it.
+    const float beside_legend = right - std::max(edge("overlay.legend", left, max_x), left) - 2 * gap;
+    const float foot = beside_legend < ui.px(kNarrowest) ? edge("overlay.legend", bottom, min_y) : bottom;
+    const float free = std::min(std::max(beside_legend, ui.px(kNarrowest)), right - left - 2 * gap);
+    const float top = edge("viewport", ImGui::GetFrameHeight(), min_y);
+    const float low = std::min(bottom, foot) - gap;
+    return {{right - gap, low}, std::min(free, ui.px(kWidest)), low - top - gap};
 }
 
 /// What a person wants of a message.
@@ -92,6 +108,20 @@ Wish buttons(Ui& ui, const Message& message, const std::string& mark) {
     return small_button(ui, "x", mark + ".dismiss", "Take it off the list") ? Wish::dismiss : Wish::nothing;
 }
 
+/// The first of several lines, and an ellipsis for the others.
+std::string first_lines(const std::string& lines, float room) {
+    std::size_t end = 0;
+    for (std::size_t i = 0; i < kMostLines; ++i) {
+        const std::size_t begin = i == 0 ? 0 : end + 1;
+        end = lines.find('\n', begin);
+        if (end == std::string::npos) return lines;
+        if (i + 1 < kMostLines) continue;
+        const std::string last = lines.substr(begin, end - begin);
+        return lines.substr(0, begin) + fitted_text(last + " \u2026", room);
+    }
+    return lines;
+}
+
 /// Draws one; `right` stands at the end of its first line, before the buttons. `in_short`: what is long of it is told
 /// under the mouse.
 Wish draw_message(Ui& ui, const Message& message, const std::string& mark, const std::string& right, bool in_short) {
@@ -102,20 +132,30 @@ Wish draw_message(Ui& ui, const Message& message, const std::string& mark, const
     ImGui::PushID(mark.c_str());
     ImGui::BeginGroup();
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ui.px(10));
-    const float room = end - side - age - ImGui::GetCursorPosX();
+    const float whole = end - ImGui::GetCursorPosX();
+    const float needed = std::min(ui.px(kLeastText), ImGui::CalcTextSize(message.text.c_str()).x);
+    const bool beside = whole - side - age >= needed;
+    const float room = beside ? whole - side - age : whole;
     const std::string text = in_short ? with_short_paths(message.text, room) : message.text;
-    ImGui::TextUnformatted(wrapped(text, room).c_str());
+    const std::string lines = wrapped(text, room);
+    const std::string shown = in_short ? first_lines(lines, room) : lines;
+    ImGui::TextUnformatted(shown.c_str());
     ImGui::EndGroup();
     ui.mark(mark);
-    if (in_short && text != with_short_paths(message.text, FLT_MAX) && ImGui::IsItemHovered()) {
+    const bool is_all = shown == lines && text == with_short_paths(message.text, FLT_MAX);
+    if (!is_all && ImGui::IsItemHovered()) {
         ImGui::SetTooltip("%s", wrapped(message.text, ui.px(kWidest)).c_str());
     }
     const float bottom = ImGui::GetItemRectMax().y;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(at, {at.x + ui.px(kBarWidth), bottom}, color_of(ui, message.level));
-    ImGui::SameLine(end - side - age);
-    if (!right.empty()) text_line(ui.style.quiet, right, ui.style.caption);
-    ImGui::SameLine(end - side + ui.px(8));
+    if (beside) ImGui::SameLine();
+    if (!right.empty()) {
+        ImGui::SetCursorPosX(end - side - age);
+        text_line(ui.style.quiet, right, ui.style.caption);
+        ImGui::SameLine();
+    }
+    ImGui::SetCursorPosX(end - side + ui.px(8));
     const Wish wish = buttons(ui, message, mark);
     ImGui::PopID();
     return wish;
@@ -141,6 +181,23 @@ void draw_bell(ImDrawList& draw, ImVec2 middle, float height, ImU32 color) {
     draw.AddCircleFilled(at(0, 0.84f), 0.22f * h, color);
 }
 
+/// "2 warnings, 1 error", "5 messages".
+std::string count_words(const Notifications& notifications, const std::vector<std::size_t>& which) {
+    std::size_t errors = 0;
+    std::size_t warnings = 0;
+    for (const std::size_t i : which) {
+        const MessageLevel level = notifications.all()[i].level;
+        errors += level == MessageLevel::error ? 1 : 0;
+        warnings += level == MessageLevel::warning ? 1 : 0;
+    }
+    if (warnings == which.size()) return counted(warnings, "warning", "warnings");
+    if (errors == which.size()) return counted(errors, "error", "errors");
+    std::string out = counted(which.size(), "message", "messages");
+    if (errors > 0) out += ", " + counted(errors, "error", "errors");
+    if (warnings > 0) out += ", " + counted(warnings, "warning", "warnings");
+    return out;
+}
+
 }  // namespace
 
 void messages(Ui& ui, Notifications& notifications, Dialogs& dialogs) {
@@ -149,13 +206,14 @@ void messages(Ui& ui, Notifications& notifications, Dialogs& dialogs) {
         if (notifications.all()[i].up) up.push_back(i);
     }
     if (up.empty()) return;
-    const std::size_t shown = std::min(up.size(), kMostUp);
+    MessagePlace place = place_of(ui, dialogs);
+    const auto room = static_cast<std::size_t>(std::max(1.0f, place.height / ui.px(kLeastHeight)));
+    const std::size_t shown = std::min({up.size(), kMostUp, room});
     float needed = 0;
     for (std::size_t i = 0; i < shown; ++i) needed = std::max(needed, width_of(ui, notifications.all()[up[i]]));
-    MessagePlace place = place_of(ui, dialogs);
     place.width = std::min(place.width, needed);
     ImGui::SetNextWindowPos(place.corner, ImGuiCond_Always, {1, 1});
-    ImGui::SetNextWindowSizeConstraints({place.width, 0}, {place.width, ImGui::GetIO().DisplaySize.y / 2});
+    ImGui::SetNextWindowSizeConstraints({place.width, 0}, {place.width, std::max(1.0f, place.height)});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(4));
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ui.style.panel);
@@ -172,8 +230,12 @@ void messages(Ui& ui, Notifications& notifications, Dialogs& dialogs) {
         const Message& message = notifications.all()[up[i]];
         if (draw_message(ui, message, "message." + std::to_string(up[i]), "", true) == Wish::dismiss) gone = up[i];
     }
-    if (up.size() > shown) {
-        text_line(ui.style.quiet, std::to_string(up.size() - shown) + " more behind the bell", ui.style.caption);
+    if (up.size() > 1) {
+        text_line(ui.style.quiet, count_words(notifications, up), ui.style.caption);
+        ImGui::SameLine();
+        if (small_button(ui, "read all", "message.all", "Opens the list of all messages  (F8)")) {
+            ui.invoke("help.messages");
+        }
     }
     const bool held = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
     ImGui::End();

@@ -31,9 +31,9 @@ bool palette_row(Ui& ui, int index, bool picked, const std::string& text, const 
     };
     put(*ui.style.mono, key);
     put(*ui.style.caption, detail);
-    draw.PushClipRect(at, {right, at.y + height}, true);
-    draw.AddText({at.x + pad, y}, enabled ? ui.style.text : ui.style.quiet, text.c_str());
-    draw.PopClipRect();
+    const std::string shown = fitted_name(text, right - at.x - pad);
+    draw.AddText({at.x + pad, y}, enabled ? ui.style.text : ui.style.quiet, shown.c_str());
+    tell_whole(ui, shown, text);
     return clicked;
 }
 

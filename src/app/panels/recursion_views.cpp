@@ -83,7 +83,7 @@ void axis_labels(Ui& ui, const QueryFindings& findings, const Square& square) {
     const ImU32 color_a = to_im(readable(findings.sides[0].color, ui.style.palette));
     const ImU32 color_b = to_im(readable(findings.sides[1].color, ui.style.palette));
     const float below = square.max.y + ui.px(3);
-    const std::string from = formatted("%.4g s", square.a.t0), to = formatted("%.4g s", square.a.t1);
+    const std::string from = formatted("%.2f s", square.a.t0), to = formatted("%.2f s", square.a.t1);
     text({square.min.x, below}, color_a, from);
     text({square.max.x - width(to), below}, color_a, to);
     const std::string name_a = findings.sides[0].label + " \u2192";
@@ -91,7 +91,7 @@ void axis_labels(Ui& ui, const QueryFindings& findings, const Square& square) {
     if (middle > square.min.x + width(from) + ui.px(4)) text({middle, below}, color_a, name_a);
     const float above = square.min.y - font.FontSize - ui.px(3);
     text({square.min.x, above}, color_b,
-         findings.sides[1].label + formatted(" \u2191  %.4g s to %.4g s", square.b.t0, square.b.t1));
+         findings.sides[1].label + formatted(" \u2191  %.2f s to %.2f s", square.b.t0, square.b.t1));
 }
 
 constexpr float kIcicleAhead = 0.35f;  // strength of what comes after the present step

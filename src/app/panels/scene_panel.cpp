@@ -65,7 +65,7 @@ void row_keys(Ui& ui, const Selection& self) {
 
 /// What stands beside an agent: how long its clip is; of a run which move it plays.
 std::string clip_remark(const Workspace& workspace, const SceneClip& clip) {
-    return workspace.crowd() ? fitted_text(clip.name, 90) : formatted("%.1f s", clip.clip->duration());
+    return workspace.crowd() ? clip.name : formatted("%.1f s", clip.clip->duration());
 }
 
 /// A row with the buttons of its agents; `about` draws what belongs to the row itself, which is the last item then.
@@ -88,7 +88,7 @@ bool agents_row(Ui& ui, Row shown, const ListedAgents& listed, const std::functi
 }
 
 /// One of what is seen: an agent, or in a scene without agents a clip where it is.
-void path_row(Ui& ui, const FittedScene& fitted, int index) {
+void path_row(Ui& ui, const FittedScene& fitted, int index, const NameList& names) {
     const PlacedAgent& who = fitted.placed_agents()[static_cast<std::size_t>(index)];
     const Selection self{Selection::Kind::path, {index, -1, 0}, -1};
     const auto on_it = [&](const Selection& s) { return s.on_path() && s.path == self.path; };
@@ -118,7 +118,8 @@ void path_row(Ui& ui, const FittedScene& fitted, int index) {
                                      .remark = clip_remark(ui.workspace, clip),
                                      .selected = on_it(ui.workspace.selection),
                                      .hovered = on_it(ui.workspace.hovered),
-                                     .indent = ui.px(18)},
+                                     .indent = ui.px(18),
+                                     .fitted = [&](float room) { return fitted_name(who.name, room, names); }},
                                     listed, about);
     if (clicked) ui.workspace.select(self);
 }
@@ -157,11 +158,12 @@ void agents(Ui& ui) {
     const std::vector<int> shown = filtered(ui.workspace, count, [&](int i) -> const std::string& {
         return fitted.placed_agents()[static_cast<std::size_t>(i)].name;
     });
+    const NameList names = names_of_agents(fitted);
     const bool in_grid = is_in_grid(fitted.scene(), ui.workspace.view());
     const char* title = has_agents ? "AGENTS" : in_grid ? "CLIPS IN A GRID" : "CLIPS WHERE THEY ARE";
     if (!section(ui, title, count_text(shown.size(), static_cast<std::size_t>(count)))) return;
     rows(ui, "##agents", static_cast<int>(shown.size()), kMostSceneRows,
-         [&](int i) { path_row(ui, fitted, shown[static_cast<std::size_t>(i)]); });
+         [&](int i) { path_row(ui, fitted, shown[static_cast<std::size_t>(i)], names); });
     if (shows_bare_clips(ui.workspace)) {
         if (small_button(ui, "make these agents", "scene.make_agents",
                          "An agent for every clip, where it is: agents can be placed and asked")) {
@@ -184,7 +186,7 @@ void agents(Ui& ui) {
     shown_buttons(ui);
 }
 
-void clip_row(Ui& ui, int index, float indent) {
+void clip_row(Ui& ui, int index, float indent, const NameList& names) {
     const SceneClip& clip = ui.workspace.scene().clips[static_cast<std::size_t>(index)];
     const Selection self{Selection::Kind::clip, {}, index};
     const bool warned = !clip.facts.warnings.empty();
@@ -197,7 +199,9 @@ void clip_row(Ui& ui, int index, float indent) {
             ui.invoke("clip.import", clip.name);
         }
         if (ImGui::IsItemHovered() && warned) {
-            ImGui::SetTooltip("%s\n%s", clip.name.c_str(), said(clip.facts.warnings.front()).c_str());
+            std::string all = clip.name;
+            for (const ImportWarning& warning : clip.facts.warnings) all += '\n' + said(warning);
+            ImGui::SetTooltip("%s", all.c_str());
         }
     };
     const bool clicked = agents_row(ui,
@@ -207,7 +211,8 @@ void clip_row(Ui& ui, int index, float indent) {
                                      .selected = ui.workspace.selection == self,
                                      .hovered = ui.workspace.hovered == self,
                                      .indent = indent,
-                                     .remark_color = warned ? ui.style.warning : 0},
+                                     .remark_color = warned ? ui.style.warning : 0,
+                                     .fitted = [&](float room) { return fitted_name(clip.name, room, names); }},
                                     listed, about);
     if (clicked) ui.workspace.select(self);
 }
@@ -277,9 +282,10 @@ void clips(Ui& ui) {
                  [&](int i) -> const std::string& { return all[static_cast<std::size_t>(i)].name; });
     if (!section(ui, "CLIPS", count_text(shown.size(), all.size()))) return;
     const std::vector<ClipLine> lines = clip_lines(ui.workspace, shown);
+    const NameList names(all.size(), [&](std::size_t i) { return all[i].name; });
     rows(ui, "##clips", static_cast<int>(lines.size()), kMostSceneRows, [&](int i) {
         const ClipLine& line = lines[static_cast<std::size_t>(i)];
-        line.clip < 0 ? group_row(ui, line.group) : clip_row(ui, line.clip, line.group < 0 ? 0 : ui.px(12));
+        line.clip < 0 ? group_row(ui, line.group) : clip_row(ui, line.clip, line.group < 0 ? 0 : ui.px(12), names);
     });
     if (ui.workspace.crowd()) return;
     if (small_button(ui, "+ files", "scene.add_files", "Add clips, or the clips and agents of another scene")) {
@@ -291,6 +297,7 @@ void query_list(Ui& ui, QueryInspector& queries) {
     const auto count = static_cast<int>(ui.workspace.fitted().queries().size());
     const bool all_pairs = ui.workspace.scene().queries.empty() && count > 1;
     if (!section(ui, "QUERIES", (all_pairs ? "all pairs, " : "") + std::to_string(count))) return;
+    const NameList names = names_of_agents(ui.workspace.fitted());
     rows(ui, "##queries", count, kMostSceneRows, [&](int i) {
         const SceneQuery query = ui.workspace.fitted().queries()[static_cast<std::size_t>(i)];
         const Answer& answer = queries.answer_of(static_cast<std::size_t>(i));
@@ -299,9 +306,15 @@ void query_list(Ui& ui, QueryInspector& queries) {
         const bool unexpected = query.expect && query.expect->collides != hit;
         const Palette& palette = ui.style.palette;
         const std::string found = hit ? formatted("hit %.2f s", answer.contact->time) : "miss";
-        if (row(ui, {"query." + std::to_string(i), query.a.name + " against " + query.b.name,
-                     (unexpected ? "! " : "") + found, ui.workspace.view().query == i, ui.workspace.hovered == self, 0,
-                     to_im(readable(hit ? palette.hit : palette.separated, palette))})) {
+        if (row(ui, {.mark = "query." + std::to_string(i),
+                     .name = query.a.name + " against " + query.b.name,
+                     .remark = (unexpected ? "! " : "") + found,
+                     .selected = ui.workspace.view().query == i,
+                     .hovered = ui.workspace.hovered == self,
+                     .remark_color = to_im(readable(hit ? palette.hit : palette.separated, palette)),
+                     .fitted = [&](float room) {
+                         return fitted_pair(query.a.name, " against ", query.b.name, room, names);
+                     }})) {
             ui.invoke(ui.workspace.view().query == i ? "query.none" : "query.select",
                       ui.workspace.view().query == i ? "" : std::to_string(i));
         }

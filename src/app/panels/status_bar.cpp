@@ -88,7 +88,7 @@ float job_part(Ui& ui, const std::vector<const Job*>& work, float right) {
     const float left = std::max(ui.px(kStatusPad), right - button - width - text - 2 * gap);
     const float y = ImGui::GetCursorPosY();
     ImGui::SetCursorPos({left, y});
-    ImGui::TextUnformatted(fitted_text(title, right - button - width - 2 * gap - left).c_str());
+    fitted_line(ui, ui.style.quiet, title, right - button - width - 2 * gap - left);
     ui.mark("job.0");
     ImGui::SetCursorPos({right - button - gap - width, y});
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -140,15 +140,14 @@ void status_bar(Ui& ui, QueryInspector& queries, ImVec2 size) {
     if (!work.empty()) right = job_part(ui, work, right) - pad;
     // What there is least room for is what is under the mouse: its tooltip says it too.
     const Screen* screen = ui.session.screen;
-    const std::string all = fitted_text(screen ? screen->counts() : counts(ui.workspace), std::max(right - pad, 0.0f));
     ImGui::SetCursorPos({pad, y});
-    ImGui::TextUnformatted(all.c_str());
+    fitted_line(ui, ui.style.quiet, screen ? screen->counts() : counts(ui.workspace), std::max(right - pad, 0.0f));
     ui.mark("status.counts");
-    const float left = pad + ImGui::CalcTextSize(all.c_str()).x + 2 * pad;
+    const float left = ImGui::GetItemRectMax().x + 2 * pad;
     const std::string facts = screen ? "" : hover_facts(ui.workspace, queries);
     if (!facts.empty() && right - left > ui.px(40)) {
         ImGui::SetCursorPos({left, y});
-        text_line(ui.style.text, fitted_text(facts, right - left));
+        fitted_line(ui, ui.style.text, facts, right - left);
         ui.mark("status.hover");
     }
     ImGui::PopStyleColor();

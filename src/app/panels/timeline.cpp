@@ -2,12 +2,12 @@
 #include <app/document/agents.h>
 #include <app/panels/panels.h>
 #include <app/panels/query_parts.h>
+#include <app/panels/ruler.h>
 #include <app/ui/thing_menus.h>
 #include <app/ui/widgets.h>
 #include <base/text.h>
 #include <explain/query_sentence.h>
 #include <render/parts/paths.h>
-#include <render/text/labels.h>
 #include <scene/crowd_run.h>
 #include <scene/drawn_agent.h>
 #include <scene/motion_graph.h>
@@ -25,28 +25,6 @@ constexpr float kLeastStrip = 60;  // of the strip of steps, which else has a li
 /// An empty span has some length too.
 ChartAxis time_axis(const mobb::Interval& span, float left, float width) {
     return {span.t0, span.t1 > span.t0 ? span.t1 : span.t0 + 1, left, left + width};
-}
-
-/// Seconds below the bars.
-void time_ticks(Ui& ui, ImVec2 corner, float width, const mobb::Interval& span) {
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const ImFont& mono = *ui.style.mono;
-    const ChartAxis axis = time_axis(span, corner.x, width);
-    const double step = nice_step(axis.to - axis.from, std::max(2.0f, width / ui.px(90)));
-    const float apart = ui.px(8);
-    const float end = corner.x + width;
-    float taken = corner.x - apart;
-    for (const double t : ticks(span.t0, span.t1, step)) {
-        const float x = axis.pixel(t);
-        draw.AddLine({x, corner.y}, {x, corner.y + ui.px(4)}, ui.style.quiet);
-        const std::string text = tick_text(t, step) + " s";
-        const float wide = text_size(mono, text).x;
-        const float left = std::max(corner.x, std::min(x - 0.5f * wide, end - wide));
-        // Those at the ends are moved inwards: there may be no room for their neighbours.
-        if (left < taken + apart) continue;
-        draw_text(draw, mono, {left, corner.y + ui.px(5)}, ui.style.quiet, text);
-        taken = left + wide;
-    }
 }
 
 /// What the agent in question plays, move after move, and of everybody what was forced.
@@ -124,6 +102,8 @@ void time_bars(Ui& ui, float width, float height) {
     // Of a crowd the bars melt together; they still say when somebody is there.
     const float each = height / static_cast<float>(std::max<std::size_t>(paths.size(), 1));
     const float gap = std::min(ui.px(1.5f), 0.2f * each);
+    const NameList names(paths.size(), [&](std::size_t i) { return paths[i].name; });
+    const float mouse = ImGui::IsItemHovered() ? (ImGui::GetIO().MousePos.y - corner.y) / each : -1;
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const float y = corner.y + each * static_cast<float>(i);
         const float left = axis.pixel(paths[i].begin());
@@ -131,8 +111,10 @@ void time_bars(Ui& ui, float width, float height) {
         draw.AddRectFilled({left, y + gap}, {right, y + each - gap}, to_im(with_alpha(paths[i].color, 0.75f)),
                            ui.px(2));
         const float font = ImGui::GetFontSize();
-        if (each < font + 2 * gap) continue;
-        const std::string name = fitted_name(paths[i].name, right - left - ui.px(12));
+        const bool has_room = each >= font + 2 * gap;
+        const std::string name = has_room ? fitted_name(paths[i].name, right - left - ui.px(12), names) : "";
+        if (mouse >= static_cast<float>(i) && mouse < static_cast<float>(i + 1)) tell_whole(ui, name, paths[i].name);
+        if (!has_room) continue;
         const Rgba ink =
             contrast(paths[i].color, Rgba(0, 0, 0, 1)) > contrast(paths[i].color, Rgba(1)) ? Rgba(0, 0, 0, 1) : Rgba(1);
         draw.AddText({left + ui.px(6), y + 0.5f * (each - font)}, to_im(ink), name.c_str());
@@ -165,7 +147,7 @@ void time_row(Ui& ui, Playback& playback, bool tall) {
         std::clamp(paths * ui.px(kMostBar), clear, std::max(clear, ImGui::GetContentRegionAvail().y - below));
     const float height = tall ? most : clear;
     time_bars(ui, width, height);
-    if (tall) time_ticks(ui, {corner.x, corner.y + height}, width, span);
+    if (tall) ruler(ui, *ui.style.mono, time_axis(span, corner.x, width), corner.y + height, " s");
     ImGui::SameLine();
     ImGui::BeginDisabled(!ui.workspace.view().time || ui.workspace.crowd());
     if (ImGui::Button("\u00D7", {clear, clear})) ui.invoke("time.clear");

@@ -8,6 +8,7 @@
 #include <scene/motion_graph.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -217,6 +218,8 @@ void level_bars(Ui& ui, QueryInspector& queries, int clip) {
     // Free boxes may take more room the finer they are: their fits overlap.
     double most = 1e-300;
     for (const mobb::LevelFigures& level : figures) most = std::max(most, level.volume);
+    // The largest has three digits, and all of them its decimals.
+    const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(most))), 0, 9);
     const ImFont& mono = *ui.style.mono;
     const float height = ui.px(18);
     const auto draw_row = [&](int i) {
@@ -230,10 +233,8 @@ void level_bars(Ui& ui, QueryInspector& queries, int clip) {
         const LevelRange shown = ui.workspace.view().levels;
         const bool drawn =
             !shown.leaves && !ui.workspace.view().query && level.level >= shown.first && level.level <= shown.last;
-        const bool large = level.volume >= 100 && level.volume < 1e6;
-        const char* format = large ? (level.tightness ? "%.0f  %3.0f%%" : "%.0f      ")
-                                   : (level.tightness ? "%.3g  %3.0f%%" : "%.3g      ");
-        const std::string text = formatted(format, level.volume, 100 * level.tightness.value_or(0));
+        const std::string volume = formatted(most < 1e6 ? "%.*f" : "%.*g", most < 1e6 ? decimals : 3, level.volume);
+        const std::string text = volume + (level.tightness ? formatted("  %3.0f%%", 100 * *level.tightness) : "      ");
         const float label = ui.px(26);
         const float figure = text_size(mono, "000000  100%").x;
         const float room = std::max(ui.px(20), width - label - figure - ui.px(8));
@@ -256,8 +257,7 @@ void level_bars(Ui& ui, QueryInspector& queries, int clip) {
         if (over) {
             std::string figures_of_level;
             for (const mobb::LevelColumn& column : mobb::kLevelColumns) {
-                figures_of_level +=
-                    std::string(column.name) + ' ' + level_text(column, level) + level_unit(column) + '\n';
+                figures_of_level += level_words(column, level) + '\n';
             }
             ImGui::SetTooltip("%sclick to show this level", figures_of_level.c_str());
         }

@@ -1,6 +1,11 @@
 #include <app/session/excerpts.h>
 
+#include <scene/crowd_run.h>
+#include <scene/drawn_agent.h>
+
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -16,13 +21,18 @@ SceneClip joint_to(const SceneClip& to, const mobb::ClipPtr& joint) {
     return {"joint to " + to.name, std::nullopt, {}, joint};
 }
 
+Color in_bytes(const Rgba& color) {
+    const auto byte = [](float c) { return static_cast<std::uint8_t>(std::lround(255 * c)); };
+    return {byte(color.r), byte(color.g), byte(color.b)};
+}
+
 }  // namespace
 
 void Excerpts::open(const PlacedAgent& a, const PlacedAgent& b) {
     const auto side = [&](const PlacedAgent& who) {
         return Side{who.name, workspace_.fitted().scene().clips[static_cast<std::size_t>(who.clip)], who.placement};
     };
-    open(side(a), side(b));
+    open(side(a), side(b), query_colors(workspace_.fitted().scene(), a, b));
 }
 
 void Excerpts::open_conflict(const SceneConflict& of) {
@@ -30,7 +40,8 @@ void Excerpts::open_conflict(const SceneConflict& of) {
         const SceneClip& clip = workspace_.scene().clips[static_cast<std::size_t>(who.clip)];
         return Side{who.name, joint ? joint_to(clip, joint) : clip, who.placement};
     };
-    open(side(of.a, of.a_joint), side(of.b, of.b_joint));
+    // Of a run the first agents that are drawn are its people.
+    open(side(of.a, of.a_joint), side(of.b, of.b_joint), query_colors(workspace_.fitted().scene(), of.a, of.b));
 }
 
 void Excerpts::open_candidate(int candidate) {
@@ -57,10 +68,16 @@ void Excerpts::open_candidate(int candidate) {
     Side b{workspace_.crowd()->agents[static_cast<std::size_t>(blocker.agent)].name, clip_of(blocker.move),
            blocker.placement};
     if (blocker.is_joint) b.clip = joint_to(b.clip, blocker.clip);
-    open(std::move(a), std::move(b));
+    const auto person = [](int agent) {
+        PlacedAgent out;
+        out.agent = agent;
+        return out;
+    };
+    const int follows = *run_agent_by_name(*workspace_.crowd(), a.name);
+    open(std::move(a), std::move(b), query_colors(workspace_.fitted().scene(), person(follows), person(blocker.agent)));
 }
 
-void Excerpts::open(Side a, Side b) {
+void Excerpts::open(Side a, Side b, const std::array<Rgba, 2>& colors) {
     jobs_.require_none();
     const bool same_clip = a.clip.clip == b.clip.clip;
     if (b.name == a.name) b.name += " (2)";
@@ -69,8 +86,8 @@ void Excerpts::open(Side a, Side b) {
     Scene excerpt;
     excerpt.file = workspace_.scene().file;
     excerpt.fit = workspace_.document().fitted->options();
-    excerpt.agents.push_back({a.name, 0, a.placement, std::nullopt});
-    excerpt.agents.push_back({b.name, same_clip ? 0 : 1, b.placement, std::nullopt});
+    excerpt.agents.push_back({a.name, 0, a.placement, in_bytes(colors[0])});
+    excerpt.agents.push_back({b.name, same_clip ? 0 : 1, b.placement, in_bytes(colors[1])});
     excerpt.clips.push_back(std::move(a.clip));
     if (!same_clip) excerpt.clips.push_back(std::move(b.clip));
     excerpt.view.theme = workspace_.view().theme;

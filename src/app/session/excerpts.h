@@ -1,10 +1,12 @@
-/// Two paths of what is drawn as a scene of their own, with the query between them. Undo leads back, and so does
-/// `leave`.
+/// Two paths of what is drawn as a scene of their own, with the query between them, in the colours that they had. Undo
+/// leads back, and so does `leave`.
 #pragma once
 
 #include <app/session/crowd_inspector.h>
 #include <app/session/playback.h>
+#include <base/color.h>
 
+#include <array>
 #include <string>
 
 namespace mobbscope::app {
@@ -28,7 +30,7 @@ class Excerpts {
         SceneClip clip;
         mobb::Placement placement;
     };
-    void open(Side a, Side b);
+    void open(Side a, Side b, const std::array<Rgba, 2>& colors);
     void turn_away();
 
     Workspace& workspace_;

@@ -3,8 +3,11 @@
 #include <base/text.h>
 
 #include <algorithm>
+#include <map>
 #include <new>
+#include <set>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 namespace mobbscope::app {
@@ -167,29 +170,36 @@ void Imports::ask_for_offer() {
 }
 
 void Imports::tell_of_warnings(std::size_t from) {
-    const SceneClip* of = nullptr;
-    const ImportWarning* worst = nullptr;
-    std::size_t clips = 0;
+    struct Told {
+        const SceneClip* of;  ///< the first clip that it is about
+        const ImportWarning* warning;
+        std::size_t clips = 1;
+    };
+    std::map<std::string_view, Told> by_option;
     for (std::size_t i = from; i < workspace_.scene().clips.size(); ++i) {
         const SceneClip& clip = workspace_.scene().clips[i];
-        bool warned = false;
+        std::set<std::string_view> options;
         for (const ImportWarning& warning : clip.facts.warnings) {
-            if (warning.option.empty()) continue;
-            warned = true;
-            // A wrong unit makes all else look wrong.
-            if (worst && (worst->option == "unit" || warning.option != "unit")) continue;
-            of = &clip;
-            worst = &warning;
+            if (warning.option.empty() || !options.insert(warning.option).second) continue;
+            const auto [at, is_new] = by_option.try_emplace(warning.option, Told{&clip, &warning});
+            if (!is_new) ++at->second.clips;
         }
-        clips += warned ? 1 : 0;
     }
-    if (!worst) return;
-    const std::string others = clips > 1 ? " (" + counted(clips - 1, "more clip", "more clips") + ")" : "";
-    const MessageOffer offer =
-        of->source
-            ? MessageOffer{"clip.import", of->name + ' ' + worst->option, "Import options..."}
-            : MessageOffer{"clip.motion", std::string(name(mobb::Motion::linear)) + ' ' + of->name, "Make it linear"};
-    notifications_.tell(MessageLevel::warning, of->name + ": " + said(*worst) + others, offer);
+    const auto tell = [&](const Told& told) {
+        const std::string others =
+            told.clips > 1 ? " (" + counted(told.clips - 1, "more clip", "more clips") + ")" : "";
+        const MessageOffer offer =
+            told.of->source
+                ? MessageOffer{"clip.import", told.of->name + ' ' + told.warning->option, "Import options..."}
+                : MessageOffer{"clip.motion", std::string(name(mobb::Motion::linear)) + ' ' + told.of->name,
+                               "Make it linear"};
+        notifications_.tell(MessageLevel::warning, told.of->name + ": " + said(*told.warning) + others, offer);
+    };
+    // The latest stands out most: a wrong unit makes all else look wrong.
+    for (const auto& [option, told] : by_option) {
+        if (option != "unit") tell(told);
+    }
+    if (const auto unit = by_option.find("unit"); unit != by_option.end()) tell(unit->second);
 }
 
 }  // namespace mobbscope::app

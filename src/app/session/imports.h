@@ -31,7 +31,7 @@ class Imports {
     void next();
     /// What the file of the clip in the dialog has to offer, for the options that it has now.
     void ask_for_offer();
-    /// Points to the first warning that an option mends, of the clips from that index on.
+    /// Tells of the warnings that options mend, of the clips from that index on: each option once.
     void tell_of_warnings(std::size_t from);
 
   private:

@@ -12,6 +12,7 @@ namespace mobbscope::app {
 namespace {
 
 constexpr std::size_t kMostChoices = 40;  // more than these are found by the palette
+constexpr float kWidestChoice = 0.5f;     // of the window
 
 /// "Undo moving A".
 std::string title_of(const Session& session, const Command& command) {
@@ -32,13 +33,16 @@ void reason(const Session& session, const Command& command) {
 void choices_item(Ui& ui, const Command& command, const std::string& title, const std::string& mark) {
     const std::vector<std::string> all = command.choices(ui.session);
     if (!begin_menu(ui, title, mark, command.enabled(ui.session) && !all.empty())) return reason(ui.session, command);
+    const NameList names(all.size(), [&](std::size_t i) { return title_of_choice(command, all[i]); });
     for (std::size_t i = 0; i < std::min(all.size(), kMostChoices); ++i) {
         const bool chosen = command.chosen && command.chosen(ui.session, all[i]);
         ImGui::PushID(static_cast<int>(i));
         const std::string choice = title_of_choice(command, all[i]);
-        if (ImGui::MenuItem(choice.c_str(), nullptr, chosen)) ui.invoke(command.id, all[i]);
+        const std::string shown = fitted_name(choice, kWidestChoice * ImGui::GetIO().DisplaySize.x, names);
+        if (ImGui::MenuItem(shown.c_str(), nullptr, chosen)) ui.invoke(command.id, all[i]);
         ImGui::PopID();
         ui.mark(mark + '.' + all[i], OwnKeys::none, choice);
+        tell_whole(ui, shown, choice);
         if (chosen) ui.focus.begin_here();
     }
     if (all.size() > kMostChoices) {

@@ -34,7 +34,7 @@ std::vector<std::string> unbroken_words(const std::string& text) {
     return out;
 }
 
-constexpr float kLeastField = 56;  // pixels at scale 1
+constexpr float kLeastField = 84;  // pixels at scale 1
 
 float text_width(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
 
@@ -295,20 +295,60 @@ std::string fitted_text(const std::string& text, float room) {
 }
 
 std::string fitted_name(const std::string& name, float room) {
-    const auto fits = [room](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x <= room; };
-    return fitted_text(shortened_to_fit(cleaned(name), fits), room);
+    return fitted_name(name, room, NameList(std::vector<std::string>()));
+}
+
+std::string fitted_name(const std::string& name, float room, const NameList& list) {
+    const auto fits = [room](const std::string& text) { return text_width(text) <= room; };
+    return fitted_text(list.shortened(cleaned(name), fits), room);
+}
+
+std::string fitted_pair(const std::string& a, const char* between, const std::string& b, float room,
+                        const NameList& list) {
+    const std::string whole = cleaned(a) + between + cleaned(b);
+    if (text_width(whole) <= room) return whole;
+    // The names need the room more than the word.
+    const std::string dash = " \u2013 ";
+    const float rest = std::max(room - text_width(dash), 0.0f);
+    // What one does not need the other has.
+    const float for_a = std::max(0.5f * rest, rest - text_width(cleaned(b)));
+    const float for_b = std::max(0.5f * rest, rest - text_width(cleaned(a)));
+    return fitted_name(a, for_a, list) + dash + fitted_name(b, for_b, list);
+}
+
+void tell_whole(const Ui& ui, const std::string& shown, const std::string& whole) {
+    if (shown == cleaned(whole) || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    ImGui::SetTooltip("%s", wrapped(cleaned(whole), std::min(ui.px(640), 0.9f * ImGui::GetIO().DisplaySize.x)).c_str());
+}
+
+void fitted_line(const Ui& ui, ImU32 color, const std::string& text, float room, ImFont* font) {
+    ImGui::PushFont(font ? font : ImGui::GetFont());
+    const std::string shown = fitted_text(text, room);
+    text_line(color, shown);
+    ImGui::PopFont();
+    tell_whole(ui, shown, text);
+}
+
+void name_line(const Ui& ui, ImU32 color, const std::string& name, float room, const NameList& list) {
+    const std::string shown = fitted_name(name, room, list);
+    text_line(color, shown);
+    tell_whole(ui, shown, name);
 }
 
 bool begin_dropdown(Ui& ui, const std::string& mark, const std::string& shown, std::string_view label,
                     ImGuiComboFlags flags) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 size{ImGui::CalcItemWidth(), ImGui::GetFrameHeight()};
-    const bool open = ImGui::BeginCombo(("##" + mark).c_str(), shown.c_str(), flags);
+    const float room = size.x - size.y - ImGui::GetStyle().FramePadding.x;
+    const std::string fits = fitted_name(shown, room);
+    const bool open = ImGui::BeginCombo(("##" + mark).c_str(), fits.c_str(), flags);
     // Once it is open the last item is of its list.
     const Rect place{{corner.x, corner.y}, {corner.x + size.x, corner.y + size.y}};
     ui.marks.add(mark, place);
-    if (!open) ui.focus.add(mark, place, ImGui::GetItemID(), OwnKeys::none, label);
-    return open;
+    if (open) return true;
+    ui.focus.add(mark, place, ImGui::GetItemID(), OwnKeys::none, label);
+    tell_whole(ui, fits, shown);
+    return false;
 }
 
 void clipped_rows(Ui& ui, const char* name, int count, float height, const std::function<void(int)>& draw,
@@ -551,14 +591,16 @@ bool row(Ui& ui, const Row& row) {
     const float y = corner.y + 0.5f * (height - ImGui::GetFontSize());
     const float left = corner.x + pad + row.indent;
     const float room = end.x - pad - left;
-    // The name keeps half of a narrow row.
-    const float name_width = std::min(ImGui::CalcTextSize(cleaned(row.name).c_str()).x, 0.5f * room);
+    // The name keeps a part of a narrow row.
+    const float name_width = std::min(ImGui::CalcTextSize(cleaned(row.name).c_str()).x, 0.35f * room);
     ImGui::PushFont(ui.style.mono);
-    const std::string remark = fitted_text(row.remark, std::max(room - name_width - ui.px(8), 0.0f));
+    const std::string remark = fitted_name(row.remark, std::max(room - name_width - ui.px(8), 0.0f));
     const float width_of_remark = ImGui::CalcTextSize(remark.c_str()).x;
     ImGui::PopFont();
-    const std::string name = fitted_name(row.name, std::max(ui.px(24), room - width_of_remark - ui.px(8)));
-    if (name != row.name && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", row.name.c_str());
+    const float name_room = std::max(ui.px(24), room - width_of_remark - ui.px(8));
+    const std::string name = row.fitted ? row.fitted(name_room) : fitted_name(row.name, name_room);
+    const std::string gap = row.remark.empty() ? "" : "   ";
+    tell_whole(ui, name + gap + remark, row.name + gap + row.remark);
     draw.AddText({left, y}, row.quiet ? ui.style.quiet : ui.style.text, name.c_str());
     draw_text(draw, mono, {end.x - pad - width_of_remark, corner.y + 0.5f * (height - mono.FontSize)},
               row.remark_color != 0 ? row.remark_color : ui.style.quiet, remark);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <app/ui/ui.h>
+#include <base/name_list.h>
 
 #include <functional>
 #include <limits>
@@ -80,9 +81,22 @@ float button_width(const char* label);
 /// A text on one line that fits `room` pixels in the present font: its end becomes an ellipsis.
 std::string fitted_text(const std::string& text, float room);
 
-/// A name on one line that fits `room` pixels: its middle becomes an ellipsis, as names of one recording differ at
-/// their ends.
+/// A name on one line that fits `room` pixels: an ellipsis stands for what the names of its list have in common, or for
+/// its middle.
 std::string fitted_name(const std::string& name, float room);
+std::string fitted_name(const std::string& name, float room, const NameList& list);
+
+/// "A against B", likewise, as "07_05 \u2013 07_06": each of the two has its share of the room.
+std::string fitted_pair(const std::string& a, const char* between, const std::string& b, float room,
+                        const NameList& list);
+
+/// Under the mouse the last item says all of a text that is shown shorter.
+void tell_whole(const Ui& ui, const std::string& shown, const std::string& whole);
+
+/// A line of text that fits `room` pixels, of which the mouse tells the rest.
+void fitted_line(const Ui& ui, ImU32 color, const std::string& text, float room, ImFont* font = nullptr);
+/// ... of a name.
+void name_line(const Ui& ui, ImU32 color, const std::string& name, float room, const NameList& list);
 
 /// A field that opens a list to choose from, as wide as the next item is to be; ends with ImGui::EndCombo() if it is
 /// open. `label`: by whose letters it is found.
@@ -130,6 +144,8 @@ struct Row {
     bool quiet = false;      ///< the name too
     float buttons = 0;       ///< pixels at its right end that are left to buttons, which come next on the line
     float right = 0;         ///< pixels of them that the remark keeps free, <= buttons
+    /// The name on so many pixels; by itself it loses its middle.
+    std::function<std::string(float room)> fitted{};
 };
 bool row(Ui& ui, const Row& row);
 

@@ -607,15 +607,22 @@ void Viewport::decorate_overlays(Ui& ui, const ShownPicture& picture) const {
         ui.marks.add(name, {corner + overlay.fold.min, corner + overlay.fold.max});
         if (overlay.more) ui.marks.add(name + ".more", {corner + overlay.more->min, corner + overlay.more->max});
     }
+    if (drag_ != Drag::none || !ImGui::IsItemHovered()) return;
     const auto lit = overlay_click(*list_, mouse_pixel(picture));
-    if (!lit || drag_ != Drag::none || !ImGui::IsItemHovered()) return;
+    if (!lit) {
+        const Overlay* overlay = overlay_at(*list_, mouse_pixel(picture));
+        if (overlay && !overlay->whole.empty()) ImGui::SetTooltip("%s", overlay->whole.c_str());
+        return;
+    }
     if (lit->command) {
         const glm::vec2 min = corner + lit->rect.min;
         const glm::vec2 max = corner + lit->rect.max;
         ImGui::GetWindowDrawList()->AddRect({min.x, min.y}, {max.x, max.y}, ui.style.accent, ui.px(3));
         ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
     }
-    ImGui::SetTooltip("%s", lit->words);
+    const Overlay& overlay = *overlay_at(*list_, mouse_pixel(picture));
+    const bool tells = overlay.folded && !overlay.whole.empty();
+    ImGui::SetTooltip("%s%s%s", tells ? overlay.whole.c_str() : "", tells ? "\n\n" : "", lit->words);
 }
 
 void Viewport::decorate(Ui& ui, const ShownPicture& picture) {

@@ -265,6 +265,7 @@ struct Overlay {
     Rect fold;                 ///< where a click folds or unfolds it
     bool folded = false;       ///< its header alone is there
     bool no_room = false;      ///< ... as the picture is too small for the rest; the header says so
+    std::string whole{};       ///< all that it says where words of it are left out; empty: none are
     std::optional<Rect> more;  ///< of a legend with more rows than it shows by itself: where a click shows all, or few
 };
 

@@ -133,9 +133,9 @@ std::string fit_text(const std::string& text, FontFace face, float size, float w
     }
 }
 
-std::string fit_name(const std::string& name, FontFace face, float size, float width) {
+std::string fit_name(const std::string& name, FontFace face, float size, float width, const NameList& list) {
     const auto fits = [&](const std::string& text) { return Font::of(face).width(text, size) <= width; };
-    return fit_text(shortened_to_fit(name, fits), face, size, width);
+    return fit_text(list.shortened(name, fits), face, size, width);
 }
 
 std::vector<std::string> wrap_text(const std::string& text, FontFace face, float size, float width) {

@@ -1,6 +1,8 @@
 /// The two faces that pictures are lettered in, both part of the program.
 #pragma once
 
+#include <base/name_list.h>
+
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -55,8 +57,8 @@ class Font {
 /// `text`, or its beginning and an ellipsis, so that it is at most `width` pixels wide.
 std::string fit_text(const std::string& text, FontFace face, float size, float width);
 
-/// Likewise of a name: its middle becomes the ellipsis, as names of one recording differ at their ends.
-std::string fit_name(const std::string& name, FontFace face, float size, float width);
+/// Likewise of a name of a list: the ellipsis stands for what the names have in common.
+std::string fit_name(const std::string& name, FontFace face, float size, float width, const NameList& list);
 
 /// Lines of at most `width` pixels, broken at spaces; a longer word has a line of its own.
 std::vector<std::string> wrap_text(const std::string& text, FontFace face, float size, float width);

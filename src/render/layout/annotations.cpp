@@ -116,6 +116,7 @@ std::size_t shown_count(std::span<const DrawnAgent> agents) {
 
 void add_cell_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAgent> agents, double floor,
                     const Metrics& metrics) {
+    const NameList names(agents.size(), [&](std::size_t i) { return agents[i].name; });
     for (const DrawnAgent& agent : agents) {
         if (agent.hidden || !agent.cell) continue;
         const GridCell& cell = *agent.cell;
@@ -125,8 +126,9 @@ void add_cell_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAg
         if (!seen || !room) continue;
         LabelRequest label;
         label.role = TextRole::name;
-        label.text = fit_name(agent.name, FontFace::text, metrics.small,
-                              std::max(room->max.x - room->min.x - metrics.small, kLeastCellName * metrics.small));
+        label.text =
+            fit_name(agent.name, FontFace::text, metrics.small,
+                     std::max(room->max.x - room->min.x - metrics.small, kLeastCellName * metrics.small), names);
         label.size = metrics.small;
         label.color = readable(agent.color, list.palette);
         label.anchor = {0.5f * (seen->min.x + seen->max.x), seen->max.y};
@@ -139,7 +141,7 @@ void add_cell_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAg
         label.anchor.y = seen->min.y;
         label.directions = {{0, -1}};
         if (layout.place(label, list)) continue;
-        label.text = fit_name(agent.name, FontFace::text, metrics.small, kLeastCellName * metrics.small);
+        label.text = fit_name(agent.name, FontFace::text, metrics.small, kLeastCellName * metrics.small, names);
         label.directions = {{0, -1}, {1, 0}, {-1, 0}};
         layout.place(label, list);
     }

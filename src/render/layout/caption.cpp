@@ -70,7 +70,7 @@ std::string boxes_text(std::span<const DrawnAgent> agents, const LevelRange& lev
     }
     std::string text = levels_text(levels, last) + ", " + std::to_string(count) + (count == 1 ? " box" : " boxes");
     if (levels.leaves || std::min(levels.first, last) == last) {
-        text += formatted(total >= 1000 && total < 1e9 ? ", %.0f m\u00B2\u00B7s" : ", %.3g m\u00B2\u00B7s", total);
+        text += ", " + figure(total, 3) + " m\u00B2\u00B7s";
     }
     return text;
 }
@@ -120,7 +120,7 @@ void mention(Caption& caption, const std::string& text) {
 
 void mention_cursor_outside(Caption& caption, double time, double begin, double end) {
     mention(caption,
-            formatted("%.10g", time) + " s lies outside " + to_thousandth(begin) + ".." + to_thousandth(end) + " s");
+            to_thousandth(time) + " s lies outside " + to_thousandth(begin) + ".." + to_thousandth(end) + " s");
 }
 
 void mention_hidden(Caption& caption, std::span<const std::string> hidden, std::size_t all) {

@@ -261,10 +261,12 @@ glm::vec2 legend_size(std::span<const LegendEntry> rows, float text_size, float 
     return glm::ceil(glm::vec2(widest, legend_row(text_size) * static_cast<float>(rows.size()) - 0.3f * text_size));
 }
 
-void add_legend(DrawList& list, std::span<const LegendEntry> rows, glm::vec2 corner, float text_size, float text_room) {
+bool add_legend(DrawList& list, std::span<const LegendEntry> rows, glm::vec2 corner, float text_size, float text_room) {
     glm::vec2 at = corner;
     const float mark_room = mark_width(text_size);
     const float height = line_height(FontFace::text, text_size);
+    const NameList names(rows.size(), [&](std::size_t i) { return rows[i].text; });
+    bool whole = true;
     for (const LegendEntry& entry : rows) {
         const bool remark = entry.mark == Mark::remark;
         const glm::vec2 middle = at + glm::vec2(0.5f * mark_room, 0.5f * height);
@@ -288,11 +290,16 @@ void add_legend(DrawList& list, std::span<const LegendEntry> rows, glm::vec2 cor
                                           std::max(entry.width, 1.4f) * text_size / 12,
                                           0.6f * entry.dash * text_size / 11.0f});
         }
-        list.texts.push_back(text_at(TextRole::legend, fit_text(entry.text, FontFace::text, text_size, text_room),
-                                     FontFace::text, text_size, remark ? list.palette.quiet_text : list.palette.text,
+        const std::string words = entry.mark == Mark::disk
+                                      ? fit_name(entry.text, FontFace::text, text_size, text_room, names)
+                                      : fit_text(entry.text, FontFace::text, text_size, text_room);
+        whole = whole && words == entry.text;
+        list.texts.push_back(text_at(TextRole::legend, words, FontFace::text, text_size,
+                                     remark ? list.palette.quiet_text : list.palette.text,
                                      at + glm::vec2(legend_indent(entry, text_size), 0)));
         at.y += legend_row(text_size);
     }
+    return whole;
 }
 
 }  // namespace mobbscope

@@ -32,7 +32,7 @@ float legend_row(float text_size);
 /// Where the words of a row begin: pixels from its left end.
 float legend_indent(const LegendEntry& row, float text_size);
 
-/// Adds rows with their upper left corner at a point.
-void add_legend(DrawList& list, std::span<const LegendEntry> rows, glm::vec2 corner, float text_size, float text_room);
+/// Adds rows with their upper left corner at a point. Returns whether all their words have room.
+bool add_legend(DrawList& list, std::span<const LegendEntry> rows, glm::vec2 corner, float text_size, float text_room);
 
 }  // namespace mobbscope

@@ -65,6 +65,19 @@ std::vector<LegendEntry> shown_rows(std::span<const LegendEntry> all, std::size_
     return out;
 }
 
+std::string in_a_line(std::span<const std::string> lines) {
+    std::string out;
+    for (const std::string& line : lines) out += (out.empty() ? "" : " ") + line;
+    return out;
+}
+
+/// Lines are broken at blanks, of which there may be several.
+bool same_words(std::string a, std::string b) {
+    std::erase(a, ' ');
+    std::erase(b, ' ');
+    return a == b;
+}
+
 class OverlayLayout {
   public:
     OverlayLayout(DrawList& list, const OverlayContents& contents, const ViewState& view, const Metrics& metrics)
@@ -207,7 +220,7 @@ class OverlayLayout {
         list_.panels.push_back(text_panel(place.rect, list_.palette, spacing_.text));
         const float square = spacing_.chevron;
         const float inset = 0.5f * (spacing_.header - square);
-        Overlay overlay{kind, place.rect, place.rect, !place.open, place.no_room, std::nullopt};
+        Overlay overlay{kind, place.rect, place.rect, !place.open, place.no_room, {}, std::nullopt};
         if (place.open) {
             // As large as a folded panel is high, so that it is easily hit.
             overlay.fold = {{place.rect.max.x - spacing_.header, place.rect.min.y},
@@ -246,14 +259,24 @@ class OverlayLayout {
     void draw_caption() {
         list_.headline = contents_.caption.headlines.front();
         const glm::vec2 corner = draw_panel(Kind::caption, *caption_, contents_.caption.mark);
-        if (caption_->open) add_caption(list_, contents_.caption, caption_lines_, corner, metrics_.scale);
+        const Caption& caption = contents_.caption;
+        const CaptionLines& shown = caption_lines_;
+        if (!caption_->open || !same_words(in_a_line(shown.headline), caption.headlines.front()) ||
+            !same_words(in_a_line(shown.detail), caption.detail)) {
+            list_.overlays.back().whole = caption.headlines.front();
+            if (!caption.detail.empty()) list_.overlays.back().whole += '\n' + caption.detail;
+        }
+        if (caption_->open) add_caption(list_, caption, shown, corner, metrics_.scale);
     }
 
     void draw_legend() {
         list_.legend = contents_.legend;
         const glm::vec2 corner = draw_panel(Kind::legend, *legend_);
         if (!legend_->open) return;
-        add_legend(list_, rows_, corner, spacing_.text, words_room_);
+        if (!add_legend(list_, rows_, corner, spacing_.text, words_room_)) {
+            std::string& whole = list_.overlays.back().whole;
+            for (const LegendEntry& row : rows_) whole += (whole.empty() ? "" : "\n") + row.text;
+        }
         if (list_.legend.size() <= kLegendRows) return;
         const Rect& panel = legend_->rect;
         const float row = legend_row(spacing_.text);

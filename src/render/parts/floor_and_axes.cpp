@@ -45,7 +45,9 @@ double label_step(const std::vector<double>& values, double step, glm::vec2 run,
     const float wide = Font::of(FontFace::mono).width("0", size) * static_cast<float>(longest) + size;
     const float high = 1.5f * size;
     const float spaces = static_cast<float>(std::max<std::size_t>(values.size(), 2) - 1);
-    for (const double multiple : {1.0, 2.0, 5.0, 10.0}) {
+    // Five times 5, or 0.5, is no number to count by.
+    const bool by_fives = std::abs(step / std::pow(10, std::floor(std::log10(step) + 1e-9)) - 5) < 0.5;
+    for (const double multiple : {1.0, 2.0, by_fives ? 4.0 : 5.0, 10.0}) {
         const glm::vec2 between = run / spaces * static_cast<float>(multiple);
         if (between.x >= wide || between.y >= high) return multiple * step;
     }
@@ -161,10 +163,17 @@ std::vector<LabelRequest> floor_and_axis_labels(const DrawList& list, const Floo
     label.color = list.palette.quiet_text;
     if (time_axis && !time_on_end(projection)) {
         const glm::dvec2 foot = axis_corner(s, projection.right);
-        for (const double t : ticks(s.t0, s.t1, s.time_step)) {
-            const auto anchor = projection.project(space.point(foot.x, foot.y, t));
-            if (!anchor) continue;
-            label.text = tick_text(t, s.time_step) + " s";
+        const auto seen_at = [&](double t) { return projection.project(space.point(foot.x, foot.y, t)); };
+        std::vector<double> times = ticks(s.t0, s.t1, s.time_step);
+        std::erase_if(times, [&](double t) { return !seen_at(t); });
+        const double shown =
+            times.size() < 2
+                ? s.time_step
+                : label_step(times, s.time_step, glm::abs(*seen_at(times.back()) - *seen_at(times.front())), size);
+        for (const double t : times) {
+            if (std::abs(std::remainder(t, shown)) > 0.01 * s.time_step) continue;
+            const auto anchor = seen_at(t);
+            label.text = tick_text(t, shown) + " s";
             label.anchor = *anchor;
             label.directions = {{-1, 0}};
             label.distance = 0.7f * size;

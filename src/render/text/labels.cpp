@@ -86,6 +86,15 @@ double nice_step(double span, double parts) {
     return power;
 }
 
+double ruler_step(double from, double to, float length, const std::function<float(const std::string&)>& width_of) {
+    const double span = to - from;
+    for (double parts = std::max(1.0f, length / width_of("0"));; parts /= 2) {
+        const double step = nice_step(span, parts);
+        const float widest = std::max(width_of(tick_text(from, step)), width_of(tick_text(to, step)));
+        if (step / span * length >= widest) return step;
+    }
+}
+
 std::vector<double> ticks(double from, double to, double step) {
     std::vector<double> out;
     const double slack = 1e-6;

@@ -3,6 +3,7 @@
 
 #include <render/drawlist/draw_list.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -54,8 +55,12 @@ float panel_padding(float text_size);
 /// In the palette's colours.
 OverlayPanel text_panel(const Rect& rect, const Palette& palette, float text_size);
 
-/// The largest of 1, 2, 5 times a power of ten that divides `span` into at least `parts` pieces. span > 0, parts >= 1.
+/// The largest of 1, 2, 5 times a power of ten that divides `span` into at least `parts` pieces. span > 0, parts > 0.
 double nice_step(double span, double parts);
+
+/// The finest of 1, 2, 5 times a power of ten at which labels along a ruler of that length have room; `width_of` says
+/// how much one takes, with the gap to the next. to > from, length > 0.
+double ruler_step(double from, double to, float length, const std::function<float(const std::string&)>& width_of);
 
 /// The multiples of `step` in [from, to], with a hair's breadth of tolerance at the ends.
 std::vector<double> ticks(double from, double to, double step);
