@@ -13,7 +13,6 @@ namespace mobbscope {
 
 namespace {
 
-constexpr std::size_t kTerseLabel = 10;  // characters
 
 std::string separating_axis(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
     const auto axis_of = [&](const DrawnAgent& side, int node, int axis) {
