@@ -89,10 +89,13 @@ int run_script(const Named& named, const WindowArguments& arguments) {
 void show_window(const Named& named, const WindowArguments& arguments) {
     const std::filesystem::path file = app::settings_file();
     const std::string kept = app::keep_unreadable_settings(file);
-    app::Session session(true, app::load_settings(file));
+    app::SettingsFile settings(file);
+    app::Session session(true, settings.load());
     app::add_review(session);
-    const double usual_scale = session.settings.ui_scale;
     if (arguments.ui_scale) session.settings.ui_scale = *arguments.ui_scale;
+    // What the command line asked for holds this once.
+    settings.note(session.settings);
+    session.settings_file = std::move(settings);
     app::GlfwWindow window(session, arguments.size);
     show_named(session, named, arguments);
     if (!kept.empty()) session.notifications.tell_of_window(app::MessageLevel::warning, kept);
@@ -102,9 +105,7 @@ void show_window(const Named& named, const WindowArguments& arguments) {
     }
     window.run();
     session.files.note_session();
-    // What the command line asked for holds this once.
-    if (session.settings.ui_scale == arguments.ui_scale) session.settings.ui_scale = usual_scale;
-    app::save_settings(file, session.settings);
+    session.settings_file.save(session.settings);
 }
 
 /// The exit status.

@@ -310,6 +310,17 @@ TEST(Opening, AllThatWasOpenedBecomesRecent) {
     EXPECT_EQ(session.settings.folder, folder.scene.parent_path());
 }
 
+TEST(Opening, RecentFilesAreOnTheDiskAtOnce) {
+    CrossingFolder folder;
+    const std::filesystem::path file = folder.file("settings.json");
+    Session session(true);
+    session.settings_file = SettingsFile(file);
+    session.files.open({folder.scene});
+    while (session.jobs.job()) session.poll();
+    EXPECT_EQ(load_settings(file).recent, std::vector{folder.scene}) << "also if the window is killed now";
+    EXPECT_EQ(load_settings(file).folder, folder.scene.parent_path());
+}
+
 TEST(Opening, TheLastSessionIsOpenedAgainAsItWasSeen) {
     CrossingFolder folder;
     Settings kept;

@@ -133,6 +133,8 @@ void Files::remember(const std::vector<std::filesystem::path>& files) {
     // Scripts and pictures find the same wherever they run.
     parts_.settings.folder =
         parts_.options.attended ? std::filesystem::absolute(folder, error).lexically_normal() : folder;
+    // However the window ends, and for other windows.
+    parts_.settings_file.save(parts_.settings);
 }
 
 bool Files::opened_by_person() const {

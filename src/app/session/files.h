@@ -23,6 +23,7 @@ class Files {
         Notifications& notifications;
         Playback& playback;
         Settings& settings;
+        SettingsFile& settings_file;
         Counts& counts;
         const SessionOptions& options;
         Screen*& screen;

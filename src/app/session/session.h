@@ -59,6 +59,7 @@ class Session {
 
     SessionOptions options;
     Settings settings;
+    SettingsFile settings_file;   ///< of an attended session; none: nothing is kept
     Desktop* desktop;             ///< never null
     PictureMaker* picture_maker;  ///< likewise
     double window_scale = 1;      ///< of text and panels where the settings say none
@@ -78,7 +79,8 @@ class Session {
     Imports imports{workspace, jobs, edits, dialogs, notifications};
     CrowdInspector crowds{workspace, jobs, notifications};
     Excerpts excerpts{workspace, jobs, playback, crowds, counts};
-    Files files{{workspace, jobs, edits, imports, dialogs, notifications, playback, settings, counts, options, screen}};
+    Files files{{workspace, jobs, edits, imports, dialogs, notifications, playback, settings, settings_file, counts,
+                 options, screen}};
     std::vector<std::unique_ptr<Screen>> screens;          ///< that there are (add_screen)
     std::shared_ptr<const std::vector<Command>> commands;  ///< the table with theirs; null: without
 
