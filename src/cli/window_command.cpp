@@ -4,6 +4,7 @@
 #include <cli/window_command.h>
 
 #include <app/script/script.h>
+#include <app/window/end_signals.h>
 #include <app/window/glfw_window.h>
 #include <app/window/headless_window.h>
 #include <base/error.h>
@@ -57,6 +58,21 @@ void show_named(app::Session& session, const Named& named, const WindowArguments
     review.open(std::get<app::ReviewFolder>(named));
 }
 
+/// What is not asked about as the window ends.
+void leave(app::Session& session) {
+    session.recovery.keep_now();
+    session.files.note_session();
+    session.settings_file.save(session.settings);
+}
+
+/// In the midst of anything: what is destroyed at an ordinary end would ask the display again.
+[[noreturn]] void end_without_display(app::Session& session) {
+    leave(session);
+    std::cout.flush();
+    complain("the display of the window has gone away");
+    std::_Exit(kNoMachine);
+}
+
 /// Scripts find the same everywhere: they neither read nor write a person's settings.
 int run_script(const Named& named, const WindowArguments& arguments) {
     const app::Script script = app::Script::parse(read_file(arguments.script), arguments.script.string(),
@@ -67,7 +83,8 @@ int run_script(const Named& named, const WindowArguments& arguments) {
     session.settings.ui_scale = arguments.ui_scale.value_or(1);
     const std::unique_ptr<app::ShellHost> host = [&]() -> std::unique_ptr<app::ShellHost> {
         if (!arguments.headless && app::has_display()) {
-            return std::make_unique<app::GlfwWindow>(session, arguments.size);
+            return std::make_unique<app::GlfwWindow>(session, arguments.size,
+                                                     [&session] { end_without_display(session); });
         }
         if (arguments.size) at_place("--size", "", [&] { check(PictureOptions{.size = *arguments.size}); });
         return std::make_unique<app::HeadlessWindow>(GlContext::open(Backend::automatic), session,
@@ -96,14 +113,22 @@ void show_window(const Named& named, const WindowArguments& arguments) {
     // What the command line asked for holds this once.
     settings.note(session.settings);
     session.settings_file = std::move(settings);
-    app::GlfwWindow window(session, arguments.size);
+    app::GlfwWindow window(session, arguments.size, [&session] { end_without_display(session); });
+    const app::EndSignals signals([&session] { session.desktop->wake(); });
+    session.recovery.keep_in(app::unsaved_folder());
     show_named(session, named, arguments);
     if (!kept.empty()) session.notifications.tell_of_window(app::MessageLevel::warning, kept);
     if (arguments.files.empty() && !session.screen && session.files.has_last()) {
         session.notifications.tell(app::MessageLevel::info, "Last time: " + session.files.last_title(),
-                                   app::MessageOffer{"file.reopen_last", "", "Reopen last session"});
+                                   {{"file.reopen_last", "", "Reopen last session"}});
     }
-    window.run();
+    session.recovery.look();
+    window.run(&app::EndSignals::any);
+    if (app::EndSignals::any()) {
+        leave(session);
+        app::EndSignals::end();
+    }
+    session.recovery.discard_own();
     session.files.note_session();
     session.settings_file.save(session.settings);
 }

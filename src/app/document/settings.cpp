@@ -42,7 +42,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::array<std::string_view, 6> kFileOrders{"name", "-name", "size", "-size", "date", "-date"};
 constexpr int kFarthest = 100'000;  // pixels from the corner of the displays
 
-constexpr std::chrono::milliseconds kPatience{250};  // with another window that is writing
+constexpr std::chrono::milliseconds kLockPatience{250};  // with another window that is writing
 
 constexpr int kVersion = 1;  // of what the keys mean; a file without one is of the first
 
@@ -229,7 +229,7 @@ bool put_changes(const Json& before, const Json& now, Json& json) {
     return any;
 }
 
-std::string text_of(const Json& json, int indent) {
+std::string settings_text(const Json& json, int indent) {
     return json.dump(indent, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
@@ -238,6 +238,14 @@ std::filesystem::path folder_named_by(const char* variable) {
     const std::filesystem::path folder = value ? value : "";
     // The XDG rules ignore relative ones.
     return folder.is_absolute() ? folder : std::filesystem::path();
+}
+
+/// Which the variable names, else that one at home; empty where there is neither.
+std::filesystem::path folder_of_person(const char* variable, const char* at_home) {
+    const std::filesystem::path named = folder_named_by(variable);
+    if (!named.empty()) return named;
+    const std::filesystem::path home = folder_named_by("HOME");
+    return home.empty() ? home : home / at_home;
 }
 
 }  // namespace
@@ -252,13 +260,13 @@ void Settings::remember(const std::filesystem::path& file) {
 }
 
 std::filesystem::path settings_file() {
-    std::filesystem::path folder = folder_named_by("XDG_CONFIG_HOME");
-    if (folder.empty()) {
-        folder = folder_named_by("HOME");
-        if (folder.empty()) return {};
-        folder /= ".config";
-    }
-    return folder / "mobbscope" / "settings.json";
+    const std::filesystem::path folder = folder_of_person("XDG_CONFIG_HOME", ".config");
+    return folder.empty() ? folder : folder / "mobbscope" / "settings.json";
+}
+
+std::filesystem::path unsaved_folder() {
+    const std::filesystem::path folder = folder_of_person("XDG_STATE_HOME", ".local/state");
+    return folder.empty() ? folder : folder / "mobbscope" / "unsaved";
 }
 
 Settings load_settings(const std::filesystem::path& file) {
@@ -306,7 +314,7 @@ void SettingsFile::save(Settings& settings) {
     std::error_code ignored;
     std::filesystem::create_directories(file_.parent_path(), ignored);
     // Who cannot have it writes all the same: another window may have been stopped while it had it.
-    const Descriptor lock = lock_folder(file_.parent_path(), kPatience);
+    const Descriptor lock = lock_folder(file_.parent_path(), kLockPatience);
     std::optional<Json> present = read_object(file_);
     if (!present || is_newer(*present)) return;
     Settings merged = settings;
@@ -318,10 +326,10 @@ void SettingsFile::save(Settings& settings) {
     before["recent"] = opened > 0 ? Json() : texts_of(merged.recent);
     if (!put_changes(before, json_of(merged), *present)) return;
     (*present)["version"] = kVersion;
-    std::string text = text_of(*present, 2);
+    std::string text = settings_text(*present, 2);
     // What is nested grows by blanks, and what was open may be long.
-    if (text.size() > kMostBytes) text = text_of(*present, -1);
-    if (text.size() > kMostBytes && present->erase("last_session") > 0) text = text_of(*present, -1);
+    if (text.size() > kMostBytes) text = settings_text(*present, -1);
+    if (text.size() > kMostBytes && present->erase("last_session") > 0) text = settings_text(*present, -1);
     if (text.size() > kMostBytes) return;
     try {
         // Whole or not at all.

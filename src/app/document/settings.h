@@ -53,6 +53,8 @@ struct Settings {
 
 /// The person's settings file: in $XDG_CONFIG_HOME, else ~/.config; empty where there is neither.
 std::filesystem::path settings_file();
+/// Where windows keep copies of what is not saved: in $XDG_STATE_HOME, else ~/.local/state; likewise.
+std::filesystem::path unsaved_folder();
 /// What the file says; the defaults for what it lacks or says wrong. Never throws.
 Settings load_settings(const std::filesystem::path& file);
 /// Keeps what this version cannot read and would overwrite. A file that is no settings is renamed to

@@ -1,3 +1,4 @@
+#include <app/document/unsaved_work.h>
 #include <app/session/files.h>
 #include <base/error.h>
 #include <base/file.h>
@@ -79,21 +80,13 @@ void Files::replace(Document document, const std::vector<std::filesystem::path>&
     parts_.imports.tell_of_warnings(0);
 }
 
-void Files::load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files,
-                 const std::optional<ViewState>& view) {
-    const auto begin = [this, title, load_all, files, view] {
+void Files::load(const std::string& title, const Opening& opening) {
+    const auto begin = [this, title, opening] {
         // What is opened last is meant.
         parts_.jobs.drop(JobPurpose::opens);
-        const auto work = [this, load_all, files, view,
+        const auto work = [this, opening,
                            present = parts_.workspace.document().fitted](JobControl& control) -> Job::Finish {
-            Document document = document_of(load_all(control), nullptr, progress_of(control));
-            if (view) {
-                document.view = *view;
-                // The file may have changed since.
-                if (view->projection && !has_projection(*document.fitted, *view)) document.view.projection.reset();
-            }
-            return [this, document = std::move(document), files, present] {
-                const auto put_in = [this, document, files] { replace(document, files); };
+            return [this, put_in = opening(control), present] {
                 // It takes the place of what was put aside.
                 if (aside_) return come_back([this, put_in] { after_asking(put_in); });
                 // Who edited meanwhile is asked again.
@@ -106,6 +99,37 @@ void Files::load(const std::string& title, const LoadAll& load_all, const std::v
     aside_ ? begin() : after_asking(begin);
 }
 
+void Files::load_scene(const std::string& title, const LoadAll& load_all,
+                       const std::vector<std::filesystem::path>& files, const std::optional<ViewState>& view) {
+    load(title, [this, load_all, files, view](JobControl& control) -> std::function<void()> {
+        Document document = document_of(load_all(control), nullptr, progress_of(control));
+        if (view) {
+            document.view = *view;
+            // The file may have changed since.
+            if (view->projection && !has_projection(*document.fitted, *view)) document.view.projection.reset();
+        }
+        return [this, document = std::move(document), files] { replace(document, files); };
+    });
+}
+
+void Files::open_unsaved(const std::filesystem::path& copy, const std::string& title,
+                         const std::function<void()>& then) {
+    load("Restoring " + title, [this, copy, then](JobControl& control) -> std::function<void()> {
+        const auto read = [&] {
+            try {
+                return read_unsaved(copy, progress_of(control));
+            } catch (const InputError& error) {
+                throw InputError(std::string(error.what()) + "; the copy is kept");
+            }
+        };
+        return [this, work = read(), then] {
+            replace(work.document, work.opened);
+            put_in(parts_.workspace, work);
+            then();
+        };
+    });
+}
+
 bool Files::complain_of_missing(const std::vector<std::filesystem::path>& files) {
     const std::filesystem::path* missing = missing_of(files);
     if (missing) parts_.notifications.tell(MessageLevel::error, missing->string() + ": no such file; check the path");
@@ -115,7 +139,7 @@ bool Files::complain_of_missing(const std::vector<std::filesystem::path>& files)
 void Files::open(const std::vector<std::filesystem::path>& files) {
     // Nobody is asked about unsaved changes for nothing.
     if (complain_of_missing(files)) return;
-    load(
+    load_scene(
         "Opening " + title_of_files(files),
         [files](JobControl& control) { return load_files(files, {}, progress_of(control)); }, files);
 }
@@ -171,19 +195,19 @@ std::string Files::last_title() const { return title_of_files(parts_.settings.la
 void Files::reopen_last() {
     const LastSession last = parts_.settings.last;
     if (complain_of_missing(last.files)) return;
-    load(
+    load_scene(
         "Opening " + last_title(),
         [last](JobControl& control) { return load_files(last.files, {}, progress_of(control)); }, last.files,
         last.view);
 }
 
 void Files::open_scene(const Scene& scene, const std::vector<std::filesystem::path>& files) {
-    load(
+    load_scene(
         "Opening " + scene.file.filename().string(), [scene](JobControl&) { return scene; }, files);
 }
 
 void Files::open_demo() {
-    load("Opening the demo", [](JobControl&) { return demo_scene(); }, {});
+    load_scene("Opening the demo", [](JobControl&) { return demo_scene(); }, {});
 }
 
 void Files::add(const std::vector<std::filesystem::path>& files) {

@@ -115,7 +115,7 @@ void Imports::start(const ImportChange& change) {
                                      // The camera stays, so what is ten times as large may be out of the picture.
                                      if (change.option != "unit") return;
                                      notifications_.tell(MessageLevel::info, "The clip has another size now",
-                                                         MessageOffer{"view.frame_all", "", "Frame everything"});
+                                                         {{"view.frame_all", "", "Frame everything"}});
                                  },
                              .goes_on = change.goes_on});
             };
@@ -189,7 +189,7 @@ void Imports::tell_of_warnings(std::size_t from) {
         of->source
             ? MessageOffer{"clip.import", of->name + ' ' + worst->option, "Import options..."}
             : MessageOffer{"clip.motion", std::string(name(mobb::Motion::linear)) + ' ' + of->name, "Make it linear"};
-    notifications_.tell(MessageLevel::warning, of->name + ": " + said(*worst) + others, offer);
+    notifications_.tell(MessageLevel::warning, of->name + ": " + said(*worst) + others, {offer});
 }
 
 }  // namespace mobbscope::app
