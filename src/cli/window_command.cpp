@@ -58,18 +58,19 @@ void show_named(app::Session& session, const Named& named, const WindowArguments
     review.open(std::get<app::ReviewFolder>(named));
 }
 
-/// What is not asked about as the window ends.
-void leave(app::Session& session) {
-    session.recovery.keep_now();
+/// The window ends unasked. Whether a copy of unsaved work is kept.
+bool leave(app::Session& session) {
     session.files.note_session();
     session.settings_file.save(session.settings);
+    return session.recovery.keep_now();
 }
 
 /// In the midst of anything: what is destroyed at an ordinary end would ask the display again.
 [[noreturn]] void end_without_display(app::Session& session) {
-    leave(session);
+    const bool kept = leave(session);
     std::cout.flush();
-    complain("the display of the window has gone away");
+    complain(std::string("the display of the window has gone away") +
+             (kept ? "; the next window offers the work that was not saved" : ""));
     std::_Exit(kNoMachine);
 }
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -27,6 +28,8 @@ std::string title_of_files(const std::vector<std::filesystem::path>& files) {
     if (files.size() != 1) return counted(files.size(), "file", "files");
     return own_name(files.front());
 }
+
+constexpr std::size_t kMostLookedAt = 1000;  // sources of clips
 
 /// When a file was written last; none: there is none, or nobody can say.
 std::optional<std::filesystem::file_time_type> time_of(const std::optional<std::filesystem::path>& file) {
@@ -77,7 +80,43 @@ void Files::replace(Document document, const std::vector<std::filesystem::path>&
     aside_.reset();
     visited_.clear();
     parts_.workspace = std::move(next);
+    look_at_files();
     parts_.imports.tell_of_warnings(0);
+}
+
+std::vector<std::filesystem::path> Files::look_at_files() {
+    std::vector<std::filesystem::path> changed;
+    const auto look_at = [&](const std::filesystem::path& file) {
+        const auto [known, is_new] = parts_.workspace.seen_files.try_emplace(file, std::nullopt);
+        const auto now = time_of(file);
+        if (std::exchange(known->second, now) != now && !is_new) changed.push_back(file);
+    };
+    if (parts_.workspace.file) look_at(*parts_.workspace.file);
+    std::set<std::filesystem::path> sources;
+    for (const SceneClip& clip : parts_.workspace.scene().clips) {
+        if (!clip.source || sources.size() == kMostLookedAt) continue;
+        const std::filesystem::path source = source_path(parts_.workspace.scene(), clip);
+        if (sources.insert(source).second) look_at(source);
+    }
+    return changed;
+}
+
+void Files::tell_of_changed_files() { tell_of(look_at_files()); }
+
+void Files::tell_of(const std::vector<std::filesystem::path>& changed) {
+    if (changed.empty()) return;
+    const auto gone = std::ranges::find_if(changed, [](const auto& file) { return !time_of(file); });
+    const std::string others =
+        changed.size() > 1 ? " (and " + counted(changed.size() - 1, "more file", "more files") + ")" : "";
+    if (gone == changed.end()) {
+        parts_.notifications.tell(MessageLevel::warning,
+                                  changed.front().string() + " was changed by another program" + others,
+                                  {{"file.reload", "", "Reload"}});
+    } else {
+        parts_.notifications.tell(MessageLevel::warning,
+                                  gone->string() + " was removed by another program" + others +
+                                      (*gone == parts_.workspace.file ? "; Save writes it again" : ""));
+    }
 }
 
 void Files::load(const std::string& title, const Opening& opening) {
@@ -267,16 +306,22 @@ void Files::save_as(const std::filesystem::path& file) {
                          "another program has written it since it was opened: save under another name, or once more "
                          "to overwrite it");
     }
+    const bool was_removed =
+        parts_.workspace.file && parts_.workspace.file_time && file == *parts_.workspace.file && !time_of(file);
     for (const SceneClip& clip : parts_.workspace.scene().clips) {
         if (!clip.source || !same_file(file, source_path(parts_.workspace.scene(), clip))) continue;
         throw InputError(file.string(), "",
                          "clip " + in_quotes(clip.name) + " comes from this file; save under another name");
     }
+    std::vector<std::filesystem::path> changed = look_at_files();
+    // What is gone is said below.
+    std::erase_if(changed, [&](const auto& each) { return each == file || !time_of(each); });
+    tell_of(changed);
     Scene saved = parts_.workspace.scene();
     saved.view = parts_.workspace.view();
     saved.fit = parts_.workspace.document().fitted->options();
     move_to_file(saved, file);
-    write_file(file, to_json(saved));
+    write_to_disk(file, to_json(saved));
     if (parts_.workspace.in_excerpt()) {
         // The whole stays what is open; the excerpt has a file of its own.
         Document now = parts_.workspace.document();
@@ -291,8 +336,10 @@ void Files::save_as(const std::filesystem::path& file) {
         parts_.workspace.file_time = time_of(file);
         parts_.workspace.opened = {file};
     }
+    look_at_files();
     remember({file});
-    parts_.notifications.tell(MessageLevel::info, "Saved " + file.string());
+    parts_.notifications.tell(MessageLevel::info,
+                              "Saved " + file.string() + (was_removed ? ", which another program had removed" : ""));
     tell_of_lost_sources();
     if (parts_.dialogs.now == Dialog::save_as || parts_.dialogs.now == Dialog::unsaved)
         parts_.dialogs.now = Dialog::none;

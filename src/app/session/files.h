@@ -60,6 +60,8 @@ class Files {
     /// unsaved changes goes on when they are saved.
     void save();
     void save_as(const std::filesystem::path& file);
+    /// Says what other programs have done to the files of what is open, each time once.
+    void tell_of_changed_files();
     /// Throws InputError if nothing may be written (SessionOptions::may_write).
     void check_may_write(const std::filesystem::path& file) const;
 
@@ -104,6 +106,9 @@ class Files {
     void remember(const std::vector<std::filesystem::path>& files);
     /// Whether something is open that is not the demo as it comes.
     bool opened_by_person() const;
+    /// Those of the document and of its clips' sources that were not as they are when they were seen last.
+    std::vector<std::filesystem::path> look_at_files();
+    void tell_of(const std::vector<std::filesystem::path>& changed);
     /// Of a saved scene: whether a clip's file is gone.
     void tell_of_lost_sources();
 

@@ -126,7 +126,7 @@ void Recovery::begin_writing(const std::string& name, const UnsavedWork& work, d
         return note_failure(name, error.what(), now);
     }
     const auto write = [work, file = file_of(name)](JobControl&) -> Job::Finish {
-        write_file(file, unsaved_text(work, std::time(nullptr)));
+        write_to_disk(file, unsaved_text(work, std::time(nullptr)));
         return {};
     };
     const auto wake = [&desktop = *desktop_] { desktop.wake(); };
@@ -151,19 +151,24 @@ void Recovery::note_failure(const std::string& name, const std::string& why, dou
     notifications_.tell_of_window(MessageLevel::warning, "No copy of unsaved work can be kept, so save it: " + why);
 }
 
-void Recovery::keep_now() {
-    if (folder_.empty()) return;
+bool Recovery::keep_now() {
+    if (folder_.empty()) return false;
     if (writing_ && writing_->job->wait(kCopyPatience)) end_writing(0);
+    bool any = false;
     for (const auto& [name, work] : works()) {
-        if (same_state(copies_[name].written, work)) continue;
-        try {
-            make_own_folder();
-            write_file(file_of(name), unsaved_text(work, std::time(nullptr)));
-            copies_[name].written = work;
-        } catch (const std::exception&) {
-            // The copy before is left, if there is one.
+        if (!same_state(copies_[name].written, work)) {
+            try {
+                make_own_folder();
+                write_to_disk(file_of(name), unsaved_text(work, std::time(nullptr)));
+                copies_[name].written = work;
+            } catch (const std::exception&) {
+                // The copy before is left, if there is one.
+            }
         }
+        std::error_code ignored;
+        any |= !own_.empty() && fs::exists(file_of(name), ignored);
     }
+    return any;
 }
 
 void Recovery::end_work() {

@@ -35,8 +35,8 @@ class Recovery {
     /// of what is not. `now`: seconds. Returns in how many seconds to call it again; infinity: when something changes.
     double poll(double now);
     bool is_writing() const { return writing_.has_value(); }
-    /// Writes what poll would write later: the window ends unasked.
-    void keep_now();
+    /// Writes what poll would write later: the window ends unasked. Whether anything is kept.
+    bool keep_now();
     /// Ends work beside the window, which is gone.
     void end_work();
     /// The window ends as it should: nothing is kept.

@@ -390,7 +390,12 @@ struct GlfwWindow::State final : Desktop {
             shell_of(of).feed(Drop{{paths, paths + count}});
         });
         glfwSetWindowFocusCallback(window, [](GLFWwindow* of, int focused) {
-            if (!focused) shell_of(of).feed(KeysLost{});
+            if (!focused) return shell_of(of).feed(KeysLost{});
+            // Scripts find the same everywhere.
+            Session& focused_on = state_of(of).session;
+            if (!focused_on.options.attended) return;
+            focused_on.files.tell_of_changed_files();
+            focused_on.recovery.look();
         });
         glfwSetWindowCloseCallback(window, [](GLFWwindow* of) {
             glfwSetWindowShouldClose(of, GLFW_FALSE);
