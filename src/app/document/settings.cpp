@@ -242,7 +242,7 @@ std::filesystem::path folder_named_by(const char* variable) {
 
 /// Which the variable names, else that one at home; empty where there is neither.
 std::filesystem::path folder_of_person(const char* variable, const char* at_home) {
-    const std::filesystem::path named = folder_named_by(variable);
+    std::filesystem::path named = folder_named_by(variable);
     if (!named.empty()) return named;
     const std::filesystem::path home = folder_named_by("HOME");
     return home.empty() ? home : home / at_home;
