@@ -48,15 +48,18 @@ void check_stays_in_folder(const std::filesystem::path& file);
 struct FileBytes {
     std::filesystem::path file;
     std::string_view bytes;
+    bool to_disk = false;  ///< what is written is on the disk then, also where it replaces nothing
 };
 
-/// Writes files, each whole, and all of them or none. What was there stays until all is on the disk, so reading from
-/// and writing to one name is safe; owner and rights stay too, but for those to run as the owner. A file that is
-/// write-protected stays. A pipe or a device gets the bytes. Throws MachineError; InputError for what check_file_name
-/// refuses. Unfinished files have no names where the file system can do that; else they are called .mobbscope-PID-N,
-/// and those that a killed process left in the folder are removed.
+/// Writes files, each whole, and all of them or none. What was there stays until all is on the disk, so a loss of power
+/// leaves the old or the new, and reading from and writing to one name is safe; owner and rights stay too, but for
+/// those to run as the owner. A file that is write-protected stays. A pipe or a device gets the bytes. Throws
+/// MachineError; InputError for what check_file_name refuses. Unfinished files have no names where the file system can
+/// do that; else they are called .mobbscope-PID-N, and those that a killed process left in the folder are removed.
 void write_files(std::span<const FileBytes> files);
 void write_file(const std::filesystem::path& file, std::string_view bytes);
+/// Of work: it is on the disk then, whatever becomes of the machine.
+void write_to_disk(const std::filesystem::path& file, std::string_view bytes);
 
 /// Removes the unfinished files of this process: for the handler of a signal that ends it.
 void remove_unfinished_files() noexcept;

@@ -240,7 +240,8 @@ void keep_owner_and_rights(int descriptor, const FileBytes& wanted, const struct
 /// A file that is written and does not yet stand where it is wanted.
 class UnfinishedFile {
   public:
-    explicit UnfinishedFile(const FileBytes& wanted) : file_(wanted.file), target_(meant(wanted.file)) {
+    explicit UnfinishedFile(const FileBytes& wanted)
+        : file_(wanted.file), target_(meant(wanted.file)), to_disk_(wanted.to_disk) {
         struct stat replaced {};
         replaces_ = ::stat(target_.c_str(), &replaced) == 0;
         if (!replaces_ && errno != ENOENT) throw unwritable(file_, errno);
@@ -253,7 +254,7 @@ class UnfinishedFile {
         write_all(descriptor_.get(), wanted);
         if (replaces_) keep_owner_and_rights(descriptor_.get(), wanted, replaced);
         // Else a loss of power after the renaming may leave an empty file in the place of the old one.
-        if (replaces_ && ::fsync(descriptor_.get()) != 0 && errno != EINVAL) throw unwritable(file_, errno);
+        if (is_synced() && ::fsync(descriptor_.get()) != 0 && errno != EINVAL) throw unwritable(file_, errno);
     }
 
     /// Gives it a name in its folder, which a file needs that is to replace another.
@@ -278,6 +279,8 @@ class UnfinishedFile {
         } else if (!name_->rename_to(target_)) {
             throw unwritable(file_, errno);
         }
+        // The name is the folder's. What cannot be said of it now is no reason to say that nothing was written.
+        if (is_synced()) ::fsync(Descriptor(::open(folder().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)).get());
     }
 
     /// After take_place: what was there before.
@@ -291,6 +294,7 @@ class UnfinishedFile {
 
   private:
     fs::path folder() const { return target_.parent_path(); }
+    bool is_synced() const { return replaces_ || to_disk_; }
 
     void open() {
         // Without a name it goes with its process, however that ends.
@@ -306,6 +310,7 @@ class UnfinishedFile {
 
     fs::path file_;
     fs::path target_;
+    bool to_disk_;
     bool replaces_ = false;
     Descriptor descriptor_;
     std::optional<UnfinishedName> name_;
@@ -385,6 +390,11 @@ void write_files(std::span<const FileBytes> files) {
 
 void write_file(const fs::path& file, std::string_view bytes) {
     const FileBytes wanted{file, bytes};
+    write_files({&wanted, 1});
+}
+
+void write_to_disk(const fs::path& file, std::string_view bytes) {
+    const FileBytes wanted{file, bytes, true};
     write_files({&wanted, 1});
 }
 

@@ -4,6 +4,7 @@
 #include <cli/window_command.h>
 
 #include <app/script/script.h>
+#include <app/window/end_signals.h>
 #include <app/window/glfw_window.h>
 #include <app/window/headless_window.h>
 #include <base/error.h>
@@ -57,6 +58,22 @@ void show_named(app::Session& session, const Named& named, const WindowArguments
     review.open(std::get<app::ReviewFolder>(named));
 }
 
+/// The window ends unasked. Whether a copy of unsaved work is kept.
+bool leave(app::Session& session) {
+    session.files.note_session();
+    session.settings_file.save(session.settings);
+    return session.recovery.keep_now();
+}
+
+/// In the midst of anything: what is destroyed at an ordinary end would ask the display again.
+[[noreturn]] void end_without_display(app::Session& session) {
+    const bool kept = leave(session);
+    std::cout.flush();
+    complain(std::string("the display of the window has gone away") +
+             (kept ? "; the next window offers the work that was not saved" : ""));
+    std::_Exit(kNoMachine);
+}
+
 /// Scripts find the same everywhere: they neither read nor write a person's settings.
 int run_script(const Named& named, const WindowArguments& arguments) {
     const app::Script script = app::Script::parse(read_file(arguments.script), arguments.script.string(),
@@ -67,7 +84,8 @@ int run_script(const Named& named, const WindowArguments& arguments) {
     session.settings.ui_scale = arguments.ui_scale.value_or(1);
     const std::unique_ptr<app::ShellHost> host = [&]() -> std::unique_ptr<app::ShellHost> {
         if (!arguments.headless && app::has_display()) {
-            return std::make_unique<app::GlfwWindow>(session, arguments.size);
+            return std::make_unique<app::GlfwWindow>(session, arguments.size,
+                                                     [&session] { end_without_display(session); });
         }
         if (arguments.size) at_place("--size", "", [&] { check(PictureOptions{.size = *arguments.size}); });
         return std::make_unique<app::HeadlessWindow>(GlContext::open(Backend::automatic), session,
@@ -89,22 +107,31 @@ int run_script(const Named& named, const WindowArguments& arguments) {
 void show_window(const Named& named, const WindowArguments& arguments) {
     const std::filesystem::path file = app::settings_file();
     const std::string kept = app::keep_unreadable_settings(file);
-    app::Session session(true, app::load_settings(file));
+    app::SettingsFile settings(file);
+    app::Session session(true, settings.load());
     app::add_review(session);
-    const double usual_scale = session.settings.ui_scale;
     if (arguments.ui_scale) session.settings.ui_scale = *arguments.ui_scale;
-    app::GlfwWindow window(session, arguments.size);
+    // What the command line asked for holds this once.
+    settings.note(session.settings);
+    session.settings_file = std::move(settings);
+    app::GlfwWindow window(session, arguments.size, [&session] { end_without_display(session); });
+    const app::EndSignals signals([&session] { session.desktop->wake(); });
+    session.recovery.keep_in(app::unsaved_folder());
     show_named(session, named, arguments);
     if (!kept.empty()) session.notifications.tell_of_window(app::MessageLevel::warning, kept);
     if (arguments.files.empty() && !session.screen && session.files.has_last()) {
         session.notifications.tell(app::MessageLevel::info, "Last time: " + session.files.last_title(),
-                                   app::MessageOffer{"file.reopen_last", "", "Reopen last session"});
+                                   {{"file.reopen_last", "", "Reopen last session"}});
     }
-    window.run();
+    session.recovery.look();
+    window.run(&app::EndSignals::any);
+    if (app::EndSignals::any()) {
+        leave(session);
+        app::EndSignals::end();
+    }
+    session.recovery.discard_own();
     session.files.note_session();
-    // What the command line asked for holds this once.
-    if (session.settings.ui_scale == arguments.ui_scale) session.settings.ui_scale = usual_scale;
-    app::save_settings(file, session.settings);
+    session.settings_file.save(session.settings);
 }
 
 /// The exit status.

@@ -35,7 +35,7 @@ void leave_or_put_away(Notifications& notifications, ReviewScreen& screen) {
     screen.leave();
     if (screen.shown()) return;
     notifications.tell(MessageLevel::info, "The picture tests are left, not closed",
-                       MessageOffer{"review.back", "", "Back to them"});
+                       {{"review.back", "", "Back to them"}});
 }
 
 /// The rule of all that needs picture tests; that they are shown is everybody's rule.

@@ -175,6 +175,11 @@ mobb::FitOptions read_fit(const JsonPlace& place, mobb::FitOptions fit) {
     return fit;
 }
 
+void write_fit(JsonWriter& out, const mobb::FitOptions& fit) {
+    out.row("tree", mobb::name(fit.tree), "leaf", fit.leaf, "levels", fit.levels, "axes", mobb::name(fit.axes),
+            "time_scale", fit.time_scale);
+}
+
 void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree) {
     const mobb::FitOptions& options = tree.options();
     out.begin_object();

@@ -24,6 +24,7 @@ void refuse_old_tree_names(const JsonPlace& place);
 ///
 /// Throws InputError.
 mobb::FitOptions read_fit(const JsonPlace& place, mobb::FitOptions base = {});
+void write_fit(JsonWriter& out, const mobb::FitOptions& fit);
 
 /// Per-level figures and every node of the tree over the clip of that name.
 void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree);

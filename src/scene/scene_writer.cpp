@@ -117,11 +117,6 @@ void write_agent(JsonWriter& out, const Scene& scene, const Agent& agent) {
     out.end_object();
 }
 
-void write_fit(JsonWriter& out, const mobb::FitOptions& fit) {
-    out.row("tree", mobb::name(fit.tree), "leaf", fit.leaf, "levels", fit.levels, "axes", mobb::name(fit.axes),
-            "time_scale", fit.time_scale);
-}
-
 void write_placed_agent(JsonWriter& out, const Scene& scene, const PlacedAgent& who) {
     if (who.agent >= 0) return out.value(scene.agents[static_cast<std::size_t>(who.agent)].name);
     out.begin_object(Layout::row);

@@ -49,6 +49,11 @@ struct CommandWorld {
         session.settings.last.files = {folder.file("walk.csv"), folder.file("stand.csv")};
         session.files.open({folder.scene});
         EXPECT_EQ(all_messages(session), "");
+        std::filesystem::create_directory(folder.file("1"));
+        folder.write("1/scene.unsaved", "a copy that cannot be read");
+        session.recovery.keep_in(folder.scene.parent_path());
+        session.recovery.look();
+        session.notifications.clear();
     }
 
     const ViewState& view() const { return session.workspace.view(); }
@@ -108,6 +113,13 @@ std::vector<Case> cases() {
          true});
     look("file.recent", "@walk.csv", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.scene().clips.size(), 1u); });
     look("file.reopen_last", "", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.title(), "2 files"); });
+    look("file.recover", "@1/scene.unsaved", [](CommandWorld& w) {
+        EXPECT_NE(all_messages(w.session).find("the copy is kept"), std::string::npos) << all_messages(w.session);
+    });
+    look("file.discard_unsaved", "@1/scene.unsaved", [](CommandWorld& w) {
+        EXPECT_FALSE(std::filesystem::exists(w.folder.file("1/scene.unsaved")));
+        EXPECT_FALSE(w.session.recovery.has_left());
+    });
     look("file.demo", "", [](CommandWorld& w) {
         EXPECT_EQ(w.agent(0).name, "A");
         EXPECT_EQ(w.session.workspace.scene().agents.size(), 2u);

@@ -707,8 +707,7 @@ TEST(Panels, EscapePutsErrorsAwayBeforeItLeavesTheQuery) {
 
 TEST(Panels, WhatAMessageOffersIsAButton) {
     Window w;
-    w.session.notifications.tell(MessageLevel::warning, "The unit was guessed",
-                                 MessageOffer{"view.top", "", "Look from above"});
+    w.session.notifications.tell(MessageLevel::warning, "The unit was guessed", {{"view.top", "", "Look from above"}});
     w.window.run_for(0.2);
     w.change_view("offer");
     w.click("message.0.offer");
@@ -718,7 +717,7 @@ TEST(Panels, WhatAMessageOffersIsAButton) {
     w.click("messages.0.offer");
     EXPECT_EQ(w.session.dialogs.now, Dialog::none);
     run_command(w.session, "file.demo");
-    EXPECT_FALSE(w.session.notifications.all()[0].offer) << "it was about what was open";
+    EXPECT_TRUE(w.session.notifications.all()[0].offers.empty()) << "it was about what was open";
 }
 
 TEST(Panels, TheHelpSheetOpensAndCloses) {

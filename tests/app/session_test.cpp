@@ -446,6 +446,68 @@ TEST(Opening, AllThatWasOpenedBecomesRecent) {
     EXPECT_EQ(session.settings.folder, folder.scene.parent_path());
 }
 
+// --- other programs
+
+/// Another program has written it some time later.
+void touch(const std::filesystem::path& file) {
+    std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) + std::chrono::seconds(5));
+}
+
+TEST(OtherPrograms, WhatTheyDoToFilesIsSaidOnce) {
+    Edited e;
+    e.session.files.tell_of_changed_files();
+    EXPECT_EQ(all_messages(e.session), "");
+    touch(e.folder.file("walk.csv"));
+    touch(e.folder.scene);
+    e.session.files.tell_of_changed_files();
+    EXPECT_EQ(all_messages(e.session), e.folder.scene.string() + " was changed by another program (and 1 more file)\n");
+    EXPECT_EQ(e.session.notifications.all()[0].offers.at(0).command, "file.reload");
+    e.session.notifications.clear();
+    e.session.files.tell_of_changed_files();
+    EXPECT_EQ(all_messages(e.session), "");
+    EXPECT_EQ(e.x(), 4) << "nothing is reloaded unasked";
+    EXPECT_NE(refusal(e.session, "file.save").find("another program has written it"), std::string::npos);
+}
+
+TEST(OtherPrograms, AFileThatTheyRemoveIsSavedAgainWithAWord) {
+    Edited e;
+    std::filesystem::remove(e.folder.scene);
+    e.session.files.tell_of_changed_files();
+    EXPECT_EQ(all_messages(e.session),
+              e.folder.scene.string() + " was removed by another program; Save writes it again\n");
+    e.session.notifications.clear();
+    EXPECT_TRUE(e.session.workspace.modified());
+    e.session.files.save();
+    EXPECT_EQ(all_messages(e.session), "Saved " + e.folder.scene.string() + ", which another program had removed\n");
+    EXPECT_TRUE(std::filesystem::exists(e.folder.scene));
+    e.session.notifications.clear();
+    e.session.files.tell_of_changed_files();
+    e.session.files.save();
+    EXPECT_EQ(all_messages(e.session), "Saved " + e.folder.scene.string() + "\n")
+        << "what this window wrote is no news";
+    std::filesystem::remove_all(e.folder.scene.parent_path());
+    EXPECT_NE(refusal(e.session, "file.save").find("cannot be written"), std::string::npos);
+}
+
+TEST(OtherPrograms, ASourceThatTheyChangeIsSaidWhenTheSceneIsSaved) {
+    Edited e;
+    touch(e.folder.file("walk.csv"));
+    e.session.files.save();
+    EXPECT_EQ(all_messages(e.session), e.folder.file("walk.csv").string() + " was changed by another program\nSaved " +
+                                           e.folder.scene.string() + "\n");
+}
+
+TEST(Opening, RecentFilesAreOnTheDiskAtOnce) {
+    CrossingFolder folder;
+    const std::filesystem::path file = folder.file("settings.json");
+    Session session(true);
+    session.settings_file = SettingsFile(file);
+    session.files.open({folder.scene});
+    while (session.jobs.job()) session.poll();
+    EXPECT_EQ(load_settings(file).recent, std::vector{folder.scene}) << "also if the window is killed now";
+    EXPECT_EQ(load_settings(file).folder, folder.scene.parent_path());
+}
+
 TEST(Opening, TheLastSessionIsOpenedAgainAsItWasSeen) {
     CrossingFolder folder;
     Settings kept;

@@ -1,4 +1,5 @@
 #include <app/document/settings.h>
+#include <base/lock.h>
 
 #include <support/temp_folder.h>
 
@@ -6,12 +7,23 @@
 
 #include <algorithm>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace mobbscope::app {
 namespace {
 
+using mobbscope::testing::slurp;
 using mobbscope::testing::TempFolder;
+
+/// By a window that has not read what is there.
+void save_settings(const std::filesystem::path& file, Settings settings) { SettingsFile(file).save(settings); }
+
+Settings with_scale(double scale) {
+    Settings out;
+    out.ui_scale = scale;
+    return out;
+}
 
 TEST(Settings, AreReadBackAsTheyWereWritten) {
     const TempFolder folder;
@@ -88,13 +100,14 @@ TEST(Settings, OfAnotherVersionStay) {
     const std::string file = folder.write(
         "settings.json",
         R"({"wings": {"left": [1, 2]}, "ui_scale": 2, "last_session": {"files": ["/a"], "view": {"wings": 1}}})");
-    Settings settings = load_settings(file);
+    SettingsFile kept(file);
+    Settings settings = kept.load();
     EXPECT_EQ(settings.last.files, std::vector<std::filesystem::path>{"/a"});
     EXPECT_EQ(settings.last.view, ViewState{}) << "a view that cannot be read is as usual";
     settings.ui_scale = 3;
-    save_settings(file, settings);
+    kept.save(settings);
     EXPECT_EQ(load_settings(file), settings);
-    const std::string text = mobbscope::testing::slurp(file);
+    const std::string text = slurp(file);
     EXPECT_NE(text.find("wings"), std::string::npos) << text;
 }
 
@@ -110,7 +123,7 @@ TEST(Settings, WhatCannotBeReadIsKeptAndSaidOnce) {
     EXPECT_NE(said.find("settings.json cannot be read; it is kept as settings.json.unreadable"), std::string::npos)
         << said;
     save_settings(file, {});
-    EXPECT_EQ(mobbscope::testing::slurp(folder.path() / "settings.json.unreadable"), R"({"ui_scale": 2,)");
+    EXPECT_EQ(slurp(folder.path() / "settings.json.unreadable"), R"({"ui_scale": 2,)");
     EXPECT_EQ(keep_unreadable_settings(file), "");
     folder.write("settings.json", "[1]");
     EXPECT_NE(keep_unreadable_settings(file).find("kept as settings.json.unreadable2"), std::string::npos);
@@ -127,7 +140,107 @@ TEST(Settings, OfANewerVersionStayAsTheyAre) {
     EXPECT_EQ(settings.ui_scale, 2) << "what is understood counts";
     settings.ui_scale = 1;
     save_settings(file, settings);
-    EXPECT_EQ(mobbscope::testing::slurp(file), newer);
+    EXPECT_EQ(slurp(file), newer);
+}
+
+TEST(Settings, ThatAreNestedDeepOrLargeAreSetAside) {
+    const auto nested = [](int deep) {
+        std::string text;
+        for (int i = 0; i < deep; ++i) text += "{\"a\":";
+        return text + "1" + std::string(static_cast<std::size_t>(deep), '}');
+    };
+    const std::string large = R"({"ui_scale": 2, "other": ")" + std::string(SettingsFile::kMostBytes, 'x') + "\"}";
+    for (const std::string& text : {nested(20'000), nested(100'000), nested(SettingsFile::kDeepest + 1), large}) {
+        const TempFolder folder;
+        const std::filesystem::path file = folder.write("settings.json", text);
+        EXPECT_EQ(load_settings(file), Settings{});
+        save_settings(file, with_scale(2));
+        EXPECT_EQ(slurp(file).size(), text.size()) << "what was not set aside stays";
+        EXPECT_NE(keep_unreadable_settings(file), "");
+        EXPECT_EQ(slurp(folder.path() / "settings.json.unreadable").size(), text.size());
+    }
+    const TempFolder folder;
+    const std::filesystem::path file = folder.write("settings.json", nested(SettingsFile::kDeepest));
+    EXPECT_EQ(keep_unreadable_settings(file), "");
+    static_assert(SettingsFile::kMostBytes == 1'048'576 && SettingsFile::kDeepest == 64);
+    EXPECT_NE(slurp(MOBBSCOPE_SOURCE_DIR "/docs/limits.md").find("settings, nested 64 deep | 1,048,576 |"),
+              std::string::npos);
+}
+
+TEST(Settings, AreNeverWrittenLargerThanTheyAreRead) {
+    const TempFolder folder;
+    std::string deep;
+    for (int i = 0; i < 60; ++i) deep += "{\"a\":";
+    deep += '[';
+    for (int i = 0; i < 60'000; ++i) deep += "1,";
+    deep += "1]" + std::string(60, '}');
+    const std::filesystem::path file = folder.write("settings.json", R"({"wings": )" + deep + "}");
+    save_settings(file, with_scale(2));
+    EXPECT_EQ(load_settings(file).ui_scale, 2);
+    EXPECT_LT(slurp(file).size(), 2 * deep.size()) << "no blanks where they would be most of it";
+    Settings long_session = with_scale(3);
+    for (int i = 0; i < 100'000; ++i) long_session.last.files.push_back("/a/folder/of/clips/" + std::to_string(i));
+    save_settings(file, long_session);
+    EXPECT_LE(slurp(file).size(), SettingsFile::kMostBytes);
+    EXPECT_EQ(load_settings(file).ui_scale, 3) << "what is left finds room";
+    EXPECT_TRUE(load_settings(file).last.files.empty());
+}
+
+// --- several windows
+
+TEST(Settings, OfSeveralWindowsAreMerged) {
+    const TempFolder folder;
+    const std::filesystem::path file = folder.path() / "settings.json";
+    Settings first = with_scale(2);
+    first.recent = {"/old"};
+    save_settings(file, first);
+    SettingsFile one(file);
+    SettingsFile other(file);
+    Settings of_one = one.load();
+    Settings of_other = other.load();
+    of_one.remember("/one");
+    one.save(of_one);
+    of_other.remember("/other");
+    of_other.remember("/old");
+    of_other.folded["clips"] = true;
+    other.save(of_other);
+    EXPECT_EQ(load_settings(file).recent, (std::vector<std::filesystem::path>{"/old", "/other", "/one"}));
+    EXPECT_EQ(of_other.recent, load_settings(file).recent) << "a window takes in what the other one has opened";
+    of_one.left_width = 250;
+    of_one.folded["tree"] = true;
+    one.save(of_one);
+    const Settings both = load_settings(file);
+    EXPECT_EQ(both.recent, (std::vector<std::filesystem::path>{"/old", "/other", "/one"}))
+        << "nothing was opened since";
+    EXPECT_EQ(both.folded, (std::map<std::string, bool>{{"clips", true}, {"tree", true}}));
+    other.save(of_other);
+    EXPECT_EQ(load_settings(file).left_width, 250) << "who has not changed it leaves it";
+}
+
+TEST(Settings, AreMergedHoweverManyWindowsWriteAtOnce) {
+    const TempFolder folder;
+    const std::filesystem::path file = folder.path() / "settings.json";
+    const auto window = [&](const std::string& name) {
+        SettingsFile kept(file);
+        Settings settings = kept.load();
+        for (int i = 0; i < 5; ++i) {
+            settings.remember("/" + name + std::to_string(i));
+            kept.save(settings);
+        }
+    };
+    std::vector<std::thread> windows;
+    for (const char* name : {"a", "b", "c", "d"}) windows.emplace_back(window, name);
+    for (std::thread& each : windows) each.join();
+    EXPECT_EQ(load_settings(file).recent.size(), 20u);
+}
+
+TEST(Settings, AWindowThatHoldsTheLockStopsNoOther) {
+    const TempFolder folder;
+    const Descriptor held = lock_folder(folder.path(), {});
+    ASSERT_TRUE(held.is_open());
+    EXPECT_FALSE(lock_folder(folder.path(), {}).is_open());
+    save_settings(folder.path() / "settings.json", with_scale(2));
+    EXPECT_EQ(load_settings(folder.path() / "settings.json").ui_scale, 2);
 }
 
 }  // namespace

@@ -214,6 +214,31 @@ TEST(File, AFullDiskLeavesWhatWasThere) {
     EXPECT_EQ(files_in(folder.path()), 1u);
 }
 
+TEST(File, ADiskThatFailsLeavesWhatWasThere) {
+    const TempFolder folder;
+    const auto file = folder.write("x.csv", "old");
+    const pid_t child = ::fork();
+    if (child == 0) {
+        if (!mobbscope::testing::refuse_to_sync()) ::_exit(0);
+        const auto fails = [](const auto& write) {
+            try {
+                write();
+            } catch (const MachineError& error) {
+                return std::string(error.what()).find("Input/output error") != std::string::npos;
+            }
+            return false;
+        };
+        int wrong = fails([&] { write_file(file, "new"); }) ? 0 : 1;
+        wrong += fails([&] { write_to_disk(folder.path() / "y.csv", "new"); }) ? 0 : 2;
+        ::_exit(wrong);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+    EXPECT_EQ(slurp(file), "old");
+    EXPECT_EQ(files_in(folder.path()), 1u);
+}
+
 TEST(File, WhatWasReadIsKnownByAnyName) {
     const TempFolder folder;
     const auto file = folder.write("x.csv", "x");

@@ -26,6 +26,18 @@ std::vector<std::string> recent_names(const Settings& settings) {
     return out;
 }
 
+/// Of a command for what windows that are gone have left.
+CommandTraits left_behind() {
+    CommandTraits traits{.argument = "WORK", .where = Where::everywhere};
+    traits.enabled = {&Recovery::has_left, []() -> std::string_view { return "there is none"; }};
+    traits.choices = [](const Recovery& recovery) {
+        std::vector<std::string> out;
+        for (const Recovery::Left& left : recovery.left()) out.push_back(left.name);
+        return out;
+    };
+    return traits;
+}
+
 void save_as(Dialogs& dialogs, Files& files, const std::string& file) {
     if (file.empty()) return dialogs.open(Dialog::save_as);
     files.save_as(file);
@@ -51,6 +63,14 @@ std::vector<Command> file_commands() {
             {.enabled = {&Files::has_last, []() -> std::string_view { return "there is none, or its files are gone"; }},
              .where = Where::everywhere,
              .title_end = [](const Files& files) { return files.has_last() ? ": " + files.last_title() : ""; }}),
+        Command(
+            "file.recover", "Restore unsaved work",
+            "Opens what a window that was killed had not saved, as it was seen; it is not saved by that.",
+            [](Recovery& recovery, const std::string& name) { recovery.restore(name); }, left_behind()),
+        Command(
+            "file.discard_unsaved", "Discard unsaved work",
+            "Removes the copy of what a window that was killed had not saved.",
+            [](Recovery& recovery, const std::string& name) { recovery.discard(name); }, left_behind()),
         Command("file.demo", "Open the demo",
                 "Opens the scene that comes with the program: two walkers whose paths cross, but not in time.",
                 &Files::open_demo, {.enabled = always, .where = Where::everywhere}),

@@ -2,6 +2,7 @@
 #include <render/layout/follow.h>
 #include <scene/arrangement.h>
 #include <scene/crowd_scene.h>
+#include <scene/scene_edits.h>
 
 #include <algorithm>
 #include <unordered_set>
@@ -82,6 +83,17 @@ Document with_scene(const Document& present, Scene scene, const FittedScene* fit
         other.fitted = std::make_shared<const FittedScene>(fitted.using_fit(other.fitted->fit_in_use()));
     }
     return out;
+}
+
+std::size_t fit_with(FittedScene& fitted, const std::string& name, const mobb::FitOptions& options) {
+    const auto& fits = fitted.fits();
+    const auto known = std::find_if(fits.begin(), fits.end(), [&](const auto& fit) { return fit->options == options; });
+    const auto index = static_cast<std::size_t>(known - fits.begin());
+    if (known != fits.end()) return index;
+    UnusedNames names;
+    for (const auto& fit : fits) names.take(fit->name);
+    fitted = fitted.with_fit(names.take(name), options);
+    return index;
 }
 
 bool quick_to_fit(const Scene& scene, const FittedScene& present, const FittedScene* fitted_beside) {

@@ -76,6 +76,10 @@ Document document_of(Scene scene, const FittedScene* previous, const Progress& p
 Document with_scene(const Document& present, Scene scene, const FittedScene* fitted_beside = nullptr,
                     const Progress& progress = {});
 
+/// The place of a fit of those options among `fitted.fits()`; it is made if there is none, under that name or with a
+/// number behind it. Throws std::invalid_argument for options out of range, or an empty name.
+std::size_t fit_with(FittedScene& fitted, const std::string& name, const mobb::FitOptions& options);
+
 /// Whether with_scene is done in an instant.
 bool quick_to_fit(const Scene& scene, const FittedScene& present, const FittedScene* fitted_beside);
 

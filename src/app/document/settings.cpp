@@ -1,8 +1,10 @@
 #include <app/document/settings.h>
+#include <base/descriptor.h>
 #include <base/error.h>
 #include <base/file.h>
 #include <base/json.h>
 #include <base/json_writer.h>
+#include <base/lock.h>
 #include <base/text.h>
 #include <scene/view_options.h>
 
@@ -10,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <optional>
 #include <sstream>
@@ -39,6 +42,8 @@ using Json = nlohmann::ordered_json;
 constexpr std::array<std::string_view, 6> kFileOrders{"name", "-name", "size", "-size", "date", "-date"};
 constexpr int kFarthest = 100'000;  // pixels from the corner of the displays
 
+constexpr std::chrono::milliseconds kLockPatience{250};  // with another window that is writing
+
 constexpr int kVersion = 1;  // of what the keys mean; a file without one is of the first
 
 /// What the file holds; an empty object where there is none, none where it is something else or cannot be opened.
@@ -46,12 +51,18 @@ std::optional<Json> read_object(const std::filesystem::path& file) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) return Json::object();
     try {
+        if (std::filesystem::file_size(file, ignored) > SettingsFile::kMostBytes) return std::nullopt;
         const std::string text = read_file(file);
         if (trimmed(text).empty()) return Json::object();  // nothing is lost
-        Json json = Json::parse(text, nullptr, false);
+        // Deep values grow as they are written, and take long to free.
+        const auto check_depth = [&file](int depth, Json::parse_event_t, const Json&) {
+            if (depth > SettingsFile::kDeepest) throw InputError(file.string(), "is nested too deep");
+            return true;
+        };
+        Json json = Json::parse(text, check_depth, false);
         if (json.is_object()) return json;
     } catch (const InputError&) {
-        // It is a folder, or somebody else's.
+        // It is a folder, somebody else's, or no settings.
     }
     return std::nullopt;
 }
@@ -174,11 +185,67 @@ Json json_of(const PictureExport& wanted) {
     return out;
 }
 
+Json json_of(const Settings& settings) {
+    Json json;
+    for (const NumberSetting& number : kNumberSettings) json[number.key] = settings.*number.value;
+    json["recent"] = texts_of(settings.recent);
+    json["folder"] = settings.folder.native();
+    json["file_order"] = settings.file_order;
+    if (settings.theme) json["theme"] = name(*settings.theme);
+    if (settings.window) json["window"] = json_of(*settings.window);
+    json["folded"] = settings.folded;
+    json["last_session"] = json_of(settings.last);
+    json["export"] = json_of(settings.picture_export);
+    return json;
+}
+
+/// How many files were opened since the list was `before`: each came first.
+std::size_t opened_since(const std::vector<std::filesystem::path>& before,
+                         const std::vector<std::filesystem::path>& now) {
+    for (std::size_t opened = 0; opened < now.size(); ++opened) {
+        std::vector<std::filesystem::path> rest = before;
+        for (std::size_t i = 0; i < opened; ++i) std::erase(rest, now[i]);
+        // The last ones may have fallen off.
+        const auto begin = now.begin() + static_cast<std::ptrdiff_t>(opened);
+        if (std::mismatch(begin, now.end(), rest.begin(), rest.end()).first == now.end()) return opened;
+    }
+    return now.size();
+}
+
+/// Puts into `json` what differs in two objects, of objects in it by their members; whether anything does.
+bool put_changes(const Json& before, const Json& now, Json& json) {
+    bool any = false;
+    for (const auto& [key, value] : now.items()) {
+        const auto was = before.find(key);
+        if (was != before.end() && *was == value) continue;
+        any = true;
+        // A place or a session is one thing; sections and export options stand alone.
+        const bool of_members = key == "folded" || key == "export";
+        if (of_members && was != before.end() && json.contains(key) && json[key].is_object())
+            put_changes(*was, value, json[key]);
+        else
+            json[key] = value;
+    }
+    return any;
+}
+
+std::string settings_text(const Json& json, int indent) {
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
 std::filesystem::path folder_named_by(const char* variable) {
     const char* value = std::getenv(variable);
     const std::filesystem::path folder = value ? value : "";
     // The XDG rules ignore relative ones.
     return folder.is_absolute() ? folder : std::filesystem::path();
+}
+
+/// Which the variable names, else that one at home; empty where there is neither.
+std::filesystem::path folder_of_person(const char* variable, const char* at_home) {
+    std::filesystem::path named = folder_named_by(variable);
+    if (!named.empty()) return named;
+    const std::filesystem::path home = folder_named_by("HOME");
+    return home.empty() ? home : home / at_home;
 }
 
 }  // namespace
@@ -191,13 +258,13 @@ void Settings::remember(const std::filesystem::path& file) {
 }
 
 std::filesystem::path settings_file() {
-    std::filesystem::path folder = folder_named_by("XDG_CONFIG_HOME");
-    if (folder.empty()) {
-        folder = folder_named_by("HOME");
-        if (folder.empty()) return {};
-        folder /= ".config";
-    }
-    return folder / "mobbscope" / "settings.json";
+    const std::filesystem::path folder = folder_of_person("XDG_CONFIG_HOME", ".config");
+    return folder.empty() ? folder : folder / "mobbscope" / "settings.json";
+}
+
+std::filesystem::path unsaved_folder() {
+    const std::filesystem::path folder = folder_of_person("XDG_STATE_HOME", ".local/state");
+    return folder.empty() ? folder : folder / "mobbscope" / "unsaved";
 }
 
 Settings load_settings(const std::filesystem::path& file) {
@@ -239,29 +306,37 @@ std::string keep_unreadable_settings(const std::filesystem::path& file) {
            ", and the settings begin anew";
 }
 
-void save_settings(const std::filesystem::path& file, const Settings& settings) {
-    if (file.empty()) return;
-    std::optional<Json> present = read_object(file);
-    if (!present || is_newer(*present)) return;
-    Json& json = *present;
-    json["version"] = kVersion;
-    for (const NumberSetting& number : kNumberSettings) json[number.key] = settings.*number.value;
-    json["recent"] = texts_of(settings.recent);
-    json["folder"] = settings.folder.native();
-    json["file_order"] = settings.file_order;
-    if (settings.theme) json["theme"] = name(*settings.theme);
-    if (settings.window) json["window"] = json_of(*settings.window);
-    json["folded"] = settings.folded;
-    json["last_session"] = json_of(settings.last);
-    json["export"] = json_of(settings.picture_export);
+Settings SettingsFile::load() { return known_ = load_settings(file_); }
+
+void SettingsFile::save(Settings& settings) {
+    if (file_.empty()) return;
     std::error_code ignored;
-    std::filesystem::create_directories(file.parent_path(), ignored);
+    std::filesystem::create_directories(file_.parent_path(), ignored);
+    // Who cannot have it writes all the same: another window may have been stopped while it had it.
+    const Descriptor lock = lock_folder(file_.parent_path(), kLockPatience);
+    std::optional<Json> present = read_object(file_);
+    if (!present || is_newer(*present)) return;
+    Settings merged = settings;
+    merged.recent = paths_at(*present, "recent", kMostRecent);
+    const std::size_t opened = opened_since(known_.recent, settings.recent);
+    for (std::size_t i = opened; i-- > 0;) merged.remember(settings.recent[i]);
+    Json before = json_of(known_);
+    // Another version's list stays until there is more to say.
+    before["recent"] = opened > 0 ? Json() : texts_of(merged.recent);
+    if (!put_changes(before, json_of(merged), *present)) return;
+    (*present)["version"] = kVersion;
+    std::string text = settings_text(*present, 2);
+    // What is nested grows by blanks, and what was open may be long.
+    if (text.size() > kMostBytes) text = settings_text(*present, -1);
+    if (text.size() > kMostBytes && present->erase("last_session") > 0) text = settings_text(*present, -1);
+    if (text.size() > kMostBytes) return;
     try {
         // Whole or not at all.
-        write_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+        write_file(file_, text);
     } catch (const MachineError&) {
-        // Nothing that was worked on is lost.
+        return;  // nothing that was worked on is lost
     }
+    settings = known_ = std::move(merged);
 }
 
 }  // namespace mobbscope::app

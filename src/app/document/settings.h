@@ -4,10 +4,12 @@
 #include <app/document/picture_export.h>
 #include <scene/view_state.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::app {
@@ -51,14 +53,39 @@ struct Settings {
 
 /// The person's settings file: in $XDG_CONFIG_HOME, else ~/.config; empty where there is neither.
 std::filesystem::path settings_file();
+/// Where windows keep copies of what is not saved: in $XDG_STATE_HOME, else ~/.local/state; likewise.
+std::filesystem::path unsaved_folder();
 /// What the file says; the defaults for what it lacks or says wrong. Never throws.
 Settings load_settings(const std::filesystem::path& file);
 /// Keeps what this version cannot read and would overwrite. A file that is no settings is renamed to
 /// "settings.json.unreadable", or with a number behind it; one of a newer version, or one that cannot be opened or
 /// renamed, stays, and nothing is saved. What the person is told of that; empty if the file is fine, or there is none.
 std::string keep_unreadable_settings(const std::filesystem::path& file);
-/// Silently does nothing where it cannot write, or would overwrite what it cannot read: no work is lost by it. Keys in
-/// the file that are unknown here stay: they are another version's.
-void save_settings(const std::filesystem::path& file, const Settings& settings);
+
+/// The settings in their file, which several windows share: each writes what it has changed, and the rest stays as
+/// another one wrote it.
+class SettingsFile {
+  public:
+    /// More is set aside as unreadable, and no more is written.
+    static constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 20;
+    static constexpr int kDeepest = 64;  ///< nested values
+
+    /// Empty: there is none, and nothing is saved.
+    explicit SettingsFile(std::filesystem::path file = {}) : file_(std::move(file)) {}
+
+    /// As load_settings.
+    Settings load();
+    /// What holds this once counts as read: it is written only when it changes.
+    void note(const Settings& settings) { known_ = settings; }
+    /// Writes what was changed since they were loaded or saved last. Files that were opened since come first of the
+    /// recent ones, and `settings` gets those of other windows too. Silently does nothing where it cannot write, or
+    /// would overwrite what it cannot read: no work is lost by it. Keys that are unknown here stay: they are another
+    /// version's.
+    void save(Settings& settings);
+
+  private:
+    std::filesystem::path file_;
+    Settings known_;  ///< as they were loaded or saved last
+};
 
 }  // namespace mobbscope::app

@@ -17,14 +17,9 @@ SceneView Views::at(std::size_t place) const {
 
 void Views::split(const std::string& name, const mobb::FitOptions& options) {
     Document next = workspace_.document();
-    const auto& fits = next.fitted->fits();
-    const auto known = std::find_if(fits.begin(), fits.end(), [&](const auto& fit) { return fit->options == options; });
-    const std::size_t index = static_cast<std::size_t>(known - fits.begin());
     FittedScene fitted = *next.fitted;
-    if (known == fits.end()) {
-        UnusedNames names;
-        for (const auto& fit : fits) names.take(fit->name);
-        fitted = fitted.with_fit(names.take(name), options);
+    const std::size_t index = fit_with(fitted, name, options);
+    if (fitted.fits().size() > next.fitted->fits().size()) {
         next.fitted = std::make_shared<const FittedScene>(fitted);
         for (SceneView& other : next.beside) {
             other.fitted = std::make_shared<const FittedScene>(fitted.using_fit(other.fitted->fit_in_use()));

@@ -67,6 +67,8 @@ class Workspace {
     std::optional<std::filesystem::path> file;                 ///< where Save writes; none: Save asks
     std::optional<std::filesystem::file_time_type> file_time;  ///< of it, when it was opened or saved
     std::vector<std::filesystem::path> opened;                 ///< what it is made of; empty for the demo, and at first
+    /// When files were written last that it is read from, as was seen last; none: they were not there.
+    std::map<std::filesystem::path, std::optional<std::filesystem::file_time_type>> seen_files;
 
     Selection selection;  ///< always of something that exists
     Selection hovered;    ///< under the mouse in any panel

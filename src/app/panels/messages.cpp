@@ -86,14 +86,17 @@ float buttons_width(const Ui& ui, const Message& message) {
     const float padding = 2 * ImGui::GetStyle().FramePadding.x;
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     float width = ImGui::CalcTextSize("Copy").x + ImGui::CalcTextSize("x").x + 2 * padding + gap + ui.px(8);
-    if (message.offer) width += ImGui::CalcTextSize(message.offer->label.c_str()).x + padding + gap;
+    for (const MessageOffer& offer : message.offers)
+        width += ImGui::CalcTextSize(offer.label.c_str()).x + padding + gap;
     return width;
 }
 
 Wish buttons(Ui& ui, const Message& message, const std::string& mark) {
-    if (message.offer) {
-        if (small_button(ui, message.offer->label.c_str(), mark + ".offer")) {
-            ui.later([offer = *message.offer](Session& session) {
+    for (std::size_t i = 0; i < message.offers.size(); ++i) {
+        const MessageOffer& offered = message.offers[i];
+        const std::string offer_mark = mark + (i == 0 ? ".offer" : ".offer" + std::to_string(i + 1));
+        if (small_button(ui, offered.label.c_str(), offer_mark)) {
+            ui.later([offer = offered](Session& session) {
                 if (session.dialogs.now == Dialog::messages) session.dialogs.close();
                 session.notifications.put_away();
                 run_command(session, offer.command, offer.argument);

@@ -129,7 +129,7 @@ Json messages_json(const Notifications& notifications) {
     Json json = Json::array();
     for (const Message& message : notifications.all()) {
         Json one{{"level", kLevels[static_cast<std::size_t>(message.level)]}, {"text", message.text}};
-        if (message.offer) one["offer"] = message.offer->command;
+        if (!message.offers.empty()) one["offer"] = message.offers.front().command;
         if (!message.up) one["put_away"] = true;
         json.push_back(std::move(one));
     }

@@ -10,9 +10,9 @@
 /// scene files, so what is as always is left out. `query` is what is asked in the view: {"index", "a", "b", "collides",
 /// "contact_time", "step", "steps", "tests": one count for each kind of test, "outcome",
 /// "sentence"}, the last two of the step. `undo` and `redo` are titles. Of a message `offer` is the command that it
-/// offers, and `put_away` says that it is behind the bell; `unread` counts warnings and errors that nobody has looked
-/// at in the list. The three are left out where there is nothing to say.
-/// Screens add what there is of them (Screen::add_state).
+/// offers first, and `put_away` says that it is behind the bell; `unread` counts warnings and errors that nobody has
+/// looked at in the list. The three are left out where there is nothing to say. Screens add what there is of them
+/// (Screen::add_state).
 #pragma once
 
 #include <app/session/session.h>

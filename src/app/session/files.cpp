@@ -1,3 +1,4 @@
+#include <app/document/unsaved_work.h>
 #include <app/session/files.h>
 #include <base/error.h>
 #include <base/file.h>
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -26,6 +28,8 @@ std::string title_of_files(const std::vector<std::filesystem::path>& files) {
     if (files.size() != 1) return counted(files.size(), "file", "files");
     return own_name(files.front());
 }
+
+constexpr std::size_t kMostLookedAt = 1000;  // sources of clips
 
 /// When a file was written last; none: there is none, or nobody can say.
 std::optional<std::filesystem::file_time_type> time_of(const std::optional<std::filesystem::path>& file) {
@@ -76,20 +80,52 @@ void Files::replace(Document document, const std::vector<std::filesystem::path>&
     aside_.reset();
     visited_.clear();
     parts_.workspace = std::move(next);
+    look_at_files();
     parts_.imports.tell_of_warnings(0);
 }
 
-void Files::load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files,
-                 const std::optional<ViewState>& view) {
-    const auto begin = [this, title, load_all, files, view] {
+std::vector<std::filesystem::path> Files::look_at_files() {
+    std::vector<std::filesystem::path> changed;
+    const auto look_at = [&](const std::filesystem::path& file) {
+        const auto [known, is_new] = parts_.workspace.seen_files.try_emplace(file, std::nullopt);
+        const auto now = time_of(file);
+        if (std::exchange(known->second, now) != now && !is_new) changed.push_back(file);
+    };
+    if (parts_.workspace.file) look_at(*parts_.workspace.file);
+    std::set<std::filesystem::path> sources;
+    for (const SceneClip& clip : parts_.workspace.scene().clips) {
+        if (!clip.source || sources.size() == kMostLookedAt) continue;
+        const std::filesystem::path source = source_path(parts_.workspace.scene(), clip);
+        if (sources.insert(source).second) look_at(source);
+    }
+    return changed;
+}
+
+void Files::tell_of_changed_files() { tell_of(look_at_files()); }
+
+void Files::tell_of(const std::vector<std::filesystem::path>& changed) {
+    if (changed.empty()) return;
+    const auto gone = std::ranges::find_if(changed, [](const auto& file) { return !time_of(file); });
+    const std::string others =
+        changed.size() > 1 ? " (and " + counted(changed.size() - 1, "more file", "more files") + ")" : "";
+    if (gone == changed.end()) {
+        parts_.notifications.tell(MessageLevel::warning,
+                                  changed.front().string() + " was changed by another program" + others,
+                                  {{"file.reload", "", "Reload"}});
+    } else {
+        parts_.notifications.tell(MessageLevel::warning,
+                                  gone->string() + " was removed by another program" + others +
+                                      (*gone == parts_.workspace.file ? "; Save writes it again" : ""));
+    }
+}
+
+void Files::load(const std::string& title, const Opening& opening) {
+    const auto begin = [this, title, opening] {
         // What is opened last is meant.
         parts_.jobs.drop(JobPurpose::opens);
-        const auto work = [this, load_all, files, view,
+        const auto work = [this, opening,
                            present = parts_.workspace.document().fitted](JobControl& control) -> Job::Finish {
-            Document document = document_of(load_all(control), nullptr, progress_of(control));
-            if (view) document.view = *view;
-            return [this, document = std::move(document), files, present] {
-                const auto put_in = [this, document, files] { replace(document, files); };
+            return [this, put_in = opening(control), present] {
                 // It takes the place of what was put aside.
                 if (aside_) return come_back([this, put_in] { after_asking(put_in); });
                 // Who edited meanwhile is asked again.
@@ -102,6 +138,37 @@ void Files::load(const std::string& title, const LoadAll& load_all, const std::v
     aside_ ? begin() : after_asking(begin);
 }
 
+void Files::load_scene(const std::string& title, const LoadAll& load_all,
+                       const std::vector<std::filesystem::path>& files, const std::optional<ViewState>& view) {
+    load(title, [this, load_all, files, view](JobControl& control) -> std::function<void()> {
+        Document document = document_of(load_all(control), nullptr, progress_of(control));
+        if (view) {
+            document.view = *view;
+            // The file may have changed since.
+            if (view->projection && !has_projection(*document.fitted, *view)) document.view.projection.reset();
+        }
+        return [this, document = std::move(document), files] { replace(document, files); };
+    });
+}
+
+void Files::open_unsaved(const std::filesystem::path& copy, const std::string& title,
+                         const std::function<void()>& then) {
+    load("Restoring " + title, [this, copy, then](JobControl& control) -> std::function<void()> {
+        const auto read = [&] {
+            try {
+                return read_unsaved(copy, progress_of(control));
+            } catch (const InputError& error) {
+                throw InputError(std::string(error.what()) + "; the copy is kept");
+            }
+        };
+        return [this, work = read(), then] {
+            replace(work.document, work.opened);
+            put_in(parts_.workspace, work);
+            then();
+        };
+    });
+}
+
 bool Files::complain_of_missing(const std::vector<std::filesystem::path>& files) {
     const std::filesystem::path* missing = missing_of(files);
     if (missing) parts_.notifications.tell(MessageLevel::error, missing->string() + ": no such file; check the path");
@@ -111,7 +178,7 @@ bool Files::complain_of_missing(const std::vector<std::filesystem::path>& files)
 void Files::open(const std::vector<std::filesystem::path>& files) {
     // Nobody is asked about unsaved changes for nothing.
     if (complain_of_missing(files)) return;
-    load(
+    load_scene(
         "Opening " + title_of_files(files),
         [files](JobControl& control) { return load_files(files, {}, progress_of(control)); }, files);
 }
@@ -129,6 +196,8 @@ void Files::remember(const std::vector<std::filesystem::path>& files) {
     // Scripts and pictures find the same wherever they run.
     parts_.settings.folder =
         parts_.options.attended ? std::filesystem::absolute(folder, error).lexically_normal() : folder;
+    // However the window ends, and for other windows.
+    parts_.settings_file.save(parts_.settings);
 }
 
 bool Files::opened_by_person() const {
@@ -165,19 +234,19 @@ std::string Files::last_title() const { return title_of_files(parts_.settings.la
 void Files::reopen_last() {
     const LastSession last = parts_.settings.last;
     if (complain_of_missing(last.files)) return;
-    load(
+    load_scene(
         "Opening " + last_title(),
         [last](JobControl& control) { return load_files(last.files, {}, progress_of(control)); }, last.files,
         last.view);
 }
 
 void Files::open_scene(const Scene& scene, const std::vector<std::filesystem::path>& files) {
-    load(
+    load_scene(
         "Opening " + scene.file.filename().string(), [scene](JobControl&) { return scene; }, files);
 }
 
 void Files::open_demo() {
-    load("Opening the demo", [](JobControl&) { return demo_scene(); }, {});
+    load_scene("Opening the demo", [](JobControl&) { return demo_scene(); }, {});
 }
 
 void Files::add(const std::vector<std::filesystem::path>& files) {
@@ -237,16 +306,22 @@ void Files::save_as(const std::filesystem::path& file) {
                          "another program has written it since it was opened: save under another name, or once more "
                          "to overwrite it");
     }
+    const bool was_removed =
+        parts_.workspace.file && parts_.workspace.file_time && file == *parts_.workspace.file && !time_of(file);
     for (const SceneClip& clip : parts_.workspace.scene().clips) {
         if (!clip.source || !same_file(file, source_path(parts_.workspace.scene(), clip))) continue;
         throw InputError(file.string(), "",
                          "clip " + in_quotes(clip.name) + " comes from this file; save under another name");
     }
+    std::vector<std::filesystem::path> changed = look_at_files();
+    // What is gone is said below.
+    std::erase_if(changed, [&](const auto& each) { return each == file || !time_of(each); });
+    tell_of(changed);
     Scene saved = parts_.workspace.scene();
     saved.view = parts_.workspace.view();
     saved.fit = parts_.workspace.document().fitted->options();
     move_to_file(saved, file);
-    write_file(file, to_json(saved));
+    write_to_disk(file, to_json(saved));
     if (parts_.workspace.in_excerpt()) {
         // The whole stays what is open; the excerpt has a file of its own.
         Document now = parts_.workspace.document();
@@ -261,8 +336,10 @@ void Files::save_as(const std::filesystem::path& file) {
         parts_.workspace.file_time = time_of(file);
         parts_.workspace.opened = {file};
     }
+    look_at_files();
     remember({file});
-    parts_.notifications.tell(MessageLevel::info, "Saved " + file.string());
+    parts_.notifications.tell(MessageLevel::info,
+                              "Saved " + file.string() + (was_removed ? ", which another program had removed" : ""));
     tell_of_lost_sources();
     if (parts_.dialogs.now == Dialog::save_as || parts_.dialogs.now == Dialog::unsaved)
         parts_.dialogs.now = Dialog::none;

@@ -23,6 +23,7 @@ class Files {
         Notifications& notifications;
         Playback& playback;
         Settings& settings;
+        SettingsFile& settings_file;
         Counts& counts;
         const SessionOptions& options;
         Screen*& screen;
@@ -42,6 +43,8 @@ class Files {
     bool has_last() const;
     /// "crossing.json", or "3 files"; requires has_last().
     std::string last_title() const;
+    /// Opens a copy of work that was not saved, as changed as it is; then does `then`.
+    void open_unsaved(const std::filesystem::path& copy, const std::string& title, const std::function<void()>& then);
     /// What is open is that of the next time's settings.last.
     void note_session();
 
@@ -57,6 +60,8 @@ class Files {
     /// unsaved changes goes on when they are saved.
     void save();
     void save_as(const std::filesystem::path& file);
+    /// Says what other programs have done to the files of what is open, each time once.
+    void tell_of_changed_files();
     /// Throws InputError if nothing may be written (SessionOptions::may_write).
     void check_may_write(const std::filesystem::path& file) const;
 
@@ -70,6 +75,8 @@ class Files {
     void visit(Document document, const std::string& name);
     /// The name of what is visited; empty if nothing is.
     const std::string& visited() const { return visited_; }
+    /// What was put aside for it; null if nothing was.
+    const Workspace* aside() const { return aside_ ? &*aside_ : nullptr; }
     /// What was put aside is back, after asking if there are unsaved changes; then, or if nothing is visited, does
     /// `then`.
     void come_back(const std::function<void()>& then);
@@ -81,12 +88,15 @@ class Files {
     void end_work();
 
   private:
+    /// In a job: reads something, and gives what puts it in the place of what is open.
+    using Opening = std::function<std::function<void()>(JobControl&)>;
+    /// Does so after asking if there are unsaved changes. What cannot be loaded leaves all as it was: what `opening`
+    /// throws (InputError, MachineError, std::invalid_argument, Cancelled) becomes a message.
+    void load(const std::string& title, const Opening& opening);
     using LoadAll = std::function<Scene(JobControl&)>;
-    /// Replaces the document by what `load_all` gives, seen as that says or as `view`, after asking if there are
-    /// unsaved changes. What cannot be loaded leaves all as it was: what `load_all` and document_of throw in the job
-    /// (InputError, MachineError, std::invalid_argument, Cancelled) becomes a message.
-    void load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files,
-              const std::optional<ViewState>& view = std::nullopt);
+    /// Loads what `load_all` gives, seen as that says or as `view`.
+    void load_scene(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files,
+                    const std::optional<ViewState>& view = std::nullopt);
     void replace(Document document, const std::vector<std::filesystem::path>& opened);
     /// For another scene than that of the present opening: what was said and asked about that one is over.
     void turn_away();
@@ -96,6 +106,9 @@ class Files {
     void remember(const std::vector<std::filesystem::path>& files);
     /// Whether something is open that is not the demo as it comes.
     bool opened_by_person() const;
+    /// Those of the document and of its clips' sources that were not as they are when they were seen last.
+    std::vector<std::filesystem::path> look_at_files();
+    void tell_of(const std::vector<std::filesystem::path>& changed);
     /// Of a saved scene: whether a clip's file is gone.
     void tell_of_lost_sources();
 

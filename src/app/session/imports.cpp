@@ -118,7 +118,7 @@ void Imports::start(const ImportChange& change) {
                                      // The camera stays, so what is ten times as large may be out of the picture.
                                      if (change.option != "unit") return;
                                      notifications_.tell(MessageLevel::info, "The clip has another size now",
-                                                         MessageOffer{"view.frame_all", "", "Frame everything"});
+                                                         {{"view.frame_all", "", "Frame everything"}});
                                  },
                              .goes_on = change.goes_on});
             };
@@ -193,7 +193,7 @@ void Imports::tell_of_warnings(std::size_t from) {
                 ? MessageOffer{"clip.import", told.of->name + ' ' + told.warning->option, "Import options..."}
                 : MessageOffer{"clip.motion", std::string(name(mobb::Motion::linear)) + ' ' + told.of->name,
                                "Make it linear"};
-        notifications_.tell(MessageLevel::warning, told.of->name + ": " + said(*told.warning) + others, offer);
+        notifications_.tell(MessageLevel::warning, told.of->name + ": " + said(*told.warning) + others, {offer});
     };
     // The latest stands out most: a wrong unit makes all else look wrong.
     for (const auto& [option, told] : by_option) {

@@ -20,16 +20,16 @@ constexpr std::size_t kLongestMessage = 500;  // characters; names of files may 
 
 }  // namespace
 
-void Notifications::tell(MessageLevel level, const std::string& text, std::optional<MessageOffer> offer) {
+void Notifications::tell(MessageLevel level, const std::string& text, std::vector<MessageOffer> offers) {
     const std::string said = shortened(text, kLongestMessage);
     // Twice the same says nothing new.
     std::erase_if(messages_, [&](const Message& message) { return message.text == said; });
-    messages_.push_back({level, said, std::move(offer), {}, 0, true, level == MessageLevel::info});
+    messages_.push_back({level, said, std::move(offers), {}, 0, true, level == MessageLevel::info});
     if (messages_.size() > kMostMessages) messages_.erase(messages_.begin());
 }
 
-void Notifications::tell_of_window(MessageLevel level, const std::string& text) {
-    tell(level, text);
+void Notifications::tell_of_window(MessageLevel level, const std::string& text, std::vector<MessageOffer> offers) {
+    tell(level, text, std::move(offers));
     messages_.back().of_window = true;
 }
 
@@ -56,13 +56,17 @@ void Notifications::mark_read() {
     for (Message& message : messages_) message.read = true;
 }
 
-void Notifications::dismiss_offers(std::string_view command) {
-    std::erase_if(messages_,
-                  [&](const Message& message) { return message.offer && message.offer->command == command; });
+void Notifications::dismiss_offers(std::string_view command, std::string_view argument) {
+    const auto is_it = [&](const MessageOffer& offer) {
+        return offer.command == command && (argument.empty() || offer.argument == argument);
+    };
+    std::erase_if(messages_, [&](const Message& message) { return std::ranges::any_of(message.offers, is_it); });
 }
 
 void Notifications::withdraw_offers() {
-    for (Message& message : messages_) message.offer.reset();
+    for (Message& message : messages_) {
+        if (!message.of_window) message.offers.clear();
+    }
 }
 
 void Notifications::put_away() {
@@ -75,7 +79,7 @@ double Notifications::age(double now, bool held) {
         if (!message.up) continue;
         if (!message.shown_at) {
             message.shown_at = now;
-            message.goes_at = now + (message.offer                         ? kOfferSeconds
+            message.goes_at = now + (!message.offers.empty()               ? kOfferSeconds
                                      : message.level == MessageLevel::info ? kInfoSeconds
                                                                            : kErrorSeconds);
         }

@@ -22,19 +22,19 @@ struct MessageOffer {
 struct Message {
     MessageLevel level = MessageLevel::info;
     std::string text;
-    std::optional<MessageOffer> offer{};  ///< none once another document is open: it was about the last one
-    std::optional<double> shown_at{};     ///< seconds of the window's clock, when it was shown first
-    double goes_at = 0;                   ///< ... when it goes behind the bell; only once it was shown
-    bool up = true;                       ///< it lies over the picture
-    bool read = false;                    ///< the list was opened since, or it was only what was done (info)
-    bool of_window = false;               ///< about no scene: it stays when another one is opened
+    std::vector<MessageOffer> offers{};  ///< none once another document is open, if they were about the last one
+    std::optional<double> shown_at{};    ///< seconds of the window's clock, when it was shown first
+    double goes_at = 0;                  ///< ... when it goes behind the bell; only once it was shown
+    bool up = true;                      ///< it lies over the picture
+    bool read = false;                   ///< the list was opened since, or it was only what was done (info)
+    bool of_window = false;              ///< about no scene: it stays when another one is opened
 };
 
 class Notifications {
   public:
-    void tell(MessageLevel level, const std::string& text, std::optional<MessageOffer> offer = std::nullopt);
+    void tell(MessageLevel level, const std::string& text, std::vector<MessageOffer> offers = {});
     /// About no scene: see Message::of_window.
-    void tell_of_window(MessageLevel level, const std::string& text);
+    void tell_of_window(MessageLevel level, const std::string& text, std::vector<MessageOffer> offers = {});
     /// The oldest first, at most 50; the list behind the bell.
     const std::vector<Message>& all() const { return messages_; }
     /// Whether a warning or an error lies over the picture: what was only done goes by itself.
@@ -46,8 +46,8 @@ class Notifications {
     /// Takes one out of the list.
     void dismiss(std::size_t message);
     void clear() { messages_.clear(); }
-    /// ... those that offer this command.
-    void dismiss_offers(std::string_view command);
+    /// ... those that offer this command, with this argument if one is given.
+    void dismiss_offers(std::string_view command, std::string_view argument = {});
     /// What messages offer is over: it was about another scene.
     void withdraw_offers();
     /// Warnings and errors so far were about what was shown before.

@@ -46,6 +46,7 @@ void Session::poll() {
 
 void Session::end_work() {
     files.end_work();
+    recovery.end_work();
     dialogs.preview.end();
     for (const auto& each : screens) each->end_work();
 }

@@ -6,6 +6,7 @@
 #include <app/document/views.h>
 #include <app/session/excerpts.h>
 #include <app/session/files.h>
+#include <app/session/recovery.h>
 
 #include <any>
 #include <deque>
@@ -59,6 +60,7 @@ class Session {
 
     SessionOptions options;
     Settings settings;
+    SettingsFile settings_file;   ///< of an attended session; none: nothing is kept
     Desktop* desktop;             ///< never null
     PictureMaker* picture_maker;  ///< likewise
     double window_scale = 1;      ///< of text and panels where the settings say none
@@ -78,7 +80,9 @@ class Session {
     Imports imports{workspace, jobs, edits, dialogs, notifications};
     CrowdInspector crowds{workspace, jobs, notifications};
     Excerpts excerpts{workspace, jobs, playback, crowds, counts};
-    Files files{{workspace, jobs, edits, imports, dialogs, notifications, playback, settings, counts, options, screen}};
+    Files files{{workspace, jobs, edits, imports, dialogs, notifications, playback, settings, settings_file, counts,
+                 options, screen}};
+    Recovery recovery{workspace, files, notifications, desktop};
     std::vector<std::unique_ptr<Screen>> screens;          ///< that there are (add_screen)
     std::shared_ptr<const std::vector<Command>> commands;  ///< the table with theirs; null: without
 
@@ -86,7 +90,7 @@ class Session {
     template <class AnySession>
     static auto parts(AnySession& s) {
         return std::tie(s.options, s.settings, s.workspace, s.views, s.queries, s.notifications, s.queue, s.keys,
-                        s.dialogs, s.jobs, s.playback, s.edits, s.imports, s.crowds, s.excerpts, s.files);
+                        s.dialogs, s.jobs, s.playback, s.edits, s.imports, s.crowds, s.excerpts, s.files, s.recovery);
     }
 
     /// The screen of a type, which add_screen was given.

@@ -11,8 +11,11 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cfloat>
 #include <cmath>
 #include <cstdlib>
@@ -169,9 +172,52 @@ void open_glfw() {
     }
 }
 
+// --- the display goes away
+
+std::function<void()> when_display_is_lost;
+
+/// Once: of several threads the first.
+void lose_display() {
+    static std::atomic_flag begun;
+    if (begun.test_and_set()) {
+        for (;;) ::pause();
+    }
+    when_display_is_lost();
+}
+
+/// Xlib ends a program with status 1 when its server goes away.
+void watch_x11() {
+    try {
+        const SharedLibrary x11({"libX11.so.6"});
+        using IoErrorHandler = int (*)(void* display);
+        const auto set_handler = x11.function<IoErrorHandler (*)(IoErrorHandler)>("XSetIOErrorHandler");
+        set_handler([](void*) {
+            lose_display();
+            return 0;
+        });
+    } catch (const std::runtime_error&) {
+        // There is no X11, so the display is another.
+    }
+}
+
+/// GLFW asks windows to close when it has lost a Wayland display.
+bool has_lost_wayland() {
+    try {
+        const SharedLibrary glfw(glfw_libraries());
+        const auto display = glfw.function<void* (*)()>("glfwGetWaylandDisplay");
+        const SharedLibrary wayland({"libwayland-client.so.0"});
+        const auto error_of = wayland.function<int (*)(void*)>("wl_display_get_error");
+        void* of = display();
+        return of && error_of(of) != 0;
+    } catch (const std::runtime_error&) {
+        return false;  // there is no Wayland
+    }
+}
+
 /// GLFW from start to end.
 struct Library {
-    Library() {
+    explicit Library(std::function<void()> display_lost) {
+        when_display_is_lost = std::move(display_lost);
         open_glfw();
         glfwSetErrorCallback([](int, const char* message) { last_error = message; });
 #ifdef GLFW_PLATFORM
@@ -179,6 +225,7 @@ struct Library {
         if (!is_set("WAYLAND_DISPLAY") && !is_set("WAYLAND_SOCKET")) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
 #endif
         if (!glfwInit()) fail("there is no display to open a window on");
+        watch_x11();
     }
     ~Library() { glfwTerminate(); }
     Library(const Library&) = delete;
@@ -261,8 +308,9 @@ bool has_display() { return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY"); }
 
 struct GlfwWindow::State final : Desktop {
     /// A size that was asked for holds this once, and so it goes where the display puts it.
-    State(Session& of, std::optional<PictureSize> size)
-        : session(of),
+    State(Session& of, std::optional<PictureSize> size, std::function<void()> display_lost)
+        : library(std::move(display_lost)),
+          session(of),
           desktop_before(of.desktop),
           place(size ? std::nullopt : place_on_monitors(of.settings.window)),
           keeps_place(!size),
@@ -342,10 +390,16 @@ struct GlfwWindow::State final : Desktop {
             shell_of(of).feed(Drop{{paths, paths + count}});
         });
         glfwSetWindowFocusCallback(window, [](GLFWwindow* of, int focused) {
-            if (!focused) shell_of(of).feed(KeysLost{});
+            if (!focused) return shell_of(of).feed(KeysLost{});
+            // Scripts find the same everywhere.
+            Session& focused_on = state_of(of).session;
+            if (!focused_on.options.attended) return;
+            focused_on.files.tell_of_changed_files();
+            focused_on.recovery.look();
         });
         glfwSetWindowCloseCallback(window, [](GLFWwindow* of) {
             glfwSetWindowShouldClose(of, GLFW_FALSE);
+            if (has_lost_wayland()) lose_display();
             // No frame is drawn of a minimised window, and it may have to ask about unsaved changes.
             if (glfwGetWindowAttrib(of, GLFW_ICONIFIED)) glfwRestoreWindow(of);
             shell_of(of).feed(CloseRequest{});
@@ -438,14 +492,16 @@ struct GlfwWindow::State final : Desktop {
     bool shown = false;
 };
 
-GlfwWindow::GlfwWindow(Session& session, std::optional<PictureSize> size)
-    : state_(std::make_unique<State>(session, size)) {}
+GlfwWindow::GlfwWindow(Session& session, std::optional<PictureSize> size, std::function<void()> display_lost)
+    : state_(std::make_unique<State>(session, size, std::move(display_lost))) {}
 
 GlfwWindow::~GlfwWindow() = default;
 
-void GlfwWindow::run() {
-    while (!state_->session.files.closed()) {
-        state_->wait(std::numeric_limits<double>::infinity());
+void GlfwWindow::run(const std::function<bool()>& interrupted) {
+    Session& session = state_->session;
+    while (!session.files.closed()) {
+        state_->wait(session.recovery.poll(glfwGetTime()));
+        if (interrupted()) return;
         state_->draw();
     }
 }

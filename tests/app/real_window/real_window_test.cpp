@@ -156,6 +156,26 @@ TEST(RealWindow, ThreeClipsAreOpenedByTheDialogAloneAndReopenedTheNextTime) {
     EXPECT_NE(geometry.find("WIDTH=1100\nHEIGHT=720"), std::string::npos) << geometry;
 }
 
+// However a window ends, the next one has what was not saved; lost.sh says how they end.
+TEST(RealWindow, NothingIsLostWhenItEndsUnasked) {
+    const TempFolder folder;
+    std::filesystem::copy(MOBBSCOPE_SOURCE_DIR "/assets", folder.path() / "assets",
+                          std::filesystem::copy_options::recursive);
+    const int status = under_xvfb("'" + kHere + "lost.sh' '" MOBBSCOPE_PROGRAM "' '" + folder.path().string() + "'");
+    if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
+    ASSERT_EQ(status, 0);
+    EXPECT_EQ(slurp(folder.path() / "ends.txt"),
+              "killed 137\nterminated 143\nhung-up 129\nsecond 143\nwithout-display 3\n");
+    EXPECT_EQ(
+        slurp(folder.path() / "errors.txt"),
+        "mobbscope: the display of the window has gone away; the next window offers the work that was not saved\n");
+    // Saved after the first time; the others were not.
+    EXPECT_EQ(state(folder.path() / "assets/scenes/crossing.json")["agents"].size(), 3u);
+    const Json settings = state(folder.path() / "config/mobbscope/settings.json");
+    const std::string assets = folder.path() / "assets/";
+    EXPECT_EQ(settings["recent"], (Json{assets + "clips/walk.glb", assets + "scenes/crossing.json"}));
+}
+
 // The camera of a real window holds still; still.script says what was done between the states.
 TEST(RealWindow, APersonsCameraMovesWhenItIsAskedTo) {
     const std::filesystem::path folder = MOBBSCOPE_PICTURES "/real_still";
