@@ -80,7 +80,8 @@ float file_title(Ui& ui, float left, float right) {
     const bool modified = ui.session.shows_unsaved();
     const float dot = modified ? ui.px(14) : 0;
     const float room = right - left - 2 * pad - dot;
-    const float width = std::min(ImGui::CalcTextSize(title.c_str()).x, std::max(room, ui.px(40)));
+    // Where the menus leave less there is no title.
+    const float width = room < ui.px(40) ? 1 : std::min(ImGui::CalcTextSize(title.c_str()).x, room);
     const float x = right - pad - width;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float middle = ImGui::GetFrameHeight() / 2;
@@ -92,7 +93,9 @@ float file_title(Ui& ui, float left, float right) {
         const std::string file = ui.workspace.file && !ui.session.screen ? ui.workspace.file->string() : title;
         ImGui::SetTooltip("%s%s", file.c_str(), modified ? "\nnot saved" : "");
     }
-    draw.AddText({x, middle - ImGui::GetFontSize() / 2}, ui.style.quiet, fitted_name(title, width).c_str());
+    if (width > 1) {
+        draw.AddText({x, middle - ImGui::GetFontSize() / 2}, ui.style.quiet, fitted_name(title, width).c_str());
+    }
     return x - dot;
 }
 

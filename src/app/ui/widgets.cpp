@@ -305,7 +305,7 @@ std::string fitted_name(const std::string& name, float room, const NameList& lis
 
 std::string fitted_pair(const std::string& a, const char* between, const std::string& b, float room,
                         const NameList& list) {
-    const std::string whole = cleaned(a) + between + cleaned(b);
+    std::string whole = cleaned(a) + between + cleaned(b);
     if (text_width(whole) <= room) return whole;
     // The names need the room more than the word.
     const std::string dash = " \u2013 ";
