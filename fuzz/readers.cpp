@@ -230,8 +230,8 @@ void read_view_state(const std::string& bytes) {
 void read_settings(const std::string& bytes) {
     const std::filesystem::path file = scratch_folder() / "settings.json";
     std::ofstream(file, std::ios::binary) << bytes;
-    const app::Settings settings = app::load_settings(file);
-    app::save_settings(file, settings);
+    app::Settings settings = app::load_settings(file);
+    app::SettingsFile(file).save(settings);
     require(app::load_settings(file) == settings, "settings that were saved are read as others");
 }
 

@@ -13,7 +13,6 @@ namespace mobbscope {
 
 namespace {
 
-
 std::string separating_axis(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
     const auto axis_of = [&](const DrawnAgent& side, int node, int axis) {
         return side.label + "'s " + axis_word(side.placed.tree().box(node), event.test, axis) + " axis";

@@ -521,7 +521,7 @@ TEST(Review, ARunIsShownAndStoppedWhereTheSceneIsShownToo) {
     ASSERT_FALSE(w.reviews.shown());
     ASSERT_TRUE(w.review().run.drawing());
     ASSERT_EQ(w.session.notifications.all().size(), 1u);
-    EXPECT_EQ(w.session.notifications.all().front().offer->command, "review.back")
+    EXPECT_EQ(w.session.notifications.all().front().offers.at(0).command, "review.back")
         << "who left by mistake sees the way back";
     w.click("job.0.cancel");
     EXPECT_FALSE(w.review().run.drawing());

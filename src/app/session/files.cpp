@@ -142,11 +142,7 @@ void Files::load_scene(const std::string& title, const LoadAll& load_all,
                        const std::vector<std::filesystem::path>& files, const std::optional<ViewState>& view) {
     load(title, [this, load_all, files, view](JobControl& control) -> std::function<void()> {
         Document document = document_of(load_all(control), nullptr, progress_of(control));
-        if (view) {
-            document.view = *view;
-            // The file may have changed since.
-            if (view->projection && !has_projection(*document.fitted, *view)) document.view.projection.reset();
-        }
+        if (view) document.view = *view;
         return [this, document = std::move(document), files] { replace(document, files); };
     });
 }
