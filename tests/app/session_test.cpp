@@ -130,6 +130,24 @@ TEST(Undo, FindsTheQueryInViewAgainAmongOthers) {
     EXPECT_EQ(shown(), "") << "nobody asks it there";
 }
 
+TEST(Undo, AndRedoLeadBackToTheViewThatWasLeft) {
+    Edited e;
+    Session& session = e.session;
+    e.move(0.5);
+    session.workspace.close_group();
+    run_command(session, "query.select", "0");
+    run_command(session, "step.last");
+    run_command(session, "step.back");
+    const Step left = session.workspace.view().step;
+    session.edits.undo();
+    session.edits.redo();
+    EXPECT_EQ(session.workspace.view().step, left) << "the trace in between may be shorter";
+    session.edits.undo();
+    run_command(session, "view.top");
+    session.edits.redo();
+    EXPECT_EQ(session.workspace.view().camera.preset, CameraPreset::top) << "who looks around goes on from there";
+}
+
 TEST(Undo, BringsBackTheSceneThatWasSaved) {
     Edited e;
     e.session.files.save();

@@ -208,6 +208,7 @@ void History::change(Document document, const EditName& name) {
     const bool joins =
         group_ == Group::open && now_ > 0 && !name.group.empty() && states_[now_]->name.group == name.group;
     states_.resize(now_ + 1);
+    ++moves_;
     if (document.opening != now().opening) forget_looks();
     look_group_.clear();
     State next{std::move(document)};
@@ -242,11 +243,15 @@ void History::step_to(std::size_t neighbour) {
     const std::shared_ptr<const State> leaving = states_[now_];
     State arriving = *states_[neighbour];
     unpack(arriving, leaving->document.fitted->scene());
-    arriving.document = neighbour < now_
-                            ? carried(leaving->document, arriving.document, leaving->after, leaving->before)
-                            : carried(leaving->document, arriving.document, arriving.before, arriving.after);
+    if (arriving.left_at != moves_) {
+        arriving.document = neighbour < now_
+                                ? carried(leaving->document, arriving.document, leaving->after, leaving->before)
+                                : carried(leaving->document, arriving.document, arriving.before, arriving.after);
+    }
     if (arriving.document.opening != leaving->document.opening) forget_looks();
-    states_[now_] = std::make_shared<const State>(packed(*leaving, arriving.document.fitted->scene()));
+    State left = packed(*leaving, arriving.document.fitted->scene());
+    left.left_at = moves_;
+    states_[now_] = std::make_shared<const State>(std::move(left));
     states_[neighbour] = std::make_shared<const State>(std::move(arriving));
     now_ = neighbour;
 }
@@ -281,6 +286,7 @@ void History::look(Document document, const EditName& name) {
     }
     looks_after_.clear();
     look_group_ = name.group;
+    ++moves_;
     group_ = Group::ended;
     amend(std::move(document));
 }
@@ -295,6 +301,7 @@ void History::turn_to_look(Looks& from, Looks& to) {
     clamp_views(document);
     group_ = Group::ended;
     look_group_.clear();
+    ++moves_;
     amend(std::move(document));
 }
 

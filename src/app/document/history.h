@@ -99,6 +99,7 @@ class History {
         EditName name{};                         ///< of the edit that led here
         Layout before{}, after{};                ///< how it was seen just before and after that edit
         std::size_t bytes = 0;                   ///< that the edit takes
+        std::size_t left_at = 0;                 ///< `moves_` when it was left last
     };
     /// A view that was left.
     struct Look {
@@ -127,6 +128,7 @@ class History {
 
     Looks looks_before_, looks_after_;  ///< the nearest last
     std::string look_group_;            ///< of the last look, while others may join it
+    std::size_t moves_ = 1;             ///< counts edits and looks: what was left since the last is found as it was
 };
 
 }  // namespace mobbscope::app

@@ -10,7 +10,7 @@ marks
 picture window.png
 SCRIPT
 cd "$folder"
-"$program" --size 1000x700 --script watch.script >marks.txt &
+"$program" --size 1280x700 --script watch.script >marks.txt &
 watching=$!
 window=$(timeout 20 xdotool search --sync --onlyvisible --name Mobbscope | head -1)
 read -r x0 y0 < <(xdotool getwindowgeometry --shell "$window" | sed -n 's/^[XY]=//p' | tr '\n' ' '; echo)

@@ -92,7 +92,8 @@ TEST(RealWindow, APersonSeesEditsSavesAndReopensTheDemo) {
     EXPECT_NE(edited["view"], opened["view"]);
     EXPECT_LT(edited["scene"]["agents"][1]["start"], opened["scene"]["agents"][1]["start"]);
     const Json undone = state(folder / "undone.json");
-    EXPECT_EQ(document(undone), document(opened)) << "undo brings back what was there";
+    EXPECT_EQ(undone["scene"], opened["scene"]) << "undo brings back what was there";
+    EXPECT_EQ(undone["view"]["query"], edited["view"]["query"]) << "and leaves where one looks";
     EXPECT_EQ(undone["modified"], false);
     EXPECT_EQ(document(state(folder / "redone.json")), document(edited)) << "and redo what was done";
     const Json saved = state(folder / "saved.json");
