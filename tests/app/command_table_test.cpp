@@ -77,13 +77,13 @@ TEST(CommandTable, EveryChordIsReadAndCallsOneCommand) {
     EXPECT_EQ(command_for(scene, {Key::f12}), nullptr);
 }
 
-TEST(HelpSheet, SaysOfTheMouseWhatTheReadmeSays) {
-    const std::string readme = mobbscope::testing::slurp(MOBBSCOPE_SOURCE_DIR "/README.md");
+TEST(HelpSheet, SaysOfTheMouseWhatTheDocumentSays) {
+    const std::string document = mobbscope::testing::slurp(MOBBSCOPE_SOURCE_DIR "/docs/window.md");
     for (const auto& [keys, what] : mouse_help()) {
         std::string row = "| " + std::string(keys) + " | " + what;
         char& first = row[row.size() - std::string_view(what).size()];
         first = static_cast<char>(std::tolower(static_cast<unsigned char>(first)));
-        EXPECT_NE(readme.find(row), std::string::npos) << row;
+        EXPECT_NE(document.find(row), std::string::npos) << row;
     }
 }
 
