@@ -41,6 +41,13 @@ def bad_blocks(document):
             yield f"{block.line}: 'not run' stands above commands, and says why"
 
 
+def jobs_of_ci(source):
+    """Both CI jobs call the program as the walk-through does."""
+    call = "mobbscope test pictures --output report/pictures --junit report/junit.xml --html report/index.html"
+    if (source / "docs/ci.md").read_text().count(call) != 3:
+        yield "docs/ci.md: the walk-through and the two jobs do not make the same call"
+
+
 def order_of_documents(source):
     """README and docs/README.md name the same documents in the same order, and leave none out."""
     listed = {}
@@ -60,7 +67,7 @@ def main(arguments):
     source, _ = source_and_rest(arguments)
     documents = all_documents(source)
     sources = [path.read_text() for path in sorted((source / "tests/install/consumer").iterdir())]
-    faults = list(order_of_documents(source))
+    faults = [*order_of_documents(source), *jobs_of_ci(source)]
     for document in documents:
         name = document.path.relative_to(source)
         for fault in (*broken_links(document), *bad_blocks(document), *uncompiled(document, sources)):

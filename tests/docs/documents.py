@@ -5,12 +5,13 @@ import re
 
 
 class Block:
-    """A fenced block: its language, its lines, and the HTML comment just above it ("file: NAME", "not run: WHY")."""
+    """A fenced block: language, lines, and the HTML comment just above it: "file: NAME", "not run: WHY", or other words."""
 
     def __init__(self, language, lines, line, comment):
         self.language = language
         self.lines = lines
         self.line = line  # of the opening fence, from 1
+        self.comment = comment
         key, _, value = comment.partition(":")
         self.file = value.strip() if key == "file" else None
         self.not_run = value.strip() if key == "not run" else None

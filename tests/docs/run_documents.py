@@ -4,7 +4,7 @@ without settings, from its first block to its last:
 
 - `sh`: the commands must succeed; a line that ends with "# exits with N" must end so. `mobbscope` without a display opens
   its files in a window without one.
-- `text` just behind it: what the commands print holds these lines, in this order.
+- `text` below it: what the commands print holds these lines, in this order. With a comment above it is no such output.
 - "<!-- file: NAME -->" above a block: a file of this name with these lines is there before the first command.
 - `json` that is a scene or a case is read by the program; any other must be JSON, or the middle of an object.
 
@@ -111,7 +111,7 @@ class Reader:
             if block.language == "sh" and block.not_run is None:
                 printed, status = self.run("\n".join(with_exits(block.lines)))
                 self.expect(status == 0, block, f"exit status {status}\n{printed}")
-            elif block.language == "text" and block.file is None:
+            elif block.language == "text" and not block.comment:
                 rest = printed
                 for line in block.lines:
                     self.expect(line in rest, block, f"the commands above do not print {line!r}, but\n{printed}")
