@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""run_documents.py SOURCE PROGRAM FOLDER [DOCUMENT...]: does what the documents say, each in a new folder of a person
+"""run_documents.py SOURCE PROGRAM FOLDER [DOCUMENT...]: does what README and docs say, each in a new folder of a person
 without settings, from its first block to its last:
 
-- `sh`: the commands must succeed; a line that ends with "# exits with N" must end so. `mobbscope` without a display opens
-  its files in a window without one.
+- `sh`: the commands must succeed; a line that ends with "# exits with N" must end so. Windows open without a display, and
+  `bench` measures little.
 - `text` below it: what the commands print holds these lines, in this order. With a comment above it is no such output.
 - "<!-- file: NAME -->" above a block: a file of this name with these lines is there before the first command.
 - `json` that is a scene or a case is read by the program; any other must be JSON, or the middle of an object.
@@ -20,11 +20,12 @@ import sys
 
 from documents import all_documents, source_and_rest
 
-SUBCOMMANDS = "bench conflicts convert diff fit graph info query render simulate test"
+SUBCOMMANDS = "conflicts convert diff fit graph info query render simulate test"
 
 # Where a person sees the window, a script waits for its first frames.
 WRAPPER = """#!/usr/bin/env bash
 for argument in "$@"; do [ "$argument" != --script ] || exec {program} "$@"; done
+[ "${{1:-}}" != bench ] || exec {program} "$@" --queries 200 --rounds 1
 case " {subcommands} -h --help --version " in *" ${{1:-none}} "*) exec {program} "$@" ;; esac
 exec {program} "$@" --script {script} --headless
 """
@@ -148,7 +149,8 @@ def main(arguments):
     if drawn.returncode == 3:
         return 77
     documents = [document for document in all_documents(source)
-                 if not names or str(document.path.relative_to(source)) in names]
+                 if str(document.path.relative_to(source)) in names or
+                 (not names and document.path.parent in (source, source / "docs"))]
 
     def read(document):
         name = str(document.path.relative_to(source)).replace("/", ".")
