@@ -12,6 +12,7 @@
 #include <cctype>
 #include <filesystem>
 #include <optional>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -77,14 +78,34 @@ TEST(CommandTable, EveryChordIsReadAndCallsOneCommand) {
     EXPECT_EQ(command_for(scene, {Key::f12}), nullptr);
 }
 
-TEST(HelpSheet, SaysOfTheMouseWhatTheReadmeSays) {
-    const std::string readme = mobbscope::testing::slurp(MOBBSCOPE_SOURCE_DIR "/README.md");
+TEST(HelpSheet, SaysOfTheMouseWhatTheDocumentSays) {
+    const std::string document = mobbscope::testing::slurp(MOBBSCOPE_SOURCE_DIR "/docs/window.md");
     for (const auto& [keys, what] : mouse_help()) {
         std::string row = "| " + std::string(keys) + " | " + what;
         char& first = row[row.size() - std::string_view(what).size()];
         first = static_cast<char>(std::tolower(static_cast<unsigned char>(first)));
-        EXPECT_NE(readme.find(row), std::string::npos) << row;
+        EXPECT_NE(document.find(row), std::string::npos) << row;
     }
+}
+
+TEST(CommandTable, DocumentsNameMenuItemsThatThereAre) {
+    const std::string document = mobbscope::testing::slurp(MOBBSCOPE_SOURCE_DIR "/docs/window.md");
+    std::set<std::string> items;
+    for (const Command& command : commands_with_review()) {
+        std::string_view title = command.title;
+        if (title.ends_with("...")) title.remove_suffix(3);
+        const std::string menu = std::regex_replace(std::string(command.menu), std::regex("/"), " / ");
+        items.insert(menu);
+        items.insert(menu + " / " + std::string(title));
+    }
+    const std::regex named(R"(\*((File|Edit|View|Tree|Query|Go|Help) / [^*]+)\*)");
+    int count = 0;
+    for (std::sregex_iterator at(document.begin(), document.end(), named), end; at != end; ++at, ++count) {
+        std::string item = (*at)[1];
+        std::ranges::replace(item, '\n', ' ');
+        EXPECT_TRUE(items.contains(item)) << item;
+    }
+    EXPECT_GT(count, 5);
 }
 
 TEST(CommandTable, WhatThereIsNotIsRefusedWithTheNearest) {

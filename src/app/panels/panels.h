@@ -38,7 +38,7 @@ void palette(Ui& ui, Dialogs& dialogs);
 void file_dialog(Ui& ui, Dialogs& dialogs,
                  Settings& settings);  ///< open, add, save as, where to export: a path is asked for
 void help_sheet(Ui& ui);
-/// What the mouse does, as the help sheet says it; README says the same.
+/// What the mouse does, as the help sheet says it; docs/window.md says the same.
 std::span<const std::pair<const char*, const char*>> mouse_help();
 void about(Ui& ui);
 void message_list(Ui& ui, Dialogs& dialogs, Notifications& notifications);

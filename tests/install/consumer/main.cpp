@@ -1,4 +1,4 @@
-// The example of the README: two people walk towards each other at 1 m/s from 6 m apart.
+// The example of docs/library.md: two people walk towards each other at 1 m/s from 6 m apart.
 #include <mobb/query.h>
 
 #include <cstdio>
