@@ -8,7 +8,7 @@ flat in uvec2 object_id;
 
 uniform vec3 light;  // towards the light, unit
 
-layout(location = 0) out vec2 surface;  // which disk (1 + its number), and how bright: see tint.frag
+layout(location = 0) out vec2 visibility;  // which disk (1 + its number), and how bright: see tint.frag
 layout(location = 1) out uvec2 id;
 
 // How dark a line along the edge at `to_edge` = 0 is here: one pixel wide, and gone where disks are thinner than that.
@@ -24,6 +24,6 @@ void main() {
     vec3 n = normalize(surface_normal);
     float shade = mix(0.54 + 0.36 * (0.5 + 0.5 * dot(n, light)), face_shade, upper);
     float edge = cap ? seam(1.0 - local.x) : seam(local.y);
-    surface = vec2(float(number) + 1.0, shade * (1.0 - 0.38 * edge));
+    visibility = vec2(float(number) + 1.0, shade * (1.0 - 0.38 * edge));
     id = object_id;
 }

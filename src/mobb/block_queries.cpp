@@ -77,22 +77,24 @@ const BlockQueries& chosen_queries() {
 
 }  // namespace
 
-std::optional<SamplePair> first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {
+namespace detail {
+
+std::optional<SamplePair> first_hit(const PlacedBlocks& a, const PlacedBlocks& b) {
     SamplePair pair;
-    return chosen_queries().first_hit_below_roots(a, b, pair) ? std::optional(pair) : std::nullopt;
+    return chosen_queries().first_hit(a, b, pair) ? std::optional(pair) : std::nullopt;
 }
 
-bool intersects_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {
-    return chosen_queries().intersects_below_roots(a, b);
+bool intersects(const PlacedBlocks& a, const PlacedBlocks& b) { return chosen_queries().intersects(a, b); }
+
+bool for_each_hit(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink, BlockObserver* observer) {
+    return chosen_queries().for_each_hit(a, b, sink, observer);
 }
+
+}  // namespace detail
 
 void intersects_each(std::span<const BlocksPair> pairs, std::span<bool> answers) {
     if (pairs.size() != answers.size()) throw std::invalid_argument("intersects_each needs as many answers as pairs");
     chosen_queries().intersects_each(pairs.data(), pairs.size(), answers.data());
-}
-
-bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink, BlockObserver* observer) {
-    return chosen_queries().for_each_hit_below_roots(a, b, sink, observer);
 }
 
 std::vector<std::string_view> instruction_sets() {

@@ -9,11 +9,11 @@
 
 namespace mobb {
 
+/// `first_hit`, `intersects` and `for_each_hit` require that the roots meet.
 struct BlockQueries {
-    bool (*first_hit_below_roots)(const PlacedBlocks& a, const PlacedBlocks& b, SamplePair& pair);
-    bool (*intersects_below_roots)(const PlacedBlocks& a, const PlacedBlocks& b);
-    bool (*for_each_hit_below_roots)(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink,
-                                     BlockObserver* observer);
+    bool (*first_hit)(const PlacedBlocks& a, const PlacedBlocks& b, SamplePair& pair);
+    bool (*intersects)(const PlacedBlocks& a, const PlacedBlocks& b);
+    bool (*for_each_hit)(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink, BlockObserver* observer);
     void (*intersects_each)(const BlocksPair* pairs, std::size_t count, bool* answers);
 };
 

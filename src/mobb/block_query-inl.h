@@ -382,7 +382,7 @@ MOBB_INLINE bool traverse(const PlacedBlocks& a, const PlacedBlocks& b, Observer
     return BlockTraversal(a, b, relate(a, b, shift), shift, observer, on_hit).run();
 }
 
-inline bool first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, SamplePair& pair) {
+inline bool first_hit(const PlacedBlocks& a, const PlacedBlocks& b, SamplePair& pair) {
     NoObserver observer;
     KeepFirst keep;
     const bool hit = traverse(a, b, observer, keep);
@@ -438,14 +438,13 @@ MOBB_INLINE bool look_for_hit(const PlacedBlocks& a, const PlacedBlocks& b, cons
     return near.undecided() ? any_sample_hits(a, b, near.may) : near.sure != 0;
 }
 /// Of any two whose roots meet.
-[[gnu::noinline]] inline bool any_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {
+[[gnu::noinline]] inline bool any_hit(const PlacedBlocks& a, const PlacedBlocks& b) {
     NoObserver observer;
     AnyHit any;
     return traverse(a, b, observer, any);
 }
 /// Of those that are not timed well.
-[[gnu::noinline]] inline bool any_late_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b,
-                                                       const Shift& shift) {
+[[gnu::noinline]] inline bool any_late_hit(const PlacedBlocks& a, const PlacedBlocks& b, const Shift& shift) {
     if (is_shallow(a, b)) {
         if (shift.timed == Timed::fairly) {
             // The other way round the first partner is the one with which more is shared.
@@ -455,17 +454,16 @@ MOBB_INLINE bool look_for_hit(const PlacedBlocks& a, const PlacedBlocks& b, cons
         if (shift.timed == Timed::nearly && behind_shared(b.blocks(), shift) > 0)
             return look_for_hit(a, b, shift) || last_pair_collides(a, b, shift);
     }
-    return any_hit_below_roots(a, b);
+    return any_hit(a, b);
 }
 
-inline bool intersects_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {
+inline bool intersects(const PlacedBlocks& a, const PlacedBlocks& b) {
     const Shift shift = shift_of(a, b);
     if (can_look(a, b, shift)) return look_for_hit(a, b, shift);
-    return have_parts(a, b) ? any_hit_below_roots(a, b) : any_late_hit_below_roots(a, b, shift);
+    return have_parts(a, b) ? any_hit(a, b) : any_late_hit(a, b, shift);
 }
 
-inline bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink,
-                                     BlockObserver* observer) {
+inline bool for_each_hit(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink, BlockObserver* observer) {
     if (observer) return traverse(a, b, *observer, sink);
     NoObserver nobody;
     return traverse(a, b, nobody, sink);
@@ -476,7 +474,7 @@ inline bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& 
 inline void intersects_each(const BlocksPair* pairs, std::size_t count, bool* answers) {
     std::fill_n(answers, count, false);
     constexpr std::size_t kAtATime = 64;
-    std::size_t together[kAtATime], below_roots[kAtATime];
+    std::size_t together[kAtATime], to_look_at[kAtATime];
     struct {
         std::size_t index;
         std::uint64_t runs;
@@ -499,16 +497,16 @@ inline void intersects_each(const BlocksPair* pairs, std::size_t count, bool* an
         std::size_t roots = 0;
         for (std::size_t k = 0; k < sharing; ++k) {
             const auto [a, b] = pairs[together[k]];
-            below_roots[roots] = together[k];
+            to_look_at[roots] = together[k];
             roots += roots_meet(*a, *b) ? std::size_t{1} : std::size_t{0};
         }
         std::size_t open = 0;
         for (std::size_t k = 0; k < roots; ++k) {
-            const std::size_t i = below_roots[k];
+            const std::size_t i = to_look_at[k];
             const auto [a, b] = pairs[i];
             const Shift shift = shift_of(*a, *b);
             if (!can_look(*a, *b, shift)) [[unlikely]] {
-                answers[i] = MOBB_LANES::intersects_below_roots(*a, *b);
+                answers[i] = MOBB_LANES::intersects(*a, *b);
                 continue;
             }
             const Nearness near = first_look(*a, *b, shift);
@@ -524,8 +522,7 @@ inline void intersects_each(const BlocksPair* pairs, std::size_t count, bool* an
 }
 
 inline const BlockQueries* queries() {
-    static constexpr BlockQueries all{first_hit_below_roots, intersects_below_roots, for_each_hit_below_roots,
-                                      intersects_each};
+    static constexpr BlockQueries all{first_hit, intersects, for_each_hit, intersects_each};
     return &all;
 }
 

@@ -184,7 +184,7 @@ class alignas(64) Blocks {
     float speed() const { return speed_; }    ///< at which no bound's centre moves faster, m/s
     /// Metres: each of samples() lies within any neighbour of it that is grown by so much.
     float step() const { return step_; }
-    /// Times of clips of one dt are told in parts of a sample, 1 / 2^kLogParts each.
+    /// Fixed-point sample time, for clips of one dt: 2^kLogParts units to a sample.
     static constexpr int kLogParts = 33;
     /// So many must two samples share to collide for sure where their disks overlap. More than one has of a linear
     /// clip, whose disks are not known in between, and of samples that last for an instant.
@@ -455,13 +455,16 @@ struct SamplePair {
     int b = 0;
 };
 
-/// The earliest pair, or none, of two whose roots meet.
-std::optional<SamplePair> first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b);
-/// Whether two whose roots meet ever collide.
-bool intersects_below_roots(const PlacedBlocks& a, const PlacedBlocks& b);
+/// The searches behind the queries below. They require roots_meet(a, b).
+namespace detail {
+/// The earliest pair, or none.
+std::optional<SamplePair> first_hit(const PlacedBlocks& a, const PlacedBlocks& b);
+bool intersects(const PlacedBlocks& a, const PlacedBlocks& b);
+}  // namespace detail
+
 /// Whether two ever collide: as direct_search finds, on every machine.
 inline bool intersects(const PlacedBlocks& a, const PlacedBlocks& b) {
-    return roots_meet(a, b) && intersects_below_roots(a, b);
+    return roots_meet(a, b) && detail::intersects(a, b);
 }
 
 /// The first of `others` that collides with `a`: its index, or none. One by one, as whatever is worked out for those
@@ -501,11 +504,14 @@ class BlockObserver {
     virtual void sample_test(bool hit) = 0;
 };
 
-/// All pairs, of two whose roots meet; with an observer if there is one. Returns whether the sink stopped it.
-bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink, BlockObserver* observer);
+namespace detail {
+/// All pairs, earliest first; `observer` may be null. Requires roots_meet(a, b). Returns whether the sink stopped it.
+bool for_each_hit(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink, BlockObserver* observer);
+}  // namespace detail
+
 /// All pairs, earliest first. Returns whether the sink stopped it.
 inline bool for_each_hit(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink) {
-    return roots_meet(a, b) && for_each_hit_below_roots(a, b, sink, nullptr);
+    return roots_meet(a, b) && detail::for_each_hit(a, b, sink, nullptr);
 }
 
 /// The sets of instructions that this machine can run queries with, the fastest first; "scalar" is always the last.

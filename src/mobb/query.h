@@ -117,7 +117,7 @@ std::vector<Interval> contact_intervals(const A& a, const B& b) {
 /// The earliest contact of two clips by their blocks, or none: bit for bit that of trees and of direct_search.
 inline std::optional<Contact> query(const PlacedBlocks& a, const PlacedBlocks& b) {
     if (!roots_meet(a, b)) return std::nullopt;
-    const std::optional<SamplePair> hit = first_hit_below_roots(a, b);
+    const std::optional<SamplePair> hit = detail::first_hit(a, b);
     return hit ? std::optional(contact_of(a, hit->a, b, hit->b)) : std::nullopt;
 }
 

@@ -29,8 +29,8 @@ constexpr std::size_t kColorColumns = 1024;  // of the texture of colours
 // Numbers of disks that floats tell apart, which is as many as the texture holds where it may have 16384 rows.
 constexpr std::size_t kMostNumbers = std::size_t{1} << 24;
 // Units of textures.
-constexpr GLint kSurfaces = 0;
-constexpr GLint kSurfaceSamples = 1;
+constexpr GLint kVisibility = 0;
+constexpr GLint kVisibilitySamples = 1;
 constexpr GLint kColors = 2;
 
 constexpr float kFlatBlock = 0.15f;        // of its distance: how far a block may reach and still have one scale
@@ -290,26 +290,26 @@ void DiskPass::draw(const Batch& batch, DrawStatistics& statistics) {
 }
 
 void DiskPass::draw(const DrawList& list, Detail detail, DrawStatistics& statistics) {
-    begin(surfaces(list, detail), statistics);
+    begin(visibility_key(list, detail), statistics);
     draw_more(list, std::numeric_limits<std::size_t>::max(), statistics);
 }
 
-DiskPass::Surfaces DiskPass::surfaces(const DrawList& list, Detail detail) {
+DiskPass::VisibilityKey DiskPass::visibility_key(const DrawList& list, Detail detail) {
     if (list.disks.size() > most_disks_) {
         throw MachineError("this OpenGL draws at most " + std::to_string(most_disks_) + " disks, not " +
                            std::to_string(list.disks.size()) + "; hide some of the agents");
     }
     keep(list);
     const ViewProjection& projection = list.projection;
-    Surfaces out{shapes_, detail, {}, projection.clip_from_world, projection.right, projection.back};
+    VisibilityKey out{shapes_, detail, {}, projection.clip_from_world, projection.right, projection.back};
     if (list.disks.empty()) return out;
     out.batches = detail == Detail::coarse ? coarse_batches(projection) : fine_batches(projection);
     return out;
 }
 
-void DiskPass::begin(const Surfaces& surfaces, DrawStatistics& statistics) {
-    detail_ = surfaces.detail;
-    undrawn_.assign(surfaces.batches.rbegin(), surfaces.batches.rend());
+void DiskPass::begin(const VisibilityKey& key, DrawStatistics& statistics) {
+    detail_ = key.detail;
+    undrawn_.assign(key.batches.rbegin(), key.batches.rend());
     if (undrawn_.empty()) return;
     if (detail_ == Detail::coarse && drawn_) {
         for (int level = 0; level < DiskLevels::kLevels; ++level) store(level, statistics);
@@ -352,19 +352,19 @@ bool DiskPass::draw_more(const DrawList& list, std::size_t most, DrawStatistics&
     return undrawn_.empty();
 }
 
-void DiskPass::tint(const DrawList& list, const Texture& surface, DrawStatistics& statistics) {
+void DiskPass::tint(const DrawList& list, const Texture& visibility, DrawStatistics& statistics) {
     glActiveTexture(GL_TEXTURE0 + kColors);
     store_colors(statistics);
     glBindTexture(GL_TEXTURE_2D, colors_.name());
     GLint samples = 0;
     glGetIntegerv(GL_SAMPLES, &samples);
     const bool multisampled = samples > 0;
-    glActiveTexture(GL_TEXTURE0 + (multisampled ? kSurfaceSamples : kSurfaces));
-    glBindTexture(multisampled ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D, surface.name());
+    glActiveTexture(GL_TEXTURE0 + (multisampled ? kVisibilitySamples : kVisibility));
+    glBindTexture(multisampled ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D, visibility.name());
     glActiveTexture(GL_TEXTURE0);
     tint_.use();
-    tint_.set("surfaces", kSurfaces);
-    tint_.set("surface_samples", kSurfaceSamples);
+    tint_.set("visibility", kVisibility);
+    tint_.set("visibility_samples", kVisibilitySamples);
     tint_.set("colors", kColors);
     tint_.set("sample_index", -1);
     tint_.set("background", glm::vec3(list.palette.background));

@@ -30,14 +30,15 @@ class DiskPass {
         float depth = 0;  ///< of the nearest
         friend bool operator==(const Batch&, const Batch&) = default;
     };
-    /// All that decides which disks are seen where, and how they are lit: in a picture of one size, not their colours.
-    struct Surfaces {
+    /// All that decides which disk is seen in each pixel, and how it is lit: pictures of one size with equal keys
+    /// differ in colours alone.
+    struct VisibilityKey {
         int shapes = 0;  ///< which, of all that were drawn
         Detail detail = Detail::fine;
         std::vector<Batch> batches;
         glm::mat4 clip_from_world{1};
         glm::vec3 right{0}, back{0};
-        friend bool operator==(const Surfaces&, const Surfaces&) = default;
+        friend bool operator==(const VisibilityKey&, const VisibilityKey&) = default;
     };
 
     /// Into the bound framebuffer: to output 0 which disk is seen and how bright, for `tint`; of fine disks ids to
@@ -45,15 +46,15 @@ class DiskPass {
     void draw(const DrawList& list, Detail detail, DrawStatistics& statistics);
     /// What draw would draw. Another list than the last ends what is drawn in parts. Throws MachineError for more disks
     /// than can be told apart.
-    Surfaces surfaces(const DrawList& list, Detail detail);
-    /// The same as draw, in parts. Requires that `surfaces` is what surfaces() returned last: ranges are of the pieces
+    VisibilityKey visibility_key(const DrawList& list, Detail detail);
+    /// The same as draw, in parts. Requires that `key` is what visibility_key() returned last: ranges are of the pieces
     /// that are kept of that list.
-    void begin(const Surfaces& surfaces, DrawStatistics& statistics);
+    void begin(const VisibilityKey& key, DrawStatistics& statistics);
     /// At most so many disks and tubes more (> 0) of the same list; true once that was all.
     bool draw_more(const DrawList& list, std::size_t most, DrawStatistics& statistics);
     /// Brings the colours of the disks of the list that was asked about last into the bound framebuffer, where they are
-    /// seen. `surface`: what was drawn to output 0, with as many samples.
-    void tint(const DrawList& list, const Texture& surface, DrawStatistics& statistics);
+    /// seen. `visibility`: what was drawn to output 0, with as many samples.
+    void tint(const DrawList& list, const Texture& visibility, DrawStatistics& statistics);
 
   private:
     /// A unit cylinder.

@@ -81,8 +81,8 @@ struct Renderer::State {
     /// Where pictures of one kind are made.
     struct Canvas {
         std::optional<Targets> targets;
-        std::optional<DiskPass::Surfaces> surfaces;  ///< that the targets have
-        int samples = 0;                             ///< that were asked for
+        std::optional<DiskPass::VisibilityKey> visibility_key;  ///< that the targets have
+        int samples = 0;                                        ///< that were asked for
     };
 
     /// Whether a picture may have fewer samples than were asked for, where memory lacks.
@@ -118,8 +118,8 @@ struct Renderer::State {
         std::size_t most_boxes = kAll;
     };
 
-    DiskPass::Surfaces surfaces_of(const DrawList& list, int samples) {
-        return disks.surfaces(list, samples > 1 ? Detail::fine : Detail::coarse);
+    DiskPass::VisibilityKey visibility_key_of(const DrawList& list, int samples) {
+        return disks.visibility_key(list, samples > 1 ? Detail::fine : Detail::coarse);
     }
 
     /// Into the result's framebuffer, on a ground that is taken for opaque. Which disks are seen where is the dearest
@@ -131,14 +131,14 @@ struct Renderer::State {
         prepare(canvas, list.size, samples, fewer);
         boxes.keep(list, statistics);
         work.emplace(Work{list.revision, &canvas, ground});
-        surfaces = surfaces_of(list, canvas.targets->samples());
-        disks.begin(surfaces, statistics);
-        if (canvas.surfaces == surfaces) {
+        visibility_key = visibility_key_of(list, canvas.targets->samples());
+        disks.begin(visibility_key, statistics);
+        if (canvas.visibility_key == visibility_key) {
             work->next = Part::colors;
             return;
         }
-        canvas.surfaces.reset();
-        glBindFramebuffer(GL_FRAMEBUFFER, canvas.targets->surfaces().name());
+        canvas.visibility_key.reset();
+        glBindFramebuffer(GL_FRAMEBUFFER, canvas.targets->visibility_buffer().name());
         glClearColor(0, 0, 0, 0);
         glClearDepth(1);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -160,17 +160,18 @@ struct Renderer::State {
     bool draw_part(const DrawList& list, std::size_t most_disks) {
         Canvas& canvas = *work->canvas;
         const Targets& targets = *canvas.targets;
-        glBindFramebuffer(GL_FRAMEBUFFER, (work->next == Part::disks ? targets.surfaces() : targets.scene()).name());
+        glBindFramebuffer(GL_FRAMEBUFFER,
+                          (work->next == Part::disks ? targets.visibility_buffer() : targets.scene()).name());
         switch (work->next) {
             case Part::disks:
                 if (!disks.draw_more(list, most_disks, statistics)) return false;
-                canvas.surfaces = surfaces;
+                canvas.visibility_key = visibility_key;
                 work->next = Part::colors;
                 return false;
             case Part::colors:
                 glClearColor(work->ground.r, work->ground.g, work->ground.b, 1);
                 glClear(GL_COLOR_BUFFER_BIT);
-                if (!canvas.surfaces->batches.empty()) disks.tint(list, targets.surface(), statistics);
+                if (!canvas.visibility_key->batches.empty()) disks.tint(list, targets.visibility(), statistics);
                 work->next = Part::faces;
                 return false;
             case Part::faces:
@@ -230,7 +231,7 @@ struct Renderer::State {
 
         resume(list.size);
         prepare(coarse, list.size, 1, fewer);
-        coarse.surfaces.reset();
+        coarse.visibility_key.reset();
         coarse.targets->enlarge(*low.targets);
         work->canvas = &coarse;
         work->most_boxes = kMostBoxesCoarse;
@@ -248,7 +249,7 @@ struct Renderer::State {
         work.reset();
         const Canvas& canvas = samples > 1 ? fine : coarse;
         return canvas.targets && canvas.targets->size() == list.size && canvas.samples == samples &&
-               canvas.surfaces == surfaces_of(list, canvas.targets->samples());
+               canvas.visibility_key == visibility_key_of(list, canvas.targets->samples());
     }
 
     /// The picture out of the scene in the targets, its highlights and its words.
@@ -306,7 +307,7 @@ struct Renderer::State {
     };
     Painted painted;
     std::optional<Work> work;
-    DiskPass::Surfaces surfaces;  ///< of what is being drawn
+    DiskPass::VisibilityKey visibility_key;  ///< of what is being drawn
     BoxBuffer boxes;
     DiskPass disks;
     FacePass faces;

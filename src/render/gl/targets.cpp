@@ -55,11 +55,11 @@ Targets::Targets(PictureSize size, int samples) : size_(size), samples_(samples)
     attach_renderbuffer(scene_depth_, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, size, samples);
     require_complete(multisampled ? "a multisampled framebuffer" : "a framebuffer");
 
-    glBindFramebuffer(GL_FRAMEBUFFER, surfaces_.name());
+    glBindFramebuffer(GL_FRAMEBUFFER, visibility_buffer_.name());
     if (multisampled) {
-        attach_samples(surface_, GL_COLOR_ATTACHMENT0, GL_RG32F, size, samples);
+        attach_samples(visibility_, GL_COLOR_ATTACHMENT0, GL_RG32F, size, samples);
     } else {
-        attach_texture(surface_, GL_COLOR_ATTACHMENT0, GL_RG32F, GL_RG, size);
+        attach_texture(visibility_, GL_COLOR_ATTACHMENT0, GL_RG32F, GL_RG, size);
     }
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, scene_depth_.name());
     require_complete("32-bit float samples");

@@ -25,9 +25,9 @@ class Targets {
     int samples() const { return samples_; }
     const Framebuffer& scene() const { return scene_; }  ///< colour and depth
     /// Which disks are seen, and the scene's depth. It stays as it is while faces and lines are drawn.
-    const Framebuffer& surfaces() const { return surfaces_; }
-    const Texture& surface() const { return surface_; }
-    const Framebuffer& faces() const { return faces_; }  ///< sums, weights and depth of the transparent faces
+    const Framebuffer& visibility_buffer() const { return visibility_buffer_; }
+    const Texture& visibility() const { return visibility_; }  ///< its texture
+    const Framebuffer& faces() const { return faces_; }        ///< sums, weights and depth of the transparent faces
     /// The picture.
     const Framebuffer& result() const { return samples_ > 1 ? result_ : scene_; }
     const Texture& picture() const { return picture_; }  ///< its colours
@@ -46,9 +46,9 @@ class Targets {
   private:
     PictureSize size_;
     int samples_;
-    Framebuffer scene_, surfaces_, faces_, result_;
+    Framebuffer scene_, visibility_buffer_, faces_, result_;
     Renderbuffer scene_color_, scene_depth_, faces_depth_;
-    Texture surface_, sums_, weights_, picture_;
+    Texture visibility_, sums_, weights_, picture_;
 };
 
 /// The framebuffer that object ids are drawn in: no multisampling, the nearest wins.

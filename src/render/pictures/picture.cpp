@@ -30,11 +30,11 @@ Picture::Picture(const FittedScene& fitted, const ViewState& view, const Picture
     list_.palette = palette_for(view.theme, options);
     list_.background = options.background;
     for (const DrawnAgent& agent : agents_) list_.agents.push_back(agent.name);
-    let_stand_out();
+    dim_all_but_pointed_out();
 }
 
 /// Of so many that they are not told apart by name, the followed and the selected one stand out: the rest dims.
-void Picture::let_stand_out() {
+void Picture::dim_all_but_pointed_out() {
     // The two of a query are told apart as they are.
     if (view_.query) return;
     const Scene& scene = fitted_.scene();
@@ -56,7 +56,7 @@ void Picture::let_stand_out() {
 }
 
 /// What is not as the scene has it.
-void Picture::say_what_view_does(Caption& caption) const {
+void Picture::mention_view(Caption& caption) const {
     const Scene& scene = fitted_.scene();
     std::vector<std::string> hidden;
     for (const DrawnAgent& agent : agents_) {
@@ -83,7 +83,7 @@ DrawList Picture::draw() {
     aim();
     if (view_.labels) {
         OverlayContents said = words();
-        say_what_view_does(said.caption);
+        mention_view(said.caption);
         if (!view_.caption) said.caption = {};
         if (!view_.legend) said.legend.clear();
         if (!view_.inset) said.map = {};

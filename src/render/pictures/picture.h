@@ -62,8 +62,8 @@ class Picture {
     DrawList list_;
 
   private:
-    void let_stand_out();
-    void say_what_view_does(Caption& caption) const;
+    void dim_all_but_pointed_out();
+    void mention_view(Caption& caption) const;
 };
 
 /// Paths and boxes of a scene in space-time. `kept`: of the scene; outlives the picture.
