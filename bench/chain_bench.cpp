@@ -77,7 +77,7 @@ void rebuild(benchmark::State& state) {
     }
 }
 
-/// One link at the end of a chain of so many, whose past is dropped again at the same pace.
+/// One link at the end of a chain of so many, whose past is dropped again at the same quality.
 void append_one(benchmark::State& state) {
     const std::vector<ChainLink> links = some_links(static_cast<int>(state.range(0)));
     Chain chain(links);

@@ -39,7 +39,7 @@ class ReviewScreen final : public Screen {
     /// Shows them again. Requires review().
     void back();
     void tell(const ReviewNews& news);
-    /// Opens what a case draws as a scene; what is open is put aside until that scene is left.
+    /// Opens what a case draws as a scene; what is open is suspended until that scene is left.
     void open_case(std::size_t index);
 
     const ScreenWords& words() const override;

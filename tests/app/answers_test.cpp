@@ -1,7 +1,7 @@
 // How the window answers: coarse pictures while keys come, the fine one once the hand rests. By a clock that the tests
 // turn: nothing here is timed.
 #include <app/commands/command.h>
-#include <app/window/answer_pace.h>
+#include <app/window/adaptive_quality.h>
 #include <app/window/shell.h>
 #include <render/drawlist/picture_options.h>
 #include <render/gl/gl_context.h>
@@ -115,7 +115,7 @@ TEST_F(AnswersTest, EachPressIsALookOfItsOwnAlsoOfThoseThatCameTogether) {
 TEST_F(AnswersTest, AKeyIsAnsweredInTheMidstOfTheFinePicture) {
     key(Key::left);
     frame();
-    now += AnswerPace::kRest;
+    now += AdaptiveQuality::kRest;
     const Shell::Painted before = shell.painted();
     for (int i = 0; i < 3; ++i) frame();
     ASSERT_EQ(shell.painted().fine, before.fine) << "it takes more than three parts";
@@ -247,38 +247,38 @@ TEST(Answers, OnAGraphicsCardEveryPictureIsFineAtOnce) {
     EXPECT_EQ(testing::CountingContext::counts.finishes, 0u);
 }
 
-TEST(AnswerPace, ADragBecomesCoarserIfItMustButNotFinerAgain) {
-    constexpr AnswerPace::Needs kAll = AnswerPace::Needs::all;
-    AnswerPace pace;
-    EXPECT_TRUE(pace.coarse_first(kAll)) << "until it is known that this is not needed";
-    pace.painted_coarse(0.010);
-    EXPECT_EQ(pace.divisor(), 1);
-    pace.painted_coarse(0.180);
-    EXPECT_EQ(pace.divisor(), 2);
-    pace.painted_coarse(0.010);
-    EXPECT_EQ(pace.divisor(), 2);
-    pace.painted_coarse(3);
-    EXPECT_EQ(pace.divisor(), AnswerPace::kCoarsest);
-    pace.painted_fine(kAll, 0.5);
-    EXPECT_TRUE(pace.coarse_first(kAll));
-    pace.painted_coarse(0.010);
-    EXPECT_EQ(pace.divisor(), 2) << "a new drag may be finer";
-    pace.painted_fine(kAll, 0.01);
-    EXPECT_FALSE(pace.coarse_first(kAll));
-    pace.gave_up_fine(kAll, 0.06);
-    EXPECT_TRUE(pace.coarse_first(kAll));
+TEST(AdaptiveQuality, ADragBecomesCoarserIfItMustButNotFinerAgain) {
+    constexpr AdaptiveQuality::Needs kAll = AdaptiveQuality::Needs::all;
+    AdaptiveQuality quality;
+    EXPECT_TRUE(quality.coarse_first(kAll)) << "until it is known that this is not needed";
+    quality.painted_coarse(0.010);
+    EXPECT_EQ(quality.divisor(), 1);
+    quality.painted_coarse(0.180);
+    EXPECT_EQ(quality.divisor(), 2);
+    quality.painted_coarse(0.010);
+    EXPECT_EQ(quality.divisor(), 2);
+    quality.painted_coarse(3);
+    EXPECT_EQ(quality.divisor(), AdaptiveQuality::kCoarsest);
+    quality.painted_fine(kAll, 0.5);
+    EXPECT_TRUE(quality.coarse_first(kAll));
+    quality.painted_coarse(0.010);
+    EXPECT_EQ(quality.divisor(), 2) << "a new drag may be finer";
+    quality.painted_fine(kAll, 0.01);
+    EXPECT_FALSE(quality.coarse_first(kAll));
+    quality.gave_up_fine(kAll, 0.06);
+    EXPECT_TRUE(quality.coarse_first(kAll));
 }
 
-TEST(AnswerPace, WhatNeedsTheRestAloneIsExpectedToBeQuick) {
-    AnswerPace pace;
-    EXPECT_TRUE(pace.coarse_first(AnswerPace::Needs::all));
-    EXPECT_FALSE(pace.coarse_first(AnswerPace::Needs::rest));
-    pace.gave_up_fine(AnswerPace::Needs::rest, 0.06);
-    EXPECT_TRUE(pace.coarse_first(AnswerPace::Needs::rest));
-    pace.painted_coarse(0.01);
-    pace.painted_fine(AnswerPace::Needs::rest, 0.02);
-    EXPECT_FALSE(pace.coarse_first(AnswerPace::Needs::rest));
-    EXPECT_TRUE(pace.coarse_first(AnswerPace::Needs::all)) << "that says nothing of whole ones";
+TEST(AdaptiveQuality, WhatNeedsTheRestAloneIsExpectedToBeQuick) {
+    AdaptiveQuality quality;
+    EXPECT_TRUE(quality.coarse_first(AdaptiveQuality::Needs::all));
+    EXPECT_FALSE(quality.coarse_first(AdaptiveQuality::Needs::rest));
+    quality.gave_up_fine(AdaptiveQuality::Needs::rest, 0.06);
+    EXPECT_TRUE(quality.coarse_first(AdaptiveQuality::Needs::rest));
+    quality.painted_coarse(0.01);
+    quality.painted_fine(AdaptiveQuality::Needs::rest, 0.02);
+    EXPECT_FALSE(quality.coarse_first(AdaptiveQuality::Needs::rest));
+    EXPECT_TRUE(quality.coarse_first(AdaptiveQuality::Needs::all)) << "that says nothing of whole ones";
 }
 
 }  // namespace

@@ -359,25 +359,26 @@ TEST(CommandTable, TheLineToCopyTellsThePicture) {
     run_command(session, "agent.nudge", "1 0");
     // No file has this scene: it gets one, whatever else is there, and its line.
     run_command(session, "file.copy_command");
-    ASSERT_TRUE(session.dialogs.exporting.aside);
-    const std::filesystem::path aside = session.dialogs.exporting.aside->file;
-    EXPECT_NE(copied.find(shell_word(aside.string())), std::string::npos) << copied;
-    EXPECT_EQ(load_scene(aside).agents[0].placement.translate, session.workspace.scene().agents[0].placement.translate);
-    EXPECT_EQ(load_scene(aside).view, session.workspace.view());
+    ASSERT_TRUE(session.dialogs.exporting.temporary);
+    const std::filesystem::path temporary = session.dialogs.exporting.temporary->file;
+    EXPECT_NE(copied.find(shell_word(temporary.string())), std::string::npos) << copied;
+    EXPECT_EQ(load_scene(temporary).agents[0].placement.translate,
+              session.workspace.scene().agents[0].placement.translate);
+    EXPECT_EQ(load_scene(temporary).view, session.workspace.view());
     EXPECT_TRUE(session.workspace.modified()) << "it is not saved by that";
     // The same scene seen otherwise takes options, another scene another file.
     run_command(session, "view.floor");
     run_command(session, "file.copy_command");
-    EXPECT_EQ(session.dialogs.exporting.aside->file, aside);
+    EXPECT_EQ(session.dialogs.exporting.temporary->file, temporary);
     EXPECT_NE(copied.find(" --"), std::string::npos) << copied;
     run_command(session, "agent.nudge", "1 0");
     EXPECT_EQ(render_line(session.workspace, session.files, session.dialogs,
                           order_of_viewport(session.workspace, session.views), "picture.png"),
               std::nullopt);
     run_command(session, "file.copy_command");
-    EXPECT_NE(session.dialogs.exporting.aside->file, aside);
-    std::filesystem::remove_all(aside.parent_path());
-    std::filesystem::remove_all(session.dialogs.exporting.aside->file.parent_path());
+    EXPECT_NE(session.dialogs.exporting.temporary->file, temporary);
+    std::filesystem::remove_all(temporary.parent_path());
+    std::filesystem::remove_all(session.dialogs.exporting.temporary->file.parent_path());
 }
 
 }  // namespace

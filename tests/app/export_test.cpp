@@ -49,8 +49,8 @@ class ExportTest : public ::testing::Test {
     }
 
     void TearDown() override {
-        if (session.dialogs.exporting.aside)
-            std::filesystem::remove_all(session.dialogs.exporting.aside->file.parent_path());
+        if (session.dialogs.exporting.temporary)
+            std::filesystem::remove_all(session.dialogs.exporting.temporary->file.parent_path());
     }
 
     std::string run(const std::string& script) {
@@ -98,13 +98,13 @@ TEST_F(ExportTest, TheLineOfASceneThatNoFileHoldsNamesATemporaryOne) {
     run("run go.agent A\nrun agent.nudge 1 0");
     ASSERT_TRUE(session.workspace.modified());
     expect_the_line_does_the_same("run picture.size 640x360");
-    ASSERT_TRUE(session.dialogs.exporting.aside);
-    EXPECT_EQ(session.dialogs.exporting.aside->file.extension(), ".json");
+    ASSERT_TRUE(session.dialogs.exporting.temporary);
+    EXPECT_EQ(session.dialogs.exporting.temporary->file.extension(), ".json");
     EXPECT_NE(all_messages(session).find("No file holds the scene as it is"), std::string::npos);
     // Seen otherwise, and with another fit beside it.
-    const std::filesystem::path first = session.dialogs.exporting.aside->file;
+    const std::filesystem::path first = session.dialogs.exporting.temporary->file;
     expect_the_line_does_the_same("run view.top\nrun picture.without boxes");
-    EXPECT_EQ(session.dialogs.exporting.aside->file, first) << "it holds this scene still";
+    EXPECT_EQ(session.dialogs.exporting.temporary->file, first) << "it holds this scene still";
     expect_the_line_does_the_same("run view.split\nrun tree.kind umobb\nrun picture.without none");
 }
 

@@ -370,7 +370,7 @@ TEST_F(Recovered, AnExcerptThatWasEditedAndItsWholeAreBothKept) {
     EXPECT_EQ(other.x(), 4);
 }
 
-TEST_F(Recovered, WhatWasPutAsideIsKept) {
+TEST_F(Recovered, WhatWasSuspendedIsKept) {
     KilledWindow w(copies);
     w.open(folder.scene);
     w.move(4);

@@ -88,14 +88,14 @@ TEST(Selection, ANodeOfATreeThatIsFittedAnewIsItsPath) {
     const mobb::FitOptions same = moved.fit;
     const FittedScene elsewhere(std::move(moved), same, &before);
     const Selection node{Selection::Kind::node, {1, -1, 0}, 3};
-    EXPECT_EQ(still(node, before, elsewhere), node) << "a placement changes no tree";
+    EXPECT_EQ(remapped(node, before, elsewhere), node) << "a placement changes no tree";
     mobb::FitOptions other = before.options();
     other.leaf = 4;
     const FittedScene refitted(before.scene(), other, &before);
-    EXPECT_EQ(still(node, before, refitted), (Selection{Selection::Kind::path, {1, -1, 0}, -1}));
+    EXPECT_EQ(remapped(node, before, refitted), (Selection{Selection::Kind::path, {1, -1, 0}, -1}));
     const Selection sample{Selection::Kind::sample, {1, -1, 0}, 3};
-    EXPECT_EQ(still(sample, before, refitted), sample);
-    EXPECT_EQ(still({Selection::Kind::clip, {}, 99}, before, refitted), Selection{});
+    EXPECT_EQ(remapped(sample, before, refitted), sample);
+    EXPECT_EQ(remapped({Selection::Kind::clip, {}, 99}, before, refitted), Selection{});
 }
 
 }  // namespace

@@ -1012,7 +1012,7 @@ TEST(Messages, OfTheLastDocumentGoBehindTheBell) {
     EXPECT_EQ(session.notifications.all().size(), 1u) << "but it can still be read";
 }
 
-/// Each press of a button remembers the past, in case that what it drags is put back.
+/// Each press of a button remembers the past, in case the drag is cancelled.
 TEST(History, ACopyHasTheSameStatesAndIsItsOwn) {
     Edited e;
     Session& session = e.session;

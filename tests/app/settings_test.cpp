@@ -143,7 +143,7 @@ TEST(Settings, OfANewerVersionStayAsTheyAre) {
     EXPECT_EQ(slurp(file), newer);
 }
 
-TEST(Settings, ThatAreNestedDeepOrLargeAreSetAside) {
+TEST(Settings, ThatAreNestedDeepOrLargeCountAsUnreadable) {
     const auto nested = [](int deep) {
         std::string text;
         for (int i = 0; i < deep; ++i) text += "{\"a\":";

@@ -38,16 +38,16 @@ int script_budget() {
 }
 
 /// A document's scene as text, and that which it is an excerpt of.
-std::string scene_text(const Document& document) {
+std::string scene_as_text(const Document& document) {
     Scene scene = document.fitted->scene();
     scene.view = {};
     std::string text = to_json(scene) + std::to_string(document.beside.size());
-    if (document.excerpt_of) text += scene_text({document.excerpt_of->fitted, {}});
+    if (document.excerpt_of) text += scene_as_text({document.excerpt_of->fitted, {}});
     return text;
 }
 
 /// How it is seen. A camera's distance goes with the height of the picture.
-std::string view_text(ViewState view, int picture_height) {
+std::string view_as_text(ViewState view, int picture_height) {
     std::string distance;
     if (view.camera.target) distance = formatted("%.9g", std::exchange(view.camera.distance, 1) / picture_height);
     std::ostringstream text;
@@ -84,8 +84,8 @@ class Worked {
         follow_opening();
     }
 
-    std::string scene() const { return scene_text(session.workspace.document()); }
-    std::string view() const { return view_text(session.workspace.view(), viewport_size(session.views).height); }
+    std::string scene() const { return scene_as_text(session.workspace.document()); }
+    std::string view() const { return view_as_text(session.workspace.view(), viewport_size(session.views).height); }
     /// The scene of the oldest state.
     const std::string& begun() const { return begun_; }
 
@@ -105,7 +105,7 @@ class Worked {
         settle();
         History history = session.workspace.history;
         while (history.can_undo()) history.undo();
-        begun_ = scene_text(history.now());
+        begun_ = scene_as_text(history.now());
     }
 
     void run(const std::string& line) {

@@ -17,12 +17,12 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr double kAside = 1;         // metres from the original to its copy
+constexpr double kCopyDistance = 1;  // metres from the original to its copy
 constexpr double kBetween = 0.5;     // metres from the others to a new agent
 constexpr double kMaxDegrees = 1e9;  // as placements allow
 
 /// Beside all others, level with the middle of them, beginning when the first of them does.
-mobb::Placement aside(const FittedScene& fitted, const mobb::Clip& clip) {
+mobb::Placement beside_others(const FittedScene& fitted, const mobb::Clip& clip) {
     Bounds others, own;
     double start = std::numeric_limits<double>::max();
     for (const PlacedAgent& who : fitted.placed_agents()) {
@@ -42,7 +42,7 @@ void select_agent(Workspace& workspace, int agent) { workspace.select({Selection
 void add(Workspace& workspace, const std::string& name) {
     const int clip = index_of_name(clip_names(workspace), name, "clip");
     const mobb::Placement placement =
-        aside(workspace.fitted(), *workspace.scene().clips[static_cast<std::size_t>(clip)].clip);
+        beside_others(workspace.fitted(), *workspace.scene().clips[static_cast<std::size_t>(clip)].clip);
     int agent = 0;
     workspace.edit({"adding an agent that plays " + name, ""},
                    [&](Scene& scene) { agent = add_agent(scene, clip, placement); });
@@ -54,7 +54,7 @@ void duplicate(Workspace& workspace) {
     edit_selected_agent(workspace, {"duplicating " + selected_agent_name(workspace), ""}, [&](Scene& scene, int agent) {
         copy = duplicate_agent(scene, agent);
         mobb::Placement placement = scene.agents[static_cast<std::size_t>(copy)].placement;
-        placement.translate += glm::dvec2(kAside, kAside) / std::sqrt(2.0);
+        placement.translate += glm::dvec2(kCopyDistance, kCopyDistance) / std::sqrt(2.0);
         place_agent(scene, copy, placement);
     });
     select_agent(workspace, copy);
@@ -186,15 +186,15 @@ std::vector<Command> edit_commands() {
                              [](const Workspace& workspace) -> std::string_view {
                                  return workspace.crowd() ? "a run is not edited" : "they are agents already";
                              }}}),
-        Command("agent.add", "Add agent", "Adds an agent that plays a clip, a little aside from the others.", add,
+        Command("agent.add", "Add agent", "Adds an agent that plays a clip, a little beside the others.", add,
                 {.argument = "CLIP",
                  .enabled = {[](const Workspace& workspace) {
                                  return has_scene(workspace) && !workspace.crowd() && !shows_bare_clips(workspace);
                              },
                              why_no_agent},
                  .choices = clip_names}),
-        Command("agent.duplicate", "Duplicate agent", "Adds a copy of the selected agent, a metre aside.", duplicate,
-                {.shortcut = "Ctrl+D", .enabled = {has_true_agent, why_no_agent}}),
+        Command("agent.duplicate", "Duplicate agent", "Adds a copy of the selected agent, a metre beside it.",
+                duplicate, {.shortcut = "Ctrl+D", .enabled = {has_true_agent, why_no_agent}}),
         Command("agent.remove", "Remove agent", "Removes the selected agent and the queries about it; its clip stays.",
                 remove, {.shortcut = "Delete", .enabled = {has_selected_of_several, why_no_agent}}),
         Command("agent.rename", "Rename agent...", "Gives the selected agent another name.", rename,

@@ -50,8 +50,8 @@ void copy_line_of(Session& session, const PictureOrder& order, const std::string
     session.desktop->set_clipboard(line);
     std::string said = shown ? "Copied the command line" : "Copied: " + line;
     if (!has_file) {
-        said +=
-            ". No file holds the scene as it is: it was written to " + session.dialogs.exporting.aside->file.string();
+        said += ". No file holds the scene as it is: it was written to " +
+                session.dialogs.exporting.temporary->file.string();
     }
     session.notifications.tell(MessageLevel::info, said);
 }

@@ -157,15 +157,15 @@ std::filesystem::path temporary_scene_file(const Workspace& workspace) {
 }
 
 /// Throws MachineError, and leaves nothing, if it cannot be written; InputError where nothing may be.
-std::filesystem::path write_scene_aside(const Files& files, const Workspace& workspace, const ViewState& view) {
+std::filesystem::path write_temporary_scene(const Files& files, const Workspace& workspace, const ViewState& view) {
     files.check_may_write("a temporary file for " + workspace.title());
-    Scene aside = workspace.scene();
-    aside.view = view;
-    aside.fit = workspace.document().fitted->options();
+    Scene temporary = workspace.scene();
+    temporary.view = view;
+    temporary.fit = workspace.document().fitted->options();
     std::filesystem::path file = temporary_scene_file(workspace);
     try {
-        move_to_file(aside, file);
-        write_file(file, to_json(aside));
+        move_to_file(temporary, file);
+        write_file(file, to_json(temporary));
     } catch (...) {
         std::error_code ignored;
         std::filesystem::remove(file.parent_path(), ignored);
@@ -245,20 +245,21 @@ std::optional<std::string> render_line(const Workspace& workspace, const Files& 
                 render_line_of({workspace.scene().file, workspace.scene(), workspace.scene().view}, fit, order, output))
             return line;
     }
-    const std::optional<ExportDialog::SceneAside>& aside = dialogs.exporting.aside;
+    const std::optional<ExportDialog::TemporaryScene>& temporary = dialogs.exporting.temporary;
     std::error_code ignored;
-    if (!aside || &aside->of->scene() != &fitted.scene() || !std::filesystem::exists(aside->file, ignored)) {
+    if (!temporary || &temporary->of->scene() != &fitted.scene() ||
+        !std::filesystem::exists(temporary->file, ignored)) {
         return std::nullopt;
     }
-    const std::string fit = fitted.options() == aside->of->options() ? "" : fit_options(fitted.options());
-    return render_line_of({aside->file, workspace.scene(), aside->view}, fit, order, output);
+    const std::string fit = fitted.options() == temporary->of->options() ? "" : fit_options(fitted.options());
+    return render_line_of({temporary->file, workspace.scene(), temporary->view}, fit, order, output);
 }
 
 std::string render_line_with_scene(Workspace& workspace, Files& files, Dialogs& dialogs, const PictureOrder& order,
                                    const std::string& output) {
     if (auto line = render_line(workspace, files, dialogs, order, output)) return *line;
-    dialogs.exporting.aside = {workspace.document().fitted, order.view,
-                               write_scene_aside(files, workspace, order.view)};
+    dialogs.exporting.temporary = {workspace.document().fitted, order.view,
+                                   write_temporary_scene(files, workspace, order.view)};
     return *render_line(workspace, files, dialogs, order,
                         output);  // as no option differs from a scene that was just written
 }

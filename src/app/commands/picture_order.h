@@ -43,7 +43,7 @@ std::size_t write_picture(const Session& session, const PictureOrder& order, con
 std::filesystem::path export_file(const Workspace& workspace, const Settings& settings, const Dialogs& dialogs);
 
 /// "mobbscope render ..." that draws the picture into `output`, quoted for a shell. None if no file holds the scene as
-/// it is: neither that which was opened nor the one that was written aside last.
+/// it is: neither that which was opened nor the temporary file that was written last.
 std::optional<std::string> render_line(const Workspace& workspace, const Files& files, const Dialogs& dialogs,
                                        const PictureOrder& order, const std::string& output);
 

@@ -75,7 +75,7 @@ std::vector<Command> shown_commands() {
         of_selected("agent.solo", "Show alone", "I",
                     "Hides all but the selected agent, or the selected clip's, and those that are pinned; once more "
                     "shows what was in the picture before.",
-                    toggle_alone, are_alone),
+                    toggle_isolated, are_isolated),
         of_selected("agent.pin", "Pin", "P",
                     "Keeps the selected agent in the picture when another is shown alone, and its colour where others "
                     "dim.",
@@ -89,7 +89,7 @@ std::vector<Command> shown_commands() {
                  toggle_hidden),
         of_named("agents.solo", "Show alone by name",
                  "Shows an agent, or all of a clip or a group of clips, with those that are pinned alone.",
-                 toggle_alone),
+                 toggle_isolated),
         of_named("agents.pin", "Pin by name", "Pins an agent, or all of a clip or a group of clips.", toggle_pinned),
     };
     return in_menu("View/Agents", rows);

@@ -103,7 +103,7 @@ std::span<const KeyHelp> focus_help() {
          "Press what has the focus; in a number, type it. Enter on a button gives the keys to the picture"},
         {"Up, Down", "Step a number; Shift finer, Ctrl coarser"},
         {"Escape", "Close what is topmost; back to the viewport"},
-        {"Escape in a drag", "Put back what is dragged"},
+        {"Escape in a drag", "Cancel the drag"},
         {"Alt+F, Alt+E ...", "Open a menu by its letter"},
         {"Letters", "In a menu, go to what begins with them"},
     }};

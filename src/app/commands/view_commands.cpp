@@ -122,10 +122,10 @@ std::string_view subject(const ViewState& view) {
 /// shown first. A disk is framed each time, as it may be another one.
 void show_other_picture(Workspace& workspace, const std::function<void(ViewState&)>& change) {
     workspace.change_view([&](ViewState& view) {
-        workspace.cameras_aside[subject(view)] = view.camera;
+        workspace.other_cameras[subject(view)] = view.camera;
         change(view);
-        const auto known = workspace.cameras_aside.find(subject(view));
-        if (known != workspace.cameras_aside.end() && !view.projection) {
+        const auto known = workspace.other_cameras.find(subject(view));
+        if (known != workspace.other_cameras.end() && !view.projection) {
             view.camera = known->second;
         } else {
             frame_by_itself(view.camera);

@@ -116,7 +116,7 @@ bool quick_to_fit(const Scene& scene, const FittedScene& present, const FittedSc
     return work < kQuickSamples;
 }
 
-ViewState fitting(ViewState view, const FittedScene& fitted) {
+ViewState clamped(ViewState view, const FittedScene& fitted) {
     if (view.query && static_cast<std::size_t>(*view.query) >= fitted.queries().size()) view.query.reset();
     if (!view.follow.empty() && !can_follow(fitted.scene(), view.follow)) view.follow.clear();
     drop_unknown_names(fitted.scene(), view);
@@ -128,8 +128,8 @@ ViewState fitting(ViewState view, const FittedScene& fitted) {
 }
 
 void clamp_views(Document& document) {
-    document.view = fitting(document.view, *document.fitted);
-    for (SceneView& other : document.beside) other.view = fitting(other.view, *other.fitted);
+    document.view = clamped(document.view, *document.fitted);
+    for (SceneView& other : document.beside) other.view = clamped(other.view, *other.fitted);
 }
 
 }  // namespace mobbscope::app

@@ -83,8 +83,8 @@ std::size_t fit_with(FittedScene& fitted, const std::string& name, const mobb::F
 /// Whether with_scene is done in an instant.
 bool quick_to_fit(const Scene& scene, const FittedScene& present, const FittedScene* fitted_beside);
 
-/// A view of another scene, or of this one before an edit, made to fit what there is.
-ViewState fitting(ViewState view, const FittedScene& fitted);
+/// The view without what the scene does not have: queries, names, nodes.
+ViewState clamped(ViewState view, const FittedScene& fitted);
 /// The same of all views of a document.
 void clamp_views(Document& document);
 

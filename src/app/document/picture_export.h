@@ -57,12 +57,12 @@ struct ExportDialog {
     PictureSize made{};              ///< ... the size that was last made from it
 
     /// A scene that no file has, written for a command line.
-    struct SceneAside {
+    struct TemporaryScene {
         std::shared_ptr<const FittedScene> of;
         ViewState view;
         std::filesystem::path file;
     };
-    std::optional<SceneAside> aside{};
+    std::optional<TemporaryScene> temporary{};
 
     /// The picture, small. It is made anew once nothing has changed for about as long as it takes.
     struct Preview {

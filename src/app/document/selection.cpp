@@ -93,7 +93,7 @@ Selection still_of_run(const Selection& selection, const FittedScene& before, co
 
 }  // namespace
 
-Selection still(const Selection& selection, const FittedScene& before, const FittedScene& now) {
+Selection remapped(const Selection& selection, const FittedScene& before, const FittedScene& now) {
     if (&before != &now && selection.on_path() && before.scene().crowd && before.scene().crowd == now.scene().crowd) {
         const Selection out = still_of_run(selection, before, now);
         return exists(now, out) ? out : Selection{};

@@ -59,8 +59,8 @@ bool exists(const FittedScene& fitted, const Selection& selection);
 /// Whether a picture of `view` has the disk and the node of `view.projection`.
 bool has_projection(const FittedScene& fitted, const ViewState& view);
 
-/// What it is after a change of the scene: a node of a tree that was fitted anew is its path, as the number means
-/// another node now; what is gone is nothing.
-Selection still(const Selection& selection, const FittedScene& before, const FittedScene& now);
+/// The selection after a change of the scene. A node of a tree that was fitted anew becomes its path, as the number
+/// means another node now. What is gone becomes nothing.
+Selection remapped(const Selection& selection, const FittedScene& before, const FittedScene& now);
 
 }  // namespace mobbscope::app

@@ -103,7 +103,7 @@ AgentNames agents_meant(const Workspace& workspace, const std::string& text) {
 bool are_hidden(const Workspace& workspace, const AgentNames& who) { return all_in(who, workspace.view().hidden); }
 bool are_pinned(const Workspace& workspace, const AgentNames& who) { return all_in(who, workspace.view().pinned); }
 
-bool are_alone(const Workspace& workspace, const AgentNames& who) {
+bool are_isolated(const Workspace& workspace, const AgentNames& who) {
     const AgentNames& hidden = workspace.view().hidden;
     // Most are told apart by counting.
     const std::size_t most_in_picture = who.size() + workspace.view().pinned.size();
@@ -115,17 +115,17 @@ bool are_alone(const Workspace& workspace, const AgentNames& who) {
 void toggle_hidden(Workspace& workspace, const AgentNames& who) { toggle_in(workspace, &ViewState::hidden, who); }
 void toggle_pinned(Workspace& workspace, const AgentNames& who) { toggle_in(workspace, &ViewState::pinned, who); }
 
-void toggle_alone(Workspace& workspace, const AgentNames& who) {
+void toggle_isolated(Workspace& workspace, const AgentNames& who) {
     if (who.empty()) return;
     // Going from one that is alone to another, what was before the first is remembered.
-    const bool remembers = workspace.alone && workspace.alone->hidden == workspace.view().hidden;
+    const bool remembers = workspace.isolation && workspace.isolation->hidden == workspace.view().hidden;
     AgentNames next;
-    if (are_alone(workspace, who)) {
-        if (remembers) next = workspace.alone->before;
-        workspace.alone.reset();
+    if (are_isolated(workspace, who)) {
+        if (remembers) next = workspace.isolation->before;
+        workspace.isolation.reset();
     } else {
         next = all_but(workspace, who);
-        workspace.alone = Alone{next, remembers ? workspace.alone->before : workspace.view().hidden};
+        workspace.isolation = Isolation{next, remembers ? workspace.isolation->before : workspace.view().hidden};
     }
     workspace.change_view([&](ViewState& view) { view.hidden = next; });
 }

@@ -33,12 +33,12 @@ inline const std::string kOfGroup = "group:";
 bool are_hidden(const Workspace& workspace, const AgentNames& who);
 bool are_pinned(const Workspace& workspace, const AgentNames& who);
 /// Whether they, with what is pinned, are all that is in the picture, and others are not.
-bool are_alone(const Workspace& workspace, const AgentNames& who);
+bool are_isolated(const Workspace& workspace, const AgentNames& who);
 
 /// Hides them, or shows them if all of them are hidden.
 void toggle_hidden(Workspace& workspace, const AgentNames& who);
 /// Hides all others but those that are pinned; of those that are alone shows what was in the picture before.
-void toggle_alone(Workspace& workspace, const AgentNames& who);
+void toggle_isolated(Workspace& workspace, const AgentNames& who);
 void toggle_pinned(Workspace& workspace, const AgentNames& who);
 void show_all(Workspace& workspace);
 

@@ -72,7 +72,7 @@ void Views::resize_pictures(PictureSize to) {
         if (camera.target) camera = resized(camera, *from, to);
     };
     workspace_.history.amend_views([&](ViewState& view) { resize(view.camera); });
-    for (auto& aside : workspace_.cameras_aside) resize(aside.second);
+    for (auto& other : workspace_.other_cameras) resize(other.second);
 }
 
 void Views::link_cameras(bool linked) {

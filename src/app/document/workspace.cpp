@@ -81,7 +81,7 @@ void Workspace::edit(const EditName& name, const std::function<void(Scene&)>& ch
 void Workspace::change_view(const std::function<void(ViewState&)>& change, const std::optional<EditName>& name) {
     Document next = document();
     change(next.view);
-    next.view = fitting(next.view, *next.fitted);
+    next.view = clamped(next.view, *next.fitted);
     if (next.view == view()) return;
     if (next.view.theme != view().theme) settings_->theme = next.view.theme;
     remember_step(next);
@@ -117,15 +117,15 @@ void Workspace::share_time_and_camera() {
             view.time_height = next.view.time_height;
             view.follow = next.view.follow;
         }
-        other.view = fitting(view, *other.fitted);
+        other.view = clamped(view, *other.fitted);
     }
     if (!next.beside.empty()) history.amend(std::move(next));
 }
 
 void Workspace::changed() {
     share_time_and_camera();
-    selection = still(selection, *pointed_into_, fitted());
-    hovered = still(hovered, *pointed_into_, fitted());
+    selection = remapped(selection, *pointed_into_, fitted());
+    hovered = remapped(hovered, *pointed_into_, fitted());
     pointed_into_ = shown();
     const RecordedQuery* query = recorded();
     if (query && view().step.unit == Step::Unit::event && view().step.value >= query->trace.size()) {

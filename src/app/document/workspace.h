@@ -34,14 +34,14 @@ namespace mobbscope::app {
 /// Counted over all that was ever open, so that each value is met once.
 struct Counts {
     int openings = 0;  ///< of files and excerpts
-    /// How often what is seen was put back as it had been: by undo and redo, when a drag is given up, and on the way
-    /// back from an excerpt or the scene of a case. Nothing follows it.
-    int put_back = 0;
+    /// Restored views: by undo and redo, by the previous and next view, by a cancelled drag, and on the way back from
+    /// an excerpt or the scene of a case. The camera does not follow the test then.
+    int restores = 0;
     int arrivals = 0;  ///< documents that were opened, and jobs that were done
 };
 
-/// What showing some agents alone has hidden, and what was hidden before.
-struct Alone {
+/// Agents that isolation hides, and those that were hidden before it.
+struct Isolation {
     std::vector<std::string> hidden, before;
 };
 
@@ -73,14 +73,14 @@ class Workspace {
     Selection selection;  ///< always of something that exists
     Selection hovered;    ///< under the mouse in any panel
 
-    std::optional<Alone> alone;           ///< since agents were shown alone
+    std::optional<Isolation> isolation;   ///< since agents were shown alone
     std::string filter;                   ///< lists show what has this text in its name; empty: all
     std::set<std::string> folded_groups;  ///< of clips, by title
 
     /// Of which size the pictures are that cameras stand for; none: nothing was drawn since the scene was opened.
     std::optional<PictureSize> picture_size;
     /// Cameras of the pictures that are not shown now, by what they are of: "space-time", "moment", "disk".
-    std::map<std::string_view, Camera> cameras_aside;
+    std::map<std::string_view, Camera> other_cameras;
     double settled_height = 0;  ///< metres a second, of the last framing
 
     /// A candidate of a choice that is pointed out.

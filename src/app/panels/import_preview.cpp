@@ -90,8 +90,8 @@ void heading_arrow(Ui& ui, ImVec2 from, glm::dvec2 heading) {
     const glm::vec2 along{static_cast<float>(heading.x), -static_cast<float>(heading.y)};
     const glm::vec2 across{-along.y, along.x};
     const glm::vec2 base = glm::vec2(from.x, from.y) + along * ui.px(18);
-    const auto corner = [&](float forward, float aside) {
-        const glm::vec2 at = base + along * ui.px(forward) + across * ui.px(aside);
+    const auto corner = [&](float forward, float sideways) {
+        const glm::vec2 at = base + along * ui.px(forward) + across * ui.px(sideways);
         return ImVec2{at.x, at.y};
     };
     list.AddLine(from, {base.x, base.y}, ui.style.warning, ui.px(2));

@@ -158,7 +158,7 @@ Json export_json(const Dialogs& dialogs, const Settings& settings) {
     for (const ExportOption& option : export_options()) {
         json[option.key] = option.text(settings.picture_export);
     }
-    if (dialogs.exporting.aside) json["scene_aside"] = dialogs.exporting.aside->file.string();
+    if (dialogs.exporting.temporary) json["temporary_scene"] = dialogs.exporting.temporary->file.string();
     return json;
 }
 

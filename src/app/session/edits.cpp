@@ -40,9 +40,9 @@ void Edits::rename_agent(int agent, const std::string& name) {
         mobbscope::rename_agent(scene, agent, name);
     }));
     for (SceneView& other : next.beside) rename_in_view(other.view, before, name);
-    if (workspace_.alone) {
-        std::ranges::replace(workspace_.alone->hidden, before, name);
-        std::ranges::replace(workspace_.alone->before, before, name);
+    if (workspace_.isolation) {
+        std::ranges::replace(workspace_.isolation->hidden, before, name);
+        std::ranges::replace(workspace_.isolation->before, before, name);
     }
     std::map<StepKey, QuerySteps> steps;
     for (const auto& [key, looked_at] : next.steps) {
@@ -67,26 +67,26 @@ void Edits::redo() {
 }
 
 void Edits::go_to_state(std::size_t state) {
-    put_back([state](History& history) { history.go_to(state); });
+    restore([state](History& history) { history.go_to(state); });
 }
 
 void Edits::previous_view() {
-    if (workspace_.history.can_look_back()) put_back(&History::look_back);
+    if (workspace_.history.can_look_back()) restore(&History::look_back);
 }
 
 void Edits::next_view() {
-    if (workspace_.history.can_look_forward()) put_back(&History::look_forward);
+    if (workspace_.history.can_look_forward()) restore(&History::look_forward);
 }
 
-void Edits::put_back(const std::function<void(History&)>& turn) {
+void Edits::restore(const std::function<void(History&)>& turn) {
     const int before = workspace_.document().opening;
     playback_.stop();
     turn(workspace_.history);
-    ++counts_.put_back;
+    ++counts_.restores;
     // What is made for an excerpt is not put into the whole, nor the other way round.
     if (workspace_.document().opening != before) {
         while (jobs_.count() > 0) jobs_.cancel(0);
-        workspace_.cameras_aside.clear();
+        workspace_.other_cameras.clear();
     }
     workspace_.changed();
 }

@@ -44,7 +44,7 @@ class Edits {
     void go_to_state(std::size_t state);
 
   private:
-    void put_back(const std::function<void(History&)>& turn);
+    void restore(const std::function<void(History&)>& turn);
 
     Workspace& workspace_;
     Jobs& jobs_;

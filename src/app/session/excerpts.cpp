@@ -109,7 +109,7 @@ void Excerpts::turn_away() {
     playback_.stop();
     workspace_.selection = workspace_.hovered = {};
     workspace_.filter.clear();
-    workspace_.cameras_aside.clear();
+    workspace_.other_cameras.clear();
 }
 
 void Excerpts::leave() {
@@ -120,7 +120,7 @@ void Excerpts::leave() {
     whole.steps = origin->steps;
     whole.opening = origin->opening;
     workspace_.history.change(std::move(whole), {"going back to the whole", ""});
-    ++counts_.put_back;
+    ++counts_.restores;
     workspace_.changed();
 }
 

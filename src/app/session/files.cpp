@@ -62,7 +62,7 @@ void Files::turn_away() {
 
 void Files::replace(Document document, const std::vector<std::filesystem::path>& opened) {
     turn_away();
-    document.view = fitting(document.view, *document.fitted);
+    document.view = clamped(document.view, *document.fitted);
     document.excerpt_of = nullptr;
     document.opening = ++parts_.counts.openings;
     Workspace next(parts_.settings);
@@ -77,7 +77,7 @@ void Files::replace(Document document, const std::vector<std::filesystem::path>&
     next.history.reset(std::move(document));
     next.changed();
     // Nothing is visited any more; who visits something says so afterwards.
-    aside_.reset();
+    suspended_.reset();
     visited_.clear();
     parts_.workspace = std::move(next);
     look_at_files();
@@ -126,8 +126,8 @@ void Files::load(const std::string& title, const Opening& opening) {
         const auto work = [this, opening,
                            present = parts_.workspace.document().fitted](JobControl& control) -> Job::Finish {
             return [this, put_in = opening(control), present] {
-                // It takes the place of what was put aside.
-                if (aside_) return come_back([this, put_in] { after_asking(put_in); });
+                // It replaces the suspended workspace.
+                if (suspended_) return come_back([this, put_in] { after_asking(put_in); });
                 // Who edited meanwhile is asked again.
                 &parts_.workspace.scene() == &present->scene() ? put_in() : after_asking(put_in);
             };
@@ -135,7 +135,7 @@ void Files::load(const std::string& title, const Opening& opening) {
         parts_.jobs.start(title, work, JobPurpose::opens);
     };
     // The scene of a case stays until the file is known to load: what is open before and after is asked for then.
-    aside_ ? begin() : after_asking(begin);
+    suspended_ ? begin() : after_asking(begin);
 }
 
 void Files::load_scene(const std::string& title, const LoadAll& load_all,
@@ -354,7 +354,7 @@ void Files::tell_of_lost_sources() {
 }
 
 void Files::request_close() {
-    if (aside_) return come_back([this] { request_close(); });
+    if (suspended_) return come_back([this] { request_close(); });
     after_asking([this] { closed_ = true; });
 }
 
@@ -375,17 +375,17 @@ void Files::visit(Document document, const std::string& name) {
     come_back([this, document = std::move(document), name] {
         Workspace before = std::move(parts_.workspace);
         replace(document, {});
-        aside_ = std::move(before);
+        suspended_ = std::move(before);
         visited_ = name;
     });
 }
 
 void Files::come_back(const std::function<void()>& then) {
-    if (!aside_) return then();
+    if (!suspended_) return then();
     after_asking([this, then] {
         turn_away();
-        Workspace before = std::move(*aside_);
-        aside_.reset();
+        Workspace before = std::move(*suspended_);
+        suspended_.reset();
         visited_.clear();
         // What is being opened goes on: it is about no scene that is open.
         for (RunningJob& running : parts_.workspace.jobs) {
@@ -393,7 +393,7 @@ void Files::come_back(const std::function<void()>& then) {
         }
         parts_.workspace = std::move(before);
         parts_.workspace.hovered = {};
-        ++parts_.counts.put_back;
+        ++parts_.counts.restores;
         parts_.workspace.changed();
         then();
     });
@@ -402,7 +402,7 @@ void Files::come_back(const std::function<void()>& then) {
 void Files::end_work() {
     parts_.workspace.jobs.clear();
     parts_.workspace.import_changes.clear();
-    if (aside_) aside_->jobs.clear();
+    if (suspended_) suspended_->jobs.clear();
 }
 
 }  // namespace mobbscope::app

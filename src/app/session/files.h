@@ -1,4 +1,4 @@
-/// Opening and saving, what is asked about unsaved changes, and what is put aside for something else.
+/// Opening and saving, what is asked about unsaved changes, and the workspace that a visit suspends.
 #pragma once
 
 #include <app/session/imports.h>
@@ -71,20 +71,20 @@ class Files {
     /// The answer.
     void answer_unsaved(Unsaved choice);
 
-    /// Opens a document in place of what is open, which is put aside with its jobs until `come_back`.
+    /// Opens a document in place of what is open, which is suspended with its jobs until `come_back`.
     void visit(Document document, const std::string& name);
     /// The name of what is visited; empty if nothing is.
     const std::string& visited() const { return visited_; }
-    /// What was put aside for it; null if nothing was.
-    const Workspace* aside() const { return aside_ ? &*aside_ : nullptr; }
-    /// What was put aside is back, after asking if there are unsaved changes; then, or if nothing is visited, does
+    /// The workspace that it suspends; null if nothing is visited.
+    const Workspace* suspended() const { return suspended_ ? &*suspended_ : nullptr; }
+    /// The suspended workspace is back, after asking if there are unsaved changes; then, or if nothing is visited, does
     /// `then`.
     void come_back(const std::function<void()>& then);
 
     /// Ends the program, after asking if there are unsaved changes.
     void request_close();
     bool closed() const { return closed_; }
-    /// Ends all work for what is open and what is put aside.
+    /// Ends all work for the workspace and the suspended one.
     void end_work();
 
   private:
@@ -113,7 +113,7 @@ class Files {
     void tell_of_lost_sources();
 
     Parts parts_;
-    std::optional<Workspace> aside_;
+    std::optional<Workspace> suspended_;
     std::string visited_;
     bool closed_ = false;
 };

@@ -50,9 +50,9 @@ bool is_on(const Descriptor& lock, const fs::path& folder) {
 Recovery::~Recovery() = default;
 
 std::map<std::string, UnsavedWork> Recovery::works() const {
-    const Workspace* aside = files_.aside();
-    std::map<std::string, UnsavedWork> out = unsaved_works(aside ? *aside : workspace_);
-    if (!aside) return out;
+    const Workspace* suspended = files_.suspended();
+    std::map<std::string, UnsavedWork> out = unsaved_works(suspended ? *suspended : workspace_);
+    if (!suspended) return out;
     for (auto& [name, work] : unsaved_works(workspace_)) out["visited-" + name] = std::move(work);
     return out;
 }

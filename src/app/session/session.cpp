@@ -54,7 +54,7 @@ void Session::end_work() {
 Session::BeforeDrag Session::before_drag() const {
     return {workspace.history,       settings,
             counts.arrivals,         workspace.picture_size,
-            workspace.cameras_aside, screen ? screen->look() : std::any()};
+            workspace.other_cameras, screen ? screen->look() : std::any()};
 }
 
 void Session::restore(BeforeDrag before) {
@@ -64,8 +64,8 @@ void Session::restore(BeforeDrag before) {
     settings = std::move(before.settings);
     // A border between panels may be what was dragged: cameras stand for the pictures of before.
     workspace.picture_size = before.picture_size;
-    workspace.cameras_aside = std::move(before.cameras_aside);
-    ++counts.put_back;
+    workspace.other_cameras = std::move(before.other_cameras);
+    ++counts.restores;
     workspace.changed();
 }
 

@@ -120,7 +120,7 @@ class Session {
         Settings settings;
         int arrivals = 0;
         std::optional<PictureSize> picture_size;
-        std::map<std::string_view, Camera> cameras_aside;
+        std::map<std::string_view, Camera> other_cameras;
         std::any look;  ///< of the screen that is shown
     };
     BeforeDrag before_drag() const;

@@ -73,13 +73,13 @@ ButtonPlace agent_button(Ui& ui, const std::string& mark, const char* id, const 
 float agent_buttons_width(const Ui& ui) { return 3 * ui.px(kButton); }
 
 float shown_buttons_width(const Ui& ui, const ListedAgents& listed) {
-    if (are_alone(ui.workspace, listed.who)) return agent_buttons_width(ui);
+    if (are_isolated(ui.workspace, listed.who)) return agent_buttons_width(ui);
     return (are_pinned(ui.workspace, listed.who) ? 2 : 1) * ui.px(kButton);
 }
 
 void agent_buttons(Ui& ui, const std::string& mark, const ListedAgents& listed, bool lit) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const bool alone = are_alone(ui.workspace, listed.who);
+    const bool alone = are_isolated(ui.workspace, listed.who);
     const ButtonPlace of_alone = agent_button(ui, mark + ".solo", "agents.solo", listed.text,
                                               alone ? "Show what was in the picture before" : "Show alone", alone);
     if (lit || alone) draw_alone(draw, of_alone.middle, ui.px(1), of_alone.color);

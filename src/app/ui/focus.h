@@ -112,7 +112,7 @@ class Focus {
     void along(int by);
     bool in_list(const Stop& from, Key key);
     const Stop* towards(const Stop& from, Key key) const;
-    /// The first one from there on in the order of drawing, or against it, that may be come to by Tab.
+    /// The next Tab stop, forwards or backwards.
     const Stop* from_order(std::size_t begin, bool back, const Stop* left) const;
     const Stop& entered(const Stop& stop) const;
     const Stop* where_popup_begins() const;

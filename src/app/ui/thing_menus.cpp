@@ -120,8 +120,8 @@ std::vector<MenuEntry> shown_menu(const Workspace& workspace, const ListedAgents
     const bool has_keys = listed.who == selected_agents(workspace);
     const auto like = [&](std::string_view id) { return has_keys ? id : std::string_view(); };
     return {{"agents.hide", listed.text, are_hidden(workspace, listed.who) ? "Show" : "Hide", like("agent.hide")},
-            {"agents.solo", listed.text, are_alone(workspace, listed.who) ? "Show what was there before" : "Show alone",
-             like("agent.solo")},
+            {"agents.solo", listed.text,
+             are_isolated(workspace, listed.who) ? "Show what was there before" : "Show alone", like("agent.solo")},
             {"agents.pin", listed.text, are_pinned(workspace, listed.who) ? "Unpin" : "Pin", like("agent.pin")},
             {"agent.show_all"}};
 }

@@ -35,16 +35,16 @@ class Painter {
   public:
     virtual ~Painter() = default;
     enum class Changed { nothing, highlights, all };  ///< each includes those before it
-    /// Of the person: none is there, and only the fine picture counts; at rest; in the midst of a drag, whose pictures
-    /// all are as coarse as they must be.
-    enum class Hand { away, rests, drags };
+    /// `unattended`: nobody looks, and only the fine picture counts. `dragging`: all pictures are as coarse as they
+    /// must be to follow.
+    enum class Interaction { unattended, idle, dragging };
     struct Shown {
         ImTextureID texture;  ///< upper row first at v = 1 (OpenGL's way up)
         double coarse_for;    ///< seconds that the fine picture has not come
     };
     /// What the viewport at that place shows. What has changed since the last call is painted anew when a frame is next
     /// looked at. `now`: seconds.
-    virtual Shown picture(std::size_t place, Changed changed, Hand hand, double now) = 0;
+    virtual Shown picture(std::size_t place, Changed changed, Interaction interaction, double now) = 0;
     /// The texture of a picture, its upper row at v = 0, transparent parts on a grey chequer. What was in the slot
     /// before is gone, and what is not asked for in a frame. `smooth`: blended between pixels, not each a square. Null
     /// if it is larger than OpenGL can hold.

@@ -257,11 +257,11 @@ void Viewport::update_picture(Ui& ui, PictureSize size) {
 
 /// Lets the camera go to another step's pair, if it is to and the pair is not well seen beside the panels.
 void Viewport::follow_test(Ui& ui) {
-    const bool put_back = std::exchange(times_put_back_, ui.session.counts.put_back) != ui.session.counts.put_back;
+    const bool restored = std::exchange(restore_count_, ui.session.counts.restores) != ui.session.counts.restores;
     if (!ui.session.views.follow_test || !ui.workspace.recorded()) return test_looked_for_.reset();
     const std::pair test(*ui.workspace.view().query, ui.workspace.step());
-    // The camera was put back too.
-    if (put_back) test_looked_for_ = test;
+    // The camera was restored too.
+    if (restored) test_looked_for_ = test;
     if (flight_ || test_looked_for_ == test) return;
     test_looked_for_ = test;
     const std::optional<TestCorners> boxes = corners_of_test(ui.workspace);
@@ -297,15 +297,15 @@ void Viewport::update_highlights(const Ui& ui) {
 }
 
 void Viewport::show(Ui& ui, ImVec2 corner) {
-    const Painter::Hand hand = !ui.session.options.attended ? Painter::Hand::away
-                               : drag_ == Drag::none        ? Painter::Hand::rests
-                                                            : Painter::Hand::drags;
+    const Painter::Interaction interaction = !ui.session.options.attended ? Painter::Interaction::unattended
+                                             : drag_ == Drag::none        ? Painter::Interaction::idle
+                                                                          : Painter::Interaction::dragging;
     const Painter::Shown shown =
-        ui.painter.picture(view_place_, std::exchange(unpainted_, Changed::nothing), hand, ui.now);
+        ui.painter.picture(view_place_, std::exchange(unpainted_, Changed::nothing), interaction, ui.now);
     const ImVec2 end{corner.x + static_cast<float>(list_->size.width),
                      corner.y + static_cast<float>(list_->size.height)};
     ImGui::GetWindowDrawList()->AddImage(shown.texture, corner, end, {0, 1}, {1, 0});
-    if (shown.coarse_for > kSignAfter && hand == Painter::Hand::rests) sign_of_work(ui, end);
+    if (shown.coarse_for > kSignAfter && interaction == Painter::Interaction::idle) sign_of_work(ui, end);
 }
 
 /// In the lower right corner: an arc that goes round while the fine picture is being painted.

@@ -95,7 +95,7 @@ class Viewport {
     using Changed = Painter::Changed;
     Changed unpainted_ = Changed::nothing;                ///< what has changed since the painter was told
     std::optional<std::pair<int, int>> test_looked_for_;  ///< query and step whose test the camera has followed to
-    int times_put_back_ = 0;                              ///< Session's, when that was asked
+    int restore_count_ = 0;                               ///< Session's, when that was asked
 
     LaidOut laid_out_;  ///< not settled yet
 

@@ -5,11 +5,11 @@
 
 namespace mobbscope::app {
 
-Painter::Shown TexturePainter::picture(std::size_t place, Changed changed, Hand hand, double now) {
+Painter::Shown TexturePainter::picture(std::size_t place, Changed changed, Interaction interaction, double now) {
     while (pictures_.size() <= place) pictures_.emplace_back();
     Picture& asked = pictures_[place];
     asked.changed = std::max(asked.changed, changed);
-    asked.hand = hand;
+    asked.interaction = interaction;
     if (changed != Changed::nothing) asked.changed_at = now;
     return {texture_id(asked.copy.texture()), asked.is_fine ? 0 : now - asked.changed_at};
 }
@@ -32,16 +32,17 @@ void TexturePainter::paint_changes(std::size_t place, const DrawList& list) {
     const Changed changed = std::exchange(asked.changed, Changed::nothing);
     if (changed == Changed::nothing) return;
     const bool all = changed == Changed::all;
-    const bool whole = asked.hand == Hand::away || !renderer_.context().policy().coarse_first;
+    const bool whole = asked.interaction == Interaction::unattended || !renderer_.context().policy().coarse_first;
     if (whole && all) {
         take(asked, renderer_.paint(list, kPictureSamples), list);
     } else if (whole || (!all && asked.is_fine && renderer_.has_scene(list, kPictureSamples))) {
         take(asked, renderer_.paint_highlights(list, kPictureSamples), list);
     } else {
-        asked.needs = renderer_.has_disks(list, kPictureSamples) ? AnswerPace::Needs::rest : AnswerPace::Needs::all;
-        if (!asked.pace.coarse_first(asked.needs)) {
-            if (paint_fine(asked, list, 1.5 * AnswerPace::kAtOnce)) return;
-            asked.pace.gave_up_fine(asked.needs, asked.seconds);
+        asked.needs =
+            renderer_.has_disks(list, kPictureSamples) ? AdaptiveQuality::Needs::rest : AdaptiveQuality::Needs::all;
+        if (!asked.quality.coarse_first(asked.needs)) {
+            if (paint_fine(asked, list, 1.5 * AdaptiveQuality::kAtOnce)) return;
+            asked.quality.gave_up_fine(asked.needs, asked.seconds);
         }
         paint_coarse(asked, list);
     }
@@ -52,12 +53,12 @@ double TexturePainter::fine_due_in(std::size_t place, double now) const {
     const Picture& asked = pictures_[place];
     // What has changed is painted when the frame is drawn, and may be coarse then.
     const bool stands = asked.is_fine && asked.changed != Changed::all;
-    if (stands || asked.hand != Hand::rests) return kNever;
-    return std::max(asked.changed_at + AnswerPace::kRest - now, 0.0);
+    if (stands || asked.interaction != Interaction::idle) return kNever;
+    return std::max(asked.changed_at + AdaptiveQuality::kRest - now, 0.0);
 }
 
 void TexturePainter::paint_on(std::size_t place, const DrawList& list) {
-    paint_fine(pictures_[place], list, AnswerPace::kSlice);
+    paint_fine(pictures_[place], list, AdaptiveQuality::kSlice);
 }
 
 void TexturePainter::take(Picture& asked, const Texture& fine, const DrawList& list) {
@@ -77,15 +78,15 @@ bool TexturePainter::paint_fine(Picture& asked, const DrawList& list, double sec
     asked.seconds += clock_() - begun;
     if (!fine) return false;
     take(asked, *fine, list);
-    asked.pace.painted_fine(asked.needs, asked.seconds);
+    asked.quality.painted_fine(asked.needs, asked.seconds);
     return true;
 }
 
 void TexturePainter::paint_coarse(Picture& asked, const DrawList& list) {
     const double begun = clock_();
-    asked.copy.take(renderer_.paint_coarse(list, asked.pace.divisor()), list.size);
+    asked.copy.take(renderer_.paint_coarse(list, asked.quality.divisor()), list.size);
     renderer_.wait();
-    asked.pace.painted_coarse(clock_() - begun);
+    asked.quality.painted_coarse(clock_() - begun);
     asked.is_fine = false;
     ++painted_.coarse;
 }

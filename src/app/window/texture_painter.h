@@ -2,7 +2,7 @@
 #pragma once
 
 #include <app/ui/ui.h>
-#include <app/window/answer_pace.h>
+#include <app/window/adaptive_quality.h>
 #include <app/window/shell.h>
 #include <app/window/window_gl.h>
 #include <render/drawlist/draw_list.h>
@@ -24,7 +24,7 @@ class TexturePainter final : public Painter {
   public:
     TexturePainter(Renderer& renderer, const Shell::Clock& clock) : renderer_(renderer), clock_(clock) {}
 
-    Shown picture(std::size_t place, Changed changed, Hand hand, double now) override;
+    Shown picture(std::size_t place, Changed changed, Interaction interaction, double now) override;
     ImTextureID image(std::size_t slot, const std::shared_ptr<const Image>& image, bool smooth) override;
 
     /// Those that no panel has asked for since the last time are gone.
@@ -42,9 +42,9 @@ class TexturePainter final : public Painter {
     struct Picture {
         PictureCopy copy;
         Changed changed = Changed::nothing;
-        Hand hand = Hand::away;
-        AnswerPace pace;
-        AnswerPace::Needs needs = AnswerPace::Needs::all;  ///< of the fine picture
+        Interaction interaction = Interaction::unattended;
+        AdaptiveQuality quality;
+        AdaptiveQuality::Needs needs = AdaptiveQuality::Needs::all;  ///< of the fine picture
         bool is_fine = true;
         double changed_at = 0;
         double seconds = 0;  ///< that the fine one has taken so far

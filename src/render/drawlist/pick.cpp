@@ -65,9 +65,9 @@ Span inside(const DiskInstance& disk, const Ray& ray) {
     const double nearest = glm::dot(to_middle, ray.direction);
     const glm::dvec3 from = ray.direction * nearest - to_middle;
     const double reach = 0.5 * glm::length(up) + static_cast<double>(std::max(disk.radius, disk.top_radius));
-    const double aside_squared = glm::dot(from, from);
-    if (aside_squared > reach * reach) return {1, 0};
-    const double half_chord = std::sqrt(reach * reach - aside_squared);
+    const double across_squared = glm::dot(from, from);
+    if (across_squared > reach * reach) return {1, 0};
+    const double half_chord = std::sqrt(reach * reach - across_squared);
     Span span{-half_chord, half_chord};
     span.clip(from.z, ray.direction.z, 0.5 * up.z);
     if (span.empty()) return {1, 0};

@@ -73,7 +73,7 @@ float halo_reach(const Image& image) {
 /// sweep has passed.
 std::vector<float> distances(int width, int height, std::span<const std::int16_t> differences, double tolerance) {
     constexpr float kFar = 1e9f;
-    constexpr float kAside = 1;
+    constexpr float kCopyDistance = 1;
     constexpr float kAcross = 1.41421356f;
     std::vector<float> out(differences.size());
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = differences[i] > tolerance ? 0 : kFar;
@@ -86,8 +86,8 @@ std::vector<float> distances(int width, int height, std::span<const std::int16_t
         here = std::min(here, out[index(u, v)] + step);
     };
     const auto sweep_pixel = [&](int x, int y, int back) {
-        take(x, y, x - back, y, kAside);
-        take(x, y, x, y - back, kAside);
+        take(x, y, x - back, y, kCopyDistance);
+        take(x, y, x, y - back, kCopyDistance);
         take(x, y, x - back, y - back, kAcross);
         take(x, y, x + back, y - back, kAcross);
     };

@@ -22,7 +22,7 @@ namespace {
 constexpr int kCirclePieces = 64;
 constexpr double kAxisBeyond = 0.35;     // of the radius: how far axes go beyond what is marked on them
 constexpr double kMarginForNames = 0.3;  // they stand beyond the ends of the axes and of the perpendiculars
-constexpr double kAside = 0.16;          // ... and perpendiculars, and how far the height stands beside the disk
+constexpr double kCopyDistance = 0.16;   // ... and perpendiculars, and how far the height stands beside the disk
 
 const DrawnAgent& checked(std::span<const DrawnAgent> agents, const DiskProjection& projection) {
     if (projection.agent < 0 || static_cast<std::size_t>(projection.agent) >= agents.size()) {
@@ -127,7 +127,7 @@ class DiskProjectionPicture final : public Picture {
         if (!time_on_end(list_.projection)) {
             const glm::dvec3 height(0, 0, extents_.rise.z);
             const glm::dvec3 beside = beside_disk();
-            const glm::dvec3 serif = 0.5 * kAside * extents_.radius * extents_.heading;
+            const glm::dvec3 serif = 0.5 * kCopyDistance * extents_.radius * extents_.heading;
             line(beside - 0.5 * height, beside + 0.5 * height, palette.text, 1.2f);
             for (const double end : {-0.5, 0.5}) {
                 line(beside + end * height - serif, beside + end * height + serif, palette.text, 1.2f);
@@ -178,7 +178,7 @@ class DiskProjectionPicture final : public Picture {
             const glm::dvec3 way = corner - place;
             const bool is_long = glm::length(way) > 1e-9 * extents_.radius;
             const glm::dvec3 unit = is_long ? glm::normalize(way) : extents_.along[1 - i].direction;
-            const glm::dvec3 beyond = kAside * extents_.radius * unit;
+            const glm::dvec3 beyond = kCopyDistance * extents_.radius * unit;
             return Mark{word, place, place - beyond, corner + beyond};
         };
         return {mark("min", axis.min, axis.min_corner), mark("max", axis.max, axis.max_corner)};
@@ -187,7 +187,7 @@ class DiskProjectionPicture final : public Picture {
     /// Where the height is marked: left of the disk, its middle.
     glm::dvec3 beside_disk() const {
         const double leans_left = extents_.top_radius - glm::dot(extents_.rise, extents_.heading) - extents_.radius;
-        const double aside = (1 + 1.6 * kAside) * extents_.radius + std::max(leans_left, 0.0);
+        const double aside = (1 + 1.6 * kCopyDistance) * extents_.radius + std::max(leans_left, 0.0);
         return -aside * extents_.heading + glm::dvec3(0, 0, 0.5 * extents_.rise.z);
     }
 

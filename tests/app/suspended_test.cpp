@@ -1,4 +1,4 @@
-// What is put aside while something else is open, and what undo, a reload and a job must leave as it is.
+// The workspace that a visit suspends, and what undo, a reload and a job must leave as it is.
 #include <app/document/shown_agents.h>
 #include <app/window/headless_window.h>
 #include <base/error.h>
@@ -22,13 +22,13 @@ using testing::CrossingFolder;
 namespace fs = std::filesystem;
 
 /// The crossing scene in a window, and a picture test of it that an earlier run has drawn nothing of.
-struct AsideWorld {
+struct SuspendedWorld {
     CrossingFolder folder;
     Session session{false};
     ReviewScreen& reviews = add_review(session);
     HeadlessWindow window{GlContext::open(Backend::automatic), session, PictureSize{1024, 700}, 1};
 
-    AsideWorld() {
+    SuspendedWorld() {
         fs::create_directories(folder.file("cases"));
         fs::create_directories(folder.file("drawn"));
         folder.write("drawn/report.json", R"({"mobbscope_report": 1, "cases": []})");
@@ -68,8 +68,8 @@ constexpr PictureSize kSmaller{800, 560};
 
 // --- cameras
 
-TEST(PutAside, AResizeKeepsTheScaleOfWhatAnExcerptWasTakenFrom) {
-    AsideWorld w;
+TEST(Suspended, AResizeKeepsTheScaleOfWhatAnExcerptWasTakenFrom) {
+    SuspendedWorld w;
     const double before = w.pixels_a_metre();
     const auto& agents = w.session.workspace.fitted().placed_agents();
     w.session.excerpts.open(agents[0], agents[1]);
@@ -85,9 +85,9 @@ TEST(PutAside, AResizeKeepsTheScaleOfWhatAnExcerptWasTakenFrom) {
     EXPECT_NEAR(w.pixels_a_metre(), before, 1e-9 * before);
 }
 
-TEST(PutAside, AResizeKeepsTheScaleOfWhatIsOpenBesideACase) {
+TEST(Suspended, AResizeKeepsTheScaleOfWhatIsOpenBesideACase) {
     for (const bool shown : {true, false}) {
-        AsideWorld w;
+        SuspendedWorld w;
         const double before = w.pixels_a_metre();
         w.review();
         // With the case's scene in the picture, or with no picture at all.
@@ -101,8 +101,8 @@ TEST(PutAside, AResizeKeepsTheScaleOfWhatIsOpenBesideACase) {
     }
 }
 
-TEST(PutAside, EachOpeningHasANumberAndComingBackFindsIt) {
-    AsideWorld w;
+TEST(Suspended, EachOpeningHasANumberAndComingBackFindsIt) {
+    SuspendedWorld w;
     const int file = w.session.workspace.document().opening;
     const auto& agents = w.session.workspace.fitted().placed_agents();
     w.session.excerpts.open(agents[0], agents[1]);
@@ -121,8 +121,8 @@ TEST(PutAside, EachOpeningHasANumberAndComingBackFindsIt) {
     EXPECT_EQ(w.session.workspace.document().opening, file);
 }
 
-TEST(PutAside, UndoWithinAnExcerptThatWasSavedCancelsNothing) {
-    AsideWorld w;
+TEST(Suspended, UndoWithinAnExcerptThatWasSavedCancelsNothing) {
+    SuspendedWorld w;
     const auto& agents = w.session.workspace.fitted().placed_agents();
     w.session.excerpts.open(agents[0], agents[1]);
     w.nudge();
@@ -130,15 +130,15 @@ TEST(PutAside, UndoWithinAnExcerptThatWasSavedCancelsNothing) {
     w.window.settle();
     run_command(w.session, "view.moment");
     w.session.files.save_as(w.folder.file("two.json"));
-    ASSERT_FALSE(w.session.workspace.cameras_aside.empty());
+    ASSERT_FALSE(w.session.workspace.other_cameras.empty());
     w.session.edits.undo();
-    EXPECT_FALSE(w.session.workspace.cameras_aside.empty()) << "it is the same excerpt";
+    EXPECT_FALSE(w.session.workspace.other_cameras.empty()) << "it is the same excerpt";
 }
 
 // --- a case's scene
 
-TEST(PutAside, LeavingACaseBringsBackWhatWasOpenAndSaysNothingTwice) {
-    AsideWorld w;
+TEST(Suspended, LeavingACaseBringsBackWhatWasOpenAndSaysNothingTwice) {
+    SuspendedWorld w;
     w.folder.write("big.csv", "t,x,y,r\n0,0,0,0.3\n0.5,1,0,0.3\n1.3,2,0,0.3\n");
     w.folder.write("warned.json", R"({"clips": {"big": {"source": "big.csv"}}})");
     w.session.files.open({w.folder.file("warned.json")});
@@ -174,7 +174,7 @@ void wait_for_jobs(Session& session) {
     while (session.jobs.job()) session.poll();
 }
 
-TEST(PutAside, JobsOfWhatIsPutAsideAreTakenInOnceItIsBack) {
+TEST(Suspended, JobsOfWhatIsPutAsideAreTakenInOnceItIsBack) {
     CrossingFolder folder;
     Session session(true);
     ReviewScreen& reviews = add_review(session);
@@ -202,8 +202,8 @@ TEST(PutAside, JobsOfWhatIsPutAsideAreTakenInOnceItIsBack) {
     EXPECT_EQ(session.workspace.fitted().options().axes, mobb::Axes::minarea);
 }
 
-TEST(PutAside, AFileThatCannotBeLoadedLeavesTheCaseOpen) {
-    AsideWorld w;
+TEST(Suspended, AFileThatCannotBeLoadedLeavesTheCaseOpen) {
+    SuspendedWorld w;
     w.open_case();
     w.nudge();
     w.session.files.open({w.folder.write("broken.json", "{")});
@@ -221,8 +221,8 @@ TEST(PutAside, AFileThatCannotBeLoadedLeavesTheCaseOpen) {
     EXPECT_EQ(w.session.workspace.title(), "walk");
 }
 
-TEST(PutAside, AFileThatTakesThePlaceOfACaseAsksForWhatWasOpenBefore) {
-    AsideWorld w;
+TEST(Suspended, AFileThatTakesThePlaceOfACaseAsksForWhatWasOpenBefore) {
+    SuspendedWorld w;
     w.nudge();
     w.open_case();
     w.session.files.open({w.folder.file("walk.csv")});
@@ -235,8 +235,8 @@ TEST(PutAside, AFileThatTakesThePlaceOfACaseAsksForWhatWasOpenBefore) {
 
 // --- what is dropped
 
-TEST(PutAside, WhatIsDroppedOnPictureTestsIsOpenedOrNot) {
-    AsideWorld w;
+TEST(Suspended, WhatIsDroppedOnPictureTestsIsOpenedOrNot) {
+    SuspendedWorld w;
     w.nudge();
     w.review();
     w.session.files.drop({w.folder.file("walk.csv")});
@@ -253,7 +253,7 @@ TEST(PutAside, WhatIsDroppedOnPictureTestsIsOpenedOrNot) {
 
 // --- import warnings
 
-TEST(PutAside, FilesThatAreAddedInAJobSayWhatIsWrongWithThem) {
+TEST(Suspended, FilesThatAreAddedInAJobSayWhatIsWrongWithThem) {
     CrossingFolder folder;
     // Not uniform in time, so that they are resampled; and so many that a job fits them.
     std::string far = "t,x,y,r\n";
@@ -275,8 +275,8 @@ TEST(PutAside, FilesThatAreAddedInAJobSayWhatIsWrongWithThem) {
 
 // --- names
 
-TEST(PutAside, AnotherNameIsKnownInAllViewsAndWhereverItIsRemembered) {
-    AsideWorld w;
+TEST(Suspended, AnotherNameIsKnownInAllViewsAndWhereverItIsRemembered) {
+    SuspendedWorld w;
     w.session.views.split("UMOBB", {.tree = mobb::TreeKind::umobb, .leaf = 4});
     w.session.views.link_cameras(false);
     run_command(w.session, "view.other");
@@ -304,7 +304,7 @@ TEST(PutAside, AnotherNameIsKnownInAllViewsAndWhereverItIsRemembered) {
 
 // --- steps
 
-struct SteppedWorld : AsideWorld {
+struct SteppedWorld : SuspendedWorld {
     SteppedWorld() { run("query.select", "0"); }
     void run(const std::string& id, const std::string& argument = "") {
         run_command(session, id, argument);
@@ -313,8 +313,8 @@ struct SteppedWorld : AsideWorld {
     int last() const { return session.workspace.recorded()->trace.size() - 1; }
 };
 
-TEST(PutAside, ARenamedAgentLeavesNoStepsUnderItsOldName) {
-    AsideWorld w;
+TEST(Suspended, ARenamedAgentLeavesNoStepsUnderItsOldName) {
+    SuspendedWorld w;
     run_command(w.session, "query.select", "0");
     run_command(w.session, "step.to", "3");
     run_command(w.session, "go.agent", "A");
@@ -323,7 +323,7 @@ TEST(PutAside, ARenamedAgentLeavesNoStepsUnderItsOldName) {
 }
 
 TEST(Saving, AsksOnceMoreWhereAnotherProgramHasWrittenTheFile) {
-    AsideWorld w;
+    SuspendedWorld w;
     w.nudge();
     const std::string theirs = mobbscope::testing::slurp(w.folder.scene) + "\n";
     w.folder.write("scene.json", theirs);
@@ -339,7 +339,7 @@ TEST(Saving, AsksOnceMoreWhereAnotherProgramHasWrittenTheFile) {
 }
 
 TEST(Saving, SaysWhichFilesOfClipsAreGone) {
-    AsideWorld w;
+    SuspendedWorld w;
     w.nudge();
     fs::remove(w.folder.file("stand.csv"));
     w.session.files.save();
@@ -456,7 +456,7 @@ std::vector<std::string> titles(const Session& session) {
     return out;
 }
 
-struct ListedWorld : AsideWorld {
+struct ListedWorld : SuspendedWorld {
     void press(Key key) {
         window.shell().feed(KeyPress{key, true});
         window.shell().feed(KeyPress{key, false});

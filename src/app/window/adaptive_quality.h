@@ -1,4 +1,4 @@
-/// How well a picture is painted while somebody works, and how well once the hand rests.
+/// Adaptive quality: a coarse picture while input comes, the fine one once it stops.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 namespace mobbscope::app {
 
 /// Decides by what earlier pictures took: where the fine one takes long, a coarse one comes first.
-class AnswerPace {
+class AdaptiveQuality {
   public:
     /// A fine picture that takes no longer comes at once, seconds.
     static constexpr double kAtOnce = 0.04;
