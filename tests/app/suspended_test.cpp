@@ -174,7 +174,7 @@ void wait_for_jobs(Session& session) {
     while (session.jobs.job()) session.poll();
 }
 
-TEST(Suspended, JobsOfWhatIsPutAsideAreTakenInOnceItIsBack) {
+TEST(Suspended, JobsOfASuspendedWorkspaceAreTakenInOnceItIsBack) {
     CrossingFolder folder;
     Session session(true);
     ReviewScreen& reviews = add_review(session);
