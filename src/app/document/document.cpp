@@ -1,4 +1,5 @@
 #include <app/document/document.h>
+#include <app/document/selection.h>
 #include <render/layout/follow.h>
 #include <scene/arrangement.h>
 #include <scene/crowd_scene.h>
