@@ -28,9 +28,7 @@ mobb::Box along_the_world(const mobb::Box& box, glm::dvec2 center, const mobb::R
 
 /// The two boxes in the frame of A's clip, or turned into the world's directions if the test tries these. They are
 /// counted from the middle of A's box: far from the world's origin the numbers keep their digits.
-BoxPair boxes_of(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
-    const mobb::PlacedTree& a = sides[0].placed;
-    const mobb::PlacedTree& b = sides[1].placed;
+BoxPair boxes_of(const mobb::PlacedTree& a, const mobb::PlacedTree& b, const mobb::Trace::Event& event) {
     const mobb::RelativeFrame frame(a.frame(), b.frame(), a.time_scale());
     BoxPair pair{a.tree().box(event.a), b.tree().box(event.b)};
     pair.b.center = frame.point(pair.b.center) - pair.a.center;
@@ -107,7 +105,7 @@ BoxPair nearest(const BoxPair& boxes) {
 std::vector<AxisInterval> axis_intervals(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
     std::vector<AxisInterval> out;
     if (!event.test.is_box()) return out;
-    const BoxPair boxes = boxes_of(sides, event);
+    const BoxPair boxes = boxes_of(sides[0].placed, sides[1].placed, event);
     for (int axis = 0; axis < mobb::axis_count(event.test); ++axis) {
         if (!is_tried(boxes.a, boxes.b, event.test, axis)) continue;
         const glm::dvec3 direction = test_axis(boxes.a, boxes.b, event.test, axis);
@@ -119,6 +117,14 @@ std::vector<AxisInterval> axis_intervals(std::span<const DrawnAgent> sides, cons
                        std::max(on_b.min - on_a.max, on_a.min - on_b.max)});
     }
     return out;
+}
+
+glm::dvec3 separating_axis(const mobb::PlacedTree& a, const mobb::PlacedTree& b, const mobb::Trace::Event& event) {
+    const BoxPair boxes = boxes_of(a, b, event);
+    const glm::dvec3 axis = test_axis(boxes.a, boxes.b, event.test, event.axis);
+    if (tries_world_axes(event.test)) return axis;
+    const glm::dvec2 turned = a.placed_clip().rotation()(glm::dvec2(axis));
+    return {turned.x, turned.y, axis.z};
 }
 
 Projection project(const mobb::Box& box, glm::dvec3 axis) {

@@ -25,6 +25,9 @@ struct AxisInterval {
 /// edge-edge axes that it skips are left out. Empty for another event. `sides`: A and B.
 std::vector<AxisInterval> axis_intervals(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event);
 
+/// The axis that separated two boxes, unit, in the world's (x, y, w*t). Requires a box test that ended so.
+glm::dvec3 separating_axis(const mobb::PlacedTree& a, const mobb::PlacedTree& b, const mobb::Trace::Event& event);
+
 /// What a box covers along an axis, metres.
 struct Projection {
     double min = 0;
