@@ -88,11 +88,16 @@ double nice_step(double span, double parts) {
 
 double ruler_step(double from, double to, float length, const std::function<float(const std::string&)>& width_of) {
     const double span = to - from;
-    for (double parts = std::max(1.0f, length / width_of("0"));; parts /= 2) {
+    if (!(span > 0) || !(length > 0)) return 1;
+    constexpr int kMostHalvings = 40;
+    double parts = std::max(1.0f, length / width_of("0"));
+    for (int i = 0; i < kMostHalvings; ++i) {
         const double step = nice_step(span, parts);
         const float widest = std::max(width_of(tick_text(from, step)), width_of(tick_text(to, step)));
         if (step / span * length >= widest) return step;
+        parts /= 2;
     }
+    return span;
 }
 
 std::vector<double> ticks(double from, double to, double step) {
