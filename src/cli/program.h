@@ -52,5 +52,6 @@ void add_query_command(Command& program);
 void add_render_command(Command& program);
 void add_simulate_command(Command& program);
 void add_test_command(Command& program);
+void add_verify_command(Command& program);
 
 }  // namespace mobbscope::cli

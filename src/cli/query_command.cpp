@@ -4,12 +4,14 @@
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
+#include <explain/certificate_file.h>
 #include <scene/answer.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <iostream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,7 @@ namespace {
 
 struct QueryCommandArguments : FittedArguments {
     Details details;
+    std::filesystem::path certificate;  ///< to be written; empty: none
 };
 
 void print_event(std::ostream& out, int step, const mobb::Trace::Event& event) {
@@ -94,6 +97,21 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
     return complaints;
 }
 
+void write_certificates(const FittedScene& scene, const std::filesystem::path& file) {
+    std::ostringstream text;
+    JsonWriter json(text);
+    json.begin_object();
+    json.member("mobbscope_certificate", 1);
+    json.begin_array("queries");
+    for (std::size_t index = 0; index < scene.queries().size(); ++index) {
+        const SceneQuery query = scene.queries()[index];
+        write_certificate(json, scene, {static_cast<int>(index), certify(scene, query, record(scene, query))});
+    }
+    json.end_array();
+    json.end_object();
+    write_file(file, std::move(text).str());
+}
+
 int run_query(QueryCommandArguments& arguments) {
     const FittedScene scene = fitted(load(arguments.file, arguments.import_options), arguments.fit);
     if (scene.queries().empty()) {
@@ -101,9 +119,11 @@ int run_query(QueryCommandArguments& arguments) {
             throw InputError(arguments.file, "a run asks nothing; mobbscope conflicts finds who collides in it");
         throw InputError(arguments.file, "there is nothing to ask; add queries, or two agents at least");
     }
+    if (!arguments.certificate.empty()) check_output(arguments.certificate);
     arguments.details.search = arguments.fit.brute ? Search::direct : Search::trees;
     const std::vector<std::string> complaints = answer_all(scene, arguments);
     flush_results();
+    if (!arguments.certificate.empty()) write_certificates(scene, arguments.certificate);
     for (const std::string& complaint : complaints) complain(shown_name(arguments.file) + ": " + complaint);
     return complaints.empty() ? kDone : kFailed;
 }
@@ -111,6 +131,8 @@ int run_query(QueryCommandArguments& arguments) {
 void add_query_options(Command& command, QueryCommandArguments& arguments) {
     add_fitted_options(command, arguments, "Answers as JSON", Brute::allowed);
     command.add_flag("--trace", arguments.details.trace, "Every test that was made");
+    add_parsed(command, "--certificate", arguments.certificate, parse_file_name,
+               "Also write proofs of the answers, which mobbscope verify checks", "OUT.json");
     command.add_flag("--all-contacts", arguments.details.all_contacts, "All intervals of contact, not only the first");
 }
 

@@ -17,10 +17,10 @@ namespace mobbscope {
 
 namespace {
 
-constexpr int kFan = 64;            // directions all around that are searched besides
+constexpr int kFan = 64;               // directions all around that are searched besides
 constexpr double kTouchingGap = 1e-9;  // metres that touching disks may seem to overlap by
-constexpr double kFarAway = 1e4;    // metres, from where on rounding takes a larger share of that
-constexpr int kSpeedSteps = 80;     // of the search for the speed with the widest gap
+constexpr double kFarAway = 1e4;       // metres, from where on rounding takes a larger share of that
+constexpr int kSpeedSteps = 80;        // of the search for the speed with the widest gap
 
 /// A pair of samples that share time, with their disks at both ends of it.
 struct Piece {
@@ -220,7 +220,8 @@ Pieces pieces_before(const mobb::PlacedClip& a, const mobb::PlacedClip& b, doubl
         const mobb::SweptDisk of_a = mobb::swept(a, piece.a_sample);
         const mobb::SweptDisk of_b = mobb::swept(b, piece.b_sample);
         out.pieces.push_back({piece.t0, t1, {of_a.at(piece.t0), of_a.at(t1)}, {of_b.at(piece.t0), of_b.at(t1)}});
-        out.lines.push_back(line_of(piece.approach));
+        const Piece& last = out.pieces.back();
+        out.lines.push_back(line_of({{last.a[0], last.a[1], last.t0, t1}, {last.b[0], last.b[1], last.t0, t1}}));
         for (const mobb::Disk& disk : {of_a.from, of_a.to, of_b.from, of_b.to})
             farthest = std::max(farthest, std::abs(disk.x) + std::abs(disk.y) + disk.r);
     }
@@ -307,7 +308,8 @@ std::string why_no_contact(const mobb::PlacedClip& a, const mobb::PlacedClip& b,
 
 Certificate certify(const mobb::PlacedClip& a, const mobb::PlacedClip& b, const std::optional<mobb::Contact>& contact,
                     std::span<const glm::dvec2> directions, std::span<const mobb::MeasuredPair> measured) {
-    const double end = contact ? contact->time - kMostCrack : std::numeric_limits<double>::infinity();
+    // Half of what may be left, so that no rounding makes it more.
+    const double end = contact ? contact->time - 0.5 * kMostCrack : std::numeric_limits<double>::infinity();
     const Pieces pieces = pieces_before(a, b, end);
     std::vector<glm::dvec2> all(directions.begin(), directions.end());
     for (const mobb::MeasuredPair& pair : measured) all.push_back(line_of(mobb::approach_of(a, pair.i, b, pair.j)));

@@ -1,0 +1,30 @@
+/// Certificates as files (contract, "Certificates"):
+///
+///     {"mobbscope_certificate": 1, "queries": [{"query": 0, "a": "A", "b": "B", "collides": false, "contact": null,
+///      "tiles": [{"t0": 0, "t1": 5, "direction": [1, 0], "speed": 0, "gap": 0.2}]}]}
+#pragma once
+
+#include <base/json_writer.h>
+#include <explain/certificate.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope {
+
+/// A proof and the query that it is about.
+struct QueryCertificate {
+    int query = 0;  ///< index
+    Certificate proof;
+};
+
+/// An element of `queries`.
+void write_certificate(JsonWriter& out, const FittedScene& fitted, const QueryCertificate& certificate);
+
+/// Of a scene: the queries that a text names must be there, under the same names. `file` stands for it in messages.
+/// Throws InputError.
+std::vector<QueryCertificate> read_certificates(std::string_view text, const std::string& file,
+                                                const FittedScene& fitted);
+
+}  // namespace mobbscope
