@@ -457,7 +457,12 @@ std::optional<double> type_number(Ui& ui, const NumberField& field) {
         return std::nullopt;
     }
     if (ImGui::IsItemActive()) {
-        input.waits = 0;
+        // In its first frame Dear ImGui does not give it all keys yet.
+        if (ImGui::GetIO().WantTextInput) {
+            input.waits = 0;
+        } else {
+            ui.want_frame_in(0);
+        }
         return std::nullopt;
     }
     // It has the keys a frame after it asked for them.

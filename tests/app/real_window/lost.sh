@@ -3,6 +3,7 @@
 # not saved; the next one restores it. FOLDER holds assets/; how each ended is left in its ends.txt, the settings in
 # config/, and copies in state/.
 set -euo pipefail
+shopt -s nullglob
 command -v xdotool >/dev/null || { echo "xdotool is not installed" >&2; exit 77; }
 program=$1 folder=$2
 cd "$folder"
@@ -29,15 +30,15 @@ titled() {
   echo "the window is called $(xdotool getwindowname "$window"), not $1" >&2
   exit 1
 }
-# Until a file below state/ is there, or none is.
+# Until so many copies are kept.
 kept() {
+  local copies
   for _ in $(seq 400); do
-    local count
-    count=$(find . -name '*.unsaved' | wc -l)
-    [ "$count" -eq "$1" ] && return
+    copies=(state/mobbscope/unsaved/*/*.unsaved)
+    [ "${#copies[@]}" -eq "$1" ] && return
     sleep 0.05
   done
-  echo "$count copies are kept, not $1" >&2
+  echo "${#copies[@]} copies are kept, not $1" >&2
   exit 1
 }
 duplicate() {
