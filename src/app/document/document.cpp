@@ -61,6 +61,21 @@ std::optional<int> find_query(const FittedScene& fitted, const QueryKey& key) {
 
 StepKey step_key(const FittedScene& fitted, int query) { return {query_key(fitted, query), fitted.options().tree}; }
 
+std::vector<SceneView> views_of(const Document& document) {
+    std::vector<SceneView> out = document.beside;
+    out.insert(out.begin() + static_cast<std::ptrdiff_t>(document.place), {document.fitted, document.view});
+    return out;
+}
+
+void set_views(Document& document, std::vector<SceneView> views, std::size_t place) {
+    const auto active = views.begin() + static_cast<std::ptrdiff_t>(place);
+    document.fitted = std::move(active->fitted);
+    document.view = std::move(active->view);
+    views.erase(active);
+    document.beside = std::move(views);
+    document.place = place;
+}
+
 Document document_of(Scene scene, const FittedScene* previous, const Progress& progress) {
     const mobb::FitOptions options = scene.fit;
     const ViewState view = scene.view;

@@ -65,6 +65,11 @@ struct Document {
     int opening = 0;                                    ///< which one it is of: of files or an excerpt, each its own
 };
 
+/// All views of a document, from left to right.
+std::vector<SceneView> views_of(const Document& document);
+/// These are its views now, at least one, and the one at `place` is active.
+void set_views(Document& document, std::vector<SceneView> views, std::size_t place);
+
 /// A scene with the fit that it says, seen as it says; trees that `previous` (null: none) has are shared. Throws
 /// what `progress` throws, such as Cancelled, and std::invalid_argument if a fit option is out of range: those of a
 /// scene that was read are checked.

@@ -25,26 +25,6 @@ ViewState carried_view(const ViewState& now, const ViewState& base, const ViewSt
     return out;
 }
 
-/// The fits of all views, from left to right.
-std::vector<std::shared_ptr<const FittedScene>> fits_by_place(const Document& document) {
-    std::vector<std::shared_ptr<const FittedScene>> out;
-    for (const SceneView& other : document.beside) out.push_back(other.fitted);
-    out.insert(out.begin() + static_cast<std::ptrdiff_t>(document.place), document.fitted);
-    return out;
-}
-
-/// Another view is the active one.
-void activate(Document& document, std::size_t place, const std::vector<std::shared_ptr<const FittedScene>>& fits,
-              const std::vector<ViewState>& views) {
-    document.place = place;
-    document.beside.clear();
-    for (std::size_t i = 0; i < views.size(); ++i) {
-        if (i != place) document.beside.push_back({fits[i], views[i]});
-    }
-    document.fitted = fits[place];
-    document.view = views[place];
-}
-
 }  // namespace
 
 struct History::Packed {
@@ -62,8 +42,7 @@ struct History::Packed {
 
 History::Layout History::layout_of(const Document& document) {
     Layout out{{}, document.place, document.linked_cameras};
-    for (const SceneView& other : document.beside) out.views.push_back(other.view);
-    out.views.insert(out.views.begin() + static_cast<std::ptrdiff_t>(document.place), document.view);
+    for (const SceneView& seen : views_of(document)) out.views.push_back(seen.view);
     return out;
 }
 
@@ -98,28 +77,27 @@ Document History::carried(const Document& from, const Document& to, const Layout
     // An excerpt and its whole are seen each in their way.
     if (from.opening != to.opening) return to;
     Document out = to;
-    const Layout now = layout_of(from);
-    const std::vector<std::shared_ptr<const FittedScene>> fits_now = fits_by_place(from);
-    const std::vector<std::shared_ptr<const FittedScene>> fits = fits_by_place(to);
+    const std::vector<SceneView> now = views_of(from);
+    std::vector<SceneView> views = views_of(to);
     const auto carry = [&](std::size_t place, std::size_t at_goal) {
-        ViewState view = carried_view(now.views[place], base.views[place], goal.views[at_goal]);
+        const ViewState& seen = now[place].view;
+        const FittedScene& fitted = *views[at_goal].fitted;
+        ViewState view = carried_view(seen, base.views[place], goal.views[at_goal]);
         // A query that was opened since may have another index, or another name, there.
-        if (const std::optional<int>& kept = now.views[place].query; kept && kept != base.views[place].query) {
-            const std::optional<int> found = find_query(*fits[at_goal], query_key(*fits_now[place], *kept));
-            const bool as_many = fits[at_goal]->queries().size() == fits_now[place]->queries().size();
+        if (seen.query && seen.query != base.views[place].query) {
+            const std::optional<int> found = find_query(fitted, query_key(*now[place].fitted, *seen.query));
+            const bool as_many = fitted.queries().size() == now[place].fitted->queries().size();
             if (found || !as_many) view.query = found;
         }
         return view;
     };
-    std::vector<ViewState> views = goal.views;
-    if (now.views.size() == goal.views.size()) {
-        for (std::size_t place = 0; place < views.size(); ++place) views[place] = carry(place, place);
-        activate(out, now.place, fits, views);
-    } else {
-        views[goal.place] = carry(now.place, goal.place);
-        activate(out, goal.place, fits, views);
+    const bool as_many_views = now.size() == goal.views.size();
+    for (std::size_t place = 0; place < views.size(); ++place) {
+        views[place].view = as_many_views ? carry(place, place) : goal.views[place];
     }
-    out.linked_cameras = now.linked_cameras == base.linked_cameras ? goal.linked_cameras : now.linked_cameras;
+    if (!as_many_views) views[goal.place].view = carry(from.place, goal.place);
+    set_views(out, std::move(views), as_many_views ? from.place : goal.place);
+    out.linked_cameras = from.linked_cameras == base.linked_cameras ? goal.linked_cameras : from.linked_cameras;
     out.steps = from.steps;
     out.steps.insert(to.steps.begin(), to.steps.end());
     clamp_views(out);

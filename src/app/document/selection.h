@@ -4,7 +4,9 @@
 #include <render/drawlist/draw_list.h>
 #include <scene/fitted_scene.h>
 
+#include <array>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace mobbscope::app {
@@ -32,6 +34,9 @@ struct Selection {
         return {kind == Kind::node ? AgentPart::Kind::node : AgentPart::Kind::sample, index};
     }
 };
+
+/// As files and scripts call the kinds, in their order.
+inline constexpr std::array<std::string_view, 6> kSelectionKinds{"none", "path", "node", "sample", "clip", "query"};
 
 /// The agents of a picture of `view`: all, or the two of its query.
 template <class Use>

@@ -7,7 +7,6 @@
 #include <scene/view_options.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <sstream>
 #include <string_view>
@@ -19,7 +18,6 @@ namespace {
 
 constexpr int kCopyVersion = 1;
 constexpr std::size_t kLongestHead = std::size_t{16} << 20;  // bytes
-constexpr std::array<std::string_view, 6> kSelectionKinds{"none", "path", "node", "sample", "clip", "query"};
 
 /// Names of files may be no UTF-8, which JSON texts are: then by their bytes.
 void write_path(JsonWriter& out, const std::filesystem::path& path) {

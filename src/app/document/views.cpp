@@ -45,14 +45,7 @@ void Views::close_others() {
 
 void Views::activate(std::size_t place) {
     if (place == workspace_.document().place || place > workspace_.document().beside.size()) return;
-    workspace_.amend([&](Document& next) {
-        next.beside.insert(next.beside.begin() + static_cast<std::ptrdiff_t>(next.place), {next.fitted, next.view});
-        const auto chosen = next.beside.begin() + static_cast<std::ptrdiff_t>(place);
-        next.fitted = chosen->fitted;
-        next.view = chosen->view;
-        next.beside.erase(chosen);
-        next.place = place;
-    });
+    workspace_.amend([&](Document& next) { set_views(next, views_of(next), place); });
 }
 
 void Views::settle_camera(std::size_t place, const Camera& camera, double time_height) {

@@ -71,7 +71,6 @@ std::string name_of(const Workspace& workspace, const Selection& selection) {
 }
 
 Json selection_json(const Workspace& workspace, const Selection& selection) {
-    constexpr std::array<const char*, 6> kSelectionKinds{"none", "path", "node", "sample", "clip", "query"};
     Json json{{"kind", kSelectionKinds[static_cast<std::size_t>(selection.kind)]}};
     if (selection.kind == Selection::Kind::none || !exists(workspace.fitted(), selection)) return json;
     json["name"] = name_of(workspace, selection);
