@@ -12,13 +12,11 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kRoundingUnit = std::numeric_limits<double>::epsilon();
+constexpr double kForever = std::numeric_limits<double>::infinity();
 constexpr double kInset = 1e-12;  // metres that corners of a region stay within it, more than their rounding
 
-double least_gap(const Certificate& certificate) {
-    return std::ranges::min(certificate.tiles, {}, &Tile::gap).gap;
-}
+double least_gap(const Certificate& certificate) { return std::ranges::min(certificate.tiles, {}, &Tile::gap).gap; }
 
 /// The part of a convex polygon where u . d >= -gap.
 std::vector<glm::dvec2> cut(const std::vector<glm::dvec2>& polygon, glm::dvec2 u, double gap) {
@@ -63,12 +61,10 @@ class ShiftCheck {
     }
 
     /// A shift by so much leaves no time that the two share.
-    double all_shifts() const {
-        return std::max(a_.time(a_.count()) - b_.time(0), b_.time(b_.count()) - a_.time(0));
-    }
+    double all_shifts() const { return std::max(a_.time(a_.count()) - b_.time(0), b_.time(b_.count()) - a_.time(0)); }
     /// How far B's rounded times may be from where a shift puts them, seconds.
     double rounding() const {
-        return 8 * kEpsilon * (std::abs(begin_) + std::abs(end_) + a_.frame().duration + b_.frame().duration);
+        return 8 * kRoundingUnit * (std::abs(begin_) + std::abs(end_) + a_.frame().duration + b_.frame().duration);
     }
 
   private:
@@ -90,8 +86,9 @@ class ShiftCheck {
         // A is nowhere before its first sample and after its last one.
         from = std::max(from, a_.time(0));
         to = std::min(to, a_.time(a_.count()));
-        const double least = reach_of_a(tile, from, to) +
-                             16 * kEpsilon * (reach_ + std::abs(tile.speed) * (to - from + std::abs(from - tile.t0)));
+        const double least =
+            reach_of_a(tile, from, to) +
+            16 * kRoundingUnit * (reach_ + std::abs(tile.speed) * (to - from + std::abs(from - tile.t0)));
         const auto is_beyond = [&](const mobb::SweptDisk& swept, double q) {
             const mobb::Disk disk = swept.at(q);
             // Of the times at which a shift can put it, the one when the line is farthest.
@@ -112,14 +109,14 @@ class ShiftCheck {
 
     /// How far A's disks reach along a tile's direction, seen from its line.
     double reach_of_a(const Tile& tile, double from, double to) const {
-        double out = -kInfinity;
+        double out = -kForever;
         for (int i = first_ending_after(a_, from); i < a_.count(); ++i) {
             const mobb::SweptDisk swept = mobb::swept(a_, i);
             if (swept.begin >= to) break;
             for (const double t : {std::max(swept.begin, from), std::min(swept.end, to)}) {
                 const mobb::Disk disk = swept.at(t);
-                out = std::max(out, glm::dot(tile.direction, glm::dvec2(disk.x, disk.y)) + disk.r -
-                                        tile.speed * (t - tile.t0));
+                out = std::max(
+                    out, glm::dot(tile.direction, glm::dvec2(disk.x, disk.y)) + disk.r - tile.speed * (t - tile.t0));
             }
         }
         return out;
@@ -138,7 +135,7 @@ double shift_in_time(const ShiftCheck& check) {
     double holds = 0, fails = kLeast;
     for (; fails < all && check.holds(fails); fails *= 2) holds = fails;
     if (holds == 0) return 0;
-    if (fails >= all && check.holds(all)) return kInfinity;
+    if (fails >= all && check.holds(all)) return kForever;
     while (fails - holds > kPrecise * holds) {
         const double middle = 0.5 * (holds + fails);
         (check.holds(middle) ? holds : fails) = middle;
