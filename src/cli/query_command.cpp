@@ -105,7 +105,9 @@ void write_certificates(const FittedScene& scene, const std::filesystem::path& f
     json.begin_array("queries");
     for (std::size_t index = 0; index < scene.queries().size(); ++index) {
         const SceneQuery query = scene.queries()[index];
-        write_certificate(json, scene, {static_cast<int>(index), certify(scene, query, record(scene, query))});
+        write_certificate(
+            json, scene,
+            {static_cast<int>(index), certify(scene.placed(query.a), scene.placed(query.b), record(scene, query))});
     }
     json.end_array();
     json.end_object();
