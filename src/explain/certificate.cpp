@@ -16,21 +16,27 @@ namespace mobbscope {
 
 namespace {
 
+/// What may be left between the last tile and a contact, seconds: as little as a crack, but for the rounding of its
+/// time.
+double most_left_before(const mobb::Contact& contact) {
+    return std::max(mobb::kMinOverlap, 2 * std::numeric_limits<double>::epsilon() * std::abs(contact.time));
+}
+
 std::string tile_number(std::size_t tile) { return "tile " + std::to_string(tile); }
 
 /// How far a tile's line is passed by disks that are present in it, metres: by A's beyond it and B's before it.
 double excess(const mobb::PlacedClip& a, const mobb::PlacedClip& b, const Tile& tile, double& farthest) {
     const auto reach = [&](const mobb::PlacedClip& clip, double way) {
         double out = -std::numeric_limits<double>::infinity();
-        for (int i = 0; i < clip.count(); ++i) {
+        const int first = mobb::first_ending_after(clip, 0, clip.count(), tile.t0);
+        for (int i = first; i < clip.count() && clip.time(i) < tile.t1; ++i) {
             const double begin = std::max(clip.time(i), tile.t0), end = std::min(clip.time(i + 1), tile.t1);
-            if (!(end > begin)) continue;
             const mobb::SweptDisk swept = mobb::swept(clip, i);
             for (const double t : {begin, end}) {
                 const mobb::Disk disk = swept.at(t);
                 out =
                     std::max(out, way * (glm::dot(tile.direction, center(disk)) - tile.speed * (t - tile.t0)) + disk.r);
-                farthest = std::max(farthest, std::abs(disk.x) + std::abs(disk.y) + disk.r);
+                farthest = std::max({farthest, std::abs(disk.x), std::abs(disk.y)});
             }
         }
         return out;
@@ -41,7 +47,8 @@ double excess(const mobb::PlacedClip& a, const mobb::PlacedClip& b, const Tile& 
 /// A pair of samples that shares more than a moment, and some of it between two times; none if there is none.
 std::optional<std::pair<int, int>> pair_between(const mobb::PlacedClip& a, const mobb::PlacedClip& b, double from,
                                                 double to) {
-    for (int i = 0, j = 0; i < a.count() && j < b.count();) {
+    int i = mobb::first_ending_after(a, 0, a.count(), from), j = mobb::first_ending_after(b, 0, b.count(), from);
+    while (i < a.count() && j < b.count() && std::max(a.time(i), b.time(j)) < to) {
         const double begin = std::max(a.time(i), b.time(j)), end = std::min(a.time(i + 1), b.time(j + 1));
         if (end - begin > mobb::kMinOverlap && std::min(end, to) > std::max(begin, from)) return std::pair(i, j);
         a.time(i + 1) <= b.time(j + 1) ? ++i : ++j;
@@ -91,17 +98,17 @@ Certificate certify(const mobb::PlacedTree& a, const mobb::PlacedTree& b, const 
         const glm::dvec2 on_floor(separating_axis(a, b, recorded.trace[end->step]));
         return KnownLine{on_floor / glm::length(on_floor), end->t1};
     };
-    // Half of what may be left, so that no rounding makes it more.
-    const double before =
-        recorded.contact ? recorded.contact->time - 0.5 * kMostCrack : std::numeric_limits<double>::infinity();
-    return {recorded.contact, fewest_tiles(a.placed_clip(), b.placed_clip(), before, known)};
+    // Half of what may be left, so that nothing makes it more.
+    const double end = recorded.contact ? recorded.contact->time - 0.5 * most_left_before(*recorded.contact)
+                                        : std::numeric_limits<double>::infinity();
+    return {recorded.contact, fewest_tiles(a.placed_clip(), b.placed_clip(), end, known)};
 }
 
 std::string why_not_proven(const mobb::PlacedClip& a, const mobb::PlacedClip& b, const Certificate& certificate) {
     double end = std::min(a.time(a.count()), b.time(b.count()));
     if (certificate.contact) {
         if (std::string why = why_no_contact(a, b, *certificate.contact); !why.empty()) return why;
-        end = certificate.contact->time - kMostCrack;
+        end = certificate.contact->time - most_left_before(*certificate.contact);
     }
     double covered = std::max(a.time(0), b.time(0));
     const std::vector<Tile>& tiles = certificate.tiles;
@@ -114,6 +121,7 @@ std::string why_not_proven(const mobb::PlacedClip& a, const mobb::PlacedClip& b,
         if (i == tiles.size()) break;
         const Tile& tile = tiles[i];
         if (!(tile.t1 > tile.t0)) return tile_number(i) + " lasts no time";
+        if (!std::isfinite(tile.speed)) return tile_number(i) + ": its speed is no number";
         if (i > 0 && tile.t0 < tiles[i - 1].t1) return tile_number(i) + " begins before the one before it ends";
         constexpr double kUnit = 1e-15;
         if (!(std::abs(glm::length(tile.direction) - 1) <= kUnit))

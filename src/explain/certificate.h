@@ -22,9 +22,6 @@ struct Certificate {
     std::vector<Tile> tiles;  ///< in order of time
 };
 
-/// What may be left between a tile and the next one, and before a contact, seconds.
-inline constexpr double kMostCrack = mobb::kMinOverlap;
-
 /// Where a traversal went no deeper: at a pair of boxes that is apart in space, or in a run of measured samples.
 struct TraversalEnd {
     double t0 = 0, t1 = 0;  ///< global seconds

@@ -24,7 +24,7 @@ TEST(TraversalEnds, PartitionTheCommonTime) {
         const double begin = std::max(a.begin_time(), b.begin_time());
         const double end = query.proof.contact ? query.proof.contact->time : std::min(a.end_time(), b.end_time());
         // Times far from 0 are rounded.
-        const double crack = kMostCrack + 4 * std::numeric_limits<double>::epsilon() * std::abs(end);
+        const double crack = mobb::kMinOverlap + 4 * std::numeric_limits<double>::epsilon() * std::abs(end);
         double covered = begin;
         for (const TraversalEnd& each : ends) {
             EXPECT_NEAR(each.t0, covered, crack);
