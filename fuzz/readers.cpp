@@ -10,6 +10,8 @@
 #include <cases/case_file.h>
 #include <cases/case_report.h>
 #include <cases/result_line.h>
+#include <explain/certificate_file.h>
+#include <explain/proof_words.h>
 #include <import/bvh/bvh.h>
 #include <import/clip/import_options.h>
 #include <import/clip/radii.h>
@@ -201,6 +203,25 @@ void read_scene(const std::string& bytes) {
     const FittedScene fitted(scene, scene.fit);
     for (std::size_t i = 0; i < std::min<std::size_t>(fitted.queries().size(), 20); ++i)
         record(fitted, fitted.queries()[i]);
+}
+
+void read_certificate_file(const std::string& bytes) {
+    // The scene that the seeds are about.
+    static const FittedScene scene(parse_scene(R"({"clips": {
+        "walk": {"dt": 0.5, "samples": [[0, 0, 0.4], [1, 0, 0.5], [2, 0.5, 0.4], [3, 0.5, 0.4]]},
+        "stand": {"dt": 2, "motion": "linear", "samples": [[0, 0, 0.3]]}},
+        "agents": [{"name": "A", "clip": "walk"}, {"name": "B", "clip": "stand", "translate": [0, 3]},
+                   {"name": "C", "clip": "stand", "translate": [2, 0]}]})",
+                                               "scene.json", kSeedFolder),
+                                   {});
+    for (const QueryCertificate& each : read_certificates(bytes, "fuzz.json", scene)) {
+        const SceneQuery query = scene.queries()[static_cast<std::size_t>(each.query)];
+        const mobb::PlacedTree a = scene.placed(query.a), b = scene.placed(query.b);
+        const bool collide = mobb::direct_search(a.placed_clip(), b.placed_clip()).has_value();
+        const std::string why = why_not_proven(a.placed_clip(), b.placed_clip(), each.proof);
+        require(!why.empty() || collide == each.proof.contact.has_value(), "what is false was proven");
+        proof_words(each.proof, {});
+    }
 }
 
 void read_case(const std::string& bytes) {

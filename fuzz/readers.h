@@ -17,6 +17,7 @@ void read_mapf_plan(const std::string& bytes);
 void read_text_plan(const std::string& bytes);
 void read_any_file(const std::string& bytes);  ///< told by its content, and packed by gzip
 void read_scene(const std::string& bytes);
+void read_certificate_file(const std::string& bytes);
 void read_case(const std::string& bytes);
 void read_script(const std::string& bytes);
 void read_view_state(const std::string& bytes);

@@ -270,6 +270,7 @@ constexpr Target kTargets[] = {
     {"gzip", Form::gzip, read_any_file, gzip_seeds},
     {"scene", Form::json, read_scene, scene_seeds},
     {"run", Form::json, read_scene, run_seeds},
+    {"certificate", Form::json, read_certificate_file, none},
     {"view", Form::json, read_view_state, none},
     {"case", Form::json, read_case, case_seeds},
     {"script", Form::lines, read_script, script_seeds},

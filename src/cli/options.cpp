@@ -177,11 +177,12 @@ void add_import_options(Command& command, ImportOptions& options) {
     add("--animation", &ImportOptions::animation, as_it_is, "Index or name of the animation", "A");
 }
 
-void add_fitted_options(Command& command, FittedArguments& arguments, const std::string& json_help, Brute brute) {
+Option add_fitted_options(Command& command, FittedArguments& arguments, const std::string& json_help, Brute brute) {
     add_scene_file(command, arguments.file);
-    command.add_flag("--json", arguments.json, json_help);
+    const Option json = command.add_flag("--json", arguments.json, json_help);
     add_fit_options(command, arguments.fit, brute);
     add_import_options(command, arguments.import_options);
+    return json;
 }
 
 FittedScene fitted(Scene scene, const FitArguments& arguments) {

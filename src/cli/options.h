@@ -46,9 +46,10 @@ void add_fit_options(Command& command, FitArguments& arguments, Brute brute = Br
 /// the command has run.
 void add_import_options(Command& command, ImportOptions& options);
 
-/// Adds FILE, --json and the options of fits and imports. `arguments` must live until the command has run.
-void add_fitted_options(Command& command, FittedArguments& arguments, const std::string& json_help,
-                        Brute brute = Brute::refused);
+/// Adds FILE, --json and the options of fits and imports; gives --json. `arguments` must live until the command has
+/// run.
+Option add_fitted_options(Command& command, FittedArguments& arguments, const std::string& json_help,
+                          Brute brute = Brute::refused);
 
 /// The scene with the trees that it or the arguments ask for.
 FittedScene fitted(Scene scene, const FitArguments& arguments);

@@ -5,14 +5,17 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <explain/certificate_file.h>
+#include <explain/proof_words.h>
 #include <scene/answer.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <iostream>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::cli {
@@ -21,6 +24,7 @@ namespace {
 
 struct QueryCommandArguments : FittedArguments {
     Details details;
+    bool proof = false;                 ///< in words
     std::filesystem::path certificate;  ///< to be written; empty: none
 };
 
@@ -48,10 +52,28 @@ void print_event(std::ostream& out, int step, const mobb::Trace::Event& event) {
     out << '\n';
 }
 
-/// A sentence, the counts, and what else was asked for.
-void print_answer(std::ostream& out, std::size_t index, const SceneQuery& query, const Answer& answer) {
-    out << index << ": " << sentence(query, answer.contact) << '\n'
-        << "   Tests: " << answer.tests[mobb::TestKind::time] << " of time";
+/// An answer proven, and how far it may be pushed.
+struct Proven {
+    std::vector<TraversalEnd> ends;
+    Certificate proof;
+    std::optional<Margins> margins;  ///< of a miss in common time
+};
+
+Proven prove(const FittedScene& fitted, const SceneQuery& query) {
+    const mobb::PlacedTree a = fitted.placed(query.a), b = fitted.placed(query.b);
+    const RecordedQuery recorded = record(fitted, query);
+    Proven out{traversal_ends(a, b, recorded.trace), certify(a, b, recorded), {}};
+    out.margins = margins_of(a.placed_clip(), b.placed_clip(), out.proof);
+    return out;
+}
+
+/// A sentence, the proof, the counts, and what else was asked for.
+void print_answer(std::ostream& out, std::size_t index, const SceneQuery& query, const Answer& answer,
+                  const std::optional<Proven>& proven) {
+    out << index << ": " << sentence(query, answer.contact) << '\n';
+    if (proven) out << "   " << proof_words(proven->proof, proven->ends) << '\n';
+    if (proven && proven->margins) out << "   " << margin_words(*proven->margins, cleaned(query.b.name)) << '\n';
+    out << "   Tests: " << answer.tests[mobb::TestKind::time] << " of time";
     for (const mobb::BoxKind kind : mobb::kBoxKinds) {
         if (mobb::info(kind).in_paper || answer.tests[kind] > 0) {
             out << ", " << answer.tests[kind] << " of " << mobb::info(kind).plural;
@@ -74,7 +96,8 @@ void print_answer(std::ostream& out, std::size_t index, const SceneQuery& query,
     }
 }
 
-/// Answers every query in order; returns the sentences of those that disagree with what the file expects.
+/// Answers every query in order and writes their proofs, if that is asked for; returns the sentences of those that
+/// disagree with what the file expects.
 std::vector<std::string> answer_all(const FittedScene& fitted, const QueryCommandArguments& arguments) {
     std::vector<std::string> complaints;
     JsonWriter json(std::cout);
@@ -82,10 +105,23 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
         json.begin_object();
         json.begin_array("results");
     }
+    std::ostringstream certificate;
+    JsonWriter proofs(certificate);
+    proofs.begin_object();
+    proofs.member("mobbscope_certificate", 1);
+    proofs.begin_array("queries");
     for (std::size_t index = 0; index < fitted.queries().size(); ++index) {
         const SceneQuery query = fitted.queries()[index];
         const Answer found = answer(fitted, query, arguments.details);
-        arguments.json ? write_answer(json, index, query, found) : print_answer(std::cout, index, query, found);
+        std::optional<Proven> proven;
+        if (arguments.proof || !arguments.certificate.empty()) proven = prove(fitted, query);
+        if (arguments.json) {
+            write_answer(json, index, query, found);
+        } else {
+            print_answer(std::cout, index, query, found, arguments.proof ? proven : std::nullopt);
+        }
+        if (!arguments.certificate.empty())
+            write_certificate(proofs, fitted, {static_cast<int>(index), proven->proof}, proven->margins);
         if (const auto complaint = disagreement(query, found)) {
             complaints.push_back("query " + std::to_string(index) + ": " + *complaint);
         }
@@ -94,24 +130,11 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
         json.end_array();
         json.end_object();
     }
+    proofs.end_array();
+    proofs.end_object();
+    flush_results();
+    if (!arguments.certificate.empty()) write_file(arguments.certificate, std::move(certificate).str());
     return complaints;
-}
-
-void write_certificates(const FittedScene& scene, const std::filesystem::path& file) {
-    std::ostringstream text;
-    JsonWriter json(text);
-    json.begin_object();
-    json.member("mobbscope_certificate", 1);
-    json.begin_array("queries");
-    for (std::size_t index = 0; index < scene.queries().size(); ++index) {
-        const SceneQuery query = scene.queries()[index];
-        write_certificate(
-            json, scene,
-            {static_cast<int>(index), certify(scene.placed(query.a), scene.placed(query.b), record(scene, query))});
-    }
-    json.end_array();
-    json.end_object();
-    write_file(file, std::move(text).str());
 }
 
 int run_query(QueryCommandArguments& arguments) {
@@ -124,15 +147,15 @@ int run_query(QueryCommandArguments& arguments) {
     if (!arguments.certificate.empty()) check_output(arguments.certificate);
     arguments.details.search = arguments.fit.brute ? Search::direct : Search::trees;
     const std::vector<std::string> complaints = answer_all(scene, arguments);
-    flush_results();
-    if (!arguments.certificate.empty()) write_certificates(scene, arguments.certificate);
     for (const std::string& complaint : complaints) complain(shown_name(arguments.file) + ": " + complaint);
     return complaints.empty() ? kDone : kFailed;
 }
 
 void add_query_options(Command& command, QueryCommandArguments& arguments) {
-    add_fitted_options(command, arguments, "Answers as JSON", Brute::allowed);
+    const Option json = add_fitted_options(command, arguments, "Answers as JSON", Brute::allowed);
     command.add_flag("--trace", arguments.details.trace, "Every test that was made");
+    command.add_flag("--proof", arguments.proof, "Also say how few lines prove an answer, and how far it may be pushed")
+        .excludes(json);
     add_parsed(command, "--certificate", arguments.certificate, parse_file_name,
                "Also write proofs of the answers, which mobbscope verify checks", "OUT.json");
     command.add_flag("--all-contacts", arguments.details.all_contacts, "All intervals of contact, not only the first");

@@ -4,10 +4,10 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <explain/certificate_file.h>
+#include <explain/proof_words.h>
+#include <scene/answer.h>
 
-#include <algorithm>
 #include <iostream>
-#include <limits>
 
 namespace mobbscope::cli {
 
@@ -17,19 +17,6 @@ struct VerifyCommandArguments {
     std::filesystem::path file, certificate;
     ImportOptions import_options;
 };
-
-/// "A and B never collide: 2 lines keep them at least 0.183 m apart."
-std::string proven(const SceneQuery& query, const Certificate& proof) {
-    std::string out = cleaned(query.a.name) + " and " + cleaned(query.b.name);
-    out +=
-        proof.contact ? " collide at " + to_thousandth(proof.contact->time) + " s, and not before" : " never collide";
-    if (proof.tiles.empty()) return out + (proof.contact ? "." : ": they share no time.");
-    double gap = std::numeric_limits<double>::infinity();
-    for (const Tile& tile : proof.tiles) gap = std::min(gap, tile.gap);
-    const bool one = proof.tiles.size() == 1;
-    return out + ": " + counted(proof.tiles.size(), "line", "lines") + (one ? " keeps" : " keep") + " them at least " +
-           figure(std::max(gap, 0.0)) + " m apart.";
-}
 
 int run_verify(VerifyCommandArguments& arguments) {
     Scene loaded = load(arguments.file, arguments.import_options);
@@ -44,7 +31,8 @@ int run_verify(VerifyCommandArguments& arguments) {
         const std::string why = why_not_proven(a.placed_clip(), b.placed_clip(), each.proof);
         const std::string number = std::to_string(each.query);
         if (why.empty()) {
-            std::cout << number << ": " << proven(query, each.proof) << '\n';
+            std::cout << number << ": " << sentence(query, each.proof.contact) << ' ' << proof_words(each.proof, {})
+                      << '\n';
         } else {
             complain(name + ": query " + number + " is not proven: " + why);
             ++failed;
@@ -56,9 +44,8 @@ int run_verify(VerifyCommandArguments& arguments) {
 }
 
 void add_verify_options(Command& command, VerifyCommandArguments& arguments) {
-    add_parsed(command, "FILE", arguments.file, parse_file_name, "The scene", "FILE").required();
-    add_parsed(command, "CERT", arguments.certificate, parse_file_name, "What query --certificate wrote", "CERT")
-        .required();
+    add_scene_file(command, arguments.file);
+    command.add_option("CERT", arguments.certificate, openable_files()).required();
     add_import_options(command, arguments.import_options);
 }
 

@@ -4,6 +4,9 @@
 #include <explain/certificate_file.h>
 #include <scene/scene_json.h>
 
+#include <set>
+#include <utility>
+
 namespace mobbscope {
 
 namespace {
@@ -12,13 +15,17 @@ constexpr int kVersion = 1;
 
 Tile read_tile(const JsonPlace& place) {
     Tile out;
-    out.t0 = place.require("t0").number();
-    out.t1 = place.require("t1").number();
+    // Starts and durations of clips are within kMaxTime, and places within kMaxLength: what is far beyond is no proof.
+    constexpr double kFar = 4;
+    const auto number = [](const JsonPlace& of, double most) { return of.number(-most, most); };
+    out.t0 = number(place.require("t0"), kFar * mobb::kMaxTime);
+    out.t1 = number(place.require("t1"), kFar * mobb::kMaxTime);
+    if (out.t1 <= out.t0) place.fail("it ends before it begins");
     const JsonPlace direction = place.require("direction");
     direction.require_size(2, "numbers");
-    out.direction = {direction[0].number(), direction[1].number()};
-    if (const auto speed = place.find("speed")) out.speed = speed->number();
-    out.gap = place.require("gap").number();
+    out.direction = {number(direction[0], 2), number(direction[1], 2)};
+    if (const auto speed = place.find("speed")) out.speed = number(*speed, mobb::kMaxLength / mobb::kLeastDt);
+    out.gap = number(place.require("gap"), kFar * mobb::kMaxLength);
     return out;
 }
 
@@ -42,13 +49,28 @@ QueryCertificate read_certificate(const JsonPlace& place, const FittedScene& fit
     const JsonPlace collides = place.require("collides");
     if (collides.boolean() != out.proof.contact.has_value())
         collides.fail("with a contact two collide, and without one they do not");
-    place.require("tiles").each([&](const JsonPlace& tile) { out.proof.tiles.push_back(read_tile(tile)); });
+    std::vector<Tile>& tiles = out.proof.tiles;
+    place.require("tiles").each([&](const JsonPlace& tile) {
+        const Tile read = read_tile(tile);
+        if (!tiles.empty() && read.t0 < tiles.back().t1) tile.fail("it begins before the one before it ends");
+        tiles.push_back(read);
+    });
     return out;
+}
+
+void write_margins(JsonWriter& out, const std::optional<Margins>& margins) {
+    if (!margins) return out.null();
+    out.begin_object();
+    out.members("growth", margins->growth, "shift_in_time", margins->shift_in_time);
+    out.list("free_region", margins->free_region, [&](glm::dvec2 corner) { out.value(corner); });
+    out.member("bounded", margins->bounded);
+    out.end_object();
 }
 
 }  // namespace
 
-void write_certificate(JsonWriter& out, const FittedScene& fitted, const QueryCertificate& certificate) {
+void write_certificate(JsonWriter& out, const FittedScene& fitted, const QueryCertificate& certificate,
+                       const std::optional<Margins>& margins) {
     const SceneQuery query = fitted.queries()[static_cast<std::size_t>(certificate.query)];
     const Certificate& proof = certificate.proof;
     out.begin_object();
@@ -63,6 +85,8 @@ void write_certificate(JsonWriter& out, const FittedScene& fitted, const QueryCe
         out.members("speed", tile.speed, "gap", tile.gap);
         out.end_object();
     });
+    out.key("margins");
+    write_margins(out, margins);
     out.end_object();
 }
 
@@ -74,7 +98,11 @@ std::vector<QueryCertificate> read_certificates(std::string_view text, const std
     if (!version) throw InputError(file, "is no certificate: mobbscope query --certificate writes one");
     if (version->integer(1, kMaxInt) > kVersion) version->fail("it is of a newer version of Mobbscope");
     std::vector<QueryCertificate> out;
-    place.require("queries").each([&](const JsonPlace& query) { out.push_back(read_certificate(query, fitted)); });
+    std::set<int> known;
+    place.require("queries").each([&](const JsonPlace& query) {
+        out.push_back(read_certificate(query, fitted));
+        if (!known.insert(out.back().query).second) query.fail("the proof of this query stands twice");
+    });
     return out;
 }
 

@@ -1,12 +1,18 @@
 /// Certificates as files (contract, "Certificates"):
 ///
 ///     {"mobbscope_certificate": 1, "queries": [{"query": 0, "a": "A", "b": "B", "collides": false, "contact": null,
-///      "tiles": [{"t0": 0, "t1": 5, "direction": [1, 0], "speed": 0, "gap": 0.2}]}]}
+///      "tiles": [{"t0": 0, "t1": 5, "direction": [1, 0], "speed": 0, "gap": 0.2}],
+///      "margins": {"growth": 0.1, "shift_in_time": 0.4, "free_region": [[-0.2, -9], ...], "bounded": true}}]}
+///
+/// The margins are of a miss, else null; a shift in time of null may be as long as it likes. Who checks a proof needs
+/// none of them.
 #pragma once
 
 #include <base/json_writer.h>
 #include <explain/certificate.h>
+#include <explain/margins.h>
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +26,8 @@ struct QueryCertificate {
 };
 
 /// An element of `queries`.
-void write_certificate(JsonWriter& out, const FittedScene& fitted, const QueryCertificate& certificate);
+void write_certificate(JsonWriter& out, const FittedScene& fitted, const QueryCertificate& certificate,
+                       const std::optional<Margins>& margins);
 
 /// Of a scene: the queries that a text names must be there, under the same names. `file` stands for it in messages.
 /// Throws InputError.

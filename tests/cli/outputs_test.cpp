@@ -59,6 +59,8 @@ class Outputs : public ::testing::Test {
         folder.write("scene.json", R"({"clips": {"c": {"source": "clip.csv"}}})");
         folder.write("motion.json",
                      R"({"clips": {"c": {"source": "walker.bvh"}}, "agents": [{"name": "A", "clip": "c"}]})");
+        folder.write("two.json", R"({"clips": {"c": {"source": "clip.csv"}},
+            "agents": [{"name": "A", "clip": "c"}, {"name": "B", "clip": "c", "translate": [3, 0]}]})");
         folder.write("view.json", R"({"theme": "light"})");
         folder.write("graph.json", R"({"clips": {"c": {"source": "clip.csv"}}, "graph": {"hubs": [{"name": "a"}],
             "moves": [{"clip": "c", "from": 0, "to": 0, "entry": [0, 0, 0], "exit": [0.2, 0, 0]}]}})");
@@ -107,6 +109,10 @@ class Outputs : public ::testing::Test {
              ".png",
              {"graph.json", "clip.csv"},
              true},
+            {{"query", "--certificate"},
+             {"query", path("two.json"), "--certificate"},
+             ".json",
+             {"two.json", "clip.csv"}},
             {{"render", "-o"}, picture("-o"), ".png", pictured, true},
             {{"render", "--ids"}, picture("--ids"), ".png", pictured, true},
             {{"render", "--draw-list"}, picture("--draw-list"), ".json", pictured},
