@@ -242,6 +242,7 @@ void step_transport(Ui& ui) {
     text_line(ui.style.quiet, "next");
     text_button(ui, "separated", "step.next_separated");
     text_button(ui, "overlap", "step.next_overlap");
+    text_button(ui, "avoidable", "step.next_avoidable");
     text_button(ui, "hit", "step.next_hit");
     ImGui::PopStyleVar(2);
 

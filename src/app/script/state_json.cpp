@@ -79,6 +79,10 @@ Json selection_json(const Workspace& workspace, const Selection& selection) {
         json["path"] = {{"participant", path.agent}, {"query", path.query}, {"side", path.side}};
     }
     if (selection.kind != Selection::Kind::path) json["index"] = selection.index;
+    if (selection.kind == Selection::Kind::node && workspace.blame()) {
+        const int clip = placed_agent_of(workspace.fitted(), selection.path)->clip;
+        json["to_blame"] = workspace.blame()->of(clip, selection.index);
+    }
     return json;
 }
 

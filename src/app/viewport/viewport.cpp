@@ -562,7 +562,7 @@ void Viewport::click(Ui& ui, glm::vec2 pixel) {
 
 void Viewport::tooltip(Ui& ui) const {
     if (!place_ || ui.workspace.hovered.kind == Selection::Kind::none) return;
-    const Described what = describe(ui.workspace.fitted(), ui.workspace.hovered);
+    const Described what = describe(ui.workspace, ui.workspace.hovered);
     ImGui::BeginTooltip();
     ImGui::TextUnformatted(what.name.c_str());
     ImGui::PushFont(ui.style.mono);

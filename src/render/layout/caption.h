@@ -1,6 +1,7 @@
 /// The words at the top of a picture.
 #pragma once
 
+#include <explain/query_progress.h>
 #include <render/drawlist/draw_list.h>
 #include <scene/drawn_agent.h>
 
@@ -24,7 +25,7 @@ Caption scene_caption(const FittedScene& fitted, std::span<const DrawnAgent> age
 
 /// What a step of a query shows.
 Caption query_caption(const Palette& palette, std::span<const DrawnAgent> sides, const RecordedQuery& recorded,
-                      int step);
+                      const QueryProgress& progress);
 
 /// " at 1.23 s".
 std::string at_time(double time);

@@ -27,10 +27,16 @@ struct QueryAtStep {
     QueryProgress progress;
 
     QueryAtStep(const FittedScene& fitted, const ViewState& view)
-        : recorded(record(fitted, fitted.queries()[static_cast<std::size_t>(*view.query)])),
-          progress(progress_at(recorded.trace, event_of(view.step, recorded.trace), view.past)) {}
+        : QueryAtStep(fitted, view, fitted.queries()[static_cast<std::size_t>(*view.query)]) {}
     QueryAtStep(const QueryAtStep&) = delete;
     QueryAtStep& operator=(const QueryAtStep&) = delete;
+
+  private:
+    QueryAtStep(const FittedScene& fitted, const ViewState& view, const SceneQuery& query)
+        : recorded(record(fitted, query)),
+          progress(progress_at(recorded.trace, event_of(view.step, recorded.trace), view.past)) {
+        progress.avoidable = avoidable_overlap(fitted.placed(query.a), fitted.placed(query.b), progress.event);
+    }
 };
 
 /// What matters of each path; `behind`: all step back.
@@ -94,7 +100,7 @@ class SpaceTimePicture final : public Picture {
 
     OverlayContents words() override {
         OverlayContents out;
-        out.caption = query_ ? query_caption(list_.palette, agents_, query_->recorded, progress()->step)
+        out.caption = query_ ? query_caption(list_.palette, agents_, query_->recorded, *progress())
                              : scene_caption(fitted_, agents_, view_);
         if (view_.time && !emphasis_.cursor) {
             mention_cursor_outside(out.caption, *view_.time, floor_extent_.t0, floor_extent_.t1);
