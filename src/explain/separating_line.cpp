@@ -64,7 +64,7 @@ Pieces pieces_before(const mobb::PlacedClip& a, const mobb::PlacedClip& b, doubl
         const mobb::SweptDisk of_a = mobb::swept(a, piece.a_sample);
         const mobb::SweptDisk of_b = mobb::swept(b, piece.b_sample);
         out.pieces.push_back({piece.t0, t1, {of_a.at(piece.t0), of_a.at(t1)}, {of_b.at(piece.t0), of_b.at(t1)}});
-        const Piece& last = out.pieces.back();
+        const SharedTime& last = out.pieces.back();
         out.lines.push_back(line_of({{last.a[0], last.a[1], last.t0, t1}, {last.b[0], last.b[1], last.t0, t1}}));
         for (const mobb::Disk& disk : {of_a.from, of_a.to, of_b.from, of_b.to})
             farthest = std::max(farthest, std::abs(disk.x) + std::abs(disk.y) + disk.r);
@@ -155,12 +155,12 @@ Tile Sweep::tile(std::size_t first, std::size_t count, bool fixed_line) const {
 }
 
 Reach Sweep::of_a(std::size_t piece, std::size_t end) const {
-    const Piece& p = pieces_[piece];
+    const SharedTime& p = pieces_[piece];
     return {end == 0 ? p.t0 : p.t1, glm::dot(u_, center(p.a[end])) + p.a[end].r};
 }
 
 Reach Sweep::of_b(std::size_t piece, std::size_t end) const {
-    const Piece& p = pieces_[piece];
+    const SharedTime& p = pieces_[piece];
     return {end == 0 ? p.t0 : p.t1, glm::dot(u_, center(p.b[end])) - p.b[end].r};
 }
 

@@ -24,14 +24,14 @@ struct Tile {
 };
 
 /// A pair of samples that share time, with their disks at both ends of it.
-struct Piece {
+struct SharedTime {
     double t0 = 0, t1 = 0;
     std::array<mobb::Disk, 2> a{}, b{};
 };
 
 /// All pairs that share time before some end, in order of time, and the direction that keeps each apart.
 struct Pieces {
-    std::vector<Piece> pieces;
+    std::vector<SharedTime> pieces;
     std::vector<glm::dvec2> lines;
     double slack = 0;  ///< metres by which each side is drawn back, so that disks that touch are still kept apart
 };
@@ -82,7 +82,7 @@ class Hull {
 class Sweep {
   public:
     /// `slack`: metres by which each side is drawn back, so that disks that touch are still kept apart.
-    Sweep(std::span<const Piece> pieces, glm::dvec2 direction, double slack)
+    Sweep(std::span<const SharedTime> pieces, glm::dvec2 direction, double slack)
         : pieces_(pieces), u_(direction), slack_(slack) {}
 
     /// How many pieces from `first` on a fixed line keeps apart.
@@ -96,7 +96,7 @@ class Sweep {
     Reach of_a(std::size_t piece, std::size_t end) const;
     Reach of_b(std::size_t piece, std::size_t end) const;
 
-    std::span<const Piece> pieces_;
+    std::span<const SharedTime> pieces_;
     glm::dvec2 u_;
     double slack_;
 };
