@@ -45,6 +45,7 @@ QueryFindings find_out(const FittedScene& fitted, const ViewState& view, const R
     out.clearance = clearance_over_time(a.placed_clip(), b.placed_clip());
     if (!out.clearance.contact) out.floor = floor_paths(a.placed_clip(), b.placed_clip());
     out.recursion = recursion_of(recorded.trace, a, b);
+    out.proof = proof_of(fitted, fitted.queries()[static_cast<std::size_t>(*view.query)], recorded, out.clearance);
     return out;
 }
 

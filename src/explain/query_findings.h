@@ -2,6 +2,7 @@
 #pragma once
 
 #include <explain/clearance.h>
+#include <explain/query_proof.h>
 #include <explain/recursion.h>
 #include <scene/drawn_agent.h>
 
@@ -16,6 +17,7 @@ struct QueryFindings {
     Clearance clearance;
     FloorPaths floor;  ///< known only where there is no contact
     Recursion recursion;
+    QueryProof proof;
 };
 
 /// Requires a query in the view, and `recorded` to be its record.

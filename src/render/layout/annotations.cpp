@@ -84,6 +84,16 @@ std::vector<LabelRequest> add_findings(DrawList& list, std::span<const DrawnAgen
     return notes;
 }
 
+void add_gap_note(std::vector<LabelRequest>& notes, const DrawList& list, const WallGap& gap, const Metrics& metrics) {
+    note(notes, list, gap.at, with_unit(std::max(gap.gap, 0.0), "m"), list.palette.separated, metrics.text);
+}
+
+void add_region_note(std::vector<LabelRequest>& notes, const DrawList& list, const DrawnAgent& b, glm::vec3 middle,
+                     const Metrics& metrics) {
+    note(notes, list, middle, b.label + " may start anywhere in here", list.palette.separated, metrics.small);
+    if (!notes.empty()) notes.back().face = FontFace::text;
+}
+
 void add_notes(DrawList& list, LabelLayout& layout, std::span<const LabelRequest> notes, float scale) {
     for (const LabelRequest& label : notes) {
         if (!layout.place(label, list)) continue;
