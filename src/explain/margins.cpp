@@ -72,16 +72,6 @@ class ShiftCheck {
         return std::abs(clip.frame().translate.x) + std::abs(clip.frame().translate.y);
     }
 
-    /// The first sample that ends after `time`.
-    static int first_ending_after(const mobb::PlacedClip& clip, double time) {
-        int low = 0, high = clip.count();
-        while (low < high) {
-            const int middle = low + (high - low) / 2;
-            clip.time(middle + 1) > time ? high = middle : low = middle + 1;
-        }
-        return low;
-    }
-
     bool holds(const Tile& tile, double from, double to, double most) const {
         // A is nowhere before its first sample and after its last one.
         from = std::max(from, a_.time(0));
@@ -97,7 +87,7 @@ class ShiftCheck {
         };
         // Where a shift brings B's disk to the tile's end, its distance from the line has a corner.
         const double corner = tile.speed > 0 ? to - most : from + most;
-        for (int j = first_ending_after(b_, from - most - rounding()); j < b_.count(); ++j) {
+        for (int j = mobb::first_ending_after(b_, 0, b_.count(), from - most - rounding()); j < b_.count(); ++j) {
             const mobb::SweptDisk swept = mobb::swept(b_, j);
             if (swept.begin > to + most) break;
             const double first = std::max(swept.begin, from - most), last = std::min(swept.end, to + most);
@@ -110,7 +100,7 @@ class ShiftCheck {
     /// How far A's disks reach along a tile's direction, seen from its line.
     double reach_of_a(const Tile& tile, double from, double to) const {
         double out = -kForever;
-        for (int i = first_ending_after(a_, from); i < a_.count(); ++i) {
+        for (int i = mobb::first_ending_after(a_, 0, a_.count(), from); i < a_.count(); ++i) {
             const mobb::SweptDisk swept = mobb::swept(a_, i);
             if (swept.begin >= to) break;
             for (const double t : {std::max(swept.begin, from), std::min(swept.end, to)}) {
