@@ -15,6 +15,7 @@ namespace mobbscope {
 struct TraversalEnd {
     double t0 = 0, t1 = 0;  ///< global seconds
     bool is_boxes = false;
+    int step = 0;  ///< of its first test
 };
 
 /// The traversal's own proof, in order of time. Of a miss the ends partition the common time; of a hit that before its

@@ -80,6 +80,15 @@ std::vector<std::string> why_words(std::span<const DrawnAgent> sides, const Clea
     return out;
 }
 
+std::vector<std::string> answer_sentences(const QueryFindings& findings) {
+    std::vector<std::string> out;
+    // Two that share no time need no line.
+    if (findings.clearance.least) out = proof_sentences(findings.sides, findings.proof);
+    for (std::string& sentence : why_words(findings.sides, findings.clearance, findings.floor))
+        out.push_back(std::move(sentence));
+    return out;
+}
+
 std::int64_t direct_pairs(const Clearance& clearance) {
     return static_cast<std::int64_t>(clearance.contact ? *clearance.contact + 1 : clearance.pieces.size());
 }

@@ -71,7 +71,8 @@ mobb::Disk disk_at(const mobb::PlacedClip& clip, double time) {
     return mobb::swept(clip, sample).at(time);
 }
 
-ProofLine line_of(const mobb::PlacedClip& a, const mobb::PlacedClip& b, const Tile& tile, const Clearance& clearance) {
+ProofLine proof_line_of(const mobb::PlacedClip& a, const mobb::PlacedClip& b, const Tile& tile,
+                        const Clearance& clearance) {
     ProofLine out{tile};
     const Cover of_a = cover_of(a, tile), of_b = cover_of(b, tile);
     out.offset = 0.5 * (of_a.most + of_b.least);
@@ -79,12 +80,10 @@ ProofLine line_of(const mobb::PlacedClip& a, const mobb::PlacedClip& b, const Ti
     out.nearest = nearest_time(clearance, tile);
     const mobb::Disk p = disk_at(a, out.nearest), q = disk_at(b, out.nearest);
     const glm::dvec2 across(-tile.direction.y, tile.direction.x);
-    out.nearest_along = std::clamp(0.5 * glm::dot(across, glm::dvec2(p.x + q.x, p.y + q.y)), out.along.t0, out.along.t1);
+    out.nearest_along =
+        std::clamp(0.5 * glm::dot(across, glm::dvec2(p.x + q.x, p.y + q.y)), out.along.t0, out.along.t1);
     return out;
 }
-
-/// What is promised is not rounded up.
-std::string at_most(double value, const char* unit) { return formatted("%.3f ", std::floor(1000 * value) / 1000) + unit; }
 
 }  // namespace
 
@@ -102,9 +101,10 @@ QueryProof proof_of(const FittedScene& fitted, const SceneQuery& query, const Re
     const mobb::PlacedTree a = fitted.placed(query.a), b = fitted.placed(query.b);
     QueryProof out;
     out.certificate = certify(fitted, query, recorded);
+    out.ends = traversal_ends(a, b, recorded.trace);
     out.margins = margins_of(a.placed_clip(), b.placed_clip(), out.certificate);
     for (const Tile& tile : out.certificate.tiles)
-        out.lines.push_back(line_of(a.placed_clip(), b.placed_clip(), tile, clearance));
+        out.lines.push_back(proof_line_of(a.placed_clip(), b.placed_clip(), tile, clearance));
     const auto least = std::ranges::min_element(out.lines, {}, &ProofLine::gap);
     if (least != out.lines.end()) out.tightest = static_cast<std::size_t>(least - out.lines.begin());
     return out;
@@ -133,29 +133,10 @@ std::string tile_words(std::span<const DrawnAgent> sides, const QueryProof& proo
            with_unit(std::max(line.gap, 0.0), "m") + " between the two";
 }
 
-std::string proof_words(const QueryProof& proof, const mobb::Trace& trace) {
-    if (proof.lines.empty()) return "";
-    std::int64_t pairs = 0, runs = 0;
-    for (int step = 0; step < trace.size(); ++step) {
-        const mobb::Outcome outcome = trace[step].outcome;
-        pairs += outcome == mobb::Outcome::separated;
-        runs += trace[step].test == mobb::TestKind::samples;
-    }
-    std::string trees = pairs > 0 ? counted(pairs, "box pair", "box pairs") : "";
-    if (runs > 0) trees += (trees.empty() ? "" : " and ") + counted(runs, "run of samples", "runs of samples");
-    return "Proof: " + counted(static_cast<std::int64_t>(proof.lines.size()), "line", "lines") + " over " +
-           with_unit(proof.lines.back().t1 - proof.lines.front().t0, "s") + "; the trees needed " + trees + ".";
-}
-
-std::string margin_words(std::span<const DrawnAgent> sides, const QueryProof& proof) {
-    if (!proof.margins) return "";
-    const std::string& b = sides[1].label;
-    const Margins& margins = *proof.margins;
-    std::string out = "Both radii may grow by " + at_most(margins.growth, "m") + "; " + b;
-    out += std::isinf(margins.shift_in_time)
-               ? " may start at any time"
-               : " may start " + at_most(margins.shift_in_time, "s") + " earlier or later";
-    return out + "; " + b + " may be moved within the region on the floor.";
+std::vector<std::string> proof_sentences(std::span<const DrawnAgent> sides, const QueryProof& proof) {
+    std::vector<std::string> out{proof_words(proof.certificate, proof.ends)};
+    if (proof.margins) out.push_back(margin_words(*proof.margins, sides[1].label));
+    return out;
 }
 
 }  // namespace mobbscope

@@ -4,6 +4,7 @@
 #include <explain/certificate.h>
 #include <explain/clearance.h>
 #include <explain/margins.h>
+#include <explain/proof_words.h>
 #include <scene/drawn_agent.h>
 
 #include <glm/vec2.hpp>
@@ -19,10 +20,10 @@ namespace mobbscope {
 /// A tile, and where its line runs: at time t in the middle between what the two leave free, at
 /// `offset` + speed * (t - t0) along the direction.
 struct ProofLine : Tile {
-    double offset = 0;            ///< metres along the direction, at t0
-    mobb::Interval along{};       ///< metres along the line: the part that lies between the two
-    double nearest = 0;           ///< global seconds: when the two are nearest in the tile
-    double nearest_along = 0;     ///< metres along the line: where they are then
+    double offset = 0;         ///< metres along the direction, at t0
+    mobb::Interval along{};    ///< metres along the line: the part that lies between the two
+    double nearest = 0;        ///< global seconds: when the two are nearest in the tile
+    double nearest_along = 0;  ///< metres along the line: where they are then
 
     /// Of the line at a time, `along` metres from where it is nearest to the world's origin.
     glm::dvec2 at(double time, double along_it) const {
@@ -32,9 +33,10 @@ struct ProofLine : Tile {
 
 struct QueryProof {
     Certificate certificate;
-    std::optional<Margins> margins;        ///< none of a hit, and where they share no time
-    std::vector<ProofLine> lines;          ///< the certificate's tiles
-    std::optional<std::size_t> tightest;   ///< the line with the least gap; none without lines
+    std::optional<Margins> margins;       ///< none of a hit, and where they share no time
+    std::vector<ProofLine> lines;         ///< the certificate's tiles
+    std::optional<std::size_t> tightest;  ///< the line with the least gap; none without lines
+    std::vector<TraversalEnd> ends;       ///< the proof that the trees found
 
     /// The line that holds at a time.
     std::optional<std::size_t> at(double time) const;
@@ -53,10 +55,7 @@ std::string line_words(std::span<const DrawnAgent> sides, const Tile& tile);
 /// "Line 2 of 3, 1.20 to 2.31 s: along 37\u00B0, fixed, 0.183 m between the two"
 std::string tile_words(std::span<const DrawnAgent> sides, const QueryProof& proof, std::size_t index);
 
-/// "Proof: 2 lines over 12.4 s; the trees needed 5 box pairs and 2 runs of samples."
-std::string proof_words(const QueryProof& proof, const mobb::Trace& trace);
-
-/// How far a miss may be pushed: one sentence; empty where there are no margins.
-std::string margin_words(std::span<const DrawnAgent> sides, const QueryProof& proof);
+/// The answer with its proof, and how far a miss may be pushed: sentences. Requires common time.
+std::vector<std::string> proof_sentences(std::span<const DrawnAgent> sides, const QueryProof& proof);
 
 }  // namespace mobbscope

@@ -121,8 +121,9 @@ Caption proof_caption(const Palette& palette, std::span<const DrawnAgent> sides,
         caption.headlines.push_back(named[0].label + " and " + named[1].label + " never collide");
     caption.title = "never collide";
     const std::string fit = fit_words(sides[0].placed.tree().options()) + kDot;
-    caption.detail = fit + proof_words(proof, recorded.trace) + kDot + cost_words(recorded.tests);
-    caption.short_details = {proof_words(proof, recorded.trace)};
+    const std::string proven = proof_words(proof.certificate, proof.ends);
+    caption.detail = fit + proven + kDot + cost_words(recorded.tests);
+    caption.short_details = {proven};
     caption.mark = palette.separated;
     return caption;
 }

@@ -18,13 +18,13 @@ struct WallStyle {
 };
 constexpr WallStyle kStandsOut{0.24f, 1.0f, 2.2f};
 
-glm::vec3 point_of(const DrawnSpace& space, const ProofLine& line, double time, double along) {
+glm::vec3 wall_point(const DrawnSpace& space, const ProofLine& line, double time, double along) {
     const glm::dvec2 at = line.at(time, along);
     return space.point(at.x, at.y, time);
 }
 
 void add_wall(DrawList& list, const ProofLine& line, const WallStyle& style, int index, float scale) {
-    const auto corner = [&](double time, double along) { return point_of(list.space, line, time, along); };
+    const auto corner = [&](double time, double along) { return wall_point(list.space, line, time, along); };
     const glm::vec3 corners[4] = {corner(line.t0, line.along.t0), corner(line.t0, line.along.t1),
                                   corner(line.t1, line.along.t1), corner(line.t1, line.along.t0)};
     const Rgba color = list.palette.separated;
@@ -34,8 +34,9 @@ void add_wall(DrawList& list, const ProofLine& line, const WallStyle& style, int
     Pen pen(list, order);
     pen.path(
         4, [&](int i) { return corners[i % 4]; },
-        scaled({.color = with_alpha(color, style.edge), .width = style.width, .hidden = 0.3f, .cap = 0.5f * style.width},
-               scale));
+        scaled(
+            {.color = with_alpha(color, style.edge), .width = style.width, .hidden = 0.3f, .cap = 0.5f * style.width},
+            scale));
 }
 
 /// What lies free across a line when the two are nearest: its ends are where neither disk comes while the line holds.
@@ -46,7 +47,7 @@ WallGap add_gap(DrawList& list, const ProofLine& line, float scale) {
     Pen(list, {DrawLayer::findings, 2})
         .line(list.space.point(from.x, from.y, line.nearest), list.space.point(to.x, to.y, line.nearest),
               scaled({.color = list.palette.separated, .width = 3, .hidden = 0.6f}, scale));
-    return {point_of(list.space, line, line.nearest, line.nearest_along), line.gap};
+    return {wall_point(list.space, line, line.nearest, line.nearest_along), line.gap};
 }
 
 /// The part of a convex polygon where dot(u, p) <= most.
