@@ -150,18 +150,12 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
 }
 
 void write_certificates(const FittedScene& scene, const std::filesystem::path& file) {
-    std::ostringstream text;
-    JsonWriter json(text);
-    json.begin_object();
-    json.member("mobbscope_certificate", 1);
-    json.begin_array("queries");
+    std::vector<QueryCertificate> proofs;
     for (std::size_t index = 0; index < scene.queries().size(); ++index) {
         const SceneQuery query = scene.queries()[index];
-        write_certificate(json, scene, {static_cast<int>(index), certify(scene, query, record(scene, query))});
+        proofs.push_back({static_cast<int>(index), certify(scene, query, record(scene, query))});
     }
-    json.end_array();
-    json.end_object();
-    write_file(file, std::move(text).str());
+    write_file(file, certificate_text(scene, proofs));
 }
 
 int run_query(QueryCommandArguments& arguments) {

@@ -14,7 +14,7 @@ namespace mobbscope {
 
 namespace {
 
-std::string separating_axis(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
+std::string separating_axis_words(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
     const auto axis_of = [&](const DrawnAgent& side, int node, int axis) {
         return side.label + "'s " + axis_word(side.placed.tree().box(node), event.test, axis) + " axis";
     };
@@ -89,7 +89,7 @@ std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::E
     const mobb::BoxInfo& shape = mobb::info(event.test.box());
     if (event.outcome == mobb::Outcome::separated) {
         const char* when = shape.moves ? " at the nearest" : "";
-        return "separated " + separating_axis(sides, event) + " by " + with_unit(event.gap, "m") + when;
+        return "separated " + separating_axis_words(sides, event) + " by " + with_unit(event.gap, "m") + when;
     }
     if (const auto avoidable = avoidable_overlap(sides[0].placed, sides[1].placed, event)) {
         return std::string(shape.meets) + ", avoidable: " +

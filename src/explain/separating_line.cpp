@@ -148,7 +148,8 @@ Tile Sweep::tile(std::size_t first, std::size_t count, bool fixed_line) const {
     };
     if (!fixed_line) out.speed = widest(gap_at, most_speed(a, b));
     const double along = std::abs(out.speed) * (out.t1 - out.t0);
-    constexpr double kRoundings = 16;
+    // More than those of a sum, so that a path which is moved or grows by less than the gap does not collide either.
+    constexpr double kRoundings = 32;
     out.gap = gap_at(out.speed) - kRoundings * std::numeric_limits<double>::epsilon() * (reach + along);
     return out;
 }

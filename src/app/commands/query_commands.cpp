@@ -142,9 +142,7 @@ void copy_answer(Session& session, const std::string& text) {
     session.queries.show(asked_query(session.workspace, text));
     const std::shared_ptr<const QueryFindings> findings = session.queries.findings();
     std::string answer = answer_words(findings->sides, findings->clearance) + ".\n";
-    for (const std::string& sentence : why_words(findings->sides, findings->clearance, findings->floor)) {
-        answer += sentence + '\n';
-    }
+    for (const std::string& sentence : answer_sentences(*findings)) answer += sentence + '\n';
     session.desktop->set_clipboard(answer);
     session.notifications.tell(MessageLevel::info, "Copied: " + answer);
 }
@@ -412,7 +410,7 @@ std::vector<Command> query_commands() {
                 "Shows the test at a percentage of the way, 0 to 100.", percent,
                 {.menu = kNoMenu, .argument = "P", .enabled = {in_query, why_no_step}}),
     };
-    return in_menu("Query", rows);
+    return in_menu("Query", joined({rows, proof_commands()}));
 }
 
 }  // namespace mobbscope::app

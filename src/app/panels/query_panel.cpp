@@ -108,6 +108,7 @@ void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures) {
     if (!findings) return no_query(ui);
     query_header(ui);
     query_answer(ui, queries, *findings);
+    proof_section(ui, *findings);
     if (!findings->recursion.pairs.empty()) {
         step_transport(ui);
         current_test(ui, *findings);
@@ -130,9 +131,7 @@ void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings
         answer_sign(ui, collide, mark_color(ui.style, mark));
         words(mark_text(ui.style, mark), answer_words(findings.sides, findings.clearance));
         ImGui::PopFont();
-        for (const std::string& sentence : why_words(findings.sides, findings.clearance, findings.floor)) {
-            words(ui.style.text, sentence);
-        }
+        for (const std::string& sentence : answer_sentences(findings)) words(ui.style.text, sentence);
     });
     ui.mark("query.answer");
     if (const auto& contact = ui.workspace.recorded()->contact) {

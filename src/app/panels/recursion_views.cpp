@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 #include <string>
 
 namespace mobbscope::app {
@@ -71,6 +73,33 @@ void common_time(ImDrawList& list, const Style& style, const Square& square) {
     if (t1 <= t0) return;
     list.AddLine({square.x.pixel(t0), square.y.pixel(t0)}, {square.x.pixel(t1), square.y.pixel(t1)}, style.accent,
                  1.3f * style.scale);
+}
+
+/// The lines of the proof along the common time, each between two ticks. Returns the one that the mouse is on.
+std::optional<std::size_t> proof_intervals(Ui& ui, const QueryFindings& findings, const Square& square) {
+    const auto selected = selected_line(ui.workspace, findings.proof);
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    std::optional<std::size_t> under;
+    for (std::size_t i = 0; i < findings.proof.lines.size(); ++i) {
+        const ProofLine& line = findings.proof.lines[i];
+        const ImVec2 from{square.x.pixel(line.t0), square.y.pixel(line.t0)};
+        const ImVec2 to{square.x.pixel(line.t1), square.y.pixel(line.t1)};
+        const ImVec2 way{to.x - from.x, to.y - from.y};
+        const float length = std::max(std::hypot(way.x, way.y), 1e-3f);
+        const ImVec2 across{-way.y / length, way.x / length};
+        const ImU32 color = mark_color(ui.style, EventMark::separated);
+        const float width = ui.px(i == selected ? 4.5f : 2.5f), tick = ui.px(5);
+        list.AddLine(from, to, color, width);
+        for (const ImVec2 end : {from, to}) {
+            list.AddLine({end.x - tick * across.x, end.y - tick * across.y},
+                         {end.x + tick * across.x, end.y + tick * across.y}, color, ui.px(1.5f));
+        }
+        const ImVec2 at{mouse.x - from.x, mouse.y - from.y};
+        const float along = (at.x * way.x + at.y * way.y) / length, aside = at.x * across.x + at.y * across.y;
+        if (along >= 0 && along <= length && std::abs(aside) <= tick) under = i;
+    }
+    return under;
 }
 
 void axis_labels(Ui& ui, const QueryFindings& findings, const Square& square) {
@@ -191,9 +220,15 @@ void QueryPictures::square(Ui& ui, QueryInspector& queries, const QueryFindings&
     const float half_y = std::max(ui.px(4), first.y - middle.y + ui.px(1));
     list.AddRect({middle.x - half_x, middle.y - half_y}, {middle.x + half_x, middle.y + half_y}, ui.style.text, 0, 0,
                  ui.px(2));
+    const auto line = proof_intervals(ui, findings, square);
     axis_labels(ui, findings, square);
     ImGui::SetCursorScreenPos({at.x, square.max.y + label});
     ImGui::Dummy({0, 0});
+    if (hovered && line) {
+        ImGui::SetTooltip("%s", tile_words(findings.sides, findings.proof, *line).c_str());
+        if (clicked) ui.invoke("proof.line", std::to_string(*line));
+        return;
+    }
     if (!hovered || !under) return;
     const RecursionPair& pair = recursion.pairs[static_cast<std::size_t>(under->pair)];
     const std::string more =

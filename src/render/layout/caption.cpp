@@ -113,6 +113,21 @@ Caption query_caption(const Palette& palette, std::span<const DrawnAgent> sides,
     return caption;
 }
 
+Caption proof_caption(const Palette& palette, std::span<const DrawnAgent> sides, const RecordedQuery& recorded,
+                      const QueryProof& proof) {
+    Caption caption;
+    const std::vector<DrawnAgent> short_names = with_short_names(sides, kShortName);
+    for (const std::span<const DrawnAgent> named : {sides, std::span<const DrawnAgent>(short_names)})
+        caption.headlines.push_back(named[0].label + " and " + named[1].label + " never collide");
+    caption.title = "never collide";
+    const std::string fit = fit_words(sides[0].placed.tree().options()) + kDot;
+    const std::string proven = proof_words(proof.certificate, proof.ends);
+    caption.detail = fit + proven + kDot + cost_words(recorded.tests);
+    caption.short_details = {proven};
+    caption.mark = palette.separated;
+    return caption;
+}
+
 void mention(Caption& caption, const std::string& text) {
     caption.detail = caption.detail.empty() ? text : text + kDot + caption.detail;
     for (std::string& detail : caption.short_details) detail.insert(0, text + kDot);

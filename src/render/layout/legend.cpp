@@ -191,6 +191,11 @@ LegendEntry line_entry(const LineStyle& style, std::string text) {
     return {.color = style.color, .width = style.width, .dash = style.dash, .text = std::move(text)};
 }
 
+LegendEntry proof_entry(const Palette& palette) {
+    return {LegendEntry::Mark::box, palette.separated, with_alpha(palette.separated, kSwatchFill), 1.5f, kSolid,
+            "line that keeps the two apart"};
+}
+
 std::vector<LegendEntry> agent_entries(const DrawList& list, std::span<const DrawnAgent> agents,
                                        std::span<const DrawnAgent> paths) {
     const Sight sight(list);
