@@ -4,18 +4,20 @@
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
+#include <explain/avoidable.h>
 #include <explain/certificate_file.h>
 #include <explain/proof_words.h>
+#include <explain/query_sentence.h>
 #include <scene/answer.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <iostream>
 #include <optional>
-#include <sstream>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace mobbscope::cli {
@@ -28,7 +30,8 @@ struct QueryCommandArguments : FittedArguments {
     std::filesystem::path certificate;  ///< to be written; empty: none
 };
 
-void print_event(std::ostream& out, int step, const mobb::Trace::Event& event) {
+void print_event(std::ostream& out, int step, const SceneQuery& query, const mobb::Trace::Event& event,
+                 const AvoidableOverlap* avoidable) {
     // A step's number leads each line, so that it can be given to `render --step`.
     const std::string number = std::to_string(step);
     out << std::string(8 - std::min<std::size_t>(number.size(), 7), ' ') << number << "  "
@@ -38,6 +41,7 @@ void print_event(std::ostream& out, int step, const mobb::Trace::Event& event) {
     constexpr std::array kWords{"apart in time", "separated", "overlap", "hit", "no hit"};
     static_assert(kWords.size() == static_cast<std::size_t>(mobb::Outcome::no_hit) + 1);
     out << kWords[static_cast<std::size_t>(event.outcome)];
+    if (avoidable) out << ", avoidable: " << avoidable_words(*avoidable, cleaned(query.a.name), cleaned(query.b.name));
     if (event.outcome == mobb::Outcome::separated) {
         out << " along axis " << event.axis << " by " << brief(event.gap) << " m";
     }
@@ -69,7 +73,7 @@ Proven prove(const FittedScene& fitted, const SceneQuery& query) {
 
 /// A sentence, the proof, the counts, and what else was asked for.
 void print_answer(std::ostream& out, std::size_t index, const SceneQuery& query, const Answer& answer,
-                  const std::optional<Proven>& proven) {
+                  const AvoidableOverlaps& avoidable, const std::optional<Proven>& proven) {
     out << index << ": " << sentence(query, answer.contact) << '\n';
     if (proven) out << "   " << proof_words(proven->proof, proven->ends) << '\n';
     if (proven && proven->margins) out << "   " << margin_words(*proven->margins, cleaned(query.b.name)) << '\n';
@@ -92,48 +96,85 @@ void print_answer(std::ostream& out, std::size_t index, const SceneQuery& query,
     }
     if (answer.trace) {
         out << "   Trace (node of " << cleaned(query.a.name) << " x node of " << cleaned(query.b.name) << "):\n";
-        for (int step = 0; step < answer.trace->size(); ++step) print_event(out, step, (*answer.trace)[step]);
+        for (int step = 0; step < answer.trace->size(); ++step)
+            print_event(out, step, query, (*answer.trace)[step], avoidable.at(step));
     }
+}
+
+/// An answer, and which of its overlaps were avoidable: of the trees, where the output says so.
+Answer judged_answer(const FittedScene& fitted, const SceneQuery& query, const QueryCommandArguments& arguments,
+                     AvoidableOverlaps& avoidable, BlameInScene& blame) {
+    Details details = arguments.details;
+    const bool judges = details.search == Search::trees && (arguments.json || details.trace);
+    details.trace = details.trace || judges;
+    Answer out = answer(fitted, query, details);
+    if (judges) {
+        avoidable = avoidable_overlaps(*out.trace, fitted.placed(query.a), fitted.placed(query.b));
+        blame.add(fitted, query, *out.trace, avoidable);
+        out.avoidable = avoidable.events;
+    }
+    if (!arguments.details.trace) out.trace.reset();
+    return out;
+}
+
+/// The nodes that are to blame, those of the most overlaps first.
+void write_blame(JsonWriter& json, const FittedScene& fitted, const BlameInScene& blame) {
+    struct Entry {
+        int clip, node;
+        std::int64_t overlaps;
+    };
+    std::vector<Entry> entries;
+    for (std::size_t clip = 0; clip < blame.of_clip.size(); ++clip) {
+        for (std::size_t node = 0; node < blame.of_clip[clip].size(); ++node) {
+            if (const std::int64_t overlaps = blame.of_clip[clip][node]; overlaps > 0)
+                entries.push_back({static_cast<int>(clip), static_cast<int>(node), overlaps});
+        }
+    }
+    std::ranges::stable_sort(entries, std::greater<>(), &Entry::overlaps);
+    json.begin_array("blame");
+    for (const Entry& entry : entries) {
+        json.begin_object(JsonWriter::Layout::row);
+        json.members("clip", fitted.scene().clips[static_cast<std::size_t>(entry.clip)].name, "node", entry.node,
+                     "level", fitted.tree(entry.clip).level(entry.node), "overlaps", entry.overlaps);
+        json.end_object();
+    }
+    json.end_array();
 }
 
 /// Answers every query in order and writes their proofs, if that is asked for; returns the sentences of those that
 /// disagree with what the file expects.
 std::vector<std::string> answer_all(const FittedScene& fitted, const QueryCommandArguments& arguments) {
     std::vector<std::string> complaints;
+    BlameInScene blame(fitted);
     JsonWriter json(std::cout);
     if (arguments.json) {
         json.begin_object();
         json.begin_array("results");
     }
-    std::ostringstream certificate;
-    JsonWriter proofs(certificate);
-    proofs.begin_object();
-    proofs.member("mobbscope_certificate", 1);
-    proofs.begin_array("queries");
+    std::vector<QueryCertificate> proofs;
     for (std::size_t index = 0; index < fitted.queries().size(); ++index) {
         const SceneQuery query = fitted.queries()[index];
-        const Answer found = answer(fitted, query, arguments.details);
+        AvoidableOverlaps avoidable;
+        const Answer found = judged_answer(fitted, query, arguments, avoidable, blame);
         std::optional<Proven> proven;
         if (arguments.proof || !arguments.certificate.empty()) proven = prove(fitted, query);
         if (arguments.json) {
             write_answer(json, index, query, found);
         } else {
-            print_answer(std::cout, index, query, found, arguments.proof ? proven : std::nullopt);
+            print_answer(std::cout, index, query, found, avoidable, arguments.proof ? proven : std::nullopt);
         }
-        if (!arguments.certificate.empty())
-            write_certificate(proofs, fitted, {static_cast<int>(index), proven->proof}, proven->margins);
+        if (!arguments.certificate.empty()) proofs.push_back({static_cast<int>(index), proven->proof});
         if (const auto complaint = disagreement(query, found)) {
             complaints.push_back("query " + std::to_string(index) + ": " + *complaint);
         }
     }
     if (arguments.json) {
         json.end_array();
+        if (arguments.details.search == Search::trees) write_blame(json, fitted, blame);
         json.end_object();
     }
-    proofs.end_array();
-    proofs.end_object();
     flush_results();
-    if (!arguments.certificate.empty()) write_file(arguments.certificate, std::move(certificate).str());
+    if (!arguments.certificate.empty()) write_file(arguments.certificate, certificate_text(fitted, proofs));
     return complaints;
 }
 

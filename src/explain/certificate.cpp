@@ -78,11 +78,11 @@ std::vector<TraversalEnd> traversal_ends(const mobb::PlacedTree& a, const mobb::
         const mobb::Trace::Event event = trace[step];
         if (event.outcome == mobb::Outcome::separated) {
             const mobb::Node &of_a = a.tree().node(event.a), &of_b = b.tree().node(event.b);
-            out.push_back({std::max(a.begin(of_a), b.begin(of_b)), std::min(a.end(of_a), b.end(of_b)), step, true});
+            out.push_back({std::max(a.begin(of_a), b.begin(of_b)), std::min(a.end(of_a), b.end(of_b)), true, step});
         } else if (!event.pairs.empty()) {
             const mobb::MeasuredPair first = event.pairs.front(), last = event.pairs.back();
             if (out.empty() || out.back().is_boxes)
-                out.push_back({std::max(clip_a.time(first.i), clip_b.time(first.j)), 0, step, false});
+                out.push_back({std::max(clip_a.time(first.i), clip_b.time(first.j)), 0, false, step});
             out.back().t1 = std::min(clip_a.time(last.i + 1), clip_b.time(last.j + 1));
         }
     }

@@ -25,8 +25,8 @@ struct Certificate {
 /// Where a traversal went no deeper: at a pair of boxes that is apart in space, or in a run of measured samples.
 struct TraversalEnd {
     double t0 = 0, t1 = 0;  ///< global seconds
-    int step = 0;           ///< of the trace: where it begins
     bool is_boxes = false;
+    int step = 0;  ///< of its first test
 };
 
 /// The traversal's own proof, in order of time. Of a miss the ends partition the common time; of a hit that before its

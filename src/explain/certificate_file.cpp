@@ -1,10 +1,13 @@
 #include <base/error.h>
 #include <base/json.h>
+#include <base/json_writer.h>
 #include <base/text.h>
 #include <explain/certificate_file.h>
+#include <explain/margins.h>
 #include <scene/scene_json.h>
 
 #include <set>
+#include <sstream>
 #include <utility>
 
 namespace mobbscope {
@@ -67,10 +70,8 @@ void write_margins(JsonWriter& out, const std::optional<Margins>& margins) {
     out.end_object();
 }
 
-}  // namespace
-
-void write_certificate(JsonWriter& out, const FittedScene& fitted, const QueryCertificate& certificate,
-                       const std::optional<Margins>& margins) {
+/// An element of `queries`.
+void write_certificate(JsonWriter& out, const FittedScene& fitted, const QueryCertificate& certificate) {
     const SceneQuery query = fitted.queries()[static_cast<std::size_t>(certificate.query)];
     const Certificate& proof = certificate.proof;
     out.begin_object();
@@ -86,8 +87,21 @@ void write_certificate(JsonWriter& out, const FittedScene& fitted, const QueryCe
         out.end_object();
     });
     out.key("margins");
-    write_margins(out, margins);
+    const mobb::PlacedTree a = fitted.placed(query.a), b = fitted.placed(query.b);
+    write_margins(out, margins_of(a.placed_clip(), b.placed_clip(), proof));
     out.end_object();
+}
+
+}  // namespace
+
+std::string certificate_text(const FittedScene& fitted, const std::vector<QueryCertificate>& certificates) {
+    std::ostringstream text;
+    JsonWriter out(text);
+    out.begin_object();
+    out.member("mobbscope_certificate", kVersion);
+    out.list("queries", certificates, [&](const QueryCertificate& one) { write_certificate(out, fitted, one); });
+    out.end_object();
+    return std::move(text).str();
 }
 
 std::vector<QueryCertificate> read_certificates(std::string_view text, const std::string& file,

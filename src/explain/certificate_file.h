@@ -8,11 +8,8 @@
 /// none of them.
 #pragma once
 
-#include <base/json_writer.h>
 #include <explain/certificate.h>
-#include <explain/margins.h>
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,9 +22,8 @@ struct QueryCertificate {
     Certificate proof;
 };
 
-/// An element of `queries`.
-void write_certificate(JsonWriter& out, const FittedScene& fitted, const QueryCertificate& certificate,
-                       const std::optional<Margins>& margins);
+/// The file of these.
+std::string certificate_text(const FittedScene& fitted, const std::vector<QueryCertificate>& certificates);
 
 /// Of a scene: the queries that a text names must be there, under the same names. `file` stands for it in messages.
 /// Throws InputError.

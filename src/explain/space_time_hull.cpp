@@ -215,7 +215,7 @@ std::optional<SeparatingLine> line_between(const SpaceTimeHull& a, const SpaceTi
         return out;
     };
     constexpr int kMostSteps = 64;
-    constexpr double kNearEnough = 0.01;  // of the distance
+    constexpr double kNearEnough = 1e-4;  // of the distance
     Simplex simplex;
     simplex.add(furthest({1, 0, 0}));
     glm::dvec3 v = simplex.points[0];

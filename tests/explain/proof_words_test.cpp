@@ -40,7 +40,7 @@ TEST(TraversalEnds, PartitionTheCommonTime) {
 }
 
 TEST(ProofWords, SayWhatIsProvenAndByHowMuch) {
-    const std::vector<TraversalEnd> ends{{0, 4, 3, true}, {4, 5, 4, false}, {5, 12, 9, true}};
+    const std::vector<TraversalEnd> ends{{0, 4, true, 3}, {4, 5, false, 4}, {5, 12, true, 9}};
     Certificate miss{std::nullopt, {{0, 4, {1, 0}, 0, 0.5}, {4, 12.4, {0, 1}, 0, 0.1839}}};
     EXPECT_EQ(
         proof_words(miss, ends),

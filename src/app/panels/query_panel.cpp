@@ -108,6 +108,7 @@ void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures) {
     if (!findings) return no_query(ui);
     query_header(ui);
     query_answer(ui, queries, *findings);
+    proof_section(ui, *findings);
     if (!findings->recursion.pairs.empty()) {
         step_transport(ui);
         current_test(ui, *findings);
@@ -130,9 +131,7 @@ void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings
         answer_sign(ui, collide, mark_color(ui.style, mark));
         words(mark_text(ui.style, mark), answer_words(findings.sides, findings.clearance));
         ImGui::PopFont();
-        for (const std::string& sentence : why_words(findings.sides, findings.clearance, findings.floor)) {
-            words(ui.style.text, sentence);
-        }
+        for (const std::string& sentence : answer_sentences(findings)) words(ui.style.text, sentence);
     });
     ui.mark("query.answer");
     if (const auto& contact = ui.workspace.recorded()->contact) {
@@ -144,10 +143,10 @@ void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings
 
 void query_counters(Ui& ui, const QueryFindings& findings) {
     if (!section(ui, "TESTS")) return;
-    const StepCounts total = findings.recursion.total();
-    const StepCounts now = findings.recursion.so_far.empty()
-                               ? StepCounts{}
-                               : findings.recursion.so_far[static_cast<std::size_t>(ui.workspace.step())];
+    const Recursion& recursion = findings.recursion;
+    const mobb::TestCounts total = recursion.total();
+    const mobb::TestCounts now =
+        recursion.so_far.empty() ? mobb::TestCounts{} : recursion.so_far[static_cast<std::size_t>(ui.workspace.step())];
     const float left = ImGui::GetCursorPosX();
     const float room = ImGui::GetContentRegionAvail().x;
     const float first = left + 0.68f * room;
@@ -166,16 +165,23 @@ void query_counters(Ui& ui, const QueryFindings& findings) {
         ImGui::PopFont();
     };
     const auto tests = [&](const std::string& label, std::string_view doc, mobb::TestKind test) {
-        row(label, doc, now.tests[test], total.tests[test]);
+        row(label, doc, now[test], total[test]);
     };
     tests("time tests", "Do two nodes share time?", mobb::TestKind::time);
     for (const mobb::BoxKind kind : mobb::kBoxKinds) {
         const mobb::BoxInfo& box = mobb::info(kind);
-        if (box.in_paper || total.tests[kind] > 0) tests(std::string(box.title) + " tests", box.test, kind);
+        if (box.in_paper || total[kind] > 0) tests(std::string(box.title) + " tests", box.test, kind);
     }
     tests("sample pairs", "Pairs of disks whose distance was measured", mobb::TestKind::samples);
-    row("wasted", "Box tests that found an overlap which led to no hit", now.wasted, total.wasted);
-    words(ui.style.quiet, gain_words(total.tests, findings.clearance));
+    row("avoidable", "Box tests that found an overlap although one line keeps the disks apart",
+        recursion.avoidable.before(ui.workspace.step() + 1),
+        static_cast<std::int64_t>(recursion.avoidable.events.size()));
+    ui.mark("query.avoidable");
+    if (!recursion.avoidable.all_judged()) {
+        words(ui.style.warning, judged_words(recursion.avoidable));
+        query_button(ui, "Judge all", "query.judge");
+    }
+    words(ui.style.quiet, gain_words(total, findings.clearance));
 }
 
 }  // namespace mobbscope::app
