@@ -2,6 +2,7 @@
 #pragma once
 
 #include <mobb/placed_tree.h>
+#include <mobb/query.h>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
