@@ -23,11 +23,12 @@ struct WallGap {
 /// the gaps that are told: of the tightest, and of the one that stands out.
 std::vector<WallGap> add_proof_walls(DrawList& list, const QueryProof& proof, std::optional<double> time, float scale);
 
-/// Adds the line that holds at a time as a low pane of glass on the floor, in the picture of a moment. `height`: metres.
+/// Adds the line that holds at a time as a low pane of glass on the floor, in the picture of a moment. `height`:
+/// metres.
 void add_proof_pane(DrawList& list, const QueryProof& proof, double time, double height, float scale);
 
 /// Adds where B may start, around where it does, as far as the floor goes. Returns where its label goes (drawn space);
-/// none where nothing is free.
+/// none where there is no room for one. Needs the projection.
 std::optional<glm::vec3> add_free_region(DrawList& list, const DrawnAgent& b, const Margins& margins,
                                          const FloorExtent& floor_extent, float scale);
 
