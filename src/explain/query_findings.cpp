@@ -80,12 +80,10 @@ std::vector<std::string> why_words(std::span<const DrawnAgent> sides, const Clea
     return out;
 }
 
-std::vector<std::string> answer_sentences(const QueryFindings& findings) {
-    std::vector<std::string> out;
-    // Two that share no time need no line.
-    if (findings.clearance.least) out = proof_sentences(findings.sides, findings.proof);
-    for (std::string& sentence : why_words(findings.sides, findings.clearance, findings.floor))
-        out.push_back(std::move(sentence));
+std::vector<std::string> proof_sentences(const QueryFindings& findings) {
+    if (!findings.clearance.least) return {};
+    std::vector<std::string> out{proof_words(findings.proof.certificate, findings.proof.ends)};
+    if (findings.proof.margins) out.push_back(margin_words(*findings.proof.margins, findings.sides[1].label));
     return out;
 }
 

@@ -31,8 +31,8 @@ std::string answer_words(std::span<const DrawnAgent> sides, const Clearance& cle
 std::vector<std::string> why_words(std::span<const DrawnAgent> sides, const Clearance& clearance,
                                    const FloorPaths& floor);
 
-/// All that is said of an answer, the proof first.
-std::vector<std::string> answer_sentences(const QueryFindings& findings);
+/// The proof in sentences; none where two share no time, so that no line is needed.
+std::vector<std::string> proof_sentences(const QueryFindings& findings);
 
 /// How many pairs the direct search measures: up to the first contact.
 std::int64_t direct_pairs(const Clearance& clearance);

@@ -14,7 +14,7 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kLeastShare = 0.3;  // of the shorter side's extent that a wall covers at least
+constexpr double kLeastShare = 0.6;  // of the shorter side's extent that a wall covers at least
 
 /// What a path covers while a line holds.
 struct Cover {
@@ -131,12 +131,6 @@ std::string tile_words(std::span<const DrawnAgent> sides, const QueryProof& proo
     return "Line " + std::to_string(index + 1) + " of " + std::to_string(proof.lines.size()) +
            formatted(", %.2f to %.2f s: ", line.t0, line.t1) + line_words(sides, line) + ", " +
            with_unit(std::max(line.gap, 0.0), "m") + " between the two";
-}
-
-std::vector<std::string> proof_sentences(std::span<const DrawnAgent> sides, const QueryProof& proof) {
-    std::vector<std::string> out{proof_words(proof.certificate, proof.ends)};
-    if (proof.margins) out.push_back(margin_words(*proof.margins, sides[1].label));
-    return out;
 }
 
 }  // namespace mobbscope

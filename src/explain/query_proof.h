@@ -59,7 +59,4 @@ std::string line_words(std::span<const DrawnAgent> sides, const Tile& tile);
 /// "Line 2 of 3, 1.20 to 2.31 s: along 37\u00B0, fixed, 0.183 m between the two"
 std::string tile_words(std::span<const DrawnAgent> sides, const QueryProof& proof, std::size_t index);
 
-/// The answer with its proof, and how far a miss may be pushed: sentences. Requires common time.
-std::vector<std::string> proof_sentences(std::span<const DrawnAgent> sides, const QueryProof& proof);
-
 }  // namespace mobbscope

@@ -421,7 +421,7 @@ std::vector<ViewOption> all_view_options() {
                                            "of a miss in place of the pair tested last; at a moment on the floor",
                                    .title = "Proof",
                                    .menu = "View/Show",
-                                   .shortcut = "V",
+
                                    .at_hand = true,
                                    .draws = DrawnPart::surroundings,
                                    .may_be_seen = [](const ViewState& view) { return view.query.has_value(); }}),

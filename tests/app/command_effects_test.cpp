@@ -690,6 +690,21 @@ std::vector<Case> cases() {
              run_command(w.session, "step.before");
              EXPECT_EQ(w.session.workspace.step(), 0) << "and back";
          }});
+    // The proof. B passes where A has not come yet, so some line keeps the two apart.
+    const auto line_now = [](CommandWorld& w) { return w.session.queries.findings()->proof.at(*w.view().time); };
+    const std::pair<std::string, std::string> kMiss{"query.select", "1"};
+    add({"proof.next", "", {kMiss, kFirstStep}, [line_now](CommandWorld& w) {
+             EXPECT_EQ(line_now(w), w.session.queries.findings()->proof.tightest);
+             EXPECT_EQ(w.view().step, Step{}) << "where the walls are shown";
+         }});
+    add({"proof.previous", "", {kMiss}, [line_now](CommandWorld& w) {
+             EXPECT_EQ(line_now(w), w.session.queries.findings()->proof.tightest);
+         }});
+    add({"proof.line", "0", {kMiss}, [line_now](CommandWorld& w) { EXPECT_EQ(line_now(w), 0u); }});
+    add({"proof.save", "", {kMiss}, [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::save_proof); }});
+    add({"proof.save", "@proof.json", {kMiss}, [](CommandWorld& w) {
+             EXPECT_TRUE(std::filesystem::exists(w.path("proof.json")));
+         }});
     in_query("step.percent", "50", [](CommandWorld& w) { EXPECT_EQ(w.view().step, (Step{Step::Unit::percent, 50})); });
 
     // Go

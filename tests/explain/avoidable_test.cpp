@@ -208,13 +208,13 @@ TEST(Avoidable, BlamesTheBoxInWhosePlaceATighterOneWouldHaveCut) {
                 EXPECT_NE(blame, Blame::none) << judged.events[i];
             }
             if (blame == Blame::a) {
-                EXPECT_GT(of_a, -1e-2);
+                EXPECT_GT(of_a, -0.1);
             }
             if (blame == Blame::b) {
-                EXPECT_GT(of_b, -1e-2);
+                EXPECT_GT(of_b, -0.1);
             }
             if (blame == Blame::both) {
-                EXPECT_GT(of_both, -1e-2);
+                EXPECT_GT(of_both, -0.1);
             }
             ++seen[blame];
             tests.insert(event.test.index());

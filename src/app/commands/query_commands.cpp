@@ -142,7 +142,9 @@ void copy_answer(Session& session, const std::string& text) {
     session.queries.show(asked_query(session.workspace, text));
     const std::shared_ptr<const QueryFindings> findings = session.queries.findings();
     std::string answer = answer_words(findings->sides, findings->clearance) + ".\n";
-    for (const std::string& sentence : answer_sentences(*findings)) answer += sentence + '\n';
+    const std::vector<std::string> why = why_words(findings->sides, findings->clearance, findings->floor);
+    for (const auto& sentences : {proof_sentences(*findings), why})
+        for (const std::string& sentence : sentences) answer += sentence + '\n';
     session.desktop->set_clipboard(answer);
     session.notifications.tell(MessageLevel::info, "Copied: " + answer);
 }

@@ -80,7 +80,8 @@ void proof_section(Ui& ui, const QueryFindings& findings) {
     rows(ui, "proof", static_cast<int>(count), kMostRows,
          [&](int i) { line_row(ui, findings, static_cast<std::size_t>(i)); });
     query_button(ui, "Save...", "proof.save");
-    if (proof.ends.empty()) return;
+    ImGui::SameLine();
+    if (proof.ends.empty()) return ImGui::NewLine();
     const std::string label = "as the trees found it: " + counted(std::ssize(proof.ends), "part", "parts") + "###ends";
     const bool open = ImGui::TreeNodeEx(label.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen);
     ui.mark("proof.ends");

@@ -131,7 +131,9 @@ void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings
         answer_sign(ui, collide, mark_color(ui.style, mark));
         words(mark_text(ui.style, mark), answer_words(findings.sides, findings.clearance));
         ImGui::PopFont();
-        for (const std::string& sentence : answer_sentences(findings)) words(ui.style.text, sentence);
+        for (const std::string& sentence : proof_sentences(findings)) words(ui.style.text, sentence);
+        for (const std::string& sentence : why_words(findings.sides, findings.clearance, findings.floor))
+            words(ui.style.quiet, sentence);
     });
     ui.mark("query.answer");
     if (const auto& contact = ui.workspace.recorded()->contact) {

@@ -10,7 +10,8 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kHatches = 40;  // lines across the floor's diagonal
+constexpr float kLeastRegion = 40;  // pixels across at scale 1: a smaller region has no room for words
+constexpr double kHatches = 40;     // lines across the floor's diagonal
 
 /// How a wall looks: one stands out, the others step back.
 struct WallStyle {
@@ -152,6 +153,8 @@ std::optional<glm::vec3> add_free_region(DrawList& list, const DrawnAgent& b, co
     pen.path(
         corners, [&](int i) { return drawn(region[static_cast<std::size_t>(i % corners)]); },
         scaled({.color = color, .width = 1.8f, .hidden = 0.4f}, scale));
+    const float across_it = static_cast<float>(high - low) * list.projection.pixels_per_metre(drawn(middle));
+    if (across_it < kLeastRegion * scale) return std::nullopt;
     return drawn(middle);
 }
 

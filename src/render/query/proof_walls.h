@@ -31,7 +31,7 @@ WallGap add_avoidable_wall(DrawList& list, const ProofLine& line, float scale);
 void add_proof_pane(DrawList& list, const QueryProof& proof, double time, double height, float scale);
 
 /// Adds where B may start, around where it does, as far as the floor goes. Returns where its label goes (drawn space);
-/// none where nothing is free.
+/// none where there is no room for one. Needs the projection.
 std::optional<glm::vec3> add_free_region(DrawList& list, const DrawnAgent& b, const Margins& margins,
                                          const FloorExtent& floor_extent, float scale);
 
