@@ -50,11 +50,13 @@ double along(const mobb::Placement& placement, MapAxis axis) {
 class MapRows {
   public:
     MapRows(const FittedScene& fitted, const SceneQuery& query, PlacementMap& map)
-        : fitted_(fitted), query_(query), map_(map), a_(fitted.placed(query.a)) {
-        if (map.order.show == MapShow::answer) {
-            blocks_a_ = blocks_of(fitted.tree(query.a.clip));
-            blocks_b_ = blocks_of(fitted.tree(query.b.clip));
-        } else if (map.order.show == MapShow::clearance) {
+        : fitted_(fitted),
+          query_(query),
+          map_(map),
+          a_(fitted.placed(query.a)),
+          blocks_a_(blocks_of(fitted.tree(query.a.clip))),
+          blocks_b_(blocks_of(fitted.tree(query.b.clip))) {
+        if (map.order.show == MapShow::clearance) {
             least_a_ = std::make_unique<const ClipDisks>(fitted.tree(query.a.clip).clip());
             least_b_ = std::make_unique<const ClipDisks>(fitted.tree(query.b.clip).clip());
         }
@@ -69,6 +71,22 @@ class MapRows {
             case MapShow::tests:
                 return ask_tests(y, columns);
         }
+    }
+
+    /// Whether the two collide with B so far from its reference.
+    std::unique_ptr<bool[]> collide(std::span<const glm::dvec2> offsets) const {
+        const mobb::PlacedBlocks a(*blocks_a_, query_.a.placement);
+        std::vector<mobb::PlacedBlocks> placed;
+        placed.reserve(offsets.size());
+        std::vector<mobb::BlocksPair> pairs;
+        pairs.reserve(offsets.size());
+        for (const glm::dvec2 offset : offsets) {
+            placed.emplace_back(*blocks_b_, moved(map_.reference, map_.order, offset));
+            pairs.push_back({&a, &placed.back()});
+        }
+        auto answers = std::make_unique<bool[]>(offsets.size());
+        mobb::intersects_each(pairs, {answers.get(), offsets.size()});
+        return answers;
     }
 
   private:
@@ -87,17 +105,9 @@ class MapRows {
     }
 
     void ask_answers(int y, std::span<const int> columns) const {
-        const mobb::PlacedBlocks a(*blocks_a_, query_.a.placement);
-        std::vector<mobb::PlacedBlocks> placed;
-        placed.reserve(columns.size());
-        std::vector<mobb::BlocksPair> pairs;
-        pairs.reserve(columns.size());
-        for (const int x : columns) {
-            placed.emplace_back(*blocks_b_, placement(x, y));
-            pairs.push_back({&a, &placed.back()});
-        }
-        const auto answers = std::make_unique<bool[]>(columns.size());
-        mobb::intersects_each(pairs, {answers.get(), columns.size()});
+        std::vector<glm::dvec2> offsets;
+        for (const int x : columns) offsets.push_back(map_.order.middle(x, y));
+        const std::unique_ptr<bool[]> answers = collide(offsets);
         for (std::size_t i = 0; i < columns.size(); ++i) set(columns[i], y, answers[i] ? 1 : 0, answers[i]);
     }
 
@@ -129,6 +139,71 @@ class MapRows {
     mobb::PlacedTree a_;
     std::shared_ptr<const mobb::Blocks> blocks_a_, blocks_b_;
     std::unique_ptr<const ClipDisks> least_a_, least_b_;
+};
+
+/// The line between cells that collide and cells that do not: through the middles of neighbours it is led by where
+/// answers change between the two.
+class Boundary {
+  public:
+    explicit Boundary(const PlacementMap& map) : map_(map) {
+        const MapOrder& order = map.order;
+        for (std::vector<std::size_t>* at : {&to_right_, &upwards_}) at->resize(map.hits.size(), kNone);
+        for (int y = 0; y < order.height; y += map.step) {
+            for (int x = 0; x < order.width; x += map.step) {
+                if (x + map.step < order.width) add(to_right_, {x, y}, {x + map.step, y});
+                if (y + map.step < order.height) add(upwards_, {x, y}, {x, y + map.step});
+            }
+        }
+    }
+
+    void refine(const MapRows& rows) {
+        std::vector<glm::dvec2> middles(ends_.size());
+        for (int halving = 0; halving < kHalvings; ++halving) {
+            std::ranges::transform(ends_, middles.begin(), middle_of);
+            const std::unique_ptr<bool[]> answers = rows.collide(middles);
+            for (std::size_t i = 0; i < ends_.size(); ++i) (answers[i] ? ends_[i].hit : ends_[i].free) = middles[i];
+        }
+    }
+
+    /// Squares between the middles of four cells, each with the line through it.
+    std::vector<MapLine> lines() const {
+        std::vector<MapLine> out;
+        const int step = map_.step;
+        for (int y = 0; y + step < map_.order.height; y += step) {
+            for (int x = 0; x + step < map_.order.width; x += step) {
+                std::array<glm::dvec2, 4> crossings;
+                std::size_t count = 0;
+                for (const std::size_t at : {to_right_[map_.known(x, y)], upwards_[map_.known(x + step, y)],
+                                             to_right_[map_.known(x, y + step)], upwards_[map_.known(x, y)]}) {
+                    if (at != kNone) crossings[count++] = middle_of(ends_[at]);
+                }
+                for (std::size_t i = 0; i + 1 < count; i += 2) out.push_back({crossings[i], crossings[i + 1]});
+            }
+        }
+        return out;
+    }
+
+  private:
+    static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+    static constexpr int kHalvings = 5;
+
+    /// Two offsets, of which one collides.
+    struct Ends {
+        glm::dvec2 hit, free;
+    };
+    static glm::dvec2 middle_of(const Ends& ends) { return (ends.hit + ends.free) / 2.0; }
+
+    void add(std::vector<std::size_t>& at, glm::ivec2 from, glm::ivec2 to) {
+        const bool from_hit = map_.hit(from.x, from.y);
+        if (from_hit == map_.hit(to.x, to.y)) return;
+        at[map_.known(from.x, from.y)] = ends_.size();
+        const glm::dvec2 p = map_.order.middle(from.x, from.y), q = map_.order.middle(to.x, to.y);
+        ends_.push_back(from_hit ? Ends{p, q} : Ends{q, p});
+    }
+
+    const PlacementMap& map_;
+    std::vector<std::size_t> to_right_, upwards_;  ///< by cell: of the crossing to its neighbour
+    std::vector<Ends> ends_;
 };
 
 /// "65,536"
@@ -297,6 +372,9 @@ PlacementMap map_placements(const FittedScene& fitted, const SceneQuery& query, 
             progress(done += columns.size(), cells);
         });
         map.step = step;
+        Boundary boundary(map);
+        if (step == 1) boundary.refine(rows);
+        map.boundary = boundary.lines();
         if (pass) pass(map);
     }
     return map;
@@ -318,35 +396,6 @@ void choose_ranges(const mobb::PlacedClip& a, const mobb::PlacedClip& b, MapOrde
         range->from = middle - half;
         range->to = middle + half;
     }
-}
-
-std::vector<MapLine> collision_boundary(const PlacementMap& map) {
-    std::vector<MapLine> out;
-    if (map.step == 0) return out;
-    const MapOrder& order = map.order;
-    const int step = map.step;
-    // Where the clearance is not known, half-way.
-    const auto height_at = [&](int x, int y) {
-        const double value = map.value(x, y);
-        if (order.show == MapShow::clearance && std::isfinite(value)) return value;
-        return map.hit(x, y) ? -1.0 : 1.0;
-    };
-    // Squares between the middles of known cells, around each of which the sign is followed.
-    for (int y = 0; y + step < order.height; y += step) {
-        for (int x = 0; x + step < order.width; x += step) {
-            const std::array<glm::ivec2, 4> corners{{{x, y}, {x + step, y}, {x + step, y + step}, {x, y + step}}};
-            std::array<glm::dvec2, 4> crossings;
-            std::size_t count = 0;
-            for (std::size_t i = 0; i < 4; ++i) {
-                const glm::ivec2 p = corners[i], q = corners[(i + 1) % 4];
-                if (map.hit(p.x, p.y) == map.hit(q.x, q.y)) continue;
-                const double at_p = height_at(p.x, p.y), at_q = height_at(q.x, q.y);
-                crossings[count++] = glm::mix(order.middle(p.x, p.y), order.middle(q.x, q.y), at_p / (at_p - at_q));
-            }
-            for (std::size_t i = 0; i + 1 < count; i += 2) out.push_back({crossings[i], crossings[i + 1]});
-        }
-    }
-    return out;
 }
 
 }  // namespace mobbscope

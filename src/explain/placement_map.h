@@ -70,6 +70,11 @@ mobb::Placement moved(const mobb::Placement& b, const MapOrder& order, glm::dvec
 /// What is added to `from` along the two axes to come to `to`.
 glm::dvec2 offset_between(const mobb::Placement& from, const mobb::Placement& to, const MapOrder& order);
 
+/// A piece of a line, offsets along the two axes.
+struct MapLine {
+    glm::dvec2 from, to;
+};
+
 /// Rows from the least of the second axis.
 struct PlacementMap {
     MapOrder order;
@@ -77,6 +82,8 @@ struct PlacementMap {
     int step = 0;                      ///< cells at multiples of it along both sides are known; 0: none is
     std::vector<double> values{};      ///< infinity: the two share no time, so there is no clearance
     std::vector<std::uint8_t> hits{};  ///< whether they collide
+    /// Between cells that collide and cells that do not; of a whole map to a 64th of a cell.
+    std::vector<MapLine> boundary{};
 
     /// The cell itself, or the known one that stands for it. Requires step > 0.
     std::size_t known(int x, int y) const {
@@ -110,12 +117,5 @@ std::string offset_words(const MapOrder& order, glm::dvec2 offset);
 /// The ranges of the two axes in which B, added to its placement, can meet A, and some room around them: of dx and dy
 /// equally long.
 void choose_ranges(const mobb::PlacedClip& a, const mobb::PlacedClip& b, MapOrder& order);
-
-/// A piece of a line, offsets along the two axes.
-struct MapLine {
-    glm::dvec2 from, to;
-};
-/// Between cells that collide and cells that do not, through the points of clearance 0 where that is known.
-std::vector<MapLine> collision_boundary(const PlacementMap& map);
 
 }  // namespace mobbscope

@@ -121,7 +121,7 @@ class MapDrawing {
     }
 
     void boundary() {
-        for (const MapLine& line : collision_boundary(map_)) {
+        for (const MapLine& line : map_.boundary) {
             line_of(map_pixel(map_.order, area_, line.from), map_pixel(map_.order, area_, line.to),
                     boundary_color(list_.palette), 1.6F * m_.scale);
         }

@@ -87,6 +87,9 @@ class SpaceTimePicture final : public Picture {
         points_ = framed_;
         for (const BoxInstance& box : list_.boxes) points_.add(box_corners(box));
         add_floor_points(points_, list_.space, floor_extent_, view_, emphasis_.cursor.has_value());
+        if (!query_ || !view_.boundary) return;
+        boundary_ = kept.boundary(view_);
+        for (const auto& [from, to] : boundary_) points_.add(list_.space.point(from.x, from.y, floor_extent_.t0));
     }
 
   private:
@@ -100,6 +103,9 @@ class SpaceTimePicture final : public Picture {
             mention_cursor_outside(out.caption, *view_.time, floor_extent_.t0, floor_extent_.t1);
         }
         out.legend = legend_entries(list_, agents_, view_, emphasis_, progress());
+        if (!boundary_.empty())
+            out.legend.push_back(
+                line_entry(boundary_style(list_.palette, 1), agents_[1].label + " beginning inside collides"));
         if (emphasis_.cursor) {
             out.map_title = "floor" + at_time(*emphasis_.cursor);
             out.map = map_size(floor_extent_, metrics_.scale);
@@ -117,6 +123,10 @@ class SpaceTimePicture final : public Picture {
         }
         if (progress() && view_.time_axis && pair_outline(view_) == PairOutline::outcome) {
             add_time_intervals(list_, floor_extent_, agents_, progress()->event, metrics_.scale);
+        }
+        if (!boundary_.empty() && !floor_on_edge(list_.projection)) {
+            const float height = list_.space.point(0, 0, floor_extent_.t0).z;
+            add_floor_boundary(list_, boundary_, agents_[1], height, metrics_.scale);
         }
         if (emphasis_.cursor) add_time_cursor(list_, floor_extent_, *emphasis_.cursor, metrics_.scale);
         add_rings(list_, agents_, emphasis_, metrics_.scale);
@@ -144,6 +154,7 @@ class SpaceTimePicture final : public Picture {
     }
 
     std::optional<QueryAtStep> query_;
+    FloorLines boundary_;
     Emphasis emphasis_;
 };
 
