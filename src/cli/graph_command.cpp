@@ -45,10 +45,7 @@ struct InfoArguments {
 struct DrawArguments {
     std::filesystem::path file;
     std::filesystem::path out;
-    PictureSize size{1280, 720};
-    double scale = 0;
-    Theme theme = Theme::dark;
-    Backend backend = Backend::automatic;
+    DrawingArguments drawing;
 };
 
 std::string moves_text(std::size_t count) { return counted(count, "move", "moves"); }
@@ -145,15 +142,10 @@ void draw(const DrawArguments& arguments) {
     check_extension(arguments.out, ".png", "a picture is written as .png; rename the output");
     const Scene scene = load_graph(arguments.file);
     check_output(arguments.out);
-    const DrawList list = graph_picture(scene, arguments.size, arguments.theme, arguments.scale);
-    Renderer renderer(arguments.backend);
+    const DrawList list =
+        graph_picture(scene, arguments.drawing.size, arguments.drawing.theme, arguments.drawing.scale);
+    Renderer renderer(arguments.drawing.backend);
     write_png(arguments.out, renderer.draw(list));
-}
-
-PictureSize parse_drawn_size(const std::string& text) {
-    const PictureSize size = parse_size(text);
-    check(PictureOptions{.size = size});
-    return size;
 }
 
 /// "1:4" in seconds.
@@ -205,12 +197,7 @@ void add_graph_info_options(Command& command, InfoArguments& arguments) {
 void add_draw_options(Command& command, DrawArguments& arguments) {
     add_parsed(command, "GRAPH", arguments.file, parse_file_name, "A scene with a motion graph", "").required();
     command.add_option("-o,--output", arguments.out, "The picture", "OUT.png").required();
-    add_parsed(command, "--size", arguments.size, parse_drawn_size, "In pixels (1280x720)", "WxH");
-    add_parsed(command, "--scale", arguments.scale, number_within(kLeastScale, kMostScale),
-               "Of text and lines; by itself it suits the size", "X");
-    add_parsed(command, "--theme", arguments.theme, one_of(theme_from_name, "dark, light"), "dark or light", "NAME");
-    add_parsed(command, "--backend", arguments.backend, one_of(backend_from_name, "auto, osmesa, egl"),
-               "OpenGL without a display: auto, osmesa or egl", "NAME");
+    add_drawing_options(command, arguments.drawing);
 }
 
 }  // namespace

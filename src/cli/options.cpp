@@ -4,7 +4,7 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <import/clip/held_steps.h>
-#include <render/gl/gl_context.h>
+#include <render/drawlist/picture_options.h>
 #include <scene/crowd_run.h>
 #include <scene/load_files.h>
 #include <scene/scene_json.h>
@@ -190,6 +190,12 @@ FittedScene fitted(Scene scene, const FitArguments& arguments) {
     return {std::move(scene), options, nullptr, tell("fitted", "clips")};
 }
 
+void check_asks(const FittedScene& scene, const std::filesystem::path& file) {
+    if (!scene.queries().empty()) return;
+    if (scene.scene().crowd) throw InputError(file, "a run asks nothing; mobbscope conflicts finds who collides in it");
+    throw InputError(file, "there is nothing to ask; add queries, or two agents at least");
+}
+
 std::filesystem::path parse_file_name(const std::string& text) {
     if (text.empty()) throw std::invalid_argument("the name is empty; give a file");
     return text;
@@ -228,6 +234,20 @@ void add_backend_name(Command& command, std::string& backend, const std::string&
         return text;
     };
     add_parsed(command, "--backend", backend, known, help, "NAME");
+}
+
+void add_drawing_options(Command& command, DrawingArguments& drawing) {
+    const auto parse_drawn_size = [](const std::string& text) {
+        const PictureSize size = parse_size(text);
+        check(PictureOptions{.size = size});
+        return size;
+    };
+    add_parsed(command, "--size", drawing.size, parse_drawn_size, "In pixels (" + size_word(drawing.size) + ")", "WxH");
+    add_parsed(command, "--scale", drawing.scale, number_within(kLeastScale, kMostScale),
+               "Of text and lines; by itself it suits the size", "X");
+    add_parsed(command, "--theme", drawing.theme, one_of(theme_from_name, "dark, light"), "dark or light", "NAME");
+    add_parsed(command, "--backend", drawing.backend, one_of(backend_from_name, "auto, osmesa, egl"),
+               "OpenGL without a display: auto, osmesa or egl", "NAME");
 }
 
 Progress tell(const std::string& doing, const std::string& things) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <base/text.h>
+#include <render/gl/gl_context.h>
+#include <render/image/image.h>
 #include <scene/fitted_scene.h>
 
 #include <cstdint>
@@ -54,6 +56,9 @@ Option add_fitted_options(Command& command, FittedArguments& arguments, const st
 /// The scene with the trees that it or the arguments ask for.
 FittedScene fitted(Scene scene, const FitArguments& arguments);
 
+/// Throws InputError, naming the file, if the scene asks nothing.
+void check_asks(const FittedScene& scene, const std::filesystem::path& file);
+
 /// Throws std::invalid_argument if the text is empty, as an unset variable leaves it.
 std::filesystem::path parse_file_name(const std::string& text);
 
@@ -81,6 +86,18 @@ auto one_of(Find find, const char* allowed) {
 
 /// Adds --backend by its name, which another process, or a later one, draws with.
 void add_backend_name(Command& command, std::string& backend, const std::string& help);
+
+/// How a diagram is drawn.
+struct DrawingArguments {
+    PictureSize size{1280, 720};
+    double scale = 0;  ///< of text and lines; 0: the usual
+    Theme theme = Theme::dark;
+    Backend backend = Backend::automatic;
+};
+
+/// Adds --size --scale --theme --backend. `drawing` has what holds without them, and must live until the command has
+/// run.
+void add_drawing_options(Command& command, DrawingArguments& drawing);
 
 /// Which clips the radius of the import options is for.
 enum class RadiusOf { imported_clips, every_clip };

@@ -180,11 +180,7 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
 
 int run_query(QueryCommandArguments& arguments) {
     const FittedScene scene = fitted(load(arguments.file, arguments.import_options), arguments.fit);
-    if (scene.queries().empty()) {
-        if (scene.scene().crowd)
-            throw InputError(arguments.file, "a run asks nothing; mobbscope conflicts finds who collides in it");
-        throw InputError(arguments.file, "there is nothing to ask; add queries, or two agents at least");
-    }
+    check_asks(scene, arguments.file);
     if (!arguments.certificate.empty()) check_output(arguments.certificate);
     arguments.details.search = arguments.fit.brute ? Search::direct : Search::trees;
     const std::vector<std::string> complaints = answer_all(scene, arguments);

@@ -440,6 +440,14 @@ std::vector<ViewOption> all_view_options() {
                                    .shortcut = "G",
                                    .at_hand = true,
                                    .draws = DrawnPart::surroundings}),
+        toggle<&ViewState::boundary>(
+            {.key = "boundary",
+             .what = "With a query, on the floor: the line within which B's path may not begin, or the two collide",
+             .title = "Collision boundary",
+             .menu = "View/Show",
+             .draws = DrawnPart::surroundings,
+             .may_be_seen =
+                 [](const ViewState& view) { return view.query.has_value() && view.show == Show::space_time; }}),
         toggle<&ViewState::time_axis>({.key = "time_axis",
                                        .what = "The upright scale in seconds",
                                        .title = "Time axis",

@@ -17,6 +17,15 @@ float placement_height(const Ui& ui, Settings& settings);      ///< pixels; 0: n
 void placement_panel(Ui& ui);                                  ///< the selected agent by numbers; else nothing
 void tree_panel(Ui& ui, Jobs& jobs, QueryInspector& queries);  ///< how trees are fitted and how tight they are
 void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures);  ///< the answer, and why
+/// How high the map of placements is, and its side; pixels.
+struct MapLayout {
+    float height = 0;  ///< 0: no query is in view
+    float side = 0;    ///< 0: it is folded
+    bool folded_at_first = false;
+};
+/// `room`: of the column that it stands in.
+MapLayout map_layout(const Ui& ui, ImVec2 room);
+void map_panel(Ui& ui, MapInspector& maps, MapPicture& picture, const MapLayout& layout);
 void crowd_panel(Ui& ui, CrowdInspector& crowds);  ///< who is followed, its last choice, its plays, and who collides
 void last_choice(Ui& ui, CrowdInspector& crowds);  ///< of who is followed in a run, with its candidates
 void selection_panel(Ui& ui);                      ///< all numbers of what is selected

@@ -6,6 +6,7 @@
 #include <app/ui/ui.h>
 #include <app/ui/widgets.h>
 #include <explain/query_findings.h>
+#include <render/query/map_colors.h>
 
 #include <memory>
 #include <optional>
@@ -36,6 +37,26 @@ void why_axes(Ui& ui, const QueryFindings& findings);
 /// The pairs of samples that were measured.
 void measured_pairs(Ui& ui, const QueryFindings& findings);
 
+/// The map of placements, with what it was last drawn from.
+class MapPicture {
+  public:
+    void remake(const std::shared_ptr<const PlacementMap>& map, const MapColors& colors, const Style& style,
+                const Rect& area);
+    void draw(Ui& ui, const PlacementMap& map, const Rect& area) const;
+
+  private:
+    struct Key {
+        std::shared_ptr<const PlacementMap> map;
+        MapColors colors;
+        bool dark = false;
+        glm::vec2 min{0}, max{0};
+        friend bool operator==(const Key&, const Key&) = default;
+    };
+    std::optional<Key> key_;
+    std::shared_ptr<const Image> image_;
+    std::vector<PixelLine> hatch_;
+};
+
 /// The pictures of a trace, each with the cells that it was last drawn from: most frames draw the same ones.
 class QueryPictures {
   public:
@@ -48,6 +69,8 @@ class QueryPictures {
     void strip(Ui& ui, QueryInspector& queries, float width, float height);
     /// The recursion, depth downwards; a click steps to a pair's first event. Nothing without a query in the view.
     void icicle(Ui& ui, QueryInspector& queries, ImVec2 size);
+
+    MapPicture map;
 
   private:
     template <class Cell>

@@ -226,7 +226,10 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
         const float moved = splitter(ui, "splitter.right", {bar, room.y}, true);
         if (moved != 0) drag_side(ui, sides, right - moved, settings.right_width, settings.left_width);
         spacing();
-        panel(ui, screen ? panels[2].name : "right", {right, room.y}, [&] {
+        // The map stays in sight, whatever of the query is scrolled to.
+        const MapLayout map = map_layout(ui, {right, room.y});
+        ImGui::BeginGroup();
+        panel(ui, screen ? panels[2].name : "right", {right, room.y - map.height}, [&] {
             if (screen) return panels[2].draw(ui);
             if (of_crowd) {
                 crowd_panel(ui, ui.session.crowds);
@@ -235,6 +238,9 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
             }
             selection_panel(ui);
         });
+        if (map.height > 0)
+            panel(ui, "map", {right, map.height}, [&] { map_panel(ui, ui.session.maps, pictures.map, map); });
+        ImGui::EndGroup();
     }
     if (fold) {
         spacing();

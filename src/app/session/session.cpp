@@ -48,6 +48,7 @@ void Session::end_work() {
     files.end_work();
     recovery.end_work();
     dialogs.preview.end();
+    maps.end_work();
     for (const auto& each : screens) each->end_work();
 }
 

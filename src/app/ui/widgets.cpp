@@ -95,14 +95,14 @@ void heading(Ui& ui, const char* text, const std::string& right) {
     ImGui::PopFont();
 }
 
-bool is_folded(const Settings& settings, const std::string& title) {
+bool is_folded(const Settings& settings, const std::string& title, bool at_first) {
     const auto known = settings.folded.find(title);
-    return known != settings.folded.end() && known->second;
+    return known != settings.folded.end() ? known->second : at_first;
 }
 
-bool section(Ui& ui, const std::string& title, const std::string& right) {
+bool section(Ui& ui, const std::string& title, const std::string& right, bool folded_at_first) {
     const std::string id = lower(title);
-    const bool open = !is_folded(ui.session.settings, id);
+    const bool open = !is_folded(ui.session.settings, id, folded_at_first);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     heading(ui, title.c_str(), right);
     const ImVec2 below = ImGui::GetCursorScreenPos();

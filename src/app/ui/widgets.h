@@ -15,11 +15,12 @@ namespace mobbscope::app {
 /// A quiet heading with room above it; `right` stands at the other end of its line if there is room.
 void heading(Ui& ui, const char* text, const std::string& right = "");
 
-/// Whether the section with that title in small letters is folded.
-bool is_folded(const Settings& settings, const std::string& title);
+/// Whether the section with that title in small letters is folded; `at_first`: until somebody folds or unfolds it.
+bool is_folded(const Settings& settings, const std::string& title, bool at_first = false);
 /// A heading that folds what stands below it at a click: whether that is to be drawn. Settings remember it by the
 /// title, which is not made of names that change; `section.<title in small letters>` for scripts.
-[[nodiscard]] bool section(Ui& ui, const std::string& title, const std::string& right = "");
+[[nodiscard]] bool section(Ui& ui, const std::string& title, const std::string& right = "",
+                           bool folded_at_first = false);
 
 /// A line of text in a colour, and in a font; null: the present one.
 void text_line(ImU32 color, const std::string& text, ImFont* font = nullptr);

@@ -38,6 +38,13 @@ const Bounds& KeptPaths::bounds(std::span<const DrawnAgent> agents, const ViewSt
     return bounds_->second;
 }
 
+const FloorLines& KeptPaths::boundary(const ViewState& view) {
+    const int query = *view.query;
+    if (!boundary_ || boundary_->first != query)
+        boundary_.emplace(query, floor_boundary(*fitted_, fitted_->queries()[static_cast<std::size_t>(query)]));
+    return boundary_->second;
+}
+
 /// Where everybody is hidden, the picture still has its place.
 void KeptPaths::add_places_of_all(const DrawList& list, std::span<const DrawnAgent> agents) {
     DrawList scratch;

@@ -7,6 +7,7 @@
 #include <render/drawlist/shown_points.h>
 #include <render/layout/framing.h>
 #include <render/parts/paths.h>
+#include <render/query/floor_boundary.h>
 #include <scene/fitted_scene.h>
 #include <scene/view_state.h>
 
@@ -42,6 +43,9 @@ class KeptPaths {
     /// as points that the picture has to show: those of whom it shows, or of all where everybody is hidden.
     const ShownPoints& add_disks_of(DrawList& list, std::span<const DrawnAgent> agents, const ViewState& view,
                                     const std::vector<PathFocus>& foci);
+
+    /// floor_boundary of a view's query.
+    const FloorLines& boundary(const ViewState& view);
 
   private:
     void add_places_of_all(const DrawList& list, std::span<const DrawnAgent> agents);
@@ -80,6 +84,7 @@ class KeptPaths {
         std::optional<QueryProof> proof{};
     };
     std::optional<Asked> asked_;
+    std::optional<std::pair<int, FloorLines>> boundary_;  ///< by query
     std::optional<Shapes> shapes_;
     Colors colors_;
     SharedValues<DiskInstance> disks_;

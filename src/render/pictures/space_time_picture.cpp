@@ -75,6 +75,9 @@ class SpaceTimePicture final : public Picture {
         points_ = framed_;
         for (const BoxInstance& box : list_.boxes) points_.add(box_corners(box));
         add_floor_points(points_, list_.space, floor_extent_, view_, emphasis_.cursor.has_value());
+        if (!recorded_ || !view_.boundary) return;
+        boundary_ = kept.boundary(view_);
+        for (const auto& [from, to] : boundary_) points_.add(list_.space.point(from.x, from.y, floor_extent_.t0));
     }
 
   private:
@@ -106,6 +109,9 @@ class SpaceTimePicture final : public Picture {
         }
         out.legend = legend_entries(list_, agents_, view_, emphasis_, test());
         if (walls_) out.legend.push_back(proof_entry(list_.palette));
+        if (!boundary_.empty())
+            out.legend.push_back(
+                line_entry(boundary_style(list_.palette, 1), agents_[1].label + " beginning inside collides"));
         if (emphasis_.cursor) {
             out.map_title = "floor" + at_time(*emphasis_.cursor);
             out.map = map_size(floor_extent_, metrics_.scale);
@@ -123,6 +129,10 @@ class SpaceTimePicture final : public Picture {
         }
         if (test() && view_.time_axis && pair_outline(view_) == PairOutline::outcome) {
             add_time_intervals(list_, floor_extent_, agents_, test()->event, metrics_.scale);
+        }
+        if (!boundary_.empty() && !floor_on_edge(list_.projection)) {
+            const float height = list_.space.point(0, 0, floor_extent_.t0).z;
+            add_floor_boundary(list_, boundary_, agents_[1], height, metrics_.scale);
         }
         if (emphasis_.cursor) add_time_cursor(list_, floor_extent_, *emphasis_.cursor, metrics_.scale);
         add_rings(list_, agents_, emphasis_, metrics_.scale);
@@ -169,6 +179,7 @@ class SpaceTimePicture final : public Picture {
     const QueryProof* walls_ = nullptr;        ///< null: they are not shown
     bool replaces_test_ = false;               ///< the walls stand alone
     std::vector<WallGap> gaps_;
+    FloorLines boundary_;
     Emphasis emphasis_;
 };
 

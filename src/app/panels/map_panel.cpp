@@ -1,0 +1,309 @@
+#include <app/panels/panels.h>
+#include <app/ui/swatch.h>
+#include <app/ui/widgets.h>
+#include <base/text.h>
+#include <render/query/map_colors.h>
+#include <render/text/labels.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace mobbscope::app {
+
+namespace {
+
+// Pixels at scale 1.
+constexpr float kLeastSide = 96;
+constexpr float kMostSide = 520;
+constexpr float kHistogram = 26;
+constexpr float kColorBar = 8;   // of colours
+constexpr float kHandle = 5;     // half its width
+constexpr float kHatch = 7;      // between lines
+constexpr float kLowRoom = 860;  // windows with less keep the map folded at first
+constexpr std::size_t kImageSlot = 40;
+constexpr int kBars = 64;
+
+const char* title_of(MapAxis axis) {
+    switch (axis) {
+        case MapAxis::dx:
+            return "x";
+        case MapAxis::dy:
+            return "y";
+        case MapAxis::dheading:
+            return "turned";
+        case MapAxis::dstart:
+            break;
+    }
+    return "start";
+}
+
+std::string with_axis_unit(MapAxis axis, double value) {
+    if (axis == MapAxis::dheading) return formatted("%.0f\u00B0", value + 0.0);
+    return formatted("%.2f ", value + 0.0) + std::string(axis_unit(axis));
+}
+
+/// "x 1.25 m, y -0.50 m"
+std::string place_words(const MapOrder& order, glm::dvec2 at) {
+    return std::string(title_of(order.across.axis)) + ' ' + with_axis_unit(order.across.axis, at.x) + ", " +
+           title_of(order.up.axis) + ' ' + with_axis_unit(order.up.axis, at.y);
+}
+
+std::string range_words(const MapRange& range) {
+    return with_axis_unit(range.axis, range.from) + " to " + with_axis_unit(range.axis, range.to);
+}
+
+MapColors colors_of(const MapInspector& maps, const PlacementMap& map) {
+    const auto& chosen = maps.choice.colors;
+    return chosen ? MapColors{chosen->first, chosen->second} : usual_colors(map);
+}
+
+/// Words that are one of a few, the present one in the accent's colour; says which is pressed.
+template <std::size_t count>
+int word_choice(Ui& ui, const char* mark, const std::array<const char*, count>& all, int now) {
+    int pressed = -1;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i > 0) ImGui::SameLine(0, ui.px(2));
+        const bool is_now = static_cast<int>(i) == now;
+        ImGui::PushStyleColor(ImGuiCol_Text, is_now ? ui.style.text : ui.style.quiet);
+        ImGui::PushStyleColor(ImGuiCol_Button, is_now ? ui.style.raised : ui.style.panel);
+        if (small_button(ui, all[i], std::string(mark) + '.' + all[i])) pressed = static_cast<int>(i);
+        ImGui::PopStyleColor(2);
+    }
+    return pressed;
+}
+
+/// The axes, and what is shown over them.
+void controls(Ui& ui, const MapInspector& maps) {
+    const Command& axes = *find_command("map.axes", commands(ui.session));
+    const std::string now = std::string(name(maps.choice.across)) + ',' + std::string(name(maps.choice.up));
+    const auto words_of_axes = [](const std::string& text) {
+        const std::size_t comma = text.find(',');
+        return std::string(title_of(*map_axis_from_name(text.substr(0, comma)))) + ", " +
+               title_of(*map_axis_from_name(text.substr(comma + 1)));
+    };
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(6), ui.px(1)});
+    ImGui::SetNextItemWidth(ui.px(96));
+    if (begin_dropdown(ui, "map.axes", words_of_axes(now), "")) {
+        for (const std::string& text : axes.choices(ui.session)) {
+            if (ImGui::Selectable(words_of_axes(text).c_str(), text == now)) ui.invoke("map.axes", text);
+            ui.mark("map.axes." + text);
+        }
+        ImGui::EndCombo();
+    }
+    ImGui::PopStyleVar();
+    ImGui::SameLine(0, ui.px(4));
+    constexpr std::array kShows{"answer", "clearance", "tests"};
+    const int pressed = word_choice(ui, "map.show", kShows, static_cast<int>(maps.choice.show));
+    if (pressed >= 0) ui.invoke("map.show", kShows[static_cast<std::size_t>(pressed)]);
+}
+
+void caption(Ui& ui, ImVec2 at, const std::string& left, const std::string& right, float width) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImFont& font = *ui.style.caption;
+    draw_text(list, font, at, ui.style.quiet, left);
+    const float room = text_size(font, right).x;
+    if (text_size(font, left).x + room + ui.px(8) < width)
+        draw_text(list, font, {at.x + width - room, at.y}, ui.style.quiet, right);
+}
+
+ImVec2 to_vec(glm::vec2 v) { return {v.x, v.y}; }
+
+}  // namespace
+
+void MapPicture::remake(const std::shared_ptr<const PlacementMap>& map, const MapColors& colors, const Style& style,
+                        const Rect& area) {
+    const Key key{map, colors, style.palette.dark, area.min, area.max};
+    if (key_ == key) return;
+    key_ = key;
+    image_ = std::make_shared<const Image>(map_image(*map, colors, style.palette));
+    hatch_ = hit_hatch(*map, area, kHatch * style.scale);
+}
+
+void MapPicture::draw(Ui& ui, const PlacementMap& map, const Rect& area) const {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 min = to_vec(area.min), max = to_vec(area.max);
+    list.AddRectFilled(min, max, ui.style.raised);
+    if (const ImTextureID texture = ui.painter.image(kImageSlot, image_, false)) list.AddImage(texture, min, max);
+    list.PushClipRect(min, max, true);
+    const ImU32 hatch = to_im(hatch_color(map.order.show, ui.style.palette));
+    for (const PixelLine& line : hatch_) list.AddLine(to_vec(line.from), to_vec(line.to), hatch, ui.style.scale);
+    const ImU32 edge = to_im(boundary_color(ui.style.palette));
+    for (const MapLine& line : map.boundary) {
+        list.AddLine(to_vec(map_pixel(map.order, area, line.from)), to_vec(map_pixel(map.order, area, line.to)), edge,
+                     1.4f * ui.style.scale);
+    }
+    list.PopClipRect();
+    list.AddRect(min, max, ui.style.border);
+}
+
+namespace {
+
+/// How many cells have which value, the colours below, and a handle at either end of them.
+void histogram(Ui& ui, const MapInspector& maps, const PlacementMap& map, float width) {
+    const MapColors whole = usual_colors(map), colors = colors_of(maps, map);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float height = ui.px(kHistogram), bar = ui.px(kColorBar);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ChartAxis x{whole.from, whole.to, at.x, at.x + width};
+    const std::vector<std::size_t> counts = value_counts(map, whole, kBars);
+    // Few cells of one value are seen beside many of another.
+    const auto share = [&](std::size_t count) { return std::sqrt(static_cast<float>(count)); };
+    const float most = std::max(1.0f, share(*std::ranges::max_element(counts)));
+    for (int i = 0; i < kBars; ++i) {
+        const auto edge = [&](int k) { return at.x + width * static_cast<float>(k) / kBars; };
+        const double value = whole.from + (i + 0.5) / kBars * (whole.to - whole.from);
+        const ImU32 color = to_im(value_color(map.order.show, value, colors, ui.style.palette));
+        const float top = at.y + height * (1 - share(counts[static_cast<std::size_t>(i)]) / most);
+        list.AddRectFilled({edge(i), top}, {edge(i + 1), at.y + height}, color);
+        list.AddRectFilled({edge(i), at.y + height + ui.px(2)}, {edge(i + 1), at.y + height + ui.px(2) + bar}, color);
+    }
+    const auto handle = [&](const char* mark, double value, auto changed) {
+        const float px = std::clamp(x.pixel(value), at.x, at.x + width);
+        ImGui::SetCursorScreenPos({px - ui.px(kHandle), at.y});
+        ImGui::InvisibleButton(mark, {2 * ui.px(kHandle), height + bar + ui.px(6)});
+        ui.mark_only(mark);
+        const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
+        const ImU32 color = lit ? ui.style.accent : ui.style.text;
+        const float foot = at.y + height + ui.px(3) + bar;
+        list.AddLine({px, at.y}, {px, foot}, color, ui.px(1));
+        list.AddTriangleFilled({px, foot - ui.px(3)}, {px + ui.px(kHandle), foot + ui.px(4)},
+                               {px - ui.px(kHandle), foot + ui.px(4)}, color);
+        if (lit) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+        if (ImGui::IsItemActive() && ImGui::GetIO().MouseDelta.x != 0) {
+            const MapColors wanted = changed(x.value(ImGui::GetIO().MousePos.x));
+            ui.later([wanted](MapInspector& now) { now.choice.colors = {wanted.from, wanted.to}; });
+        }
+    };
+    const double least = (whole.to - whole.from) / 100;
+    handle("map.range.from", colors.from, [&](double value) {
+        return MapColors{std::clamp(value, whole.from, std::max(whole.from, colors.to - least)), colors.to};
+    });
+    handle("map.range.to", colors.to, [&](double value) {
+        return MapColors{colors.from, std::clamp(value, std::min(whole.to, colors.from + least), whole.to)};
+    });
+    ImGui::SetCursorScreenPos({at.x, at.y + height + bar + ui.px(8)});
+    const char* unit = map.order.show == MapShow::clearance ? " m" : " tests";
+    const std::string from = brief(std::round(colors.from * 100) / 100) + unit;
+    const std::string to = brief(std::round(colors.to * 100) / 100) + unit;
+    text_line(ui.style.quiet, from, ui.style.caption);
+    if (maps.choice.colors) {
+        ImGui::SameLine(0, ui.px(8));
+        if (small_button(ui, "auto", "map.range.auto", "All values that there are")) ui.invoke("map.range", "auto");
+    }
+    ImGui::SameLine();
+    ImGui::SetCursorScreenPos({at.x + width - text_size(*ui.style.caption, to).x, ImGui::GetCursorScreenPos().y});
+    text_line(ui.style.quiet, to, ui.style.caption);
+}
+
+/// The mouse in the map: what is there, and B goes where it is pressed.
+void mouse(Ui& ui, const MapInspector& maps, const PlacementMap& map, const Rect& area) {
+    const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
+    const ImGuiIO& io = ImGui::GetIO();
+    const auto value_at = [&](ImVec2 pixel) {
+        const glm::dvec2 share((pixel.x - area.min.x) / area.size().x, (area.max.y - pixel.y) / area.size().y);
+        const glm::dvec2 inside(std::clamp(share.x, 0.0, 1.0), std::clamp(share.y, 0.0, 1.0));
+        const MapRange &across = map.order.across, &up = map.order.up;
+        return glm::dvec2(across.from + inside.x * (across.to - across.from), up.from + inside.y * (up.to - up.from));
+    };
+    const glm::dvec2 at = value_at(io.MousePos);
+    const std::string why = maps.why_not_placed();
+    const bool pressed = ImGui::IsItemActivated(), dragged = active && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0);
+    if ((pressed || dragged) && why.empty()) ui.later([at](MapInspector& now) { now.place_b(at); });
+    if (hovered && io.MouseWheel != 0) {
+        const double factor = std::pow(0.85, static_cast<double>(io.MouseWheel));
+        const auto zoomed = [factor](MapRange range, double about) {
+            return MapRange{range.axis, about + (range.from - about) * factor, about + (range.to - about) * factor};
+        };
+        const std::pair extent(zoomed(map.order.across, at.x), zoomed(map.order.up, at.y));
+        ui.later([extent](MapInspector& now) { now.choice.extent = extent; });
+    }
+    if (!hovered && !active) return;
+    const auto cell = map.cell_at(at);
+    if (!cell) return;
+    std::string text = place_words(map.order, at) + "\n" + cell_words(map, cell->x, cell->y);
+    text += "\n" + (why.empty() ? std::string("Click or drag: it goes there. Wheel: zooms") : why);
+    // Beside the map, which it would cover.
+    ImGui::SetNextWindowPos({area.min.x - ui.px(12), io.MousePos.y}, ImGuiCond_Always, {1, 0.5f});
+    ImGui::SetTooltip("%s", text.c_str());
+}
+
+/// A ring where B stands now; at the edge where that is outside.
+void ring(Ui& ui, const PlacementMap& map, const Rect& area, glm::dvec2 at) {
+    const glm::vec2 pixel = map_pixel(map.order, area, at);
+    const glm::vec2 inside{std::clamp(pixel.x, area.min.x, area.max.x), std::clamp(pixel.y, area.min.y, area.max.y)};
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddCircle(to_vec(inside), ui.px(6), IM_COL32(0, 0, 0, 255), 0, ui.px(4));
+    list.AddCircle(to_vec(inside), ui.px(6), IM_COL32_WHITE, 0, ui.px(1.8f));
+}
+
+}  // namespace
+
+MapLayout map_layout(const Ui& ui, ImVec2 room) {
+    MapLayout out;
+    const bool screen = ui.session.screen != nullptr;
+    if (screen || !ui.session.maps.can_be()) return out;
+    out.folded_at_first = room.y < ui.px(kLowRoom);
+    const float around = 2 * ImGui::GetStyle().WindowPadding.y + ui.px(6) + 2 * ui.px(5) + ui.style.caption->FontSize;
+    out.height = around;
+    if (is_folded(ui.session.settings, std::string(kMapSection), out.folded_at_first)) return out;
+    const float line = ui.style.caption->FontSize;
+    const float below = ui.session.maps.choice.show == MapShow::answer ? ImGui::GetTextLineHeight()
+                                                                       : ui.px(kHistogram + kColorBar + 8) + line;
+    const float parts = ImGui::GetFrameHeight() + ui.px(8) + 2 * (line + ui.px(4)) + ui.px(6) + below +
+                        ImGui::GetFrameHeight() + ui.px(10);
+    const float width = room.x - 2 * ImGui::GetStyle().WindowPadding.x;
+    out.side =
+        std::floor(std::clamp(std::min(width, 0.62f * room.y - around - parts), ui.px(kLeastSide), ui.px(kMostSide)));
+    out.height = around + parts + out.side;
+    return out;
+}
+
+void map_panel(Ui& ui, MapInspector& maps, MapPicture& picture, const MapLayout& layout) {
+    const ImVec2 corner = ImGui::GetWindowPos();
+    ImGui::GetWindowDrawList()->AddLine(corner, {corner.x + ImGui::GetWindowWidth(), corner.y}, ui.style.border);
+    const auto whole = maps.seconds();
+    std::string cells = std::to_string(kUsualMapCells) + " x " + std::to_string(kUsualMapCells);
+    if (ui.session.options.attended && maps.is_shown)
+        cells = whole ? cells + formatted(" in %.0f ms", std::ceil(1e3 * *whole)) : cells + "\u2026";
+    maps.is_shown = section(ui, "WHERE COULD B STAND?", cells, layout.folded_at_first);
+    if (!maps.is_shown || layout.side <= 0 || !maps.can_be()) return;
+    maps.update();
+    controls(ui, maps);
+    const std::shared_ptr<const PlacementMap> map = maps.map();
+    const float line = ui.style.caption->FontSize;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    const Rect area{{at.x, at.y + line + ui.px(3)}, {at.x + layout.side, at.y + line + ui.px(3) + layout.side}};
+    ImGui::SetCursorScreenPos(to_vec(area.min));
+    ImGui::InvisibleButton("map", {layout.side, layout.side});
+    ui.mark_only("query.map");
+    if (map) {
+        const MapOrder& order = map->order;
+        caption(ui, at, std::string(title_of(order.up.axis)) + " \u2191  " + range_words(order.up), "", layout.side);
+        picture.remake(map, colors_of(maps, *map), ui.style, area);
+        picture.draw(ui, *map, area);
+        ring(ui, *map, area, maps.place_of_b(*map));
+        mouse(ui, maps, *map, area);
+        caption(ui, {area.min.x, area.max.y + ui.px(2)}, range_words(order.across),
+                std::string(title_of(order.across.axis)) + " \u2192", layout.side);
+    }
+    ImGui::SetCursorScreenPos({at.x, area.max.y + line + ui.px(8)});
+    if (map && map->order.show != MapShow::answer) histogram(ui, maps, *map, layout.side);
+    const bool on_floor = ui.workspace.view().boundary;
+    if (map && map->order.show == MapShow::answer && map->step == 1)
+        fitted_line(ui, ui.style.quiet, map_words(*map, maps.query().a.name, maps.query().b.name), width);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(3), ui.px(1)});
+    bool wanted = on_floor;
+    if (ImGui::Checkbox("boundary on the floor", &wanted)) ui.invoke("view.boundary");
+    ImGui::PopStyleVar();
+    ui.mark("map.boundary");
+    if (maps.choice.extent) {
+        ImGui::SameLine();
+        if (small_button(ui, "whole map", "map.extent.auto", "All placements where the two can meet"))
+            ui.invoke("map.extent", "auto");
+    }
+}
+
+}  // namespace mobbscope::app

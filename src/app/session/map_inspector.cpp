@@ -1,0 +1,135 @@
+#include <app/document/edit_names.h>
+#include <app/session/map_inspector.h>
+#include <scene/scene_edits.h>
+
+#include <chrono>
+#include <exception>
+#include <mutex>
+#include <stdexcept>
+
+namespace mobbscope::app {
+
+/// What the job has made so far.
+struct MapInspector::Made {
+    mutable std::mutex mutex;
+    std::shared_ptr<const PlacementMap> map;
+    std::optional<double> seconds;
+};
+
+SceneQuery MapInspector::query() const {
+    return workspace_.fitted().queries()[static_cast<std::size_t>(*workspace_.view().query)];
+}
+
+MapInspector::Key MapInspector::key_now() const {
+    const FittedScene& fitted = workspace_.fitted();
+    const SceneQuery asked = query();
+    Key key;
+    key.a = fitted.tree(asked.a.clip).shared_clip();
+    key.b = fitted.tree(asked.b.clip).shared_clip();
+    key.place_a = asked.a.placement;
+    key.order.across.axis = choice.across;
+    key.order.up.axis = choice.up;
+    key.order.show = choice.show;
+    // Where B is along the axes does not matter: numbers in the map are those of its placement.
+    key.reference = moved(asked.b.placement, key.order, -offset_between({}, asked.b.placement, key.order));
+    if (choice.across == MapAxis::dheading || choice.up == MapAxis::dheading) key.reference.rotate_deg = 0;
+    if (choice.extent) {
+        std::tie(key.order.across, key.order.up) = *choice.extent;
+    } else {
+        choose_ranges(fitted.placed(asked.a).placed_clip(), mobb::PlacedClip(*key.b, key.reference), key.order);
+    }
+    if (choice.show == MapShow::tests) {
+        key.tree_a = fitted.shared_tree(asked.a.clip);
+        key.tree_b = fitted.shared_tree(asked.b.clip);
+    }
+    return key;
+}
+
+void MapInspector::update() {
+    if (job_ && job_->done()) {
+        try {
+            job_->finish();
+        } catch (const std::exception& error) {
+            notifications_.tell(MessageLevel::error, error.what());
+        }
+        job_.reset();
+    }
+    if (!can_be()) return end_work();
+    const Key key = key_now();
+    if (key_ != key) start(key);
+}
+
+void MapInspector::start(const Key& key) {
+    if (map()) before_ = made_->map ? made_ : before_;
+    key_ = key;
+    made_ = std::make_shared<Made>();
+    SceneQuery asked = query();
+    asked.b.placement = key.reference;
+    job_ = std::make_unique<Job>(
+        "Mapping placements",
+        [fitted = workspace_.shown(), asked, order = key.order, made = made_](JobControl& control) -> Job::Finish {
+            const auto begun = std::chrono::steady_clock::now();
+            const auto publish = [&](const PlacementMap& map) {
+                {
+                    const std::scoped_lock lock(made->mutex);
+                    made->map = std::make_shared<const PlacementMap>(map);
+                    if (map.step == 1)
+                        made->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+                }
+                control.tell_news();
+            };
+            map_placements(*fitted, asked, order, publish, progress_of(control));
+            return {};
+        },
+        [&at = *desktop_] { at.wake(); });
+    if (!options_.attended) job_->wait(std::chrono::hours(24));
+}
+
+std::shared_ptr<const PlacementMap> MapInspector::map() const {
+    for (const auto& made : {made_, before_}) {
+        if (!made) continue;
+        const std::scoped_lock lock(made->mutex);
+        if (made->map) return made->map;
+    }
+    return nullptr;
+}
+
+std::optional<double> MapInspector::seconds() const {
+    if (!made_) return std::nullopt;
+    const std::scoped_lock lock(made_->mutex);
+    return made_->seconds;
+}
+
+glm::dvec2 MapInspector::place_of_b(const PlacementMap& map) const {
+    return offset_between(map.reference, query().b.placement, map.order);
+}
+
+std::string MapInspector::why_not_placed() const {
+    if (!can_be()) return "no query is shown";
+    if (workspace_.crowd()) return "a run is not edited";
+    if (query().b.agent < 0) return "the query places B itself: it is no agent of the scene";
+    return "";
+}
+
+void MapInspector::place_b(glm::dvec2 at) {
+    if (const std::string why = why_not_placed(); !why.empty())
+        throw std::invalid_argument("B cannot be placed: " + why);
+    const PlacedAgent b = query().b;
+    MapOrder order;
+    order.across.axis = choice.across;
+    order.up.axis = choice.up;
+    const mobb::Placement placement = moved(b.placement, order, at - offset_between({}, b.placement, order));
+    if (!mobb::is_valid(placement)) throw std::invalid_argument("no agent may stand so far away");
+    if (placement == b.placement) return;
+    workspace_.edit({name_of_placing(b.name, b.placement, placement).title, "drag"},
+                    [&](Scene& scene) { place_agent(scene, b.agent, placement); });
+}
+
+void MapInspector::end_work() {
+    job_.reset();
+    key_.reset();
+    made_.reset();
+    before_.reset();
+}
+
+}  // namespace mobbscope::app
