@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kWorthNaming = 1e-3;  // metres or seconds: less is shown as 0
 
-/// A number that is promised: what is left off makes it less.
+/// A number that is promised: what is left off makes it less, but for what rounding took from it.
 std::string promised(double value, const char* unit) {
     const double shown = value < 10 ? 1000 : 100;
-    return with_unit(std::floor(value * shown) / shown, unit);
+    return with_unit(std::floor((value + 1e-9) * shown) / shown, unit);
 }
 
 std::string result(const Certificate& certificate) {
