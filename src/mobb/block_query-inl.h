@@ -187,8 +187,13 @@ class BlockTraversal {
     }
 
     MOBB_INLINE bool visit_pair(int level_a, int i, int level_b, int j, bool meet) {
-        if constexpr (Observer::watches) observer_.enter(blocks_a_.node_of(level_a, i), blocks_b_.node_of(level_b, j));
-        if constexpr (Observer::watches) observer_.box_test(BoxKind::block, separation(level_a, i, level_b, j, meet));
+        if constexpr (Observer::watches) {
+            const Separation apart = separation(level_a, i, level_b, j, meet);
+            // The root of a clip of one block is told of in its place, and is a little larger.
+            meet = !apart.separated();
+            observer_.enter(blocks_a_.node_of(level_a, i), blocks_b_.node_of(level_b, j));
+            observer_.box_test(BoxKind::block, apart);
+        }
         const bool stop = meet && below(level_a, i, level_b, j);
         if constexpr (Observer::watches) observer_.leave();
         return stop;

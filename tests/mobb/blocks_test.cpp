@@ -688,6 +688,10 @@ TEST(Blocks, TracesAreTheSameOnEveryInstructionSetAndCanBeWorkedOutAgain) {
                 if (event.outcome == Outcome::overlap) {
                     // Apart by less than single precision can tell.
                     EXPECT_LT(again.gap, 1e-4 * (10 + tree_a.blocks()->extent() + tree_b.blocks()->extent()));
+                    // What overlaps is looked into.
+                    ASSERT_LT(step + 1, trace.size());
+                    const Trace::Event next = trace[step + 1];
+                    EXPECT_TRUE(next.depth > event.depth || (next.a == event.a && next.b == event.b));
                     continue;
                 }
                 ++separated;
