@@ -1,4 +1,5 @@
 // The map of placements in the window: a click or a drag in it places B, and moving B leaves it as it is.
+#include <app/script/state_json.h>
 #include <app/window/headless_window.h>
 #include <render/gl/gl_context.h>
 #include <render/pictures/build_draw_list.h>
@@ -6,6 +7,7 @@
 #include "app/crossing_folder.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <string>
 
@@ -151,9 +153,11 @@ TEST(Map, ItsColoursAreDraggedByHandles) {
 
 TEST(Map, FoldsAndLeavesWithTheQuery) {
     MapWindow w;
+    EXPECT_TRUE(state_json(w.session).contains("map"));
     run_command(w.session, "map.panel");
     w.window.settle();
     EXPECT_FALSE(w.has("query.map"));
+    EXPECT_FALSE(state_json(w.session).contains("map"));
     run_command(w.session, "map.panel");
     w.window.settle();
     EXPECT_TRUE(w.has("query.map"));

@@ -108,7 +108,6 @@ std::vector<Command> map_commands() {
                 "Chooses what the map shows: answers, the least clearance, or the tests that a query takes.", show,
                 {.menu = "Query/Map",
                  .argument = "[answer|clearance|tests]",
-                 .enabled = with_query(),
                  .choices =
                      [](const Session&) {
                          const auto all = map_show_names();

@@ -134,6 +134,22 @@ Json crowd_json(const Workspace& workspace, const CrowdInspector& crowds) {
     return json;
 }
 
+/// Null where its panel is folded, or no query is in view.
+Json map_json(const MapInspector& maps) {
+    const std::shared_ptr<const PlacementMap> map = maps.map();
+    if (!maps.is_shown || !maps.can_be() || !map) return nullptr;
+    const MapOrder& order = map->order;
+    const auto range = [](const MapRange& of) { return Json{{"from", of.from}, {"to", of.to}}; };
+    const glm::dvec2 at = maps.place_of_b(*map);
+    Json json{{"show", name(order.show)},
+              {"over", {{name(order.across.axis), range(order.across)}, {name(order.up.axis), range(order.up)}}},
+              {"hits", map->hit_count()},
+              {"place", {at.x, at.y}},
+              {"range", nullptr}};
+    if (const auto& colors = maps.choice.colors) json["range"] = {colors->first, colors->second};
+    return json;
+}
+
 Json messages_json(const Notifications& notifications) {
     constexpr std::array<const char*, 3> kLevels{"info", "warning", "error"};
     Json json = Json::array();
@@ -256,6 +272,7 @@ Json state_json(const Session& session) {
     json["hovered"] = selection_json(session.workspace, session.workspace.hovered);
     json["query"] = query_json(session.workspace, session.queries);
     json["crowd"] = crowd_json(session.workspace, session.crowds);
+    if (Json map = map_json(session.maps); !map.is_null()) json["map"] = std::move(map);
     json["excerpt"] = session.workspace.in_excerpt();
     json["time"] = or_null(session.workspace.view().time);
     json["playing"] = session.playback.playing();
