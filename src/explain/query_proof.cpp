@@ -16,6 +16,8 @@ namespace {
 
 constexpr double kLeastShare = 0.6;  // of the shorter side's extent that a wall covers at least
 
+constexpr double kWorthMetres = 1e-3;  // a smaller gap is only said to be small
+
 /// What a path covers while a line holds.
 struct Cover {
     double least = std::numeric_limits<double>::infinity();  ///< along the direction, seen from the moving line
@@ -116,6 +118,8 @@ double room_left(const Certificate& certificate, glm::dvec2 shift) {
     return out;
 }
 
+std::string gap_words(double gap) { return gap < kWorthMetres ? "< 1 mm" : with_unit(gap, "m"); }
+
 std::string line_words(std::span<const DrawnAgent> sides, const Tile& tile) {
     const double heading = std::atan2(tile.direction.x, -tile.direction.y) * 180 / std::numbers::pi;
     // A line has no front: 0 to 179 degrees.
@@ -129,8 +133,8 @@ std::string line_words(std::span<const DrawnAgent> sides, const Tile& tile) {
 std::string tile_words(std::span<const DrawnAgent> sides, const QueryProof& proof, std::size_t index) {
     const ProofLine& line = proof.lines[index];
     return "Line " + std::to_string(index + 1) + " of " + std::to_string(proof.lines.size()) +
-           formatted(", %.2f to %.2f s: ", line.t0, line.t1) + line_words(sides, line) + ", " +
-           with_unit(std::max(line.gap, 0.0), "m") + " between the two";
+           formatted(", %.2f to %.2f s: ", line.t0, line.t1) + line_words(sides, line) + ", " + gap_words(line.gap) +
+           " between the two";
 }
 
 }  // namespace mobbscope

@@ -53,6 +53,9 @@ QueryProof proof_of(const FittedScene& fitted, const SceneQuery& query, const Re
 /// Metres that a shift of B leaves to the edge of the free region; 0 or less outside.
 double room_left(const Certificate& certificate, glm::dvec2 shift);
 
+/// "0.183 m", "< 1 mm": what lies free across a line.
+std::string gap_words(double gap);
+
 /// How a line lies: "along 37\u00B0, fixed", "along 37\u00B0, moves 0.80 m/s towards B". `sides`: A and B.
 std::string line_words(std::span<const DrawnAgent> sides, const Tile& tile);
 

@@ -422,7 +422,6 @@ std::vector<ViewOption> all_view_options() {
                                    .title = "Proof",
                                    .menu = "View/Show",
 
-                                   .at_hand = true,
                                    .draws = DrawnPart::surroundings,
                                    .may_be_seen = [](const ViewState& view) { return view.query.has_value(); }}),
         toggle<&ViewState::free_region>(

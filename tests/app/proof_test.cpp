@@ -81,7 +81,7 @@ struct ProofWindow {
     std::vector<float> walls() {
         std::vector<float> out;
         for (const BoxInstance& box : window.shell().shown()->boxes)
-            if (box.order.layer == DrawLayer::findings && box.order.level == 1) out.push_back(box.fill.a);
+            if (box.order.layer == DrawLayer::findings && box.order.level == 2) out.push_back(box.fill.a);
         return out;
     }
     /// Where an agent's handle is with the agent shifted by so much from where it is.

@@ -33,7 +33,7 @@ ViewState last_step(Show show = Show::space_time) {
 std::vector<BoxInstance> walls_of(const DrawList& list) {
     std::vector<BoxInstance> out;
     std::ranges::copy_if(list.boxes, std::back_inserter(out), [](const BoxInstance& box) {
-        return box.order.layer == DrawLayer::findings && box.order.level == 1;
+        return box.order.layer == DrawLayer::findings && box.order.level == 2;
     });
     return out;
 }
@@ -110,7 +110,7 @@ TEST(ProofWalls, StandInPlaceOfTheLastTestOfAMiss) {
     EXPECT_GT(tested(last_test), 0);
     EXPECT_TRUE(walls_of(last_test).empty());
     view.proof = true;
-    view.step = {Step::Unit::event, 1};
+    view.step = {Step::Unit::event, 0};
     EXPECT_TRUE(walls_of(build_draw_list(miss, view, kProofPicture)).empty());
     const DrawList found = build_draw_list(hit, last_step(), kProofPicture);
     EXPECT_GT(tested(found), 0) << "a hit is its last test";
@@ -128,8 +128,7 @@ TEST(ProofWalls, TheLineAtTheTimeCursorStandsOut) {
         view.time = line.nearest;
         const std::size_t now = *proof.at(*view.time);
         const std::vector<BoxInstance> walls = walls_of(build_draw_list(hit, view, kProofPicture));
-        for (std::size_t i = 0; i < walls.size(); ++i)
-            if (i != now) EXPECT_LT(walls[i].fill.a, walls[now].fill.a);
+        for (std::size_t i = 0; i < walls.size(); ++i) EXPECT_TRUE(i == now || walls[i].fill.a < walls[now].fill.a);
     }
     ViewState view = last_step(Show::moment);
     view.time = proof.lines.front().t0;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace mobbscope::app {
 
@@ -38,8 +39,7 @@ void line_row(Ui& ui, const QueryFindings& findings, std::size_t index) {
     Row row;
     row.mark = "proof.line." + std::to_string(index);
     row.name = from_to(line.t0, line.t1);
-    row.remark = (line.speed == 0 ? "" : formatted("%.2f m/s  ", std::abs(line.speed))) +
-                 with_unit(std::max(line.gap, 0.0), "m");
+    row.remark = gap_words(line.gap);
     row.selected = selected_line(ui.workspace, proof) == index;
     row.indent = ui.px(2 * kSign + 6);
     if (tightest) row.remark_color = mark_text(ui.style, EventMark::separated);
@@ -79,9 +79,13 @@ void proof_section(Ui& ui, const QueryFindings& findings) {
     if (count == 0 || !section(ui, "THE PROOF", counted(count, "line", "lines"))) return;
     rows(ui, "proof", static_cast<int>(count), kMostRows,
          [&](int i) { line_row(ui, findings, static_cast<std::size_t>(i)); });
+    const ViewState& view = ui.workspace.view();
+    query_button(ui, view.proof ? "hide walls" : "show walls", "view.proof");
+    flow(button_width("show region"));
+    query_button(ui, view.free_region ? "hide region" : "show region", "view.free_region");
+    flow(button_width("Save..."));
     query_button(ui, "Save...", "proof.save");
-    ImGui::SameLine();
-    if (proof.ends.empty()) return ImGui::NewLine();
+    if (proof.ends.empty()) return;
     const std::string label = "as the trees found it: " + counted(std::ssize(proof.ends), "part", "parts") + "###ends";
     const bool open = ImGui::TreeNodeEx(label.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen);
     ui.mark("proof.ends");

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace mobbscope::app {
 
@@ -90,10 +91,13 @@ std::optional<std::size_t> proof_intervals(Ui& ui, const QueryFindings& findings
         const ImVec2 across{-way.y / length, way.x / length};
         const ImU32 color = mark_color(ui.style, EventMark::separated);
         const float width = ui.px(i == selected ? 4.5f : 2.5f), tick = ui.px(5);
-        list.AddLine(from, to, color, width);
-        for (const ImVec2 end : {from, to}) {
-            list.AddLine({end.x - tick * across.x, end.y - tick * across.y},
-                         {end.x + tick * across.x, end.y + tick * across.y}, color, ui.px(1.5f));
+        // On ground of its own: cells that are separated have the same colour.
+        for (const auto& [ink, more] : {std::pair(ui.style.window, ui.px(2)), std::pair(color, 0.0f)}) {
+            list.AddLine(from, to, ink, width + more);
+            for (const ImVec2 end : {from, to}) {
+                list.AddLine({end.x - tick * across.x, end.y - tick * across.y},
+                             {end.x + tick * across.x, end.y + tick * across.y}, ink, ui.px(1.5f) + more);
+            }
         }
         const ImVec2 at{mouse.x - from.x, mouse.y - from.y};
         const float along = (at.x * way.x + at.y * way.y) / length, aside = at.x * across.x + at.y * across.y;

@@ -93,7 +93,7 @@ std::vector<LabelRequest> add_findings(DrawList& list, std::span<const DrawnAgen
 }
 
 void add_gap_note(std::vector<LabelRequest>& notes, const DrawList& list, const WallGap& gap, const Metrics& metrics) {
-    note(notes, list, gap.at, with_unit(std::max(gap.gap, 0.0), "m"), list.palette.separated, metrics.text);
+    note(notes, list, gap.at, gap_words(gap.gap), list.palette.separated, metrics.text);
 }
 
 void add_region_note(std::vector<LabelRequest>& notes, const DrawList& list, const DrawnAgent& b, glm::vec3 middle,

@@ -92,8 +92,8 @@ class SpaceTimePicture final : public Picture {
         const QueryProof& proof = kept.proof(view_);
         if (proof.lines.empty()) return;
         walls_ = &proof;
-        // A miss is explained by its lines, not by the pair that happened to be tested last.
-        replaces_test_ = !proof.certificate.contact && view_.past != Past::all;
+        // A miss is explained by its lines, not by the pair that happened to be tested last, unless that is asked for.
+        replaces_test_ = !proof.certificate.contact && view_.past != Past::pair && view_.past != Past::all;
     }
 
     /// The test that is drawn; null: none.

@@ -28,7 +28,7 @@ void add_wall(DrawList& list, const ProofLine& line, Rgba color, const WallStyle
     const auto corner = [&](double time, double along) { return wall_point(list.space, line, time, along); };
     const glm::vec3 corners[4] = {corner(line.t0, line.along.t0), corner(line.t0, line.along.t1),
                                   corner(line.t1, line.along.t1), corner(line.t1, line.along.t0)};
-    const DrawOrder order{DrawLayer::findings, 1, 4 * index};
+    const DrawOrder order{DrawLayer::findings, 2, 4 * index};
     list.boxes.push_back(annotation_sheet(0.5f * (corners[0] + corners[2]), 0.5f * (corners[1] - corners[0]),
                                           0.5f * (corners[3] - corners[0]), with_alpha(color, style.fill), order));
     Pen pen(list, order);
@@ -44,7 +44,7 @@ WallGap add_gap(DrawList& list, const ProofLine& line, Rgba color, float scale) 
     const glm::dvec2 middle = line.at(line.nearest, line.nearest_along);
     const glm::dvec2 half = 0.5 * std::max(line.gap, 0.0) * line.direction;
     const glm::dvec2 from = middle - half, to = middle + half;
-    Pen(list, {DrawLayer::findings, 2})
+    Pen(list, {DrawLayer::findings, 3})
         .line(list.space.point(from.x, from.y, line.nearest), list.space.point(to.x, to.y, line.nearest),
               scaled({.color = color, .width = 3, .hidden = 0.6f}, scale));
     return {wall_point(list.space, line, line.nearest, line.nearest_along), line.gap};
@@ -107,7 +107,7 @@ void add_proof_pane(DrawList& list, const QueryProof& proof, double time, double
     const glm::vec3 corners[4] = {corner(line.along.t0, 0), corner(line.along.t1, 0), corner(line.along.t1, height),
                                   corner(line.along.t0, height)};
     const Rgba color = list.palette.separated;
-    const DrawOrder order{DrawLayer::findings, 1};
+    const DrawOrder order{DrawLayer::findings, 2};
     list.boxes.push_back(annotation_sheet(0.5f * (corners[0] + corners[2]), 0.5f * (corners[1] - corners[0]),
                                           0.5f * (corners[3] - corners[0]), with_alpha(color, kStandsOut.fill), order));
     Pen pen(list, order);
