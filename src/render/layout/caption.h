@@ -28,7 +28,8 @@ Caption scene_caption(const FittedScene& fitted, std::span<const DrawnAgent> age
 Caption query_caption(const Palette& palette, std::span<const DrawnAgent> sides, const RecordedQuery& recorded,
                       const QueryProgress& progress);
 
-/// What the last step of a query shows where the proof of a miss stands in place of the test: the answer, and its proof.
+/// What the last step of a query shows where the proof of a miss stands in place of the test: the answer, and its
+/// proof.
 Caption proof_caption(const Palette& palette, std::span<const DrawnAgent> sides, const RecordedQuery& recorded,
                       const QueryProof& proof);
 

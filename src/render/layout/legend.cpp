@@ -192,7 +192,7 @@ LegendEntry line_entry(const LineStyle& style, std::string text) {
 }
 
 LegendEntry proof_entry(const Palette& palette) {
-    return {LegendEntry::Mark::box, palette.separated, with_alpha(palette.separated, kSwatchFill), 1.5f, kSolid,
+    return {LegendEntry::Mark::box,         palette.separated, with_alpha(palette.separated, kSwatchFill), 1.5f, kSolid,
             "line that keeps the two apart"};
 }
 

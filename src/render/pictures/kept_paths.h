@@ -31,8 +31,8 @@ class KeptPaths {
     /// kind of picture, time and window; of any other scene these themselves.
     KeptPaths& shown_in(const ViewState& view);
 
-    /// The query of a view, which must have one, and the proof of its answer: of the last query that was asked for, each
-    /// made once.
+    /// The query of a view, which must have one, and the proof of its answer: of the last query that was asked for,
+    /// each made once.
     const RecordedQuery& recorded(const ViewState& view);
     const QueryProof& proof(const ViewState& view);
 
