@@ -601,6 +601,24 @@ std::vector<Case> cases() {
          {kFirstQuery, {"query.expect", ""}},
          [](CommandWorld& w) { EXPECT_FALSE(w.session.workspace.scene().queries[0].expect); },
          true});
+    in_query("map.panel", "",
+             [](CommandWorld& w) { EXPECT_TRUE(w.session.settings.folded.contains(std::string(kMapSection))); });
+    look("map.show", "tests", [](CommandWorld& w) { EXPECT_EQ(w.session.maps.choice.show, MapShow::tests); });
+    look("map.axes", "dy,dstart", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.maps.choice.across, MapAxis::dy);
+        EXPECT_EQ(w.session.maps.choice.up, MapAxis::dstart);
+    });
+    in_query("map.extent", "-1:2,-3:4", [](CommandWorld& w) {
+        ASSERT_TRUE(w.session.maps.choice.extent);
+        EXPECT_EQ(w.session.maps.choice.extent->second, (MapRange{MapAxis::dy, -3, 4}));
+    });
+    in_query("map.range", "0:2.5",
+             [](CommandWorld& w) { EXPECT_EQ(w.session.maps.choice.colors, std::pair(0.0, 2.5)); });
+    add({"map.place",
+         "1.5 -2",
+         {kFirstQuery},
+         [](CommandWorld& w) { EXPECT_EQ(w.session.maps.query().b.placement.translate, glm::dvec2(1.5, -2)); },
+         true});
     add({"query.capture", "0", {}, [](CommandWorld& w) {
              ASSERT_TRUE(w.session.workspace.in_excerpt());
              for (const SceneClip& clip : w.session.workspace.scene().clips) EXPECT_FALSE(clip.source) << clip.name;

@@ -70,7 +70,9 @@ void range(MapInspector& maps, const std::string& text) {
     maps.choice.colors = values;
 }
 
-void place(MapInspector& maps, const std::string& text) { maps.place_b(two_numbers(text, "the place in the map")); }
+void place_in_map(MapInspector& maps, const std::string& text) {
+    maps.place_b(two_numbers(text, "the place in the map"));
+}
 
 std::string present_extent(const MapInspector& maps) {
     const auto map = maps.map();
@@ -120,7 +122,6 @@ std::vector<Command> map_commands() {
             axes,
             {.menu = "Query/Map",
              .argument = "[AXIS,AXIS]",
-             .enabled = with_query(),
              .choices = [](const Session&) { return std::vector<std::string>(kAxes.begin(), kAxes.end()); },
              .chosen = [](const MapInspector& maps, const std::string& text) { return axes_of(maps.choice) == text; }}),
         Command("map.extent", "Extent of the map",
@@ -131,7 +132,8 @@ std::vector<Command> map_commands() {
         Command("map.range", "Colours of the map",
                 "Chooses the values at the ends of the map's colours, or by itself the least and the largest.", range,
                 {.menu = kNoMenu, .argument = "[auto|A:B]", .enabled = with_query(), .present = present_range}),
-        Command("map.place", "Place B in the map", "Places B of the query in view along the map's two axes.", place,
+        Command("map.place", "Place B in the map", "Places B of the query in view along the map's two axes.",
+                place_in_map,
                 {.menu = kNoMenu,
                  .argument = "U V",
                  .enabled = {[](const MapInspector& maps) { return maps.why_not_placed().empty(); },

@@ -25,7 +25,7 @@ constexpr float kLowRoom = 860;  // windows with less keep the map folded at fir
 constexpr std::size_t kImageSlot = 40;
 constexpr int kBars = 64;
 
-const char* title_of(MapAxis axis) {
+const char* axis_title(MapAxis axis) {
     switch (axis) {
         case MapAxis::dx:
             return "x";
@@ -46,8 +46,8 @@ std::string with_axis_unit(MapAxis axis, double value) {
 
 /// "x 1.25 m, y -0.50 m"
 std::string place_words(const MapOrder& order, glm::dvec2 at) {
-    return std::string(title_of(order.across.axis)) + ' ' + with_axis_unit(order.across.axis, at.x) + ", " +
-           title_of(order.up.axis) + ' ' + with_axis_unit(order.up.axis, at.y);
+    return std::string(axis_title(order.across.axis)) + ' ' + with_axis_unit(order.across.axis, at.x) + ", " +
+           axis_title(order.up.axis) + ' ' + with_axis_unit(order.up.axis, at.y);
 }
 
 std::string range_words(const MapRange& range) {
@@ -80,8 +80,8 @@ void controls(Ui& ui, const MapInspector& maps) {
     const std::string now = std::string(name(maps.choice.across)) + ',' + std::string(name(maps.choice.up));
     const auto words_of_axes = [](const std::string& text) {
         const std::size_t comma = text.find(',');
-        return std::string(title_of(*map_axis_from_name(text.substr(0, comma)))) + ", " +
-               title_of(*map_axis_from_name(text.substr(comma + 1)));
+        return std::string(axis_title(*map_axis_from_name(text.substr(0, comma)))) + ", " +
+               axis_title(*map_axis_from_name(text.substr(comma + 1)));
     };
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(6), ui.px(1)});
     ImGui::SetNextItemWidth(ui.px(96));
@@ -281,13 +281,13 @@ void map_panel(Ui& ui, MapInspector& maps, MapPicture& picture, const MapLayout&
     ui.mark_only("query.map");
     if (map) {
         const MapOrder& order = map->order;
-        caption(ui, at, std::string(title_of(order.up.axis)) + " \u2191  " + range_words(order.up), "", layout.side);
+        caption(ui, at, std::string(axis_title(order.up.axis)) + " \u2191  " + range_words(order.up), "", layout.side);
         picture.remake(map, colors_of(maps, *map), ui.style, area);
         picture.draw(ui, *map, area);
         ring(ui, *map, area, maps.place_of_b(*map));
         mouse(ui, maps, *map, area);
         caption(ui, {area.min.x, area.max.y + ui.px(2)}, range_words(order.across),
-                std::string(title_of(order.across.axis)) + " \u2192", layout.side);
+                std::string(axis_title(order.across.axis)) + " \u2192", layout.side);
     }
     ImGui::SetCursorScreenPos({at.x, area.max.y + line + ui.px(8)});
     if (map && map->order.show != MapShow::answer) histogram(ui, maps, *map, layout.side);

@@ -92,7 +92,8 @@ class Session {
     template <class AnySession>
     static auto parts(AnySession& s) {
         return std::tie(s.options, s.settings, s.workspace, s.views, s.queries, s.notifications, s.queue, s.keys,
-                        s.dialogs, s.jobs, s.playback, s.edits, s.imports, s.crowds, s.maps, s.excerpts, s.files, s.recovery);
+                        s.dialogs, s.jobs, s.playback, s.edits, s.imports, s.crowds, s.maps, s.excerpts, s.files,
+                        s.recovery);
     }
 
     /// The screen of a type, which add_screen was given.

@@ -5,13 +5,13 @@ namespace mobbscope {
 
 namespace {
 
-constexpr int kCells = 128;  // of a side: lines go exactly where answers change, so that few suffice
+constexpr int kBoundaryCells = 128;  // of a side: lines go exactly where answers change, so that few suffice
 
 }  // namespace
 
 FloorLines floor_boundary(const FittedScene& fitted, const SceneQuery& query) {
     MapOrder order;
-    order.width = order.height = kCells;
+    order.width = order.height = kBoundaryCells;
     const mobb::PlacedTree a = fitted.placed(query.a), b = fitted.placed(query.b);
     choose_ranges(a.placed_clip(), b.placed_clip(), order);
     const mobb::Disk begin = b.placed_clip().disk(0);
