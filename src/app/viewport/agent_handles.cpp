@@ -4,6 +4,7 @@
 #include <render/drawlist/pen.h>
 #include <render/drawlist/pick.h>
 #include <render/parts/floor_and_axes.h>
+#include <render/query/proof_walls.h>
 
 #include <glm/geometric.hpp>
 
@@ -143,21 +144,34 @@ std::vector<glm::dvec2> DragPromise::region(const HandleDrag& drag) const {
 
 void draw_promise(Ui& ui, const ShownPicture& picture, const DragPromise& promise, const HandleDrag& drag, bool kept) {
     const EventMark mark = kept ? EventMark::separated : EventMark::overlap;
-    std::vector<std::optional<ImVec2>> corners;
-    for (const glm::dvec2 at : promise.region(drag))
-        corners.push_back(picture.at(picture.list.space.point(at.x, at.y, drag.time)));
-    if (corners.empty()) return;
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    if (std::ranges::all_of(corners, [](const auto& at) { return at.has_value(); })) {
-        std::vector<ImVec2> points;
-        for (const auto& at : corners) points.push_back(*at);
-        draw.AddConvexPolyFilled(
-            points.data(), static_cast<int>(points.size()),
-            to_im(with_alpha(kept ? ui.style.palette.separated : ui.style.palette.overlap, 0.12f)));
+    // What is farther off than the picture is wide is not seen.
+    const DrawList& list = picture.list;
+    const float metre = list.projection.pixels_per_metre(list.space.point(drag.pivot.x, drag.pivot.y, drag.time));
+    if (metre <= 0) return;
+    const glm::dvec2 near(std::max(list.size.width, list.size.height) / static_cast<double>(metre));
+    const std::vector<glm::dvec2> region = cut_to(promise.region(drag), drag.pivot - near, drag.pivot + near);
+    // In short pieces, as parts of it may lie before the nearest that is drawn.
+    constexpr std::size_t kPieces = 48;
+    std::vector<std::optional<ImVec2>> points;
+    for (std::size_t i = 0; i < region.size(); ++i) {
+        for (std::size_t piece = 0; piece < kPieces; ++piece) {
+            const double share = static_cast<double>(piece) / kPieces;
+            const glm::dvec2 at = region[i] + share * (region[(i + 1) % region.size()] - region[i]);
+            points.push_back(picture.at(list.space.point(at.x, at.y, drag.time)));
+        }
     }
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const auto& from = corners[i];
-        const auto& to = corners[(i + 1) % corners.size()];
+    std::vector<ImVec2> seen;
+    for (const auto& at : points)
+        if (at) seen.push_back(*at);
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    // What is cut off by a plane stays convex.
+    if (seen.size() > 2)
+        draw.AddConvexPolyFilled(
+            seen.data(), static_cast<int>(seen.size()),
+            to_im(with_alpha(kept ? ui.style.palette.separated : ui.style.palette.overlap, 0.12f)));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto& from = points[i];
+        const auto& to = points[(i + 1) % points.size()];
         if (from && to) draw.AddLine(*from, *to, mark_color(ui.style, mark), ui.px(2));
     }
 }

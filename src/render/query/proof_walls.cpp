@@ -117,6 +117,13 @@ void add_proof_pane(DrawList& list, const QueryProof& proof, double time, double
         scaled({.color = with_alpha(color, 0.5f), .width = 1, .hidden = 0.2f}, scale));
 }
 
+std::vector<glm::dvec2> cut_to(std::vector<glm::dvec2> region, glm::dvec2 low, glm::dvec2 high) {
+    for (const auto& [u, most] : {std::pair(glm::dvec2(1, 0), high.x), std::pair(glm::dvec2(-1, 0), -low.x),
+                                  std::pair(glm::dvec2(0, 1), high.y), std::pair(glm::dvec2(0, -1), -low.y)})
+        region = cut_off(region, u, most);
+    return region;
+}
+
 std::vector<glm::dvec2> region_of_start(const mobb::PlacedClip& b, const Margins& margins) {
     const mobb::Disk first = b.disk(0);
     std::vector<glm::dvec2> out;
@@ -126,10 +133,7 @@ std::vector<glm::dvec2> region_of_start(const mobb::PlacedClip& b, const Margins
 
 std::optional<glm::vec3> add_free_region(DrawList& list, const DrawnAgent& b, const Margins& margins,
                                          const FloorExtent& s, float scale) {
-    std::vector<glm::dvec2> region = region_of_start(b.clip(), margins);
-    for (const auto& [u, most] : {std::pair(glm::dvec2(1, 0), s.x1), std::pair(glm::dvec2(-1, 0), -s.x0),
-                                  std::pair(glm::dvec2(0, 1), s.y1), std::pair(glm::dvec2(0, -1), -s.y0)})
-        region = cut_off(region, u, most);
+    const std::vector<glm::dvec2> region = cut_to(region_of_start(b.clip(), margins), {s.x0, s.y0}, {s.x1, s.y1});
     if (region.size() < 3) return std::nullopt;
     const double time = b.begin();
     const auto drawn = [&](glm::dvec2 at) { return list.space.point(at.x, at.y, time); };

@@ -35,6 +35,9 @@ void add_proof_pane(DrawList& list, const QueryProof& proof, double time, double
 std::optional<glm::vec3> add_free_region(DrawList& list, const DrawnAgent& b, const Margins& margins,
                                          const FloorExtent& floor_extent, float scale);
 
+/// The part of a convex region that lies in a rectangle.
+std::vector<glm::dvec2> cut_to(std::vector<glm::dvec2> region, glm::dvec2 low, glm::dvec2 high);
+
 /// A free region where B starts, world metres.
 std::vector<glm::dvec2> region_of_start(const mobb::PlacedClip& b, const Margins& margins);
 
