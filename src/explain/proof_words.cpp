@@ -20,8 +20,7 @@ std::string promised(double value, const char* unit) {
 std::string result(const Certificate& certificate) {
     if (certificate.contact) return "No contact before " + with_unit(certificate.contact->time, "s") + ".";
     const double gap = std::ranges::min(certificate.tiles, {}, &Tile::gap).gap;
-    return gap < kWorthNaming ? "They all but touch, and never collide."
-                              : "Never closer than " + promised(gap, "m") + ".";
+    return gap < kWorthNaming ? "They never collide." : "Never closer than " + promised(gap, "m") + ".";
 }
 
 std::string cost(std::span<const TraversalEnd> ends) {
@@ -45,11 +44,11 @@ std::string proof_words(const Certificate& certificate, std::span<const Traversa
 }
 
 std::string margin_words(const Margins& margins, const std::string& b) {
-    const std::string grow = margins.growth < kWorthNaming ? "Neither radius may grow"
+    const std::string grow = margins.growth < kWorthNaming ? "Nothing is proven of larger radii"
                                                            : "Both radii may grow by " + promised(margins.growth, "m");
     const double seconds = margins.shift_in_time;
     if (std::isinf(seconds)) return grow + "; " + b + " may start at any time.";
-    if (seconds < kWorthNaming) return grow + "; " + b + " may start neither earlier nor later.";
+    if (seconds < kWorthNaming) return grow + "; nothing is proven of other starts of " + b + ".";
     return grow + "; " + b + " may start up to " + promised(seconds, "s") + " earlier or later.";
 }
 

@@ -418,10 +418,10 @@ std::vector<ViewOption> all_view_options() {
                                    .at_hand = true}),
         toggle<&ViewState::proof>({.key = "proof",
                                    .what = "The lines that keep the two of a query apart: as walls at its last step, "
-                                           "of a miss in place of the pair tested last; at a moment on the floor",
+                                           "of a miss in place of the pair tested last, and at an overlap that is "
+                                           "avoidable; at a moment on the floor",
                                    .title = "Proof",
                                    .menu = "View/Show",
-
                                    .draws = DrawnPart::surroundings,
                                    .may_be_seen = [](const ViewState& view) { return view.query.has_value(); }}),
         toggle<&ViewState::free_region>(

@@ -48,7 +48,7 @@ TEST(ProofWords, SayWhatIsProvenAndByHowMuch) {
     EXPECT_EQ(proof_words(miss, {}), "Never closer than 0.183 m. Proof: 2 lines over 12.40 s.");
     miss.tiles.back().gap = 1e-12;
     EXPECT_EQ(proof_words(miss, std::vector{ends[0]}),
-              "They all but touch, and never collide. Proof: 2 lines over 12.40 s; the trees needed 1 box pair.");
+              "They never collide. Proof: 2 lines over 12.40 s; the trees needed 1 box pair.");
     Certificate hit{mobb::Contact{2.31, 4, 5, 0.5, 0.6}, {{0, 2.31, {1, 0}, 0, 1e-9}}};
     EXPECT_EQ(proof_words(hit, std::vector{ends[1]}),
               "No contact before 2.310 s. Proof: 1 line over 2.310 s; the trees needed 1 run of samples.");
@@ -62,7 +62,7 @@ TEST(MarginWords, SayWhatMayChange) {
               "Both radii may grow by 0.091 m; B may start up to 0.400 s earlier or later.");
     EXPECT_EQ(margin_words({1, {}, true, std::numeric_limits<double>::infinity()}, "Bea"),
               "Both radii may grow by 1.000 m; Bea may start at any time.");
-    EXPECT_EQ(margin_words({0, {}, true, 0}, "B"), "Neither radius may grow; B may start neither earlier nor later.");
+    EXPECT_EQ(margin_words({0, {}, true, 0}, "B"), "Nothing is proven of larger radii; nothing is proven of other starts of B.");
 }
 
 }  // namespace

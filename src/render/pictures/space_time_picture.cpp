@@ -86,7 +86,8 @@ class SpaceTimePicture final : public Picture {
         recorded_ = &kept.recorded(view_);
         const mobb::Trace& trace = recorded_->trace;
         progress_ = progress_at(trace, event_of(view_.step, trace), view_.past);
-        progress_->avoidable = avoidable_overlap(agents_[0].placed, agents_[1].placed, progress_->event);
+        if (view_.proof)
+            progress_->avoidable = avoidable_overlap(agents_[0].placed, agents_[1].placed, progress_->event);
         const bool last_step = progress_->step + 1 == trace.size();
         if (!view_.proof || !last_step || shown_count(agents_) < 2) return;
         const QueryProof& proof = kept.proof(view_);
