@@ -101,19 +101,15 @@ void print_answer(std::ostream& out, std::size_t index, const SceneQuery& query,
     }
 }
 
-/// An answer, and which of its overlaps were avoidable: of the trees, where the output says so.
+/// An answer, and which of its overlaps were avoidable: of trees, with a trace.
 Answer judged_answer(const FittedScene& fitted, const SceneQuery& query, const QueryCommandArguments& arguments,
                      AvoidableOverlaps& avoidable, BlameInScene& blame) {
-    Details details = arguments.details;
-    const bool judges = details.search == Search::trees && (arguments.json || details.trace);
-    details.trace = details.trace || judges;
-    Answer out = answer(fitted, query, details);
-    if (judges) {
+    Answer out = answer(fitted, query, arguments.details);
+    if (out.trace && arguments.details.search == Search::trees) {
         avoidable = avoidable_overlaps(*out.trace, fitted.placed(query.a), fitted.placed(query.b));
         blame.add(fitted, query, *out.trace, avoidable);
         out.avoidable = avoidable.events;
     }
-    if (!arguments.details.trace) out.trace.reset();
     return out;
 }
 
@@ -170,7 +166,7 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
     }
     if (arguments.json) {
         json.end_array();
-        if (arguments.details.search == Search::trees) write_blame(json, fitted, blame);
+        if (arguments.details.trace && arguments.details.search == Search::trees) write_blame(json, fitted, blame);
         json.end_object();
     }
     flush_results();
