@@ -62,7 +62,8 @@ TEST(MarginWords, SayWhatMayChange) {
               "Both radii may grow by 0.091 m; B may start up to 0.400 s earlier or later.");
     EXPECT_EQ(margin_words({1, {}, true, std::numeric_limits<double>::infinity()}, "Bea"),
               "Both radii may grow by 1.000 m; Bea may start at any time.");
-    EXPECT_EQ(margin_words({0, {}, true, 0}, "B"), "Nothing is proven of larger radii; nothing is proven of other starts of B.");
+    EXPECT_EQ(margin_words({0, {}, true, 0}, "B"),
+              "Nothing is proven of larger radii; nothing is proven of other starts of B.");
 }
 
 }  // namespace
