@@ -80,12 +80,8 @@ std::optional<int> edited_query(const Workspace& workspace) {
 void remove_edited(Workspace& workspace) {
     const int query = *edited_query(workspace);
     const SceneQuery asked = workspace.fitted().queries()[static_cast<std::size_t>(query)];
-    workspace.edit({"no longer asking " + asked.a.name + " against " + asked.b.name, ""}, [&](Scene& scene) {
-        remove_query(scene, static_cast<std::size_t>(query));
-        std::optional<int>& shown = scene.view.query;
-        if (shown == query) shown.reset();
-        if (shown && *shown > query) --*shown;
-    });
+    workspace.edit({"no longer asking " + asked.a.name + " against " + asked.b.name, ""},
+                   [&](Scene& scene) { remove_query(scene, static_cast<std::size_t>(query)); });
     // Those behind it have other indices now.
     if (workspace.selection.kind == Selection::Kind::query || workspace.selection.path.query >= 0) workspace.select({});
 }
