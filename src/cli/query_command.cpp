@@ -5,12 +5,14 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <explain/certificate_file.h>
+#include <explain/event_values.h>
 #include <scene/answer.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <iostream>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -22,6 +24,7 @@ namespace {
 struct QueryCommandArguments : FittedArguments {
     Details details;
     std::filesystem::path certificate;  ///< to be written; empty: none
+    std::optional<std::string> where;   ///< filter of the trace's events
 };
 
 void print_event(std::ostream& out, int step, const mobb::Trace::Event& event) {
@@ -69,13 +72,28 @@ void print_answer(std::ostream& out, std::size_t index, const SceneQuery& query,
         out << ".\n";
     }
     if (answer.trace) {
-        out << "   Trace (node of " << cleaned(query.a.name) << " x node of " << cleaned(query.b.name) << "):\n";
-        for (int step = 0; step < answer.trace->size(); ++step) print_event(out, step, (*answer.trace)[step]);
+        out << "   Trace (node of " << cleaned(query.a.name) << " x node of " << cleaned(query.b.name) << ")";
+        if (!answer.steps) {
+            out << ":\n";
+            for (int step = 0; step < answer.trace->size(); ++step) print_event(out, step, (*answer.trace)[step]);
+        } else {
+            out << ", " << answer.steps->size() << " of " << counted(answer.trace->size(), "event", "events") << ":\n";
+            for (const int step : *answer.steps) print_event(out, step, (*answer.trace)[step]);
+        }
     }
 }
 
+std::vector<int> steps_to_tell(const FittedScene& fitted, const SceneQuery& query, const mobb::Trace& trace,
+                               const EventFilter& filter) {
+    const mobb::PlacedTree a = fitted.placed(query.a);
+    const mobb::PlacedTree b = fitted.placed(query.b);
+    const Recursion recursion = recursion_of(trace, a, b);
+    return steps_that_pass(EventValues(trace, recursion, a, b), filter);
+}
+
 /// Answers every query in order; returns the sentences of those that disagree with what the file expects.
-std::vector<std::string> answer_all(const FittedScene& fitted, const QueryCommandArguments& arguments) {
+std::vector<std::string> answer_all(const FittedScene& fitted, const QueryCommandArguments& arguments,
+                                    const std::optional<EventFilter>& where) {
     std::vector<std::string> complaints;
     JsonWriter json(std::cout);
     if (arguments.json) {
@@ -84,7 +102,8 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
     }
     for (std::size_t index = 0; index < fitted.queries().size(); ++index) {
         const SceneQuery query = fitted.queries()[index];
-        const Answer found = answer(fitted, query, arguments.details);
+        Answer found = answer(fitted, query, arguments.details);
+        if (where) found.steps = steps_to_tell(fitted, query, *found.trace, *where);
         arguments.json ? write_answer(json, index, query, found) : print_answer(std::cout, index, query, found);
         if (const auto complaint = disagreement(query, found)) {
             complaints.push_back("query " + std::to_string(index) + ": " + *complaint);
@@ -112,7 +131,19 @@ void write_certificates(const FittedScene& scene, const std::filesystem::path& f
     write_file(file, std::move(text).str());
 }
 
+/// Says what is wrong in one line, behind the text with a caret.
+EventFilter parse_filter(const std::string& text) {
+    try {
+        return EventFilter(text);
+    } catch (const FilterError& error) {
+        std::cerr << with_caret(text, error) << '\n';
+        throw UsageError(std::string("--where: ") + error.what());
+    }
+}
+
 int run_query(QueryCommandArguments& arguments) {
+    std::optional<EventFilter> where;
+    if (arguments.where) where = parse_filter(*arguments.where);
     const FittedScene scene = fitted(load(arguments.file, arguments.import_options), arguments.fit);
     if (scene.queries().empty()) {
         if (scene.scene().crowd)
@@ -120,8 +151,11 @@ int run_query(QueryCommandArguments& arguments) {
         throw InputError(arguments.file, "there is nothing to ask; add queries, or two agents at least");
     }
     if (!arguments.certificate.empty()) check_output(arguments.certificate);
+    if (where && arguments.fit.brute)
+        throw UsageError("--where filters the tests of trees, and brute makes none; choose another --tree");
+    arguments.details.trace |= where.has_value();
     arguments.details.search = arguments.fit.brute ? Search::direct : Search::trees;
-    const std::vector<std::string> complaints = answer_all(scene, arguments);
+    const std::vector<std::string> complaints = answer_all(scene, arguments, where);
     flush_results();
     if (!arguments.certificate.empty()) write_certificates(scene, arguments.certificate);
     for (const std::string& complaint : complaints) complain(shown_name(arguments.file) + ": " + complaint);
@@ -131,6 +165,8 @@ int run_query(QueryCommandArguments& arguments) {
 void add_query_options(Command& command, QueryCommandArguments& arguments) {
     add_fitted_options(command, arguments, "Answers as JSON", Brute::allowed);
     command.add_flag("--trace", arguments.details.trace, "Every test that was made");
+    command.add_option("--where", arguments.where,
+                       "Only the tests that pass a filter, such as 'gap < 0.05 and level(a) >= 3'", "EXPR");
     add_parsed(command, "--certificate", arguments.certificate, parse_file_name,
                "Also write proofs of the answers, which mobbscope verify checks", "OUT.json");
     command.add_flag("--all-contacts", arguments.details.all_contacts, "All intervals of contact, not only the first");

@@ -64,7 +64,7 @@ void write_answer(JsonWriter& out, std::size_t index, const SceneQuery& query, c
     }
     if (answer.trace) {
         out.key("trace");
-        write_trace(out, *answer.trace);
+        answer.steps ? write_events(out, *answer.trace, *answer.steps) : write_trace(out, *answer.trace);
     }
     out.end_object();
 }

@@ -437,7 +437,7 @@ std::string EventFilter::words() const { return term_words(terms_, static_cast<i
 std::string with_caret(std::string_view text, const FilterError& error) {
     // Characters, not bytes, stand before the caret.
     const std::size_t before = code_points(text.substr(0, error.at())).size();
-    return cleaned(text) + '\n' + std::string(before, ' ') + "^ " + error.what();
+    return cleaned(text) + '\n' + std::string(before, ' ') + '^';
 }
 
 FilterCompletion completion_of(std::string_view text) {

@@ -128,7 +128,7 @@ class EventFilter {
     std::vector<Term> terms_;
 };
 
-/// Where a text is no filter, it again with a caret below: "gap < ?\n      ^ a number is missing".
+/// The text, and below it a caret where it is wrong: "gap < ?\n      ^".
 std::string with_caret(std::string_view text, const FilterError& error);
 
 /// How the word at the end of a text may go on, and where that word begins.

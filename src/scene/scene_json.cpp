@@ -214,6 +214,12 @@ void write_trace(JsonWriter& out, const mobb::Trace& trace) {
     out.end_array();
 }
 
+void write_events(JsonWriter& out, const mobb::Trace& trace, std::span<const int> steps) {
+    out.begin_array();
+    for (const int step : steps) write_event(out, step, trace[step]);
+    out.end_array();
+}
+
 mobb::Trace read_trace(const JsonPlace& place, int samples_a, int samples_b) {
     mobb::Trace trace;
     for (int step = 0; step < place.size(); ++step) {

@@ -113,7 +113,7 @@ TEST(EventFilter, PutsACaretUnderTheCharacter) {
         const EventFilter filter(text);
         FAIL();
     } catch (const FilterError& error) {
-        EXPECT_EQ(with_caret(text, error), text + "\n              ^ 'levl' is no field (did you mean 'level'?)");
+        EXPECT_EQ(with_caret(text, error), text + "\n              ^");
     }
 }
 
