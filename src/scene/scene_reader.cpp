@@ -525,7 +525,7 @@ Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrid
 
 Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                   const ImportOptions& overrides, const Progress& progress, Importer* importer) {
-    const JsonValue value = parse_json(text, name);
+    const JsonText value = parse_json(text, name);
     const JsonPlace root(value, name);
     Importer own;
     return SceneReader(root, folder, overrides, progress, importer ? *importer : own).read();
