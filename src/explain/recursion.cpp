@@ -1,6 +1,7 @@
 #include <explain/recursion.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace mobbscope {
 
@@ -8,8 +9,7 @@ Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, cons
     Recursion out;
     const auto size = static_cast<std::size_t>(trace.size());
     out.pair_of.resize(size);
-    out.so_far.resize(size);
-    mobb::TestCounts tests;
+    out.wasted.resize(size);
     for (int step = 0; step < trace.size(); ++step) {
         const mobb::Trace::Event event = trace[step];
         const int parent = event.parent < 0 ? -1 : out.pair_of[static_cast<std::size_t>(event.parent)];
@@ -34,10 +34,8 @@ Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, cons
         pair.outcome = event.outcome;
         pair.hit = event.outcome == mobb::Outcome::hit;
         out.pair_of[static_cast<std::size_t>(step)] = static_cast<int>(out.pairs.size()) - 1;
-        const bool pairs = event.test == mobb::TestKind::samples;
-        tests[event.test] += pairs ? static_cast<std::int64_t>(event.pairs.size()) : 1;
-        out.so_far[static_cast<std::size_t>(step)].tests = tests;
     }
+    out.pairs.shrink_to_fit();
     for (std::size_t i = out.pairs.size(); i-- > 0;) {
         const RecursionPair& pair = out.pairs[i];
         if (pair.parent < 0) continue;
@@ -46,13 +44,12 @@ Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, cons
         above.hit = above.hit || pair.hit;
     }
     for (int step = 0; step < trace.size(); ++step) {
-        const RecursionPair& pair = out.pairs[static_cast<std::size_t>(out.pair_of[static_cast<std::size_t>(step)])];
+        const RecursionPair& pair = out.pair_at(step);
         const mobb::Trace::Event event = trace[step];
         if (!event.test.is_box() || event.outcome != mobb::Outcome::overlap || pair.hit) continue;
-        ++out.so_far[static_cast<std::size_t>(pair.end) - 1].wasted;
+        ++out.wasted[static_cast<std::size_t>(pair.end) - 1];
     }
-    std::int64_t wasted = 0;
-    for (StepCounts& counts : out.so_far) counts.wasted = wasted += counts.wasted;
+    std::partial_sum(out.wasted.begin(), out.wasted.end(), out.wasted.begin());
     return out;
 }
 

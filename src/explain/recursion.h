@@ -5,7 +5,7 @@
 #include <mobb/query.h>
 #include <mobb/trace.h>
 
-#include <cstdint>
+#include <cstddef>
 #include <vector>
 
 namespace mobbscope {
@@ -27,22 +27,20 @@ struct RecursionPair {
     bool has_children() const { return end > last + 1; }
 };
 
-/// What had been counted after an event.
-struct StepCounts {
-    mobb::TestCounts tests;
-    /// Box tests that found an overlap which led to no hit. One counts from the end of its pair on: until then it may
-    /// still lead to one.
-    std::int64_t wasted = 0;
-};
-
 struct Recursion {
     std::vector<RecursionPair> pairs;  ///< in the order of their first tests: parents before children
     std::vector<int> pair_of;          ///< by event: index of its pair
-    std::vector<StepCounts> so_far;    ///< by event
-    int depth = 0;                     ///< number of levels; 0 for an empty trace
+    /// By event: box tests until after it that found an overlap which led to no hit. One counts from the end of its
+    /// pair on: until then it may still lead to one.
+    std::vector<int> wasted;
+    int depth = 0;  ///< number of levels; 0 for an empty trace
 
-    /// The whole query's; zero for an empty trace.
-    StepCounts total() const { return so_far.empty() ? StepCounts{} : so_far.back(); }
+    const RecursionPair& pair_at(int event) const {
+        return pairs[static_cast<std::size_t>(pair_of[static_cast<std::size_t>(event)])];
+    }
+    std::size_t bytes() const {
+        return pairs.capacity() * sizeof(pairs[0]) + (pair_of.capacity() + wasted.capacity()) * sizeof(int);
+    }
 };
 
 /// `trace` must be that of a query of these two. Takes time linear in the trace.

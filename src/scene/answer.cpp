@@ -63,6 +63,7 @@ void write_answer(JsonWriter& out, std::size_t index, const SceneQuery& query, c
                  [&](const mobb::Interval& interval) { out.tuple(interval.t0, interval.t1); });
     }
     if (answer.trace) {
+        if (answer.trace->stopped()) out.members("recorded", answer.trace->size(), "events", answer.trace->events());
         out.key("trace");
         answer.steps ? write_events(out, *answer.trace, *answer.steps) : write_trace(out, *answer.trace);
     }

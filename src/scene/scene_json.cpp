@@ -253,6 +253,7 @@ mobb::Trace read_trace(const JsonPlace& place, int samples_a, int samples_b) {
         event.pairs = pairs;
         trace.push(event);
     }
+    trace.shrink_to_fit();
     return trace;
 }
 

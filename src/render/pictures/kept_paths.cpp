@@ -14,6 +14,11 @@ KeptPaths& KeptPaths::shown_in(const ViewState& view) {
     return *at_moment_;
 }
 
+const RecordedQuery* KeptPaths::recorded(const ViewState& view) {
+    recorded_ = view.query ? fitted_->recorded(static_cast<std::size_t>(*view.query)) : nullptr;
+    return recorded_.get();
+}
+
 const Bounds& KeptPaths::bounds(std::span<const DrawnAgent> agents, const ViewState& view) {
     const std::pair of(view.query, view.arrange);
     if (!bounds_ || bounds_->first != of) bounds_.emplace(of, bounds_of(agents));

@@ -1,4 +1,5 @@
-/// What pictures of one scene have in common: the disks of its paths, from whatever side and at whatever time.
+/// What pictures of one scene have in common: the disks of its paths, from whatever side and at whatever time, and the
+/// record of the query.
 #pragma once
 
 #include <render/drawlist/draw_list.h>
@@ -27,6 +28,9 @@ class KeptPaths {
     /// Those of the scene that a view of a run shows (fitted_at), kept as long as the views show the same
     /// kind of picture, time and window; of any other scene these themselves.
     KeptPaths& shown_in(const ViewState& view);
+
+    /// The record of the view's query; null if it has none.
+    const RecordedQuery* recorded(const ViewState& view);
 
     /// bounds_of the agents of a view.
     const Bounds& bounds(std::span<const DrawnAgent> agents, const ViewState& view);
@@ -63,6 +67,7 @@ class KeptPaths {
     };
 
     std::shared_ptr<const FittedScene> fitted_;
+    std::shared_ptr<const RecordedQuery> recorded_;
     Moment moment_;
     std::unique_ptr<KeptPaths> at_moment_;  ///< of a run
     /// By the view's query and arrangement.

@@ -21,18 +21,6 @@ namespace mobbscope {
 
 namespace {
 
-/// The view's query at its step. The progress refers to the trace, so the two stay together where they were made.
-struct QueryAtStep {
-    RecordedQuery recorded;
-    QueryProgress progress;
-
-    QueryAtStep(const FittedScene& fitted, const ViewState& view)
-        : recorded(record(fitted, fitted.queries()[static_cast<std::size_t>(*view.query)])),
-          progress(progress_at(recorded.trace, event_of(view.step, recorded.trace), view.past)) {}
-    QueryAtStep(const QueryAtStep&) = delete;
-    QueryAtStep& operator=(const QueryAtStep&) = delete;
-};
-
 /// What matters of each path; `behind`: all step back.
 std::vector<PathFocus> foci_of(std::span<const DrawnAgent> agents, const Emphasis& emphasis,
                                const QueryProgress* progress, bool behind) {
@@ -73,7 +61,10 @@ class SpaceTimePicture final : public Picture {
         const Bounds& bounds = kept.bounds(agents_, view_);
         list_.space = space_for(bounds, view_);
         list_.space.anchor = camera_anchor(fitted_, view_, view_.time.value_or(bounds.min.z));
-        if (view_.query) query_.emplace(fitted_, view_);
+        recorded_ = kept.recorded(view_);
+        if (recorded_) {
+            progress_.emplace(progress_at(recorded_->trace, event_of(view_.step, recorded_->trace), view_.past));
+        }
         emphasis_ = emphasis_of(view_, agents_, bounds.min.z, bounds.max.z, progress());
         if (view_.boxes && progress()) {
             add_query_boxes(list_, agents_, *progress(), pair_outline(view_), metrics_.scale);
@@ -90,12 +81,12 @@ class SpaceTimePicture final : public Picture {
     }
 
   private:
-    const QueryProgress* progress() const { return query_ ? &query_->progress : nullptr; }
+    const QueryProgress* progress() const { return progress_ ? &*progress_ : nullptr; }
 
     OverlayContents words() override {
         OverlayContents out;
-        out.caption = query_ ? query_caption(list_.palette, agents_, query_->recorded, progress()->step)
-                             : scene_caption(fitted_, agents_, view_);
+        out.caption = recorded_ ? query_caption(list_.palette, agents_, *recorded_, progress()->step)
+                                : scene_caption(fitted_, agents_, view_);
         if (view_.time && !emphasis_.cursor) {
             mention_cursor_outside(out.caption, *view_.time, floor_extent_.t0, floor_extent_.t1);
         }
@@ -120,8 +111,8 @@ class SpaceTimePicture final : public Picture {
         }
         if (emphasis_.cursor) add_time_cursor(list_, floor_extent_, *emphasis_.cursor, metrics_.scale);
         add_rings(list_, agents_, emphasis_, metrics_.scale);
-        if (!query_) return followed_name();
-        return add_findings(list_, agents_, query_->recorded, *progress(), metrics_);
+        if (!recorded_) return followed_name();
+        return add_findings(list_, agents_, *recorded_, *progress(), metrics_);
     }
 
     /// Of so many that the rest dims, the followed one is ringed: at the time cursor, else where its path begins.
@@ -143,7 +134,8 @@ class SpaceTimePicture final : public Picture {
         add_names(list_, layout, agents_, metrics_);
     }
 
-    std::optional<QueryAtStep> query_;
+    const RecordedQuery* recorded_ = nullptr;  ///< of the view's query; kept as the paths are
+    std::optional<QueryProgress> progress_;    ///< refers to it
     Emphasis emphasis_;
 };
 
