@@ -6,6 +6,7 @@
 #include <cli/program.h>
 #include <explain/certificate_file.h>
 #include <explain/event_values.h>
+#include <explain/query_sentence.h>
 #include <scene/answer.h>
 
 #include <algorithm>
@@ -80,6 +81,7 @@ void print_answer(std::ostream& out, std::size_t index, const SceneQuery& query,
             out << ", " << answer.steps->size() << " of " << counted(answer.trace->size(), "event", "events") << ":\n";
             for (const int step : *answer.steps) print_event(out, step, (*answer.trace)[step]);
         }
+        if (answer.trace->stopped()) out << "   Here " << recording_words(*answer.trace) << ".\n";
     }
 }
 

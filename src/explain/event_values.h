@@ -33,9 +33,7 @@ class EventValues {
     bool passes(const EventFilter& filter, int step) const;
 
   private:
-    const RecursionPair& pair(int step) const {
-        return recursion_->pairs[static_cast<std::size_t>(recursion_->pair_of[static_cast<std::size_t>(step)])];
-    }
+    const RecursionPair& pair(int step) const { return recursion_->pair_at(step); }
     int node(int side, int step) const {
         const mobb::Trace::Event event = (*trace_)[step];
         return side == 0 ? event.a : event.b;

@@ -116,6 +116,7 @@ void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures) {
         query_counters(ui, *findings);
         if (section(ui, "RECURSION: TIME OF A BY TIME OF B")) {
             pictures.square(ui, queries, *findings);
+            recording_note(ui, "square");
             outcome_legend(ui);
         }
     }
@@ -142,12 +143,19 @@ void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings
     expectation(ui, queries);
 }
 
+void recording_note(Ui& ui, const std::string& where) {
+    const mobb::Trace& trace = ui.workspace.recorded()->trace;
+    if (!trace.stopped()) return;
+    words(ui.style.warning, "Here " + recording_words(trace) + ".");
+    ui.mark_only("query.stopped." + where);
+}
+
 void query_counters(Ui& ui, const QueryFindings& findings) {
     if (!section(ui, "TESTS")) return;
-    const StepCounts total = findings.recursion.total();
-    const StepCounts now = findings.recursion.so_far.empty()
-                               ? StepCounts{}
-                               : findings.recursion.so_far[static_cast<std::size_t>(ui.workspace.step())];
+    const RecordedQuery& recorded = *ui.workspace.recorded();
+    const mobb::TestCounts& total = recorded.tests;
+    const mobb::TestCounts now = recorded.trace.counts(ui.workspace.step() + 1);
+    const std::vector<int>& wasted = findings.recursion.wasted;
     const float left = ImGui::GetCursorPosX();
     const float room = ImGui::GetContentRegionAvail().x;
     const float first = left + 0.68f * room;
@@ -166,16 +174,18 @@ void query_counters(Ui& ui, const QueryFindings& findings) {
         ImGui::PopFont();
     };
     const auto tests = [&](const std::string& label, std::string_view doc, mobb::TestKind test) {
-        row(label, doc, now.tests[test], total.tests[test]);
+        row(label, doc, now[test], total[test]);
     };
     tests("time tests", "Do two nodes share time?", mobb::TestKind::time);
     for (const mobb::BoxKind kind : mobb::kBoxKinds) {
         const mobb::BoxInfo& box = mobb::info(kind);
-        if (box.in_paper || total.tests[kind] > 0) tests(std::string(box.title) + " tests", box.test, kind);
+        if (box.in_paper || total[kind] > 0) tests(std::string(box.title) + " tests", box.test, kind);
     }
     tests("sample pairs", "Pairs of disks whose distance was measured", mobb::TestKind::samples);
-    row("wasted", "Box tests that found an overlap which led to no hit", now.wasted, total.wasted);
-    words(ui.style.quiet, gain_words(total.tests, findings.clearance));
+    row("wasted", "Box tests that found an overlap which led to no hit",
+        wasted[static_cast<std::size_t>(ui.workspace.step())], wasted.back());
+    words(ui.style.quiet, gain_words(total, findings.clearance));
+    recording_note(ui, "counters");
 }
 
 }  // namespace mobbscope::app

@@ -21,6 +21,8 @@ void query_button(Ui& ui, const char* label, const char* command);
 // These need a query in the view and its findings.
 void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings);
 void query_counters(Ui& ui, const QueryFindings& findings);
+/// Says where recording stopped, if it did: below whatever shows the whole trace, "query.stopped.<where>".
+void recording_note(Ui& ui, const std::string& where);
 /// Buttons that step, and the slider over the trace.
 void step_transport(Ui& ui);
 /// What the event under test found, and of which nodes.
