@@ -45,6 +45,7 @@ QueryFindings find_out(const FittedScene& fitted, const ViewState& view, const R
     out.clearance = clearance_over_time(a.placed_clip(), b.placed_clip());
     if (!out.clearance.contact) out.floor = floor_paths(a.placed_clip(), b.placed_clip());
     out.recursion = recursion_of(recorded.trace, a, b);
+    out.proof = proof_of(fitted, fitted.queries()[static_cast<std::size_t>(*view.query)], recorded, out.clearance);
     return out;
 }
 
@@ -76,6 +77,15 @@ std::vector<std::string> why_words(std::span<const DrawnAgent> sides, const Clea
         out.push_back("They come nearest at " + with_unit(nearest.least_at, "s") + ": " +
                       with_unit(nearest.clearance, "m") + " apart.");
     }
+    return out;
+}
+
+std::vector<std::string> answer_sentences(const QueryFindings& findings) {
+    std::vector<std::string> out;
+    // Two that share no time need no line.
+    if (findings.clearance.least) out = proof_sentences(findings.sides, findings.proof);
+    for (std::string& sentence : why_words(findings.sides, findings.clearance, findings.floor))
+        out.push_back(std::move(sentence));
     return out;
 }
 

@@ -1,15 +1,13 @@
 #include <explain/recursion.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace mobbscope {
 
-Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, const mobb::PlacedTree& b) {
+Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, const mobb::PlacedTree& b,
+                       std::int64_t most_visits, const Progress& progress) {
     Recursion out;
-    const auto size = static_cast<std::size_t>(trace.size());
-    out.pair_of.resize(size);
-    out.wasted.resize(size);
+    out.pair_of.resize(static_cast<std::size_t>(trace.size()));
     for (int step = 0; step < trace.size(); ++step) {
         const mobb::Trace::Event event = trace[step];
         const int parent = event.parent < 0 ? -1 : out.pair_of[static_cast<std::size_t>(event.parent)];
@@ -43,13 +41,11 @@ Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, cons
         above.end = std::max(above.end, pair.end);
         above.hit = above.hit || pair.hit;
     }
-    for (int step = 0; step < trace.size(); ++step) {
-        const RecursionPair& pair = out.pair_at(step);
-        const mobb::Trace::Event event = trace[step];
-        if (!event.test.is_box() || event.outcome != mobb::Outcome::overlap || pair.hit) continue;
-        ++out.wasted[static_cast<std::size_t>(pair.end) - 1];
+    out.avoidable = avoidable_overlaps(trace, a, b, most_visits, progress);
+    for (const int event : out.avoidable.events) {
+        const int pair = out.pair_of[static_cast<std::size_t>(event)];
+        out.pairs[static_cast<std::size_t>(pair)].avoidable = true;
     }
-    std::partial_sum(out.wasted.begin(), out.wasted.end(), out.wasted.begin());
     return out;
 }
 

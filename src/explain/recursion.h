@@ -1,6 +1,7 @@
 /// The recursion of a query as pairs of nodes: what the recursion square, the icicle and the counters show.
 #pragma once
 
+#include <explain/avoidable.h>
 #include <mobb/placed_tree.h>
 #include <mobb/query.h>
 #include <mobb/trace.h>
@@ -21,6 +22,7 @@ struct RecursionPair {
     int end = 0;                                     ///< it and all below it are the events first .. end - 1
     mobb::Outcome outcome = mobb::Outcome::overlap;  ///< of its last test
     bool hit = false;                                ///< a hit was found in it or below it
+    bool avoidable = false;                          ///< its boxes overlap, which is avoidable (explain/avoidable.h)
     mobb::Interval time_a{};                         ///< of the nodes, global seconds
     mobb::Interval time_b{};
 
@@ -30,20 +32,21 @@ struct RecursionPair {
 struct Recursion {
     std::vector<RecursionPair> pairs;  ///< in the order of their first tests: parents before children
     std::vector<int> pair_of;          ///< by event: index of its pair
-    /// By event: box tests until after it that found an overlap which led to no hit. One counts from the end of its
-    /// pair on: until then it may still lead to one.
-    std::vector<int> wasted;
+    AvoidableOverlaps avoidable;
     int depth = 0;  ///< number of levels; 0 for an empty trace
 
     const RecursionPair& pair_at(int event) const {
         return pairs[static_cast<std::size_t>(pair_of[static_cast<std::size_t>(event)])];
     }
     std::size_t bytes() const {
-        return pairs.capacity() * sizeof(pairs[0]) + (pair_of.capacity() + wasted.capacity()) * sizeof(int);
+        return pairs.capacity() * sizeof(pairs[0]) + pair_of.capacity() * sizeof(int) +
+               avoidable.events.capacity() * sizeof(int) + avoidable.found.capacity() * sizeof(AvoidableOverlap);
     }
 };
 
-/// `trace` must be that of a query of these two. Takes time linear in the trace.
-Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, const mobb::PlacedTree& b);
+/// `trace` must be that of a query of these two. Takes time linear in the trace, and what judging overlaps takes
+/// (avoidable_overlaps).
+Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, const mobb::PlacedTree& b,
+                       std::int64_t most_visits = kVisitsWhileDragging, const Progress& progress = {});
 
 }  // namespace mobbscope

@@ -416,6 +416,23 @@ std::vector<ViewOption> all_view_options() {
                                    .menu = "View/Show",
                                    .shortcut = "B",
                                    .at_hand = true}),
+        toggle<&ViewState::proof>({.key = "proof",
+                                   .what = "The lines that keep the two of a query apart: as walls at its last step, "
+                                           "of a miss in place of the pair tested last; at a moment on the floor",
+                                   .title = "Proof",
+                                   .menu = "View/Show",
+                                   .shortcut = "V",
+                                   .at_hand = true,
+                                   .draws = DrawnPart::surroundings,
+                                   .may_be_seen = [](const ViewState& view) { return view.query.has_value(); }}),
+        toggle<&ViewState::free_region>(
+            {.key = "free_region",
+             .what = "With the proof of a miss: the region of the floor where the second one may start and never "
+                     "meets the first",
+             .title = "Free region",
+             .menu = "View/Show",
+             .draws = DrawnPart::surroundings,
+             .may_be_seen = [](const ViewState& view) { return view.query && view.show == Show::space_time; }}),
         toggle<&ViewState::floor>({.key = "floor",
                                    .what = "The grid in metres with the paths' traces on it",
                                    .title = "Floor",

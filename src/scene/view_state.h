@@ -119,6 +119,8 @@ struct ViewState {
     bool caption = true;    ///< the sentences at the top; where a title says it they are not needed
     bool legend = true;
     bool inset = true;  ///< the small map of the floor
+    bool proof = true;  ///< at the last step of a query: the lines that keep the two apart, as walls
+    bool free_region = true;  ///< ... and where B may stand without ever meeting A, on the floor
     // Overlays fold to a header in their corner; where the picture has no room they do so by themselves.
     bool fold_caption = false;
     bool fold_legend = false;

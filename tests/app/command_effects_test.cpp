@@ -579,6 +579,14 @@ std::vector<Case> cases() {
              EXPECT_FALSE(w.view().query);
          },
          true});
+    in_query("query.judge", "",
+             [](CommandWorld& w) { EXPECT_TRUE(w.session.queries.findings()->recursion.avoidable.all_judged()); });
+    look("query.blame", "", [](CommandWorld& w) {
+        ASSERT_NE(w.session.workspace.blame(), nullptr);
+        EXPECT_NE(all_messages(w.session).find(" in 3 queries"), std::string::npos) << all_messages(w.session);
+        w.session.workspace.edit({"moving", ""}, [](Scene& scene) { scene.agents[0].placement.start += 0.5; });
+        EXPECT_EQ(w.session.workspace.blame(), nullptr) << "of another scene nobody has counted";
+    });
     add({"query.expect",
          "",
          {kFirstQuery},
@@ -648,6 +656,16 @@ std::vector<Case> cases() {
         EXPECT_EQ(outcome_now(w), mobb::Outcome::overlap);
         EXPECT_GT(w.session.workspace.step(), 0);
     });
+    add({"step.next_avoidable", "", {{"query.select", "1"}, kFirstStep}, [](CommandWorld& w) {
+             const Recursion& recursion = w.session.queries.findings()->recursion;
+             const bool found = recursion.avoidable.at(w.session.workspace.step()) != nullptr;
+             EXPECT_NE(found, all_messages(w.session).find("voidable") != std::string::npos);
+         }});
+    add({"step.previous_avoidable", "", {{"query.select", "1"}}, [](CommandWorld& w) {
+             const Recursion& recursion = w.session.queries.findings()->recursion;
+             const bool found = recursion.avoidable.at(w.session.workspace.step()) != nullptr;
+             EXPECT_NE(found, all_messages(w.session).find("voidable") != std::string::npos);
+         }});
     in_query("step.next_hit", "", [](CommandWorld& w) { EXPECT_EQ(outcome_now(w), mobb::Outcome::hit); });
     in_query("step.over", "", [](CommandWorld& w) {
         const mobb::Trace& trace = w.session.workspace.recorded()->trace;

@@ -3,6 +3,7 @@
 #include <app/document/agents.h>
 #include <base/text.h>
 #include <explain/query_findings.h>
+#include <explain/query_sentence.h>
 #include <scene/scene_edits.h>
 
 #include <algorithm>
@@ -137,11 +138,41 @@ void copy_answer(Session& session, const std::string& text) {
     session.queries.show(asked_query(session.workspace, text));
     const std::shared_ptr<const QueryFindings> findings = session.queries.findings();
     std::string answer = answer_words(findings->sides, findings->clearance) + ".\n";
-    for (const std::string& sentence : why_words(findings->sides, findings->clearance, findings->floor)) {
-        answer += sentence + '\n';
-    }
+    for (const std::string& sentence : answer_sentences(*findings)) answer += sentence + '\n';
     session.desktop->set_clipboard(answer);
     session.notifications.tell(MessageLevel::info, "Copied: " + answer);
+}
+
+/// In the background: a scene may ask thousands.
+void count_blame(Session& session) {
+    session.jobs.start("Summing avoidable overlaps",
+                       [&session, in = session.workspace.document().fitted](JobControl& control) -> Job::Finish {
+                           auto blame = std::make_shared<const BlameInScene>(blame_in(*in, progress_of(control)));
+                           return [&session, in, blame = std::move(blame)] {
+                               Workspace& workspace = session.workspace;
+                               if (in != workspace.document().fitted) {
+                                   return session.notifications.tell(
+                                       MessageLevel::info, "The scene has changed: sum avoidable overlaps again");
+                               }
+                               workspace.counted_blame = blame;
+                               workspace.blame_counted_in = in;
+                               session.notifications.tell(MessageLevel::info,
+                                                          blame_words(*blame, in->queries().size()));
+                           };
+                       });
+}
+
+/// Those of the query in view that take too long for each new trace.
+void judge_all(Session& session) {
+    session.jobs.start("Judging overlaps",
+                       [&session, findings = session.queries.findings(), trace = session.workspace.recorded()->trace,
+                        fitted = session.workspace.shown()](JobControl& control) -> Job::Finish {
+                           Recursion all = recursion_of(trace, findings->sides[0].placed, findings->sides[1].placed,
+                                                        kAnyVisits, progress_of(control));
+                           return [&session, findings, all = std::move(all)]() mutable {
+                               session.queries.replace_recursion(findings, std::move(all));
+                           };
+                       });
 }
 
 // --- steps
@@ -206,6 +237,25 @@ void to_next(Workspace& workspace, QueryInspector& queries, Notifications& notif
         if (trace[event].outcome == outcome) return to_event(workspace, event);
     }
     notifications.tell(MessageLevel::info, std::string("There is no later test that ") + what);
+}
+
+/// To the next or the previous avoidable overlap; says so if there is none.
+template <int way>
+void to_avoidable(Workspace& workspace, QueryInspector& queries, Notifications& notifications) {
+    const bool was_in = in_query(workspace);
+    entered(workspace, queries, way > 0 ? kFirst : kEnd);
+    const AvoidableOverlaps& avoidable = queries.findings()->recursion.avoidable;
+    // The step at which the query is entered is looked at too.
+    const int here = workspace.step() + (was_in ? 0 : -way);
+    const auto behind = std::ranges::upper_bound(avoidable.events, here);
+    const auto at = std::ranges::lower_bound(avoidable.events, here);
+    if (way > 0 && behind != avoidable.events.end()) return to_event(workspace, *behind);
+    if (way < 0 && at != avoidable.events.begin()) return to_event(workspace, *(at - 1));
+    std::string why = avoidable.events.empty() ? "No overlap of this query was avoidable"
+                      : way > 0                ? "There is no later avoidable overlap"
+                                               : "There is no earlier avoidable overlap";
+    if (!avoidable.all_judged()) why.append(". ").append(judged_words(avoidable));
+    notifications.tell(MessageLevel::info, why);
 }
 
 /// Which side of the query in view the selected node is of; none if no node of it is selected.
@@ -277,6 +327,15 @@ std::vector<Command> query_commands() {
         Command("query.copy_answer", "Copy the answer in words",
                 "Shows a query and copies whether the two collide, and why.", copy_answer,
                 {.argument = "[N]", .enabled = {has_queries, why_no_query}}),
+        Command("query.judge", "Judge all overlaps",
+                "Finds out which overlaps of the query in view were avoidable, where there are too many to do so at "
+                "once.",
+                judge_all, {.enabled = {in_query, why_no_step}}),
+        Command(
+            "query.blame", "Sum avoidable overlaps by node",
+            "Asks all queries and counts, by node, the overlaps that a tighter box would have avoided; the facts of "
+            "a selected node say it then.",
+            count_blame, {.enabled = {has_queries, why_no_query}}),
         Command("query.expect", "Expect this answer",
                 "Writes the present answer into the scene: `mobbscope query` then says when it has changed.", expect,
                 {.enabled = [](const Workspace& workspace) { return edited_query(workspace).has_value(); },
@@ -310,6 +369,12 @@ std::vector<Command> query_commands() {
                     to_next(workspace, queries, notifications, Outcome::overlap, "found an overlap");
                 },
                 {.shortcut = "O", .enabled = {has_queries, why_no_step}}),
+        Command("step.next_avoidable", "Next avoidable overlap",
+                "Shows the next test that found an overlap although one line keeps the disks apart.", to_avoidable<1>,
+                {.shortcut = "U", .enabled = {has_queries, why_no_step}}),
+        Command("step.previous_avoidable", "Previous avoidable overlap",
+                "Shows the last test before that found an overlap although one line keeps the disks apart.",
+                to_avoidable<-1>, {.shortcut = "Shift+U", .enabled = {has_queries, why_no_step}}),
         Command("step.next_hit", "Next hit", "Shows the test that found samples which collide.",
                 [](Workspace& workspace, QueryInspector& queries, Notifications& notifications) {
                     to_next(workspace, queries, notifications, Outcome::hit, "found a hit");
@@ -343,7 +408,7 @@ std::vector<Command> query_commands() {
                 "Shows the test at a percentage of the way, 0 to 100.", percent,
                 {.menu = kNoMenu, .argument = "P", .enabled = {in_query, why_no_step}}),
     };
-    return in_menu("Query", rows);
+    return in_menu("Query", joined({rows, proof_commands()}));
 }
 
 }  // namespace mobbscope::app

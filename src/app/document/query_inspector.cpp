@@ -1,5 +1,7 @@
 #include <app/document/query_inspector.h>
 
+#include <utility>
+
 namespace mobbscope::app {
 
 void QueryInspector::show(int query, std::optional<Step> step) {
@@ -26,6 +28,14 @@ std::shared_ptr<const QueryFindings> QueryInspector::findings() const {
     if (!d.findings)
         d.findings = std::make_shared<const QueryFindings>(find_out(workspace_.fitted(), workspace_.view(), *query));
     return d.findings;
+}
+
+void QueryInspector::replace_recursion(const std::shared_ptr<const QueryFindings>& of, Recursion recursion) {
+    std::shared_ptr<const QueryFindings>& now = workspace_.derived().findings;
+    if (now != of) return;
+    auto findings = std::make_shared<QueryFindings>(*of);
+    findings->recursion = std::move(recursion);
+    now = std::move(findings);
 }
 
 const Answer& QueryInspector::answer_of(std::size_t query) const {

@@ -20,6 +20,8 @@ class QueryInspector {
     std::optional<Step> step_before() const;
     /// What follows from Workspace::recorded; null if no query is in the view.
     std::shared_ptr<const QueryFindings> findings() const;
+    /// The same findings with another recursion, if these are still those of the query in view.
+    void replace_recursion(const std::shared_ptr<const QueryFindings>& of, Recursion recursion);
     /// The first contact of any query, with what it cost.
     const Answer& answer_of(std::size_t query) const;
     /// Figures of a clip's tree.

@@ -94,6 +94,9 @@ class Workspace {
     };
     std::optional<FoundConflicts> found;  ///< none: nobody has looked yet
     int conflict = -1;                    ///< that was gone to last; -1: none
+    /// Whom the queries of a scene blame; null: nobody has counted yet.
+    std::shared_ptr<const BlameInScene> counted_blame;
+    std::shared_ptr<const FittedScene> blame_counted_in;
 
     std::vector<RunningJob> jobs;                   ///< the oldest first
     std::deque<ImportChange> import_changes;        ///< not begun yet
@@ -117,6 +120,8 @@ class Workspace {
     std::string title() const;
     /// What is asked in the view, recorded; null if no query is in the view.
     const RecordedQuery* recorded() const;
+    /// Whom the queries blame for avoidable overlaps; null if nobody has counted since the scene or its fit changed.
+    const BlameInScene* blame() const { return blame_counted_in == document().fitted ? counted_blame.get() : nullptr; }
     /// The event of the trace that the view shows; requires recorded().
     int step() const;
 

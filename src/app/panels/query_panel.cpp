@@ -108,6 +108,7 @@ void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures) {
     if (!findings) return no_query(ui);
     query_header(ui);
     query_answer(ui, queries, *findings);
+    proof_section(ui, *findings);
     if (!findings->recursion.pairs.empty()) {
         step_transport(ui);
         current_test(ui, *findings);
@@ -131,9 +132,7 @@ void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings
         answer_sign(ui, collide, mark_color(ui.style, mark));
         words(mark_text(ui.style, mark), answer_words(findings.sides, findings.clearance));
         ImGui::PopFont();
-        for (const std::string& sentence : why_words(findings.sides, findings.clearance, findings.floor)) {
-            words(ui.style.text, sentence);
-        }
+        for (const std::string& sentence : answer_sentences(findings)) words(ui.style.text, sentence);
     });
     ui.mark("query.answer");
     if (const auto& contact = ui.workspace.recorded()->contact) {
@@ -152,10 +151,10 @@ void recording_note(Ui& ui, const std::string& where) {
 
 void query_counters(Ui& ui, const QueryFindings& findings) {
     if (!section(ui, "TESTS")) return;
+    const Recursion& recursion = findings.recursion;
     const RecordedQuery& recorded = *ui.workspace.recorded();
     const mobb::TestCounts& total = recorded.tests;
     const mobb::TestCounts now = recorded.trace.counts(ui.workspace.step() + 1);
-    const std::vector<int>& wasted = findings.recursion.wasted;
     const float left = ImGui::GetCursorPosX();
     const float room = ImGui::GetContentRegionAvail().x;
     const float first = left + 0.68f * room;
@@ -182,8 +181,14 @@ void query_counters(Ui& ui, const QueryFindings& findings) {
         if (box.in_paper || total[kind] > 0) tests(std::string(box.title) + " tests", box.test, kind);
     }
     tests("sample pairs", "Pairs of disks whose distance was measured", mobb::TestKind::samples);
-    row("wasted", "Box tests that found an overlap which led to no hit",
-        wasted[static_cast<std::size_t>(ui.workspace.step())], wasted.back());
+    row("avoidable", "Box tests that found an overlap although one line keeps the disks apart",
+        recursion.avoidable.before(ui.workspace.step() + 1),
+        static_cast<std::int64_t>(recursion.avoidable.events.size()));
+    ui.mark("query.avoidable");
+    if (!recursion.avoidable.all_judged()) {
+        words(ui.style.warning, judged_words(recursion.avoidable));
+        query_button(ui, "Judge all", "query.judge");
+    }
     words(ui.style.quiet, gain_words(total, findings.clearance));
     recording_note(ui, "counters");
 }

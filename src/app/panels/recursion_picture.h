@@ -19,7 +19,7 @@ struct StripCell {
 
 /// All events of a trace side by side in `width` >= 1 pixels. No cell is narrower than a pixel, so a long trace has at
 /// most `width` of them.
-std::vector<StripCell> strip_cells(const mobb::Trace& trace, int width);
+std::vector<StripCell> strip_cells(const mobb::Trace& trace, const Recursion& recursion, int width);
 
 /// A pair of nodes as a rectangle, or several that fall on the same pixels.
 struct PairCell {
@@ -36,7 +36,8 @@ std::vector<PairCell> square_cells(const Recursion& recursion, mobb::Interval a,
 /// Pairs as the events of them and below them (to the right) by depth (downwards); rows of `row` pixels.
 std::vector<PairCell> icicle_cells(const Recursion& recursion, int width, int row);
 
-/// How a pair's outcome is shown.
+/// How a pair's outcome is shown, and an event's.
 EventMark mark_of(const RecursionPair& pair);
+EventMark mark_of(const mobb::Trace& trace, const Recursion& recursion, int event);
 
 }  // namespace mobbscope::app

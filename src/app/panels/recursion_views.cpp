@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 #include <string>
 
 namespace mobbscope::app {
@@ -73,6 +75,33 @@ void common_time(ImDrawList& list, const Style& style, const Square& square) {
                  1.3f * style.scale);
 }
 
+/// The lines of the proof along the common time, each between two ticks. Returns the one that the mouse is on.
+std::optional<std::size_t> proof_intervals(Ui& ui, const QueryFindings& findings, const Square& square) {
+    const auto selected = selected_line(ui.workspace, findings.proof);
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    std::optional<std::size_t> under;
+    for (std::size_t i = 0; i < findings.proof.lines.size(); ++i) {
+        const ProofLine& line = findings.proof.lines[i];
+        const ImVec2 from{square.x.pixel(line.t0), square.y.pixel(line.t0)};
+        const ImVec2 to{square.x.pixel(line.t1), square.y.pixel(line.t1)};
+        const ImVec2 way{to.x - from.x, to.y - from.y};
+        const float length = std::max(std::hypot(way.x, way.y), 1e-3f);
+        const ImVec2 across{-way.y / length, way.x / length};
+        const ImU32 color = mark_color(ui.style, EventMark::separated);
+        const float width = ui.px(i == selected ? 4.5f : 2.5f), tick = ui.px(5);
+        list.AddLine(from, to, color, width);
+        for (const ImVec2 end : {from, to}) {
+            list.AddLine({end.x - tick * across.x, end.y - tick * across.y},
+                         {end.x + tick * across.x, end.y + tick * across.y}, color, ui.px(1.5f));
+        }
+        const ImVec2 at{mouse.x - from.x, mouse.y - from.y};
+        const float along = (at.x * way.x + at.y * way.y) / length, aside = at.x * across.x + at.y * across.y;
+        if (along >= 0 && along <= length && std::abs(aside) <= tick) under = i;
+    }
+    return under;
+}
+
 void axis_labels(Ui& ui, const QueryFindings& findings, const Square& square) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImFont& font = *ui.style.caption;
@@ -94,16 +123,27 @@ void axis_labels(Ui& ui, const QueryFindings& findings, const Square& square) {
          findings.sides[1].label + formatted(" \u2191  %.2f s to %.2f s", square.b.t0, square.b.t1));
 }
 
+/// Of a pair whose children lie in it: a corner with a line beside it, which leaves them to be seen.
+void avoidable_corner(ImDrawList& list, const Style& style, ImVec2 min, ImVec2 max, float strength) {
+    const ImU32 color = mark_color(style, EventMark::avoidable, strength);
+    const float side = std::min(6 * style.scale, 0.5f * std::min(max.x - min.x, max.y - min.y));
+    list.AddTriangleFilled(min, {min.x + side, min.y}, {min.x, min.y + side}, color);
+    list.AddRect(min, max, color, 0, 0, style.scale);
+}
+
 constexpr float kIcicleAhead = 0.35f;  // strength of what comes after the present step
 
 /// Pairs that went on to others stay quiet: what they found stands below them.
-void draw_inner(ImDrawList& list, const Style& style, ImVec2 min, ImVec2 max, bool hit, float strength) {
+void draw_inner(ImDrawList& list, const Style& style, ImVec2 min, ImVec2 max, const RecursionPair& pair,
+                float strength) {
     list.AddRectFilled(min, max, style.raised);
-    if (hit) list.AddRectFilled({min.x, max.y - 2 * style.scale}, max, mark_color(style, EventMark::hit, strength));
+    if (pair.avoidable) outcome_cell(list, style, min, max, EventMark::avoidable, 0.6f * strength);
+    if (pair.hit)
+        list.AddRectFilled({min.x, max.y - 2 * style.scale}, max, mark_color(style, EventMark::hit, strength));
 }
 
 /// How much of the strip's height an event takes: what says more stands taller.
-constexpr std::array<float, kEventMarks> kHeights{0.14f, 0.3f, 0.55f, 0.8f, 0.8f, 1.0f};
+constexpr std::array<float, kEventMarks> kHeights{0.14f, 0.3f, 0.55f, 0.7f, 0.7f, 0.85f, 1.0f};
 
 constexpr float kStripAhead = 0.4f;  // strength of what comes after the present step
 
@@ -164,6 +204,7 @@ void QueryPictures::square(Ui& ui, QueryInspector& queries, const QueryFindings&
             const float strength = past ? 1 : kSquareAhead;
             if (pair.has_children()) {
                 list.AddRect(min, max, to_im(with_alpha(ui.style.palette.axis, 0.6f * strength)), 0, 0, ui.style.scale);
+                if (pair.avoidable) avoidable_corner(list, ui.style, min, max, strength);
             } else {
                 const float gap = cell.x1 - cell.x0 > 4 ? 1.0f : 0.0f;
                 outcome_cell(list, ui.style, min, {max.x - gap, max.y - gap}, mark_of(pair), strength);
@@ -179,9 +220,15 @@ void QueryPictures::square(Ui& ui, QueryInspector& queries, const QueryFindings&
     const float half_y = std::max(ui.px(4), first.y - middle.y + ui.px(1));
     list.AddRect({middle.x - half_x, middle.y - half_y}, {middle.x + half_x, middle.y + half_y}, ui.style.text, 0, 0,
                  ui.px(2));
+    const auto line = proof_intervals(ui, findings, square);
     axis_labels(ui, findings, square);
     ImGui::SetCursorScreenPos({at.x, square.max.y + label});
     ImGui::Dummy({0, 0});
+    if (hovered && line) {
+        ImGui::SetTooltip("%s", tile_words(findings.sides, findings.proof, *line).c_str());
+        if (clicked) ui.invoke("proof.line", std::to_string(*line));
+        return;
+    }
     if (!hovered || !under) return;
     const RecursionPair& pair = recursion.pairs[static_cast<std::size_t>(under->pair)];
     const std::string more =
@@ -216,7 +263,7 @@ void QueryPictures::icicle(Ui& ui, QueryInspector& queries, ImVec2 size) {
         const ImVec2 max{end.x - gap, end.y - gap};
         const float strength = past ? 1 : kIcicleAhead;
         if (pair.has_children()) {
-            draw_inner(list, ui.style, min, max, pair.hit, strength);
+            draw_inner(list, ui.style, min, max, pair, strength);
         } else {
             outcome_cell(list, ui.style, min, max, mark_of(pair), strength);
         }
@@ -247,7 +294,8 @@ void QueryPictures::strip(Ui& ui, QueryInspector& queries, float width, float he
     const int columns = static_cast<int>(width);
     if (!findings || findings->recursion.pairs.empty() || columns < 1) return;
     const mobb::Trace& trace = ui.workspace.recorded()->trace;
-    const std::vector<StripCell>& cells = strip_.of(findings, columns, 0, [&] { return strip_cells(trace, columns); });
+    const std::vector<StripCell>& cells =
+        strip_.of(findings, columns, 0, [&] { return strip_cells(trace, findings->recursion, columns); });
 
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::InvisibleButton("strip", {width, height});
