@@ -173,7 +173,8 @@ void write_certificates(const FittedScene& scene, const std::filesystem::path& f
     std::vector<QueryCertificate> proofs;
     for (std::size_t index = 0; index < scene.queries().size(); ++index) {
         const SceneQuery query = scene.queries()[index];
-        proofs.push_back({static_cast<int>(index), certify(scene, query, record(scene, query))});
+        proofs.push_back(
+            {static_cast<int>(index), certify(scene.placed(query.a), scene.placed(query.b), record(scene, query))});
     }
     write_file(file, certificate_text(scene, proofs));
 }

@@ -1,6 +1,7 @@
 #include <base/text.h>
 #include <explain/axis_intervals.h>
 #include <explain/certificate.h>
+#include <explain/tile_search.h>
 #include <mobb/trace.h>
 
 #include <glm/geometric.hpp>
@@ -15,36 +16,10 @@ namespace mobbscope {
 
 namespace {
 
-constexpr int kFan = 64;  // directions all around that are searched besides
-
-/// The fewest tiles: from each end point on the longest, and of those that are as long the one with the widest gap.
-std::vector<Tile> fewest_tiles(const Pieces& all, std::span<const glm::dvec2> directions, bool fixed_lines) {
-    std::vector<Tile> out;
-    for (std::size_t first = 0; first < all.pieces.size();) {
-        std::optional<Tile> best;
-        std::size_t reached = 1;
-        const auto try_line = [&](glm::dvec2 direction) {
-            const Sweep sweep(all.pieces, direction, all.slack);
-            const std::size_t fixed = sweep.fixed(first);
-            const std::size_t moving = fixed_lines ? 0 : sweep.moving(first);
-            const std::size_t count = std::max(fixed, moving);
-            if (count < reached) return;
-            const Tile tile = sweep.tile(first, count, fixed >= moving);
-            if (best && count == reached && tile.gap <= best->gap) return;
-            best = tile;
-            reached = count;
-        };
-        try_line(all.lines[first]);
-        for (const glm::dvec2 direction : directions) {
-            try_line(direction);
-            try_line(-direction);
-        }
-        // Rounding alone can leave no line: this one is refused by who checks it.
-        if (!best) best = Sweep(all.pieces, all.lines[first], all.slack).tile(first, 1, false);
-        out.push_back(*best);
-        first += reached;
-    }
-    return out;
+/// What may be left between the last tile and a contact, seconds: as little as a crack, but for the rounding of its
+/// time.
+double most_left_before(const mobb::Contact& contact) {
+    return std::max(mobb::kMinOverlap, 2 * std::numeric_limits<double>::epsilon() * std::abs(contact.time));
 }
 
 std::string tile_number(std::size_t tile) { return "tile " + std::to_string(tile); }
@@ -53,15 +28,15 @@ std::string tile_number(std::size_t tile) { return "tile " + std::to_string(tile
 double excess(const mobb::PlacedClip& a, const mobb::PlacedClip& b, const Tile& tile, double& farthest) {
     const auto reach = [&](const mobb::PlacedClip& clip, double way) {
         double out = -std::numeric_limits<double>::infinity();
-        for (int i = 0; i < clip.count(); ++i) {
+        const int first = mobb::first_ending_after(clip, 0, clip.count(), tile.t0);
+        for (int i = first; i < clip.count() && clip.time(i) < tile.t1; ++i) {
             const double begin = std::max(clip.time(i), tile.t0), end = std::min(clip.time(i + 1), tile.t1);
-            if (!(end > begin)) continue;
             const mobb::SweptDisk swept = mobb::swept(clip, i);
             for (const double t : {begin, end}) {
                 const mobb::Disk disk = swept.at(t);
                 out =
                     std::max(out, way * (glm::dot(tile.direction, center(disk)) - tile.speed * (t - tile.t0)) + disk.r);
-                farthest = std::max(farthest, std::abs(disk.x) + std::abs(disk.y) + disk.r);
+                farthest = std::max({farthest, std::abs(disk.x), std::abs(disk.y)});
             }
         }
         return out;
@@ -72,7 +47,8 @@ double excess(const mobb::PlacedClip& a, const mobb::PlacedClip& b, const Tile& 
 /// A pair of samples that shares more than a moment, and some of it between two times; none if there is none.
 std::optional<std::pair<int, int>> pair_between(const mobb::PlacedClip& a, const mobb::PlacedClip& b, double from,
                                                 double to) {
-    for (int i = 0, j = 0; i < a.count() && j < b.count();) {
+    int i = mobb::first_ending_after(a, 0, a.count(), from), j = mobb::first_ending_after(b, 0, b.count(), from);
+    while (i < a.count() && j < b.count() && std::max(a.time(i), b.time(j)) < to) {
         const double begin = std::max(a.time(i), b.time(j)), end = std::min(a.time(i + 1), b.time(j + 1));
         if (end - begin > mobb::kMinOverlap && std::min(end, to) > std::max(begin, from)) return std::pair(i, j);
         a.time(i + 1) <= b.time(j + 1) ? ++i : ++j;
@@ -94,45 +70,45 @@ std::string why_no_contact(const mobb::PlacedClip& a, const mobb::PlacedClip& b,
 
 }  // namespace
 
-Certificate certify(const mobb::PlacedClip& a, const mobb::PlacedClip& b, const std::optional<mobb::Contact>& contact,
-                    std::span<const glm::dvec2> directions, std::span<const mobb::MeasuredPair> measured) {
-    // Half of what may be left, so that no rounding makes it more.
-    const double end = contact ? contact->time - 0.5 * kMostCrack : std::numeric_limits<double>::infinity();
-    const Pieces pieces = pieces_before(a, b, end);
-    std::vector<glm::dvec2> all(directions.begin(), directions.end());
-    for (const mobb::MeasuredPair& pair : measured) all.push_back(line_of(mobb::approach_of(a, pair.i, b, pair.j)));
-    for (int i = 0; i < kFan; ++i) {
-        const double angle = std::numbers::pi * i / kFan;
-        all.emplace_back(std::cos(angle), std::sin(angle));
+std::vector<TraversalEnd> traversal_ends(const mobb::PlacedTree& a, const mobb::PlacedTree& b,
+                                         const mobb::Trace& trace) {
+    std::vector<TraversalEnd> out;
+    const mobb::PlacedClip &clip_a = a.placed_clip(), &clip_b = b.placed_clip();
+    for (int step = 0; step < trace.size(); ++step) {
+        const mobb::Trace::Event event = trace[step];
+        if (event.outcome == mobb::Outcome::separated) {
+            const mobb::Node &of_a = a.tree().node(event.a), &of_b = b.tree().node(event.b);
+            out.push_back({std::max(a.begin(of_a), b.begin(of_b)), std::min(a.end(of_a), b.end(of_b)), step, true});
+        } else if (!event.pairs.empty()) {
+            const mobb::MeasuredPair first = event.pairs.front(), last = event.pairs.back();
+            if (out.empty() || out.back().is_boxes)
+                out.push_back({std::max(clip_a.time(first.i), clip_b.time(first.j)), 0, step, false});
+            out.back().t1 = std::min(clip_a.time(last.i + 1), clip_b.time(last.j + 1));
+        }
     }
-    const std::vector<Tile> fixed = fewest_tiles(pieces, all, true);
-    if (fixed.size() <= 1) return {contact, fixed};
-    const std::vector<Tile> moving = fewest_tiles(pieces, all, false);
-    return {contact, moving.size() < fixed.size() ? moving : fixed};
+    return out;
 }
 
-Certificate certify(const FittedScene& fitted, const SceneQuery& query, const RecordedQuery& recorded) {
-    const mobb::PlacedTree a = fitted.placed(query.a);
-    const mobb::PlacedTree b = fitted.placed(query.b);
-    std::vector<glm::dvec2> directions;
-    std::vector<mobb::MeasuredPair> measured;
-    for (int step = 0; step < recorded.trace.size(); ++step) {
-        const mobb::Trace::Event event = recorded.trace[step];
-        measured.insert(measured.end(), event.pairs.begin(), event.pairs.end());
-        if (event.outcome != mobb::Outcome::separated) continue;
-        const glm::dvec2 direction(separating_axis(a, b, event));
-        // Boxes that share time are never apart along time alone.
-        const double length = glm::length(direction);
-        if (length > 0) directions.push_back(direction / length);
-    }
-    return certify(a.placed_clip(), b.placed_clip(), recorded.contact, directions, measured);
+Certificate certify(const mobb::PlacedTree& a, const mobb::PlacedTree& b, const RecordedQuery& recorded) {
+    const std::vector<TraversalEnd> ends = traversal_ends(a, b, recorded.trace);
+    const auto known = [&](double time) -> std::optional<KnownLine> {
+        const auto end = std::ranges::partition_point(ends, [&](const TraversalEnd& each) { return each.t1 <= time; });
+        if (end == ends.end() || !end->is_boxes) return std::nullopt;
+        // Boxes that share time are never apart along time alone: what lies of the axis on the floor has a length.
+        const glm::dvec2 on_floor(separating_axis(a, b, recorded.trace[end->step]));
+        return KnownLine{on_floor / glm::length(on_floor), end->t1};
+    };
+    // Half of what may be left, so that nothing makes it more.
+    const double end = recorded.contact ? recorded.contact->time - 0.5 * most_left_before(*recorded.contact)
+                                        : std::numeric_limits<double>::infinity();
+    return {recorded.contact, fewest_tiles(a.placed_clip(), b.placed_clip(), end, known)};
 }
 
 std::string why_not_proven(const mobb::PlacedClip& a, const mobb::PlacedClip& b, const Certificate& certificate) {
     double end = std::min(a.time(a.count()), b.time(b.count()));
     if (certificate.contact) {
         if (std::string why = why_no_contact(a, b, *certificate.contact); !why.empty()) return why;
-        end = certificate.contact->time - kMostCrack;
+        end = certificate.contact->time - most_left_before(*certificate.contact);
     }
     double covered = std::max(a.time(0), b.time(0));
     const std::vector<Tile>& tiles = certificate.tiles;
@@ -145,6 +121,7 @@ std::string why_not_proven(const mobb::PlacedClip& a, const mobb::PlacedClip& b,
         if (i == tiles.size()) break;
         const Tile& tile = tiles[i];
         if (!(tile.t1 > tile.t0)) return tile_number(i) + " lasts no time";
+        if (!std::isfinite(tile.speed)) return tile_number(i) + ": its speed is no number";
         if (i > 0 && tile.t0 < tiles[i - 1].t1) return tile_number(i) + " begins before the one before it ends";
         constexpr double kUnit = 1e-15;
         if (!(std::abs(glm::length(tile.direction) - 1) <= kUnit))

@@ -22,18 +22,21 @@ struct Certificate {
     std::vector<Tile> tiles;  ///< in order of time
 };
 
-/// What may be left between a tile and the next one, and before a contact, seconds.
-inline constexpr double kMostCrack = mobb::kMinOverlap;
+/// Where a traversal went no deeper: at a pair of boxes that is apart in space, or in a run of measured samples.
+struct TraversalEnd {
+    double t0 = 0, t1 = 0;  ///< global seconds
+    int step = 0;           ///< of the trace: where it begins
+    bool is_boxes = false;
+};
 
-/// The proof of a query's answer, with the lines of the boxes and samples that its trace has separated and measured:
-/// there are never more tiles than of these.
-Certificate certify(const FittedScene& fitted, const SceneQuery& query, const RecordedQuery& recorded);
+/// The traversal's own proof, in order of time. Of a miss the ends partition the common time; of a hit that before its
+/// contact. Pairs that are apart in time prove nothing and are not in it.
+std::vector<TraversalEnd> traversal_ends(const mobb::PlacedTree& a, const mobb::PlacedTree& b,
+                                         const mobb::Trace& trace);
 
-/// The proof with the fewest tiles for the directions that are searched: `directions` (unit, either way round), the
-/// line of each pair of samples that `measured` names, and a fan of others. Fixed lines are taken where they need no
-/// more tiles than moving ones. `contact`: of a hit.
-Certificate certify(const mobb::PlacedClip& a, const mobb::PlacedClip& b, const std::optional<mobb::Contact>& contact,
-                    std::span<const glm::dvec2> directions, std::span<const mobb::MeasuredPair> measured);
+/// The proof of a query's answer by the fewest lines: there are never more than its trace has separated pairs of boxes
+/// and measured pairs of samples.
+Certificate certify(const mobb::PlacedTree& a, const mobb::PlacedTree& b, const RecordedQuery& recorded);
 
 /// Why the certificate does not prove the answer; empty: it does. Looks at the samples alone.
 std::string why_not_proven(const mobb::PlacedClip& a, const mobb::PlacedClip& b, const Certificate& certificate);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace mobbscope {
 
@@ -35,25 +34,6 @@ std::string cost(std::span<const TraversalEnd> ends) {
 }
 
 }  // namespace
-
-std::vector<TraversalEnd> traversal_ends(const mobb::PlacedTree& a, const mobb::PlacedTree& b,
-                                         const mobb::Trace& trace) {
-    std::vector<TraversalEnd> out;
-    const mobb::PlacedClip &clip_a = a.placed_clip(), &clip_b = b.placed_clip();
-    for (int step = 0; step < trace.size(); ++step) {
-        const mobb::Trace::Event event = trace[step];
-        if (event.outcome == mobb::Outcome::separated) {
-            const mobb::Node &of_a = a.tree().node(event.a), &of_b = b.tree().node(event.b);
-            out.push_back({std::max(a.begin(of_a), b.begin(of_b)), std::min(a.end(of_a), b.end(of_b)), true, step});
-        } else if (!event.pairs.empty()) {
-            const mobb::MeasuredPair first = event.pairs.front(), last = event.pairs.back();
-            if (out.empty() || out.back().is_boxes)
-                out.push_back({std::max(clip_a.time(first.i), clip_b.time(first.j)), 0, false, step});
-            out.back().t1 = std::min(clip_a.time(last.i + 1), clip_b.time(last.j + 1));
-        }
-    }
-    return out;
-}
 
 std::string proof_words(const Certificate& certificate, std::span<const TraversalEnd> ends) {
     if (certificate.tiles.empty())

@@ -52,22 +52,30 @@ glm::dvec2 line_of(const mobb::Approach& approach) {
     const double s = approach.nearest();
     const glm::dvec2 from_a(-approach.d.x - s * approach.d_change.x, -approach.d.y - s * approach.d_change.y);
     const double length = glm::length(from_a);
-    return length > 0 ? from_a / length : glm::dvec2(1, 0);
+    constexpr double kPoints = 1e-10;  // metres: disks that near and yet apart are points that meet
+    if (length > kPoints) return from_a / length;
+    const double moved = glm::length(approach.d_change);
+    if (moved == 0) return {1, 0};
+    // On their way the line runs along it, at its ends across it.
+    const glm::dvec2 way = -approach.d_change / moved;
+    return s <= 0 ? way : s >= 1 ? -way : glm::dvec2(-way.y, way.x);
 }
 
 Pieces pieces_before(const mobb::PlacedClip& a, const mobb::PlacedClip& b, double end) {
     Pieces out;
+    out.clearance = kInfinity;
     double farthest = 0;
     for (const ClearancePiece& piece : clearance_over_time(a, b).pieces) {
         const double t1 = std::min(piece.t1, end);
         if (t1 <= piece.t0) break;
+        out.clearance = std::min(out.clearance, piece.clearance);
         const mobb::SweptDisk of_a = mobb::swept(a, piece.a_sample);
         const mobb::SweptDisk of_b = mobb::swept(b, piece.b_sample);
         out.pieces.push_back({piece.t0, t1, {of_a.at(piece.t0), of_a.at(t1)}, {of_b.at(piece.t0), of_b.at(t1)}});
         const SharedTime& last = out.pieces.back();
         out.lines.push_back(line_of({{last.a[0], last.a[1], last.t0, t1}, {last.b[0], last.b[1], last.t0, t1}}));
         for (const mobb::Disk& disk : {of_a.from, of_a.to, of_b.from, of_b.to})
-            farthest = std::max(farthest, std::abs(disk.x) + std::abs(disk.y) + disk.r);
+            farthest = std::max({farthest, std::abs(disk.x), std::abs(disk.y)});
     }
     out.slack = 0.25 * line_tolerance(farthest);
     return out;

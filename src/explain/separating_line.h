@@ -33,7 +33,8 @@ struct SharedTime {
 struct Pieces {
     std::vector<SharedTime> pieces;
     std::vector<glm::dvec2> lines;
-    double slack = 0;  ///< metres by which each side is drawn back, so that disks that touch are still kept apart
+    double slack = 0;      ///< metres by which each side is drawn back, so that disks that touch are still kept apart
+    double clearance = 0;  ///< the least, metres
 };
 
 Pieces pieces_before(const mobb::PlacedClip& a, const mobb::PlacedClip& b, double end);

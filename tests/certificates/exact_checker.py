@@ -57,7 +57,8 @@ def why_not_proven(scene, entry):
     a, b = disks(scene, entry["a"]), disks(scene, entry["b"])
     end = min(a[-1][1], b[-1][1])
     if entry["contact"]:
-        end = Exact(entry["contact"]["time"]) - MOMENT
+        time = Exact(entry["contact"]["time"])
+        end = time - max(MOMENT, abs(time) / 2**51)  # a moment, or the rounding of such a time
     for tile in entry["tiles"]:
         why = why_tile_fails(tile, a, b)
         if why:

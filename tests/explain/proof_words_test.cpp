@@ -24,7 +24,7 @@ TEST(TraversalEnds, PartitionTheCommonTime) {
         const double begin = std::max(a.begin_time(), b.begin_time());
         const double end = query.proof.contact ? query.proof.contact->time : std::min(a.end_time(), b.end_time());
         // Times far from 0 are rounded.
-        const double crack = kMostCrack + 4 * std::numeric_limits<double>::epsilon() * std::abs(end);
+        const double crack = mobb::kMinOverlap + 4 * std::numeric_limits<double>::epsilon() * std::abs(end);
         double covered = begin;
         for (const TraversalEnd& each : ends) {
             EXPECT_NEAR(each.t0, covered, crack);
@@ -40,7 +40,7 @@ TEST(TraversalEnds, PartitionTheCommonTime) {
 }
 
 TEST(ProofWords, SayWhatIsProvenAndByHowMuch) {
-    const std::vector<TraversalEnd> ends{{0, 4, true}, {4, 5, false}, {5, 12, true}};
+    const std::vector<TraversalEnd> ends{{0, 4, 3, true}, {4, 5, 4, false}, {5, 12, 9, true}};
     Certificate miss{std::nullopt, {{0, 4, {1, 0}, 0, 0.5}, {4, 12.4, {0, 1}, 0, 0.1839}}};
     EXPECT_EQ(
         proof_words(miss, ends),

@@ -23,7 +23,7 @@ struct ProvenQuery {
     ProvenQuery(Scene scene, const mobb::FitOptions& fit)
         : fitted(std::move(scene), fit),
           recorded(record(fitted, fitted.queries()[0])),
-          proof(certify(fitted, fitted.queries()[0], recorded)) {}
+          proof(certify(a(), b(), recorded)) {}
 
     mobb::PlacedTree a() const { return fitted.placed(fitted.queries()[0].a); }
     mobb::PlacedTree b() const { return fitted.placed(fitted.queries()[0].b); }
