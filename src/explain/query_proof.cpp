@@ -103,7 +103,7 @@ QueryProof proof_of(const FittedScene& fitted, const SceneQuery& query, const Re
     const mobb::PlacedTree a = fitted.placed(query.a), b = fitted.placed(query.b);
     QueryProof out;
     out.certificate = certify(a, b, recorded);
-    out.ends = traversal_ends(a, b, recorded.trace);
+    if (!recorded.trace.stopped()) out.ends = traversal_ends(a, b, recorded.trace);
     out.margins = margins_of(a.placed_clip(), b.placed_clip(), out.certificate);
     for (const Tile& tile : out.certificate.tiles)
         out.lines.push_back(proof_line_of(a.placed_clip(), b.placed_clip(), tile, clearance));

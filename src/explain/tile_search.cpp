@@ -117,9 +117,10 @@ class TileSearch {
             if (found) out = {count, found->direction, lines == Lines::fixed};
             return found.has_value();
         };
-        if (try_count(left)) return out;
+        // Mostly one line does for all. Where it does not, tiles are short against what is left.
+        if (first == 0 && try_count(left)) return out;
         if (out.count > 0) try_count(out.count);
-        std::size_t fails = left;
+        std::size_t fails = first == 0 ? left : left + 1;
         for (std::size_t step = 1; out.count + 1 < fails; step *= 2) {
             const std::size_t count = out.count + std::min(step, (fails - out.count) / 2);
             if (!try_count(count)) fails = count;
