@@ -11,12 +11,12 @@
 namespace mobbscope::app {
 namespace {
 
-struct Window {
+struct LongTraceWindow {
     testing::CrossingFolder folder;
     Session session{false};
     HeadlessWindow window{GlContext::open(Backend::automatic), session, {1280, 1100}, 1};
 
-    Window() {
+    LongTraceWindow() {
         session.files.open({folder.scene});
         session.workspace.change_view([](ViewState& view) { view.query = 0; });
         window.settle();
@@ -28,7 +28,7 @@ constexpr std::array kNotes{"query.stopped.steps", "query.stopped.counters", "qu
                             "timeline.stopped"};
 
 TEST(LongTrace, ThePictureAndThePanelsShareOneRecord) {
-    Window w;
+    LongTraceWindow w;
     const auto recorded = w.session.workspace.fitted().recorded(0);
     EXPECT_EQ(recorded.get(), w.session.workspace.recorded());
     EXPECT_EQ(recorded.use_count(), 3) << "the picture, the panels, and this";
@@ -39,7 +39,7 @@ TEST(LongTrace, ThePictureAndThePanelsShareOneRecord) {
 }
 
 TEST(LongTrace, EveryPanelSaysWhereRecordingStopped) {
-    Window w;
+    LongTraceWindow w;
     for (const char* note : kNotes) EXPECT_FALSE(w.has(note)) << note;
     const RecordedQuery whole = *w.session.workspace.recorded();
     const auto stopped = std::make_shared<const RecordedQuery>(
