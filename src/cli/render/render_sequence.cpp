@@ -41,7 +41,7 @@ Sequence turntable(const ViewState& view, int count) {
 
 Sequence steps(KeptPaths& kept, const ViewState& view) {
     static_cast<void>(drawn_agents(*kept.fitted(), view));  // throws if there is no such query
-    const int count = kept.recorded(view)->trace.size();
+    const int count = kept.recorded(view).trace.size();
     const auto at = [view](int i) {
         ViewState out = view;
         out.step = {Step::Unit::event, static_cast<double>(i)};
