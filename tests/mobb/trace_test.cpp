@@ -347,7 +347,9 @@ TEST(Trace, CountsAreKnownAfterAnyEvent) {
                               : step % 3 == 0 ? TestKind(BoxKind::obb2d)
                                               : TestKind::time;
         if (test == TestKind::samples) {
-            trace.push({.parent = step - 1, .test = test, .pairs = std::span(pairs).first(step % 4u)});
+            trace.push({.parent = step - 1,
+                        .test = test,
+                        .pairs = std::span(pairs).first(static_cast<std::size_t>(step % 4))});
             counts[test] += step % 4;
         } else {
             trace.push({.parent = step - 1, .test = test});
