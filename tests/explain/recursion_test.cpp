@@ -2,12 +2,12 @@
 #include <explain/recursion.h>
 #include <gtest/gtest.h>
 
-#include <set>
-#include <tuple>
-
 #include <cmath>
 #include <memory>
+#include <set>
+#include <tuple>
 #include <vector>
+
 #include "explain/random_query.h"
 
 namespace mobbscope {
