@@ -147,7 +147,7 @@ std::string view_text(const ViewState& view) {
 
 ViewState view_in(const std::string& text) {
     const std::string name = "fuzz.json";
-    const JsonValue value = parse_json(text, name);
+    const JsonText value = parse_json(text, name);
     return read_view(JsonPlace(value, name));
 }
 
@@ -227,7 +227,7 @@ void read_certificate_file(const std::string& bytes) {
 void read_case(const std::string& bytes) {
     const std::string name = "fuzz.case.json";
     const std::filesystem::path folder = kSeedFolder / "case";
-    const JsonValue value = parse_json(bytes, name);
+    const JsonText value = parse_json(bytes, name);
     const JsonPlace root(value, name);
     picture_tests::read_terms(root, folder);
     picture_tests::read_shot(root, folder);

@@ -14,7 +14,7 @@ namespace mobbscope {
 
 namespace {
 
-// A capture nests seven deep. Destroying a value recurses, so depth must be bounded.
+// A capture nests seven deep. Whoever goes through values recurses, so depth must be bounded.
 constexpr std::size_t kMaxDepth = 64;
 constexpr std::size_t kLongestComplaint = 160;
 constexpr std::size_t kLongestToken = 80;
@@ -71,43 +71,49 @@ class LineCounter {
     int line_ = 1;
 };
 
-/// The parser's callbacks: each returns false to stop. Containers that are open stand on a stack.
-class ValueBuilder : public nlohmann::json_sax<nlohmann::json> {
+}  // namespace
+
+/// The parser's callbacks: each returns false to stop. Containers that are open stand on a stack, and on
+/// another what they hold so far.
+class JsonTextBuilder : public nlohmann::json_sax<nlohmann::json> {
   public:
-    ValueBuilder(std::string_view text, const std::string& file, const char* const* last_read)
+    JsonTextBuilder(std::string_view text, const std::string& file, const char* const* last_read)
         : file_(file), last_read_(last_read), lines_(text) {}
 
-    JsonValue take() { return std::move(root_); }
+    JsonText take() { return std::move(out_); }
 
     bool null() override { return put(nullptr); }
     bool boolean(bool value) override { return put(value); }
     bool number_integer(number_integer_t value) override { return put(static_cast<double>(value)); }
     bool number_unsigned(number_unsigned_t value) override { return put(static_cast<double>(value)); }
     bool number_float(number_float_t value, const string_t&) override { return put(static_cast<double>(value)); }
-    bool string(string_t& value) override { return put(std::move(value)); }
+    bool string(string_t& value) override { return put(kept(value)); }
     bool binary(binary_t&) override { return false; }
-    bool start_array(std::size_t) override { return open(JsonValue::Array{}); }
-    bool end_array() override { return close(); }
-    bool start_object(std::size_t) override { return open(JsonValue::Object{}); }
+    bool start_array(std::size_t) override { return open(false); }
+    bool end_array() override {
+        return close<JsonValue>([](const JsonMember& held) { return held.value; });
+    }
+    bool start_object(std::size_t) override { return open(true); }
     bool key(string_t& value) override {
-        key_ = std::move(value);
+        key_ = kept(value);
         key_line_ = line();
         return true;
     }
     bool end_object() override {
-        refuse_duplicates(std::get<JsonValue::Object>(open_.back().value.data));
-        return close();
+        refuse_duplicates();
+        return close<JsonMember>([](const JsonMember& held) { return held; });
     }
     bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception& error) override {
         fail(plain(error));
     }
 
   private:
-    /// A container that is being filled, and the key it will have in its parent.
+    /// A container that is being filled.
     struct Open {
-        JsonValue value;
-        std::string key;
-        int key_line;
+        bool is_object;
+        const std::string* key;  ///< that it will have in its parent
+        int line;
+        std::size_t first;  ///< of what it holds
     };
 
     int line() { return lines_.line(*last_read_); }
@@ -128,59 +134,67 @@ class ValueBuilder : public nlohmann::json_sax<nlohmann::json> {
         return "this is not JSON: " + shortened(text, kLongestComplaint);
     }
 
-    template <class T>
-    bool put(T&& data) {
-        attach({std::forward<T>(data), line()}, std::move(key_), key_line_);
+    /// The string as the text keeps it.
+    const std::string* kept(string_t& string) { return &*out_.strings_.insert(std::move(string)).first; }
+
+    bool in_object() const { return !open_.empty() && open_.back().is_object; }
+
+    bool put(auto data) {
+        attach({data, in_object() ? key_line_ : line()}, key_);
         return true;
     }
 
-    bool open(auto container) {
+    bool open(bool is_object) {
         if (open_.size() == kMaxDepth)
             fail("values are nested more than " + std::to_string(kMaxDepth) + " deep; no scene is");
-        open_.push_back({{std::move(container), line()}, std::move(key_), key_line_});
+        open_.push_back({is_object, key_, in_object() ? key_line_ : line(), held_.size()});
         return true;
     }
 
-    bool close() {
-        Open done = std::move(open_.back());
+    /// What the last container holds becomes a list of its own.
+    template <class T>
+    bool close(T (*part)(const JsonMember&)) {
+        const Open done = open_.back();
         open_.pop_back();
-        attach(std::move(done.value), std::move(done.key), done.key_line);
+        const auto first = held_.begin() + static_cast<std::ptrdiff_t>(done.first);
+        const auto size = static_cast<std::size_t>(held_.end() - first);
+        T* list = std::pmr::polymorphic_allocator<T>(out_.lists_.get()).allocate(size);
+        for (std::size_t i = 0; i < size; ++i) std::construct_at(list + i, part(first[static_cast<std::ptrdiff_t>(i)]));
+        held_.erase(first, held_.end());
+        attach({JsonList<T>(list, size), done.line}, done.key);
         return true;
     }
 
-    void attach(JsonValue value, std::string key, int key_line) {
+    void attach(JsonValue value, const std::string* key) {
         if (open_.empty()) {
-            root_ = std::move(value);
-        } else if (auto* array = std::get_if<JsonValue::Array>(&open_.back().value.data)) {
-            array->push_back(std::move(value));
+            out_.root_ = value;
         } else {
-            std::get<JsonValue::Object>(open_.back().value.data)
-                .push_back({std::move(key), key_line, std::move(value)});
+            held_.push_back({key, value});
         }
     }
 
-    void refuse_duplicates(const JsonValue::Object& object) {
-        std::vector<const JsonMember*> sorted;
-        sorted.reserve(object.size());
-        for (const JsonMember& member : object) sorted.push_back(&member);
-        std::sort(sorted.begin(), sorted.end(), [](const JsonMember* a, const JsonMember* b) {
-            return a->key != b->key ? a->key < b->key : a->line < b->line;
+    void refuse_duplicates() {
+        sorted_.clear();
+        for (std::size_t i = open_.back().first; i < held_.size(); ++i) sorted_.push_back(&held_[i]);
+        // Those that stand behind others in the text stand behind them here too.
+        std::ranges::sort(sorted_, [](const JsonMember* a, const JsonMember* b) {
+            return a->name != b->name ? a->key() < b->key() : a < b;
         });
-        const auto twice = std::adjacent_find(
-            sorted.begin(), sorted.end(), [](const JsonMember* a, const JsonMember* b) { return a->key == b->key; });
-        if (twice == sorted.end()) return;
+        const auto twice = std::ranges::adjacent_find(sorted_, {}, &JsonMember::name);
+        if (twice == sorted_.end()) return;
         const JsonMember& second = **std::next(twice);
-        throw InputError(file_, "line " + std::to_string(second.line) + ", " + pointer() + pointer_token(second.key),
-                         "the key " + in_quotes(second.key) + " stands twice, first in line " +
-                             std::to_string((*twice)->line) + "; remove one");
+        throw InputError(file_,
+                         "line " + std::to_string(second.value.line) + ", " + pointer() + pointer_token(second.key()),
+                         "the key " + in_quotes(second.key()) + " stands twice, first in line " +
+                             std::to_string((*twice)->value.line) + "; remove one");
     }
 
     /// Of the container that is being filled.
     std::string pointer() const {
         std::string out;
         for (std::size_t i = 1; i < open_.size(); ++i) {
-            const auto* array = std::get_if<JsonValue::Array>(&open_[i - 1].value.data);
-            out += array ? "/" + std::to_string(array->size()) : pointer_token(open_[i].key);
+            const std::size_t index = open_[i].first - open_[i - 1].first;
+            out += open_[i - 1].is_object ? pointer_token(*open_[i].key) : "/" + std::to_string(index);
         }
         return out;
     }
@@ -189,12 +203,12 @@ class ValueBuilder : public nlohmann::json_sax<nlohmann::json> {
     const char* const* last_read_;
     LineCounter lines_;
     std::vector<Open> open_;
-    std::string key_;
+    std::vector<JsonMember> held_;  ///< of all that are open; of elements of arrays only the value counts
+    const std::string* key_ = nullptr;
     int key_line_ = 0;
-    JsonValue root_;
+    std::vector<const JsonMember*> sorted_;
+    JsonText out_;
 };
-
-}  // namespace
 
 std::string pointer_token(std::string_view key) {
     std::string out = "/";
@@ -202,7 +216,7 @@ std::string pointer_token(std::string_view key) {
     return out;
 }
 
-JsonValue parse_json(std::string_view text, const std::string& file) {
+JsonText parse_json(std::string_view text, const std::string& file) {
     if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
         throw InputError(file, "line 1", "is UTF-16 text; save it as UTF-8");
     }
@@ -213,7 +227,7 @@ JsonValue parse_json(std::string_view text, const std::string& file) {
                          "holds a NUL byte; this is no text file, or a damaged one");
     }
     const char* last_read = text.data();
-    ValueBuilder builder(text, file, &last_read);
+    JsonTextBuilder builder(text, file, &last_read);
     nlohmann::json::sax_parse(TrackedIterator(text.data(), &last_read),
                               TrackedIterator(text.data() + text.size(), &last_read), &builder);
     return builder.take();
@@ -225,7 +239,7 @@ std::string JsonPlace::pointer() const {
 }
 
 std::string JsonPlace::description() const {
-    const std::string at = "line " + std::to_string(line_);
+    const std::string at = "line " + std::to_string(line());
     return parent_ ? at + ", " + pointer() : at;
 }
 
@@ -238,7 +252,7 @@ void JsonPlace::fail_type(const char* expected) const {
 }
 
 double JsonPlace::number() const {
-    if (const double* number = std::get_if<double>(&value_->data)) return *number;
+    if (const double* number = value_->as<double>()) return *number;
     fail_type("a number");
 }
 
@@ -256,22 +270,22 @@ int JsonPlace::integer(int least, int most) const {
 }
 
 bool JsonPlace::boolean() const {
-    if (const bool* boolean = std::get_if<bool>(&value_->data)) return *boolean;
+    if (const bool* boolean = value_->as<bool>()) return *boolean;
     fail_type("true or false");
 }
 
 const std::string& JsonPlace::string() const {
-    if (const std::string* string = std::get_if<std::string>(&value_->data)) return *string;
+    if (const std::string* string = value_->as<std::string>()) return *string;
     fail_type("a string");
 }
 
 const JsonValue::Array& JsonPlace::array() const {
-    if (const auto* array = std::get_if<JsonValue::Array>(&value_->data)) return *array;
+    if (const auto* array = value_->as<JsonValue::Array>()) return *array;
     fail_type("an array");
 }
 
 const JsonValue::Object& JsonPlace::object() const {
-    if (const auto* object = std::get_if<JsonValue::Object>(&value_->data)) return *object;
+    if (const auto* object = value_->as<JsonValue::Object>()) return *object;
     fail_type("an object");
 }
 
@@ -289,7 +303,7 @@ JsonPlace JsonPlace::member(int index) const& { return {*this, object()[static_c
 
 std::optional<JsonPlace> JsonPlace::find(std::string_view key) const& {
     for (const JsonMember& member : object()) {
-        if (member.key == key) return JsonPlace(*this, member);
+        if (member.key() == key) return JsonPlace(*this, member);
     }
     return std::nullopt;
 }
@@ -301,11 +315,11 @@ JsonPlace JsonPlace::require(std::string_view key) const& {
 
 void JsonPlace::allow_only(std::span<const std::string_view> keys) const {
     for (const JsonMember& member : object()) {
-        if (std::find(keys.begin(), keys.end(), member.key) != keys.end()) continue;
+        if (std::find(keys.begin(), keys.end(), member.key()) != keys.end()) continue;
         const std::vector<std::string> names(keys.begin(), keys.end());
         JsonPlace(*this, member)
-            .fail("unknown key " + in_quotes(member.key) + "; the nearest known key is " +
-                  in_quotes(nearest(member.key, names)));
+            .fail("unknown key " + in_quotes(member.key()) + "; the nearest known key is " +
+                  in_quotes(nearest(member.key(), names)));
     }
 }
 

@@ -2,13 +2,18 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <limits>
+#include <memory>
+#include <memory_resource>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <unordered_set>
 #include <variant>
 #include <vector>
 
@@ -16,19 +21,62 @@ namespace mobbscope {
 
 struct JsonMember;
 
-/// One value. Numbers are doubles; objects keep the order of their members.
-struct JsonValue {
-    using Array = std::vector<JsonValue>;
-    using Object = std::vector<JsonMember>;
+/// Values or members that stand one behind the other in a JsonText.
+template <class T>
+class JsonList {
+  public:
+    JsonList() = default;
+    JsonList(const T* first, std::size_t size) : first_(first), size_(static_cast<std::uint32_t>(size)) {}
 
-    std::variant<std::nullptr_t, bool, double, std::string, Array, Object> data;
-    int line = 0;  ///< where it begins, from 1
+    const T* begin() const { return first_; }
+    const T* end() const { return first_ + size_; }
+    std::size_t size() const { return size_; }
+    bool empty() const { return size_ == 0; }
+    const T& operator[](std::size_t index) const { return first_[index]; }
+
+  private:
+    const T* first_ = nullptr;
+    std::uint32_t size_ = 0;  // files have at most 2 GiB
+};
+
+/// One value; what it refers to is the JsonText's. Numbers are doubles; objects keep the order of their members.
+struct JsonValue {
+    using Array = JsonList<JsonValue>;
+    using Object = JsonList<JsonMember>;
+
+    std::variant<std::nullptr_t, bool, double, const std::string*, Array, Object> data;
+    int line = 0;  ///< where it begins, of a member where its key does; from 1
+
+    /// Null if it is of another type; Held is one of the above, or std::string.
+    template <class Held>
+    const Held* as() const {
+        if constexpr (std::is_same_v<Held, std::string>) {
+            const auto* text = std::get_if<const std::string*>(&data);
+            return text ? *text : nullptr;
+        } else {
+            return std::get_if<Held>(&data);
+        }
+    }
 };
 
 struct JsonMember {
-    std::string key;
-    int line = 0;  ///< of the key
+    const std::string* name = nullptr;
     JsonValue value;
+
+    const std::string& key() const { return *name; }
+};
+
+/// A parsed text: the values, packed for files with millions of them, and each different string once.
+class JsonText {
+  public:
+    const JsonValue& root() const { return root_; }
+
+  private:
+    friend class JsonTextBuilder;
+    std::unique_ptr<std::pmr::monotonic_buffer_resource> lists_ =
+        std::make_unique<std::pmr::monotonic_buffer_resource>();
+    std::unordered_set<std::string> strings_;
+    JsonValue root_;
 };
 
 /// "/key" as it stands in a JSON pointer (RFC 6901); a long key is shortened.
@@ -36,17 +84,17 @@ std::string pointer_token(std::string_view key);
 
 /// Parses UTF-8 JSON (RFC 8259). `file` stands for the text in messages. Throws InputError with line and column where
 /// the syntax is wrong, a key stands twice in an object, a number is beyond double, or values are nested absurdly deep.
-JsonValue parse_json(std::string_view text, const std::string& file);
+JsonText parse_json(std::string_view text, const std::string& file);
 
 /// The most that JsonPlace::integer can give.
 inline constexpr int kMaxInt = std::numeric_limits<int>::max();
 
-/// Refers to the value, to the file's name and to the place it was reached from; all must outlive it.
+/// Refers to the text, to the file's name and to the place it was reached from; all must outlive it.
 class JsonPlace {
   public:
-    JsonPlace(const JsonValue& root, const std::string& file) : value_(&root), file_(&file), line_(root.line) {}
+    JsonPlace(const JsonText& text, const std::string& file) : value_(&text.root()), file_(&file) {}
 
-    int line() const { return line_; }
+    int line() const { return value_->line; }
     /// RFC 6901; "" for the whole text.
     std::string pointer() const;
     /// "line 12, /agents/0/clip".
@@ -63,11 +111,11 @@ class JsonPlace {
         }
     }
 
-    bool is_null() const { return std::holds_alternative<std::nullptr_t>(value_->data); }
-    bool is_string() const { return std::holds_alternative<std::string>(value_->data); }
-    bool is_object() const { return std::holds_alternative<JsonValue::Object>(value_->data); }
-    bool is_array() const { return std::holds_alternative<JsonValue::Array>(value_->data); }
-    bool is_number() const { return std::holds_alternative<double>(value_->data); }
+    bool is_null() const { return value_->as<std::nullptr_t>() != nullptr; }
+    bool is_string() const { return value_->as<std::string>() != nullptr; }
+    bool is_object() const { return value_->as<JsonValue::Object>() != nullptr; }
+    bool is_array() const { return value_->as<JsonValue::Array>() != nullptr; }
+    bool is_number() const { return value_->as<double>() != nullptr; }
 
     // Each throws InputError if the value is of another type or out of range.
     double number() const;
@@ -117,9 +165,9 @@ class JsonPlace {
 
   private:
     JsonPlace(const JsonPlace& parent, const JsonMember& member)
-        : value_(&member.value), file_(parent.file_), parent_(&parent), key_(&member.key), line_(member.line) {}
+        : value_(&member.value), file_(parent.file_), parent_(&parent), key_(member.name) {}
     JsonPlace(const JsonPlace& parent, const JsonValue& element, int index)
-        : value_(&element), file_(parent.file_), parent_(&parent), index_(index), line_(element.line) {}
+        : value_(&element), file_(parent.file_), parent_(&parent), index_(index) {}
 
     const JsonValue::Array& array() const;
     const JsonValue::Object& object() const;
@@ -130,7 +178,6 @@ class JsonPlace {
     const JsonPlace* parent_ = nullptr;
     const std::string* key_ = nullptr;  ///< in the parent, if that is an object
     int index_ = 0;                     ///< in the parent, if that is an array
-    int line_;
 };
 
 }  // namespace mobbscope

@@ -136,7 +136,7 @@ CaseTerms read_terms(const JsonPlace& root, const std::filesystem::path& folder)
 
 CaseTerms read_terms(const CaseFile& file) {
     const std::string name = file.file.string();
-    const JsonValue value = parse_json(read_file(file.file), name);
+    const JsonText value = parse_json(read_file(file.file), name);
     return read_terms(JsonPlace(value, name), file.file.parent_path());
 }
 

@@ -65,7 +65,7 @@ CaseReport read_case_report(const std::filesystem::path& report, const std::vect
         throw InputError(
             name, "", "there is no report; give the folder that mobbscope test --output left, or the page of --html");
     }
-    const JsonValue value = parse_json(report_in(read_file(out.file), name), name);
+    const JsonText value = parse_json(report_in(read_file(out.file), name), name);
     const JsonPlace root(value, name);
     const JsonPlace version = root.require("mobbscope_report");
     if (version.number() != kReportVersion) {

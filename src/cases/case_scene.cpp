@@ -30,7 +30,7 @@ CaseScene read_case_scene(const JsonPlace& place, const std::filesystem::path& f
 
 Scene scene_of(const CaseFile& file) {
     const std::string name = file.file.string();
-    const JsonValue value = parse_json(read_file(file.file), name);
+    const JsonText value = parse_json(read_file(file.file), name);
     const JsonPlace root(value, name);
     CaseScene read = read_case_scene(root, file.file.parent_path());
     if (const auto panels = root.find("panels"); panels && panels->size() > 0) {

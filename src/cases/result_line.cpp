@@ -212,7 +212,7 @@ void write_result_line(std::ostream& out, const CaseResult& result) {
 
 CaseResult read_result_line(std::string_view line, const std::vector<CaseFile>& cases) {
     const std::string name = "a result";
-    const JsonValue value = parse_json(line, name);
+    const JsonText value = parse_json(line, name);
     return read_result(JsonPlace(value, name), cases);
 }
 
@@ -229,7 +229,7 @@ std::string request_line(const CaseRequest& request) {
 
 CaseRequest read_request_line(std::string_view line) {
     const std::string name = "a request";
-    const JsonValue value = parse_json(line, name);
+    const JsonText value = parse_json(line, name);
     const JsonPlace root(value, name);
     CaseRequest out{root.require("name").string()};
     out.options.source = named<GoldenSource>(root.require("source"), kGoldenSources);

@@ -6,6 +6,7 @@
 #include <cli/program.h>
 #include <explain/avoidable.h>
 #include <explain/certificate_file.h>
+#include <explain/event_values.h>
 #include <explain/proof_words.h>
 #include <explain/query_sentence.h>
 #include <scene/answer.h>
@@ -28,6 +29,7 @@ struct QueryCommandArguments : FittedArguments {
     Details details;
     bool proof = false;                 ///< in words
     std::filesystem::path certificate;  ///< to be written; empty: none
+    std::optional<std::string> where;   ///< filter of the trace's events
 };
 
 void print_event(std::ostream& out, int step, const SceneQuery& query, const mobb::Trace::Event& event,
@@ -95,10 +97,25 @@ void print_answer(std::ostream& out, std::size_t index, const SceneQuery& query,
         out << ".\n";
     }
     if (answer.trace) {
-        out << "   Trace (node of " << cleaned(query.a.name) << " x node of " << cleaned(query.b.name) << "):\n";
-        for (int step = 0; step < answer.trace->size(); ++step)
-            print_event(out, step, query, (*answer.trace)[step], avoidable.at(step));
+        out << "   Trace (node of " << cleaned(query.a.name) << " x node of " << cleaned(query.b.name) << ")";
+        const auto print = [&](int step) { print_event(out, step, query, (*answer.trace)[step], avoidable.at(step)); };
+        if (!answer.steps) {
+            out << ":\n";
+            for (int step = 0; step < answer.trace->size(); ++step) print(step);
+        } else {
+            out << ", " << answer.steps->size() << " of " << counted(answer.trace->size(), "event", "events") << ":\n";
+            for (const int step : *answer.steps) print(step);
+        }
+        if (answer.trace->stopped()) out << "   Here " << recording_words(*answer.trace) << ".\n";
     }
+}
+
+std::vector<int> steps_to_tell(const FittedScene& fitted, const SceneQuery& query, const mobb::Trace& trace,
+                               const EventFilter& filter) {
+    const mobb::PlacedTree a = fitted.placed(query.a);
+    const mobb::PlacedTree b = fitted.placed(query.b);
+    const Recursion recursion = recursion_of(trace, a, b, 0);
+    return steps_that_pass(EventValues(trace, recursion, a, b), filter);
 }
 
 /// An answer, and which of its overlaps were avoidable: of trees, with a trace.
@@ -139,7 +156,8 @@ void write_blame(JsonWriter& json, const FittedScene& fitted, const BlameInScene
 
 /// Answers every query in order and writes their proofs, if that is asked for; returns the sentences of those that
 /// disagree with what the file expects.
-std::vector<std::string> answer_all(const FittedScene& fitted, const QueryCommandArguments& arguments) {
+std::vector<std::string> answer_all(const FittedScene& fitted, const QueryCommandArguments& arguments,
+                                    const std::optional<EventFilter>& where) {
     std::vector<std::string> complaints;
     BlameInScene blame(fitted);
     JsonWriter json(std::cout);
@@ -151,7 +169,8 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
     for (std::size_t index = 0; index < fitted.queries().size(); ++index) {
         const SceneQuery query = fitted.queries()[index];
         AvoidableOverlaps avoidable;
-        const Answer found = judged_answer(fitted, query, arguments, avoidable, blame);
+        Answer found = judged_answer(fitted, query, arguments, avoidable, blame);
+        if (where) found.steps = steps_to_tell(fitted, query, *found.trace, *where);
         std::optional<Proven> proven;
         if (arguments.proof || !arguments.certificate.empty()) proven = prove(fitted, query);
         if (arguments.json) {
@@ -174,12 +193,27 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
     return complaints;
 }
 
+/// Says what is wrong in one line, behind the text with a caret.
+EventFilter parse_filter(const std::string& text) {
+    try {
+        return EventFilter(text);
+    } catch (const FilterError& error) {
+        std::cerr << with_caret(text, error) << '\n';
+        throw UsageError(std::string("--where: ") + error.what());
+    }
+}
+
 int run_query(QueryCommandArguments& arguments) {
+    std::optional<EventFilter> where;
+    if (arguments.where) where = parse_filter(*arguments.where);
     const FittedScene scene = fitted(load(arguments.file, arguments.import_options), arguments.fit);
     check_asks(scene, arguments.file);
     if (!arguments.certificate.empty()) check_output(arguments.certificate);
+    if (where && arguments.fit.brute)
+        throw UsageError("--where filters the tests of trees, and brute makes none; choose another --tree");
+    arguments.details.trace |= where.has_value();
     arguments.details.search = arguments.fit.brute ? Search::direct : Search::trees;
-    const std::vector<std::string> complaints = answer_all(scene, arguments);
+    const std::vector<std::string> complaints = answer_all(scene, arguments, where);
     for (const std::string& complaint : complaints) complain(shown_name(arguments.file) + ": " + complaint);
     return complaints.empty() ? kDone : kFailed;
 }
@@ -189,6 +223,8 @@ void add_query_options(Command& command, QueryCommandArguments& arguments) {
     command.add_flag("--trace", arguments.details.trace, "Every test that was made");
     command.add_flag("--proof", arguments.proof, "Also say how few lines prove an answer, and how far it may be pushed")
         .excludes(json);
+    command.add_option("--where", arguments.where,
+                       "Only the tests that pass a filter, such as 'gap < 0.05 and level(a) >= 3'", "EXPR");
     add_parsed(command, "--certificate", arguments.certificate, parse_file_name,
                "Also write proofs of the answers, which mobbscope verify checks", "OUT.json");
     command.add_flag("--all-contacts", arguments.details.all_contacts, "All intervals of contact, not only the first");

@@ -304,7 +304,7 @@ void check_goldens(const std::vector<CaseFile>& cases) {
     for (const CaseFile& file : cases) {
         std::optional<std::filesystem::path> mask;
         std::optional<PictureSize> golden;
-        std::optional<JsonValue> state;
+        std::optional<JsonText> state;
         const std::string state_file = file.plain_state().string();
         try {
             const picture_tests::CaseTerms terms = picture_tests::read_terms(file);

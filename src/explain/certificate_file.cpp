@@ -106,7 +106,7 @@ std::string certificate_text(const FittedScene& fitted, const std::vector<QueryC
 
 std::vector<QueryCertificate> read_certificates(std::string_view text, const std::string& file,
                                                 const FittedScene& fitted) {
-    const JsonValue value = parse_json(text, file);
+    const JsonText value = parse_json(text, file);
     const JsonPlace place(value, file);
     const auto version = place.is_object() ? place.find("mobbscope_certificate") : std::nullopt;
     if (!version) throw InputError(file, "is no certificate: mobbscope query --certificate writes one");

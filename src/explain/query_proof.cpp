@@ -56,11 +56,13 @@ mobb::Interval neighbourhood(mobb::Interval a, mobb::Interval b) {
 /// When the two are nearest within a tile.
 double nearest_time(const Clearance& clearance, const Tile& tile) {
     double least = std::numeric_limits<double>::infinity(), at = 0.5 * (tile.t0 + tile.t1);
-    for (const ClearancePiece& piece : clearance.pieces) {
-        const double from = std::max(piece.t0, tile.t0), to = std::min(piece.t1, tile.t1);
+    const auto& pieces = clearance.pieces;
+    auto piece = std::ranges::partition_point(pieces, [&](const ClearancePiece& p) { return p.t1 <= tile.t0; });
+    for (; piece != pieces.end() && piece->t0 < tile.t1; ++piece) {
+        const double from = std::max(piece->t0, tile.t0), to = std::min(piece->t1, tile.t1);
         if (from >= to) continue;
-        const double time = std::clamp(piece.least_at, from, to);
-        const double here = clearance_at(piece, time);
+        const double time = std::clamp(piece->least_at, from, to);
+        const double here = clearance_at(*piece, time);
         if (here >= least) continue;
         least = here;
         at = time;
@@ -103,7 +105,7 @@ QueryProof proof_of(const FittedScene& fitted, const SceneQuery& query, const Re
     const mobb::PlacedTree a = fitted.placed(query.a), b = fitted.placed(query.b);
     QueryProof out;
     out.certificate = certify(a, b, recorded);
-    out.ends = traversal_ends(a, b, recorded.trace);
+    if (!recorded.trace.stopped()) out.ends = traversal_ends(a, b, recorded.trace);
     out.margins = margins_of(a.placed_clip(), b.placed_clip(), out.certificate);
     for (const Tile& tile : out.certificate.tiles)
         out.lines.push_back(proof_line_of(a.placed_clip(), b.placed_clip(), tile, clearance));

@@ -36,7 +36,7 @@ struct QueryProof {
     std::optional<Margins> margins;       ///< none of a hit, and where they share no time
     std::vector<ProofLine> lines;         ///< the certificate's tiles
     std::optional<std::size_t> tightest;  ///< the line with the least gap; none without lines
-    std::vector<TraversalEnd> ends;       ///< the proof that the trees found
+    std::vector<TraversalEnd> ends;       ///< the proof that the trees found; none where recording stopped before
 
     /// The line that holds at a time.
     std::optional<std::size_t> at(double time) const;

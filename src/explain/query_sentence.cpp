@@ -129,6 +129,11 @@ std::string step_of(int step, const mobb::Trace& trace) {
     return "step " + std::to_string(step) + " of 0.." + std::to_string(trace.size() - 1);
 }
 
+std::string recording_words(const mobb::Trace& trace) {
+    if (!trace.stopped()) return "";
+    return "recording stopped at event " + std::to_string(trace.size()) + " of " + std::to_string(trace.events());
+}
+
 std::string step_sentence(std::span<const DrawnAgent> sides, const mobb::Trace& trace, int step) {
     const mobb::Trace::Event event = trace[step];
     return step_of(step, trace) + ": " + node_name(sides[0], event.a) + " against " + node_name(sides[1], event.b) +

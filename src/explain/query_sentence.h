@@ -31,6 +31,9 @@ std::string blame_words(const BlameInScene& blame, std::size_t queries);
 /// "step 14 of 0..61": where a step stands in a trace, in the same words everywhere.
 std::string step_of(int step, const mobb::Trace& trace);
 
+/// "recording stopped at event 2000000 of 5321004"; empty where all of a query was recorded.
+std::string recording_words(const mobb::Trace& trace);
+
 inline constexpr std::size_t kShortName = 10, kShortestName = 5;  // characters
 
 /// The two with names of at most so many (>= 5) characters, or as many more as tell them apart.

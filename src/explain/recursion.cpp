@@ -7,10 +7,7 @@ namespace mobbscope {
 Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, const mobb::PlacedTree& b,
                        std::int64_t most_visits, const Progress& progress) {
     Recursion out;
-    const auto size = static_cast<std::size_t>(trace.size());
-    out.pair_of.resize(size);
-    out.so_far.resize(size);
-    mobb::TestCounts tests;
+    out.pair_of.resize(static_cast<std::size_t>(trace.size()));
     for (int step = 0; step < trace.size(); ++step) {
         const mobb::Trace::Event event = trace[step];
         const int parent = event.parent < 0 ? -1 : out.pair_of[static_cast<std::size_t>(event.parent)];
@@ -35,10 +32,8 @@ Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, cons
         pair.outcome = event.outcome;
         pair.hit = event.outcome == mobb::Outcome::hit;
         out.pair_of[static_cast<std::size_t>(step)] = static_cast<int>(out.pairs.size()) - 1;
-        const bool pairs = event.test == mobb::TestKind::samples;
-        tests[event.test] += pairs ? static_cast<std::int64_t>(event.pairs.size()) : 1;
-        out.so_far[static_cast<std::size_t>(step)] = tests;
     }
+    out.pairs.shrink_to_fit();
     for (std::size_t i = out.pairs.size(); i-- > 0;) {
         const RecursionPair& pair = out.pairs[i];
         if (pair.parent < 0) continue;

@@ -6,7 +6,7 @@
 #include <mobb/query.h>
 #include <mobb/trace.h>
 
-#include <cstdint>
+#include <cstddef>
 #include <vector>
 
 namespace mobbscope {
@@ -30,14 +30,18 @@ struct RecursionPair {
 };
 
 struct Recursion {
-    std::vector<RecursionPair> pairs;      ///< in the order of their first tests: parents before children
-    std::vector<int> pair_of;              ///< by event: index of its pair
-    std::vector<mobb::TestCounts> so_far;  ///< by event: what had been counted after it
+    std::vector<RecursionPair> pairs;  ///< in the order of their first tests: parents before children
+    std::vector<int> pair_of;          ///< by event: index of its pair
     AvoidableOverlaps avoidable;
     int depth = 0;  ///< number of levels; 0 for an empty trace
 
-    /// The whole query's; zero for an empty trace.
-    mobb::TestCounts total() const { return so_far.empty() ? mobb::TestCounts{} : so_far.back(); }
+    const RecursionPair& pair_at(int event) const {
+        return pairs[static_cast<std::size_t>(pair_of[static_cast<std::size_t>(event)])];
+    }
+    std::size_t bytes() const {
+        return pairs.capacity() * sizeof(pairs[0]) + pair_of.capacity() * sizeof(int) +
+               avoidable.events.capacity() * sizeof(int) + avoidable.found.capacity() * sizeof(AvoidableOverlap);
+    }
 };
 
 /// `trace` must be that of a query of these two. Takes time linear in the trace, and what judging overlaps takes

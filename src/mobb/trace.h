@@ -30,7 +30,7 @@ struct MeasuredPair {
     double distance = 0;  ///< metres between the centres
 };
 
-/// Events as a struct of arrays, with one pool for the measured pairs of all of them.
+/// Events as a struct of arrays, with one pool for the measured pairs of all of them: 31 bytes an event, 16 a pair.
 class Trace {
   public:
     struct Event {
@@ -52,22 +52,44 @@ class Trace {
     Event operator[](int step) const&& = delete;
     /// The event's `pairs` are copied into the pool. A parent must be an earlier event or -1.
     void push(const Event& event);
-    /// What the statistics observer would have counted over the same query.
-    TestCounts counts() const;
+    /// What the statistics observer would have counted over the first `events`; it takes the same time for any number.
+    TestCounts counts(int events) const;
+    TestCounts counts() const { return counts(size()); }
+    std::size_t pairs() const { return pool_.size(); }  ///< of all events
+
+    /// How many events there were: more than size() if recording stopped before the end.
+    std::int64_t events() const { return size() + left_out_; }
+    bool stopped() const { return left_out_ > 0; }
+    void leave_out() { ++left_out_; }  ///< a further event that is not recorded
+
+    /// Gives back memory that further events would have taken.
+    void shrink_to_fit();
+    std::size_t bytes() const;
 
   private:
-    std::vector<int> parent_, depth_, a_, b_, axis_;
+    std::vector<int> parent_, depth_, a_, b_;
+    std::vector<std::int8_t> axis_;
     std::vector<TestKind> test_;
     std::vector<Outcome> outcome_;
     std::vector<double> gap_;
-    std::vector<std::size_t> pairs_end_;  ///< end of event i's pairs in the pool; they begin where those of i-1 end
+    std::vector<std::uint32_t> pairs_end_;  ///< end of event i's pairs in the pool; they begin where those of i-1 end
     std::vector<MeasuredPair> pool_;
+    std::vector<TestCounts> counted_;  ///< after each kCountedEvents
+    std::int64_t left_out_ = 0;
 };
 
-/// Records a trace while it watches a traversal.
+/// Where recording stops. A window takes up to 200 bytes an event (docs/performance.md), so these are half a gigabyte.
+struct TraceBound {
+    int events = 2'000'000;
+    std::size_t pairs = 8'000'000;  ///< measured, of all events
+};
+
+/// Records a trace while it watches a traversal. Beyond its bound events are only counted.
 class TraceRecorder {
   public:
     static constexpr bool watches = true;
+
+    explicit TraceRecorder(const TraceBound& bound = {}) : bound_(bound) {}
 
     void enter(int a, int b);
     void leave() { open_.pop_back(); }
@@ -77,8 +99,10 @@ class TraceRecorder {
     void sample_test(bool hit);
 
     const Trace& trace() const { return trace_; }
+    /// Of the whole query.
+    const TestCounts& tests() const { return statistics_.tests; }
     /// Hands the trace over and starts a new one; without it, a second query is recorded behind the first.
-    Trace take() { return std::exchange(trace_, {}); }
+    Trace take();
 
   private:
     struct OpenPair {
@@ -86,7 +110,9 @@ class TraceRecorder {
     };
     void push(TestKind test, Outcome outcome, const Separation& separation = {});
 
+    TraceBound bound_;
     Trace trace_;
+    Statistics statistics_;
     std::vector<OpenPair> open_;
     std::vector<MeasuredPair> pairs_;
 };

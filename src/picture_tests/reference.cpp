@@ -61,7 +61,7 @@ std::optional<Reference> read_reference(const std::filesystem::path& folder) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) return std::nullopt;
     const std::string name = file.string();
-    const JsonValue value = parse_json(read_file(file), name);
+    const JsonText value = parse_json(read_file(file), name);
     const JsonPlace root(value, name);
     root.allow_only({"mobbscope_reference", "fonts", "imgui", "opengl"});
     const JsonPlace version = root.require("mobbscope_reference");

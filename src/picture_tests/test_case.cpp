@@ -7,7 +7,7 @@ namespace mobbscope::picture_tests {
 
 Case read_case(const std::filesystem::path& file) {
     const std::string name = file.string();
-    const JsonValue value = parse_json(read_file(file), name);
+    const JsonText value = parse_json(read_file(file), name);
     const JsonPlace root(value, name);
     root.allow_only({"$schema",    "mobbscope_case", "tolerance", "threshold", "allowed",    "mask",   "draw_list",
                      "time_limit", "skip",           "scene",     "fit",       "view",       "panels", "columns",

@@ -64,8 +64,11 @@ void write_answer(JsonWriter& out, std::size_t index, const SceneQuery& query, c
                  [&](const mobb::Interval& interval) { out.tuple(interval.t0, interval.t1); });
     }
     if (answer.trace) {
+        if (answer.trace->stopped()) out.members("recorded", answer.trace->size(), "events", answer.trace->events());
         out.key("trace");
-        write_trace(out, *answer.trace, answer.avoidable.value_or(std::vector<int>()));
+        const std::vector<int> avoidable = answer.avoidable.value_or(std::vector<int>());
+        answer.steps ? write_events(out, *answer.trace, *answer.steps, avoidable)
+                     : write_trace(out, *answer.trace, avoidable);
     }
     out.end_object();
 }

@@ -72,6 +72,7 @@ FittedScene FittedScene::with_fit(std::string name, const mobb::FitOptions& opti
 FittedScene FittedScene::using_fit(std::size_t index) const {
     FittedScene out = *this;
     out.in_use_ = index;
+    out.last_ = std::make_shared<Last>();
     return out;
 }
 
@@ -86,6 +87,16 @@ FittedScene FittedScene::without_unused_fits() const {
 const std::vector<GridCell>& FittedScene::grid() const {
     std::call_once(grid_->made, [this] { grid_->cells = grid_of(*scene_, *placed_agents_); });
     return grid_->cells;
+}
+
+std::shared_ptr<const RecordedQuery> FittedScene::recorded(std::size_t query) const {
+    const std::lock_guard lock(last_->mutex);
+    std::shared_ptr<const RecordedQuery> out = last_->recorded.lock();
+    if (out && last_->query == query) return out;
+    out = std::make_shared<const RecordedQuery>(record(*this, queries()[query]));
+    last_->query = query;
+    last_->recorded = out;
+    return out;
 }
 
 std::size_t FittedScene::bytes_beyond(std::span<const std::shared_ptr<const NamedFit>> others) const {
@@ -103,12 +114,12 @@ std::size_t FittedScene::bytes_beyond(std::span<const std::shared_ptr<const Name
     return bytes;
 }
 
-RecordedQuery record(const FittedScene& fitted, const SceneQuery& query, Search search) {
-    mobb::TraceRecorder recorder;
+RecordedQuery record(const FittedScene& fitted, const SceneQuery& query, Search search, const mobb::TraceBound& bound) {
+    mobb::TraceRecorder recorder(bound);
     RecordedQuery out;
     out.contact = ask(fitted, query, search, recorder);
+    out.tests = recorder.tests();
     out.trace = recorder.take();
-    out.tests = out.trace.counts();
     return out;
 }
 

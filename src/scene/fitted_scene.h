@@ -35,6 +35,8 @@ struct NamedFit {
     std::vector<std::shared_ptr<const mobb::Tree>> trees;  ///< by clip
 };
 
+struct RecordedQuery;
+
 /// A scene with any number of fits, of which one is in use: pictures, queries and figures are of its trees. Immutable
 /// once made; refers to nothing outside itself. Cheap to copy: copies share scene and trees.
 class FittedScene {
@@ -76,6 +78,10 @@ class FittedScene {
     /// The cells of what is drawn, in its order; made when asked for. From any thread.
     const std::vector<GridCell>& grid() const;
 
+    /// The record of a query by its index. What somebody still holds of the last such call is given again. From any
+    /// thread.
+    std::shared_ptr<const RecordedQuery> recorded(std::size_t query) const;
+
     mobb::PlacedTree placed(const PlacedAgent& who) const { return {tree(who.clip), who.placement}; }
 
     /// Memory for the clips and trees of these fits that `others` do not share.
@@ -89,6 +95,12 @@ class FittedScene {
         std::vector<GridCell> cells;
     };
     std::shared_ptr<Grid> grid_ = std::make_shared<Grid>();
+    struct Last {
+        std::mutex mutex;
+        std::size_t query = 0;
+        std::weak_ptr<const RecordedQuery> recorded;
+    };
+    std::shared_ptr<Last> last_ = std::make_shared<Last>();  ///< of the fit in use
     std::vector<std::shared_ptr<const NamedFit>> fits_;
     std::size_t in_use_ = 0;
 };
@@ -100,7 +112,7 @@ enum class Search { trees, direct };
 struct RecordedQuery {
     std::optional<mobb::Contact> contact;
     mobb::TestCounts tests;
-    mobb::Trace trace;
+    mobb::Trace trace;  ///< may have stopped before the end; the answer has not
 };
 
 /// Runs a query of the scene under an observer (mobb/observer.h).
@@ -114,6 +126,7 @@ std::optional<mobb::Contact> ask(const FittedScene& fitted, const SceneQuery& qu
 }
 
 /// Runs a query of the scene with the recorder.
-RecordedQuery record(const FittedScene& fitted, const SceneQuery& query, Search search = Search::trees);
+RecordedQuery record(const FittedScene& fitted, const SceneQuery& query, Search search = Search::trees,
+                     const mobb::TraceBound& bound = {});
 
 }  // namespace mobbscope

@@ -8,6 +8,7 @@
 #include <mobb/trace.h>
 #include <mobb/tree.h>
 #include <scene/clip_turn.h>
+#include <scene/debug_state.h>
 #include <scene/view_state.h>
 
 #include <cstddef>
@@ -89,6 +90,7 @@ struct Scene {
     mobb::FitOptions fit;
     std::vector<SceneQuery> queries;  ///< as in the file; see query_at
     ViewState view;
+    DebugState debug{};
     std::shared_ptr<const MotionGraph> graph{};  ///< that joins the clips; null: none
     std::shared_ptr<const CrowdRun> crowd{};     ///< that plays the graph's moves; null: none
 };

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <functional>
+#include <map>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -29,38 +32,79 @@ void change_sides(Scene& scene, int agent, const Change& change) {
     }
 }
 
-/// Keeps the query in the view while agents change: where all pairs of agents are queries, their indices change too. It
-/// is made before the change; `restore` then shows the same pair again, or no query if one of the two is gone.
-class PairInView {
+/// Gives the queries that the view and bookmarks name other indices; what names one that is gone goes too.
+void renumber_queries(Scene& scene, const std::function<std::optional<int>(int)>& now) {
+    if (scene.view.query) scene.view.query = now(*scene.view.query);
+    std::vector<Bookmark> stay;
+    for (Bookmark& bookmark : scene.debug.bookmarks) {
+        const std::optional<int> query = now(bookmark.query);
+        if (!query) continue;
+        bookmark.query = *query;
+        stay.push_back(std::move(bookmark));
+    }
+    scene.debug.bookmarks = std::move(stay);
+}
+
+/// Keeps what names queries while agents change: where all pairs of agents are queries, their indices change too. It is
+/// made before the change, `renumber` then gives the same pairs their new indices.
+class ImpliedQueries {
   public:
-    explicit PairInView(const Scene& scene) {
-        const std::optional<int> query = scene.view.query;
-        if (!query || !scene.queries.empty() || static_cast<std::size_t>(*query) >= query_count(scene)) return;
-        const SceneQuery shown = query_at(scene, static_cast<std::size_t>(*query));
-        a_ = shown.a.agent;
-        b_ = shown.b.agent;
-        any_ = true;
+    explicit ImpliedQueries(const Scene& scene) : implied_(scene.queries.empty()) {
+        if (!implied_) return;
+        const auto keep = [&](int query) {
+            if (static_cast<std::size_t>(query) >= query_count(scene)) return;
+            const SceneQuery asked = query_at(scene, static_cast<std::size_t>(query));
+            pairs_[query] = Pair{asked.a.agent, asked.b.agent};
+        };
+        if (scene.view.query) keep(*scene.view.query);
+        for (const Bookmark& bookmark : scene.debug.bookmarks) keep(bookmark.query);
     }
 
     void agent_removed(int agent) {
-        gone_ = gone_ || a_ == agent || b_ == agent;
-        a_ -= a_ > agent ? 1 : 0;
-        b_ -= b_ > agent ? 1 : 0;
+        std::erase_if(pairs_, [&](const auto& each) { return each.second.a == agent || each.second.b == agent; });
+        for (auto& [query, pair] : pairs_) {
+            pair.a -= pair.a > agent ? 1 : 0;
+            pair.b -= pair.b > agent ? 1 : 0;
+        }
     }
 
-    void restore(Scene& scene) const {
-        if (!any_) return;
-        scene.view.query.reset();
-        if (gone_) return;
-        scene.view.query =
-            static_cast<int>(query_of_pair(scene, static_cast<std::size_t>(a_), static_cast<std::size_t>(b_)));
+    void renumber(Scene& scene) const {
+        if (!implied_) return;
+        renumber_queries(scene, [&](int query) -> std::optional<int> {
+            const auto pair = pairs_.find(query);
+            if (pair == pairs_.end()) return std::nullopt;
+            return static_cast<int>(query_of_pair(scene, static_cast<std::size_t>(pair->second.a),
+                                                  static_cast<std::size_t>(pair->second.b)));
+        });
     }
 
   private:
-    bool any_ = false;
-    int a_ = -1, b_ = -1;  ///< the agents of the query in the view
-    bool gone_ = false;
+    struct Pair {
+        int a = -1, b = -1;  ///< agents
+    };
+    bool implied_;
+    std::map<int, Pair> pairs_;  ///< by the index of the query before the change
 };
+
+/// Behind what the scene has. Bookmarks of pairs that are not asked one by one name no query that is kept.
+void merge_debug_state(Scene& scene, DebugState other, int first_query) {
+    DebugState& debug = scene.debug;
+    UnusedNames names(debug.filters);
+    for (NamedFilter& filter : other.filters) {
+        if (std::ranges::find(debug.filters, filter.where, &NamedFilter::where) != debug.filters.end()) continue;
+        filter.name = names.take(filter.name);
+        debug.filters.push_back(std::move(filter));
+    }
+    for (Breakpoint& breakpoint : other.breakpoints) {
+        if (std::ranges::find(debug.breakpoints, breakpoint.where, &Breakpoint::where) == debug.breakpoints.end())
+            debug.breakpoints.push_back(std::move(breakpoint));
+    }
+    if (scene.queries.empty()) return;
+    for (Bookmark& bookmark : other.bookmarks) {
+        bookmark.query += first_query;
+        debug.bookmarks.push_back(std::move(bookmark));
+    }
+}
 
 std::filesystem::path relative_source(const std::filesystem::path& source, const std::filesystem::path& from,
                                       const std::filesystem::path& to) {
@@ -140,9 +184,9 @@ int add_agent(Scene& scene, int clip, const mobb::Placement& placement) {
     if (!mobb::is_valid(placement)) throw std::invalid_argument("a placement is too far away or not a number");
     add_agents_for_clips(scene);
     const std::string& wanted = scene.clips.at(static_cast<std::size_t>(clip)).name;
-    const PairInView shown(scene);
+    const ImpliedQueries implied(scene);
     scene.agents.push_back({UnusedNames(scene.agents).take(wanted), clip, placement, {}});
-    shown.restore(scene);
+    implied.renumber(scene);
     return static_cast<int>(scene.agents.size()) - 1;
 }
 
@@ -150,30 +194,32 @@ int duplicate_agent(Scene& scene, int agent) {
     Agent copy = agent_at(scene, agent);
     copy.name = UnusedNames(scene.agents).take_next(copy.name);
     copy.color.reset();  // the palette tells the two apart
-    const PairInView shown(scene);
+    const ImpliedQueries implied(scene);
     scene.agents.push_back(std::move(copy));
-    shown.restore(scene);
+    implied.renumber(scene);
     return static_cast<int>(scene.agents.size()) - 1;
 }
 
 void remove_agent(Scene& scene, int agent) {
     if (scene.agents.size() == 1) throw std::invalid_argument("the last agent stays: a scene needs one");
     agent_at(scene, agent);
-    PairInView shown(scene);
+    ImpliedQueries implied(scene);
     scene.agents.erase(scene.agents.begin() + agent);
-    shown.agent_removed(agent);
+    implied.agent_removed(agent);
     const auto is_about_it = [&](const SceneQuery& query) { return query.a.agent == agent || query.b.agent == agent; };
-    std::optional<int>& in_view = scene.view.query;
-    if (in_view && static_cast<std::size_t>(*in_view) < scene.queries.size()) {
-        const auto at = scene.queries.begin() + *in_view;
-        const auto before = std::count_if(scene.queries.begin(), at, is_about_it);
-        in_view = is_about_it(*at) ? std::nullopt : std::optional(*in_view - static_cast<int>(before));
+    if (!scene.queries.empty()) {
+        renumber_queries(scene, [&](int query) -> std::optional<int> {
+            if (static_cast<std::size_t>(query) >= scene.queries.size()) return std::nullopt;
+            const auto at = scene.queries.begin() + query;
+            const auto before = std::count_if(scene.queries.begin(), at, is_about_it);
+            return is_about_it(*at) ? std::nullopt : std::optional(query - static_cast<int>(before));
+        });
     }
     std::erase_if(scene.queries, is_about_it);
     for (SceneQuery& query : scene.queries) {
         for (PlacedAgent* side : {&query.a, &query.b}) side->agent -= side->agent > agent ? 1 : 0;
     }
-    shown.restore(scene);
+    implied.renumber(scene);
 }
 
 std::size_t add_query(Scene& scene, int a, int b) {
@@ -191,6 +237,10 @@ void remove_query(Scene& scene, std::size_t query) {
     make_queries_explicit(scene);
     if (scene.queries.size() <= 1) throw std::invalid_argument("the last query stays: without any all pairs are asked");
     scene.queries.erase(scene.queries.begin() + static_cast<std::ptrdiff_t>(query));
+    const int gone = static_cast<int>(query);
+    renumber_queries(scene, [&](int each) -> std::optional<int> {
+        return each == gone ? std::nullopt : std::optional(each - (each > gone ? 1 : 0));
+    });
 }
 
 void make_queries_explicit(Scene& scene) {
@@ -225,9 +275,10 @@ void merge(Scene& scene, Scene other) {
     }
     if (!other.queries.empty()) make_queries_explicit(scene);
     move_sources(other, other.file.parent_path(), scene.file.parent_path());
-    const PairInView shown(scene);
+    const ImpliedQueries implied(scene);
     const int first_clip = static_cast<int>(scene.clips.size());
     const int first_agent = static_cast<int>(scene.agents.size());
+    const int first_query = static_cast<int>(scene.queries.size());
     UnusedNames clip_names(scene.clips);
     for (SceneClip& clip : other.clips) {
         clip.name = clip_names.take(clip.name);
@@ -248,7 +299,8 @@ void merge(Scene& scene, Scene other) {
         }
         scene.queries.push_back(std::move(query));
     }
-    shown.restore(scene);
+    implied.renumber(scene);
+    merge_debug_state(scene, std::move(other.debug), first_query);
 }
 
 void move_to_file(Scene& scene, const std::filesystem::path& file) {

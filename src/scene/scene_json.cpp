@@ -216,6 +216,13 @@ void write_trace(JsonWriter& out, const mobb::Trace& trace, std::span<const int>
     out.end_array();
 }
 
+void write_events(JsonWriter& out, const mobb::Trace& trace, std::span<const int> steps,
+                  std::span<const int> avoidable) {
+    out.begin_array();
+    for (const int step : steps) write_event(out, step, trace[step], std::ranges::binary_search(avoidable, step));
+    out.end_array();
+}
+
 mobb::Trace read_trace(const JsonPlace& place, int samples_a, int samples_b) {
     mobb::Trace trace;
     for (int step = 0; step < place.size(); ++step) {
@@ -249,6 +256,7 @@ mobb::Trace read_trace(const JsonPlace& place, int samples_a, int samples_b) {
         event.pairs = pairs;
         trace.push(event);
     }
+    trace.shrink_to_fit();
     return trace;
 }
 

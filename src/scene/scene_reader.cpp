@@ -202,7 +202,7 @@ class SceneReader {
 
     Scene read() {
         root_.allow_only(
-            {"$schema", "mobbscope", "poses", "clips", "graph", "crowd", "agents", "fit", "queries", "view"});
+            {"$schema", "mobbscope", "poses", "clips", "graph", "crowd", "agents", "fit", "queries", "debug", "view"});
         check_version();
         if (const auto poses = root_.find("poses")) {
             for (int i = 0; i < poses->members(); ++i) {
@@ -230,6 +230,7 @@ class SceneReader {
             for (int i = 0; i < queries->size(); ++i) scene_.queries.push_back(read_query((*queries)[i]));
         }
         if (const auto crowd = root_.find("crowd")) scene_.crowd = read_crowd(*crowd, scene_);
+        if (const auto debug = root_.find("debug")) scene_.debug = read_debug_state(*debug, query_count(scene_));
         if (const auto view = root_.find("view")) {
             scene_.view = read_view(*view);
             check_viewed_query(*view);
@@ -524,7 +525,7 @@ Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrid
 
 Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                   const ImportOptions& overrides, const Progress& progress, Importer* importer) {
-    const JsonValue value = parse_json(text, name);
+    const JsonText value = parse_json(text, name);
     const JsonPlace root(value, name);
     Importer own;
     return SceneReader(root, folder, overrides, progress, importer ? *importer : own).read();

@@ -173,6 +173,10 @@ std::string to_json(const Scene& scene, bool inline_samples) {
         out.key("crowd");
         write_crowd(out, *scene.crowd);
     }
+    if (scene.debug != DebugState{}) {
+        out.key("debug");
+        write_debug_state(out, scene.debug);
+    }
     if (scene.view != ViewState{}) {
         out.key("view");
         write_view(out, scene.view);

@@ -59,7 +59,7 @@ TEST(Findings, FollowTheQueryAndTheScene) {
     const auto moved = session.queries.findings();
     EXPECT_NE(moved, second);
     EXPECT_TRUE(moved->clearance.contact.has_value());
-    EXPECT_EQ(moved->recursion.total(), session.workspace.recorded()->tests);
+    EXPECT_EQ(session.workspace.recorded()->trace.counts(), session.workspace.recorded()->tests);
     // Who holds the old ones may still read them.
     EXPECT_EQ(second->sides[1].name, "C");
 }

@@ -5,8 +5,12 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <span>
+#include <tuple>
 
 namespace mobb {
 namespace {
@@ -284,6 +288,77 @@ TEST(Trace, EveryEventReEvaluatedGivesTheSame) {
     EXPECT_GT(events, 50000);
     for (const TreeKind kind : test::kFittedTrees) EXPECT_GT(separations[name(info(kind).below)], 200) << name(kind);
     EXPECT_GT(edge_axes, 20);
+}
+
+/// Whether the events are the first ones of `whole`.
+bool begins(const Trace& part, const Trace& whole) {
+    for (int step = 0; step < part.size(); ++step) {
+        const Trace::Event a = part[step], b = whole[step];
+        const auto same = [](const MeasuredPair& p, const MeasuredPair& q) {
+            return p.i == q.i && p.j == q.j && p.distance == q.distance;
+        };
+        if (std::tie(a.parent, a.depth, a.a, a.b, a.axis, a.gap, a.outcome) !=
+                std::tie(b.parent, b.depth, b.a, b.b, b.axis, b.gap, b.outcome) ||
+            a.test != b.test || !std::ranges::equal(a.pairs, b.pairs, same)) {
+            return false;
+        }
+    }
+    return part.size() <= whole.size();
+}
+
+TEST(Trace, RecordingStopsAtItsBoundAndTheAnswerDoesNot) {
+    Random random(21);
+    int by_events = 0, by_pairs = 0;
+    for (int round = 0; round < 300; ++round) {
+        const ClipPtr a = test::random_clip(random, 400), b = test::random_partner(random, *a, 400);
+        const Tree tree_a(a, test::random_fit(random)), tree_b(b, tree_a.options());
+        Placement place_a, place_b;
+        test::random_placements(random, *a, *b, place_a, place_b);
+        const PlacedTree placed_a(tree_a, place_a), placed_b(tree_b, place_b);
+        TraceRecorder unbounded;
+        const std::optional<Contact> contact = query(placed_a, placed_b, unbounded);
+        const Trace& whole = unbounded.trace();
+        for (const TraceBound bound : {TraceBound{whole.size() / 2, 1000}, TraceBound{1000, whole.pairs() / 2},
+                                       TraceBound{whole.size(), whole.pairs()}}) {
+            TraceRecorder recorder(bound);
+            ASSERT_EQ(query(placed_a, placed_b, recorder), contact);
+            ASSERT_EQ(recorder.tests(), unbounded.tests());
+            const Trace& trace = recorder.trace();
+            ASSERT_TRUE(begins(trace, whole));
+            ASSERT_EQ(trace.events(), whole.size());
+            ASSERT_EQ(trace.stopped(), trace.size() < whole.size());
+            ASSERT_LE(trace.size(), bound.events);
+            ASSERT_LE(trace.pairs(), bound.pairs);
+            by_events += trace.stopped() && trace.size() == bound.events;
+            by_pairs += trace.stopped() && trace.size() < bound.events;
+        }
+    }
+    EXPECT_GT(by_events, 100);
+    EXPECT_GT(by_pairs, 50);
+}
+
+TEST(Trace, CountsAreKnownAfterAnyEvent) {
+    Trace trace;
+    TestCounts counts;
+    const std::array<MeasuredPair, 3> pairs{};
+    for (int step = 0; step < 5000; ++step) {
+        ASSERT_EQ(trace.counts(step), counts);
+        const TestKind test = step % 7 == 0   ? TestKind::samples
+                              : step % 3 == 0 ? TestKind(BoxKind::obb2d)
+                                              : TestKind::time;
+        if (test == TestKind::samples) {
+            trace.push({.parent = step - 1,
+                        .test = test,
+                        .pairs = std::span(pairs).first(static_cast<std::size_t>(step % 4))});
+            counts[test] += step % 4;
+        } else {
+            trace.push({.parent = step - 1, .test = test});
+            ++counts[test];
+        }
+    }
+    EXPECT_EQ(trace.counts(), counts);
+    trace.shrink_to_fit();
+    EXPECT_LE(trace.bytes(), 5000 * 32 + trace.pairs() * sizeof(MeasuredPair)) << "bytes";
 }
 
 TEST(Trace, AHitIsAHitWhoeverListens) {

@@ -1,3 +1,4 @@
+#include <scene/answer.h>
 #include <scene/fitted_scene.h>
 
 #include <gtest/gtest.h>
@@ -5,6 +6,8 @@
 #include <sys/resource.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -113,6 +116,43 @@ TEST(FittedScene, TheDirectSearchIsRecordedToo) {
     EXPECT_EQ(direct.contact, record(fitted, fitted.queries()[0]).contact);
     EXPECT_EQ(direct.tests[mobb::TestKind::time], 0);
     EXPECT_EQ(direct.trace.size(), 1);
+}
+
+TEST(FittedScene, WhoeverAsksForAQuerysRecordGetsTheOneThatIsHeld) {
+    const FittedScene fitted(head_on(), {});
+    const auto first = fitted.recorded(0);
+    const FittedScene copy = fitted;
+    EXPECT_EQ(copy.recorded(0), first);
+    const FittedScene other = fitted.with_fit("other", {.tree = mobb::TreeKind::umobb}).using_fit(1);
+    const auto others = other.recorded(0);
+    EXPECT_NE(others, first) << "other trees make other tests";
+    EXPECT_EQ(others->tests, record(other, other.queries()[0]).tests);
+    EXPECT_EQ(fitted.recorded(0), first);
+    EXPECT_EQ(first->tests, first->trace.counts());
+}
+
+TEST(FittedScene, AnAnswerSaysWhereRecordingStopped) {
+    const FittedScene fitted(head_on(), {});
+    const SceneQuery query = fitted.queries()[0];
+    const auto json = [&](const mobb::TraceBound& bound) {
+        RecordedQuery recorded = record(fitted, query, Search::trees, bound);
+        Answer answer;
+        answer.contact = recorded.contact;
+        answer.tests = recorded.tests;
+        answer.trace = std::move(recorded.trace);
+        std::ostringstream text;
+        JsonWriter out(text);
+        write_answer(out, 0, query, answer);
+        return nlohmann::json::parse(text.str());
+    };
+    const auto whole = json({});
+    EXPECT_FALSE(whole.contains("recorded") || whole.contains("events"));
+    const auto stopped = json({.events = 5});
+    EXPECT_EQ(stopped["recorded"], 5);
+    EXPECT_EQ(stopped["trace"].size(), 5u);
+    EXPECT_EQ(stopped["events"], whole["trace"].size());
+    EXPECT_EQ(stopped["contact"], whole["contact"]);
+    EXPECT_EQ(stopped["tests"], whole["tests"]);
 }
 
 TEST(FittedScene, OptionsOutOfRangeAreRefused) {

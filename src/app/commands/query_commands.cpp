@@ -81,12 +81,8 @@ std::optional<int> edited_query(const Workspace& workspace) {
 void remove_edited(Workspace& workspace) {
     const int query = *edited_query(workspace);
     const SceneQuery asked = workspace.fitted().queries()[static_cast<std::size_t>(query)];
-    workspace.edit({"no longer asking " + asked.a.name + " against " + asked.b.name, ""}, [&](Scene& scene) {
-        remove_query(scene, static_cast<std::size_t>(query));
-        std::optional<int>& shown = scene.view.query;
-        if (shown == query) shown.reset();
-        if (shown && *shown > query) --*shown;
-    });
+    workspace.edit({"no longer asking " + asked.a.name + " against " + asked.b.name, ""},
+                   [&](Scene& scene) { remove_query(scene, static_cast<std::size_t>(query)); });
     // Those behind it have other indices now.
     if (workspace.selection.kind == Selection::Kind::query || workspace.selection.path.query >= 0) workspace.select({});
 }
@@ -282,13 +278,12 @@ void to_next_of_node(Workspace& workspace, Notifications& notifications) {
 }
 
 /// The next event of the same pair, or of the next pair that is not below it.
-std::optional<int> event_after_pair(const Workspace& workspace) {
-    const mobb::Trace& trace = workspace.recorded()->trace;
-    const int depth = trace[workspace.step()].depth;
-    for (int event = workspace.step() + 1; event < trace.size(); ++event) {
-        if (trace[event].depth <= depth) return event;
-    }
-    return std::nullopt;
+std::optional<int> event_after_pair(const Workspace& workspace, const QueryInspector& queries) {
+    const std::shared_ptr<const QueryFindings> findings = queries.findings();
+    const int step = workspace.step();
+    const RecursionPair& pair = findings->recursion.pair_at(step);
+    const int next = step < pair.last ? step + 1 : pair.end;
+    return next < workspace.recorded()->trace.size() ? std::optional(next) : std::nullopt;
 }
 
 int parent_event(const Workspace& workspace) {
@@ -394,13 +389,16 @@ std::vector<Command> query_commands() {
                                  return workspace.view().query ? "no node of the query is selected"
                                                                : "no query is shown";
                              }}}),
-        Command(
-            "step.over", "Step over", "Shows the next test that is not about parts of the present two nodes.",
-            [](Workspace& workspace) { to_event(workspace, *event_after_pair(workspace)); },
-            {.shortcut = "Down",
-             .repeats = true,
-             .enabled = {[](const Workspace& workspace) { return in_query(workspace) && event_after_pair(workspace); },
-                         why_no_step}}),
+        Command("step.over", "Step over", "Shows the next test that is not about parts of the present two nodes.",
+                [](Workspace& workspace, QueryInspector& queries) {
+                    to_event(workspace, *event_after_pair(workspace, queries));
+                },
+                {.shortcut = "Down",
+                 .repeats = true,
+                 .enabled = {[](const Workspace& workspace, const QueryInspector& queries) {
+                                 return in_query(workspace) && event_after_pair(workspace, queries);
+                             },
+                             why_no_step}}),
         Command(
             "step.out", "Step out", "Shows the test that led to the present one.",
             [](Workspace& workspace) { to_event(workspace, parent_event(workspace)); },

@@ -147,7 +147,7 @@ LastSession read_last(const Json& json) {
     if (view == at->end()) return last;
     try {
         const std::string name = "settings";
-        const JsonValue value = parse_json(view->dump(), name);
+        const JsonText value = parse_json(view->dump(), name);
         last.view = read_view(JsonPlace(value, name));
     } catch (const std::exception&) {
         // Another version's: the files are seen as they say themselves.

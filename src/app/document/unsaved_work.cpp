@@ -172,7 +172,7 @@ std::string unsaved_text(const UnsavedWork& work, std::time_t now) {
 UnsavedHead read_unsaved_head(const std::filesystem::path& copy) {
     const std::string text = read_beginning(copy, kLongestHead);
     const std::string name = copy.string();
-    const JsonValue value = parse_json(head_of(text, copy), name);
+    const JsonText value = parse_json(head_of(text, copy), name);
     const JsonPlace head(value, name);
     check_version(head);
     constexpr double kLatest = 1e12;
@@ -183,7 +183,7 @@ UnsavedWork read_unsaved(const std::filesystem::path& copy, const Progress& prog
     const std::string text = read_file(copy);
     const std::string name = copy.string();
     const std::string_view line = head_of(text, copy);
-    const JsonValue value = parse_json(line, name);
+    const JsonText value = parse_json(line, name);
     const JsonPlace head(value, name);
     check_version(head);
     UnsavedWork out;

@@ -56,10 +56,9 @@ const RecordedQuery* Workspace::recorded() const {
     Derived& d = derived();
     if (!d.recorded || d.recorded->first != *view().query) {
         d.findings.reset();
-        d.recorded.emplace(*view().query,
-                           record(fitted(), fitted().queries()[static_cast<std::size_t>(*view().query)]));
+        d.recorded.emplace(*view().query, fitted().recorded(static_cast<std::size_t>(*view().query)));
     }
-    return &d.recorded->second;
+    return d.recorded->second.get();
 }
 
 int Workspace::step() const { return event_of(view().step, recorded()->trace); }

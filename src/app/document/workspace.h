@@ -146,7 +146,7 @@ class Workspace {
     /// What is computed from the present scene when asked for.
     struct Derived {
         std::shared_ptr<const FittedScene> of;
-        std::optional<std::pair<int, RecordedQuery>> recorded{};
+        std::optional<std::pair<int, std::shared_ptr<const RecordedQuery>>> recorded{};
         std::shared_ptr<const QueryFindings> findings{};  ///< of `recorded`
         std::map<std::size_t, Answer> answers{};
         std::map<int, std::vector<mobb::LevelFigures>> figures{};

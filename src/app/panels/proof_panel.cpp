@@ -73,6 +73,20 @@ std::optional<std::size_t> selected_line(const Workspace& workspace, const Query
     return time ? proof.at(*time) : std::nullopt;
 }
 
+std::vector<LineRun> line_runs(const QueryProof& proof, const ChartAxis& time, std::optional<std::size_t> selected) {
+    std::vector<LineRun> out;
+    for (std::size_t i = 0; i < proof.lines.size(); ++i) {
+        const bool joins = !out.empty() && i != selected && out.back().last != selected &&
+                           time.pixel(proof.lines[i].t1) - time.pixel(proof.lines[out.back().first].t0) < 1;
+        if (joins) {
+            out.back().last = i;
+        } else {
+            out.push_back({i, i});
+        }
+    }
+    return out;
+}
+
 void proof_section(Ui& ui, const QueryFindings& findings) {
     const QueryProof& proof = findings.proof;
     const auto count = static_cast<std::int64_t>(proof.lines.size());
@@ -104,14 +118,14 @@ void proof_bars(Ui& ui, const QueryFindings& findings, const ChartAxis& time, Im
     list.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, ui.style.window, ui.px(2));
     const auto selected = selected_line(ui.workspace, proof);
     const float mouse = ImGui::GetIO().MousePos.x;
-    for (std::size_t i = 0; i < proof.lines.size(); ++i) {
-        const float left = time.pixel(proof.lines[i].t0);
-        const float right = std::max(time.pixel(proof.lines[i].t1) - ui.px(1.5f), left + ui.px(kLeastBar));
+    for (const LineRun& run : line_runs(proof, time, selected)) {
+        const float left = time.pixel(proof.lines[run.first].t0);
+        const float right = std::max(time.pixel(proof.lines[run.last].t1) - ui.px(1.5f), left + ui.px(kLeastBar));
         list.AddRectFilled({left, corner.y}, {right, corner.y + size.y},
-                           mark_color(ui.style, EventMark::separated, i == selected ? 1 : 0.5f), ui.px(1));
+                           mark_color(ui.style, EventMark::separated, run.first == selected ? 1 : 0.5f), ui.px(1));
         if (!hovered || mouse < left || mouse >= right) continue;
-        ImGui::SetTooltip("%s", tile_words(findings.sides, proof, i).c_str());
-        if (clicked) ui.invoke("proof.line", std::to_string(i));
+        ImGui::SetTooltip("%s", tile_words(findings.sides, proof, run.first).c_str());
+        if (clicked) ui.invoke("proof.line", std::to_string(run.first));
     }
 }
 

@@ -117,6 +117,7 @@ void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures) {
         query_counters(ui, *findings);
         if (section(ui, "RECURSION: TIME OF A BY TIME OF B")) {
             pictures.square(ui, queries, *findings);
+            recording_note(ui, "square");
             outcome_legend(ui);
         }
     }
@@ -143,12 +144,19 @@ void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings
     expectation(ui, queries);
 }
 
+void recording_note(Ui& ui, const std::string& where) {
+    const mobb::Trace& trace = ui.workspace.recorded()->trace;
+    if (!trace.stopped()) return;
+    words(ui.style.warning, "Here " + recording_words(trace) + ".");
+    ui.mark_only("query.stopped." + where);
+}
+
 void query_counters(Ui& ui, const QueryFindings& findings) {
     if (!section(ui, "TESTS")) return;
     const Recursion& recursion = findings.recursion;
-    const mobb::TestCounts total = recursion.total();
-    const mobb::TestCounts now =
-        recursion.so_far.empty() ? mobb::TestCounts{} : recursion.so_far[static_cast<std::size_t>(ui.workspace.step())];
+    const RecordedQuery& recorded = *ui.workspace.recorded();
+    const mobb::TestCounts& total = recorded.tests;
+    const mobb::TestCounts now = recorded.trace.counts(ui.workspace.step() + 1);
     const float left = ImGui::GetCursorPosX();
     const float room = ImGui::GetContentRegionAvail().x;
     const float first = left + 0.68f * room;
@@ -184,6 +192,7 @@ void query_counters(Ui& ui, const QueryFindings& findings) {
         query_button(ui, "Judge all", "query.judge");
     }
     words(ui.style.quiet, gain_words(total, findings.clearance));
+    recording_note(ui, "counters");
 }
 
 }  // namespace mobbscope::app

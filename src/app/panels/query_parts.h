@@ -25,9 +25,17 @@ void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings
 void proof_section(Ui& ui, const QueryFindings& findings);
 /// The line that the time cursor is in; none: it is in none.
 std::optional<std::size_t> selected_line(const Workspace& workspace, const QueryProof& proof);
+/// Lines of a proof, first .. last, that stand on the same pixel of an axis: a proof may have thousands.
+struct LineRun {
+    std::size_t first = 0, last = 0;
+};
+/// In order; the selected line is a run of its own.
+std::vector<LineRun> line_runs(const QueryProof& proof, const ChartAxis& time, std::optional<std::size_t> selected);
 /// The lines of the proof over their times, as bars with gaps; a click goes to one.
 void proof_bars(Ui& ui, const QueryFindings& findings, const ChartAxis& time, ImVec2 corner, ImVec2 size);
 void query_counters(Ui& ui, const QueryFindings& findings);
+/// Says where recording stopped, if it did: below whatever shows the whole trace, "query.stopped.<where>".
+void recording_note(Ui& ui, const std::string& where);
 /// Buttons that step, and the slider over the trace.
 void step_transport(Ui& ui);
 /// What the event under test found, and of which nodes.

@@ -82,15 +82,15 @@ std::optional<std::size_t> proof_intervals(Ui& ui, const QueryFindings& findings
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     std::optional<std::size_t> under;
-    for (std::size_t i = 0; i < findings.proof.lines.size(); ++i) {
-        const ProofLine& line = findings.proof.lines[i];
-        const ImVec2 from{square.x.pixel(line.t0), square.y.pixel(line.t0)};
-        const ImVec2 to{square.x.pixel(line.t1), square.y.pixel(line.t1)};
+    for (const LineRun& run : line_runs(findings.proof, square.x, selected)) {
+        const double t0 = findings.proof.lines[run.first].t0, t1 = findings.proof.lines[run.last].t1;
+        const ImVec2 from{square.x.pixel(t0), square.y.pixel(t0)};
+        const ImVec2 to{square.x.pixel(t1), square.y.pixel(t1)};
         const ImVec2 way{to.x - from.x, to.y - from.y};
         const float length = std::max(std::hypot(way.x, way.y), 1e-3f);
         const ImVec2 across{-way.y / length, way.x / length};
         const ImU32 color = mark_color(ui.style, EventMark::separated);
-        const float width = ui.px(i == selected ? 4.5f : 2.5f), tick = ui.px(5);
+        const float width = ui.px(run.first == selected ? 4.5f : 2.5f), tick = ui.px(5);
         // On ground of its own: cells that are separated have the same colour.
         for (const auto& [ink, more] : {std::pair(ui.style.window, ui.px(2)), std::pair(color, 0.0f)}) {
             list.AddLine(from, to, ink, width + more);
@@ -101,7 +101,7 @@ std::optional<std::size_t> proof_intervals(Ui& ui, const QueryFindings& findings
         }
         const ImVec2 at{mouse.x - from.x, mouse.y - from.y};
         const float along = (at.x * way.x + at.y * way.y) / length, aside = at.x * across.x + at.y * across.y;
-        if (along >= 0 && along <= length && std::abs(aside) <= tick) under = i;
+        if (along >= 0 && along <= length && std::abs(aside) <= tick) under = run.first;
     }
     return under;
 }

@@ -33,7 +33,7 @@ std::string counts(const Workspace& workspace) {
     std::string out = agents > 0 ? counted(agents, "agent", "agents") + ", " : "";
     out += counted(workspace.scene().clips.size(), "clip", "clips") + ", " + counted(nodes, "node", "nodes");
     if (const RecordedQuery* recorded = workspace.recorded()) {
-        out += ", " + counted(recorded->trace.size(), "test", "tests");
+        out += ", " + counted(recorded->trace.events(), "test", "tests");
     }
     return out;
 }

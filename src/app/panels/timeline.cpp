@@ -171,6 +171,11 @@ void step_row(Ui& ui, QueryInspector& queries, QueryPictures& pictures) {
     const float longest = text_size(*ui.style.mono, step_of(trace.size() - 1, trace)).x;
     ImGui::SameLine(0, 0);
     ImGui::Dummy({longest - text_size(*ui.style.mono, step).x, 0});
+    if (trace.stopped()) {
+        ImGui::SameLine(0, ui.px(8));
+        text_line(ui.style.warning, recording_words(trace));
+        ui.mark_only("timeline.stopped");
+    }
     const float least = ui.px(kLeastStrip);
     flow(least);
     pictures.strip(ui, queries, std::max(least, ImGui::GetContentRegionAvail().x), ImGui::GetFrameHeight());
@@ -251,6 +256,7 @@ void step_transport(Ui& ui) {
     text_button(ui, "hit", "step.next_hit");
     ImGui::PopStyleVar(2);
 
+    recording_note(ui, "steps");
     ImGui::SetNextItemWidth(-1);
     const auto wanted = number_field(ui, {.mark = "query.step",
                                           .what = "The step",

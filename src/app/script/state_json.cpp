@@ -102,17 +102,19 @@ Json query_json(const Workspace& workspace, const QueryInspector& queries) {
         if (recorded->tests[test] > 0) tests[mobb::name(test)] = recorded->tests[test];
     const mobb::Trace::Event event = recorded->trace[workspace.step()];
     const std::vector<DrawnAgent> sides = drawn_agents(workspace.fitted(), workspace.view());
-    return {{"index", index},
-            {"a", query.a.name},
-            {"b", query.b.name},
-            {"collides", recorded->contact.has_value()},
-            {"contact_time", recorded->contact ? Json(recorded->contact->time) : Json(nullptr)},
-            {"step", workspace.step()},
-            {"steps", recorded->trace.size()},
-            {"tests", std::move(tests)},
-            {"outcome", mobb::name(event.outcome)},
-            {"proof", proof_json(workspace, queries.findings()->proof)},
-            {"sentence", step_sentence(sides, recorded->trace, workspace.step())}};
+    Json json{{"index", index},
+              {"a", query.a.name},
+              {"b", query.b.name},
+              {"collides", recorded->contact.has_value()},
+              {"contact_time", recorded->contact ? Json(recorded->contact->time) : Json(nullptr)},
+              {"step", workspace.step()},
+              {"steps", recorded->trace.size()},
+              {"tests", std::move(tests)},
+              {"outcome", mobb::name(event.outcome)},
+              {"proof", proof_json(workspace, queries.findings()->proof)},
+              {"sentence", step_sentence(sides, recorded->trace, workspace.step())}};
+    if (recorded->trace.stopped()) json["events"] = recorded->trace.events();
+    return json;
 }
 
 Json crowd_json(const Workspace& workspace, const CrowdInspector& crowds) {

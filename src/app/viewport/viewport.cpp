@@ -246,6 +246,8 @@ void Viewport::update_picture(Ui& ui, PictureSize size) {
     const FollowedChoice* choice =
         is_active(ui) && ui.workspace.view().candidates ? ui.session.crowds.choice() : nullptr;
     Key next = wanted(ui, size, choice);
+    if (const auto findings = is_active(ui) && next.view.query ? ui.session.queries.findings() : nullptr)
+        paths_of(next).adopt_proof(next.view, {findings, &findings->proof});
     stand(ui, next);
     if (key_ && *key_ == next && !flight_) return;
     if (!(key_ && *key_ == next)) take_off(ui, next);

@@ -177,7 +177,7 @@ void RenderPlan::add(RenderArguments arguments) {
     const FittedScene& fitted = *job.paths->fitted();
     const ViewState view = view_over(fitted.scene(), job.arguments.view);
     try {
-        job.pictures = pictures_of(fitted, view, job.arguments);
+        job.pictures = pictures_of(*job.paths, view, job.arguments);
         check_and_frame(job);
         check_selection(job);
         warn_of_edited_run(job);

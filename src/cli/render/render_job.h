@@ -44,8 +44,7 @@ inline constexpr int kMostPictures = 100'000;
 
 /// All pictures, not yet framed in common. Throws InputError if there are none such, or too many;
 /// std::invalid_argument if the scene lacks what the view names.
-std::vector<RenderPicture> pictures_of(const FittedScene& fitted, const ViewState& view,
-                                       const RenderArguments& arguments);
+std::vector<RenderPicture> pictures_of(KeptPaths& kept, const ViewState& view, const RenderArguments& arguments);
 
 struct RenderJob {
     RenderArguments arguments;

@@ -192,7 +192,7 @@ void check_window(const RenderArguments& arguments) {
 ViewState view_of_file(const std::filesystem::path& file, const ViewState& base) {
     check_file_name(file);
     const std::string name = file.string();
-    const JsonValue value = parse_json(read_file(file), name);
+    const JsonText value = parse_json(read_file(file), name);
     const JsonPlace root(value, name);
     if (!root.find("clips")) return read_view(root, base);
     const auto view = root.find("view");
@@ -202,7 +202,7 @@ ViewState view_of_file(const std::filesystem::path& file, const ViewState& base)
 /// Throws InputError at the key of a view, or of a scene's view, if the file has it.
 void refuse_where_said(const std::filesystem::path& file, const std::string& key, const std::string& message) {
     const std::string name = file.string();
-    const JsonValue value = parse_json(read_file(file), name);
+    const JsonText value = parse_json(read_file(file), name);
     const JsonPlace root(value, name);
     const auto view = root.find("clips") ? root.find("view") : root;
     const auto said = view ? view->find(key) : std::nullopt;

@@ -39,17 +39,16 @@ Sequence turntable(const ViewState& view, int count) {
     return {static_cast<double>(count), "the turntable has " + counted(count, "picture", "pictures"), turned};
 }
 
-Sequence steps(const FittedScene& fitted, const ViewState& view) {
-    const auto query = static_cast<std::size_t>(*view.query);
-    static_cast<void>(drawn_agents(fitted, view));  // throws if there is no such query
-    const int count = record(fitted, fitted.queries()[query]).trace.size();
+Sequence steps(KeptPaths& kept, const ViewState& view) {
+    static_cast<void>(drawn_agents(*kept.fitted(), view));  // throws if there is no such query
+    const int count = kept.recorded(view).trace.size();
     const auto at = [view](int i) {
         ViewState out = view;
         out.step = {Step::Unit::event, static_cast<double>(i)};
         return out;
     };
-    return {static_cast<double>(count), "query " + std::to_string(query) + " has " + counted(count, "step", "steps"),
-            at};
+    return {static_cast<double>(count),
+            "query " + std::to_string(*view.query) + " has " + counted(count, "step", "steps"), at};
 }
 
 Sequence motion(const FittedScene& fitted, const ViewState& view, double rate) {
@@ -78,8 +77,7 @@ Sequence motion(const FittedScene& fitted, const ViewState& view, double rate) {
 
 }  // namespace
 
-std::vector<RenderPicture> pictures_of(const FittedScene& fitted, const ViewState& view,
-                                       const RenderArguments& arguments) {
+std::vector<RenderPicture> pictures_of(KeptPaths& kept, const ViewState& view, const RenderArguments& arguments) {
     const SequenceArguments& asked = arguments.sequence;
     if (!asked.any()) return {{view, arguments.outputs}};
     const std::string option = asked.turntable ? "--turntable" : asked.play ? "--play" : "--frames";
@@ -93,8 +91,8 @@ std::vector<RenderPicture> pictures_of(const FittedScene& fitted, const ViewStat
         contradict("--time", "the pictures go through the time");
 
     const Sequence sequence = asked.turntable ? turntable(view, *asked.turntable)
-                              : of_query      ? steps(fitted, view)
-                                              : motion(fitted, view, asked.rate.value_or(kUsualRate));
+                              : of_query      ? steps(kept, view)
+                                              : motion(*kept.fitted(), view, asked.rate.value_or(kUsualRate));
     const auto [first, last] =
         asked.frames ? std::pair<double, double>(*asked.frames) : std::pair<double, double>(0, sequence.count - 1);
     if (last >= sequence.count) throw InputError(option + ": " + sequence.described + ", counted from 0");

@@ -59,8 +59,8 @@ class Comparer {
 
     void compare(const JsonValue& actual, const JsonValue& golden) {
         if (is_draw_list(golden) && is_draw_list(actual)) return compare_lists("", actual, golden);
-        const auto* pictures = std::get_if<Elements>(&actual.data);
-        const auto* others = std::get_if<Elements>(&golden.data);
+        const auto* pictures = actual.as<Elements>();
+        const auto* others = golden.as<Elements>();
         if (!pictures || !others ||
             !(std::ranges::any_of(*others, is_draw_list) || std::ranges::any_of(*pictures, is_draw_list)))
             return compare_values("", &actual, &golden);
@@ -105,8 +105,8 @@ class Comparer {
         each_member(actual, golden, [&](const std::string& key, const JsonValue* a, const JsonValue* g) {
             static const Elements kNone;
             const ElementKind* kind = kind_of(key);
-            const auto* here = a ? std::get_if<Elements>(&a->data) : &kNone;
-            const auto* there = g ? std::get_if<Elements>(&g->data) : &kNone;
+            const auto* here = a ? a->as<Elements>() : &kNone;
+            const auto* there = g ? g->as<Elements>() : &kNone;
             if (!kind || !here || !there) return;
             const ComparedArray& array = arrays.try_emplace(key, aligned(*kind, *here, *there, golden)).first->second;
             tell_gone(array);
@@ -128,7 +128,7 @@ class Comparer {
         double side = 0;
         const auto* size = held<Elements>(list, "size");
         for (std::size_t i = 0; size && i < size->size(); ++i) {
-            if (const auto* length = std::get_if<double>(&(*size)[i].data)) side = std::max(side, *length);
+            if (const auto* length = (*size)[i].as<double>()) side = std::max(side, *length);
         }
         const double bound = std::max(kOtherFontPixels, kOtherFontShare * side);
         const ElementTerms terms{kind, other_fonts_, bound, has_roles(actual) && has_roles(golden)};
@@ -227,7 +227,7 @@ class Comparer {
 
     /// Whether other fonts may make the words of a text of these.
     bool may_read(const JsonValue* words, const JsonValue& golden) const {
-        const auto* here = words ? std::get_if<std::string>(&words->data) : nullptr;
+        const auto* here = words ? words->as<std::string>() : nullptr;
         const auto* there = held<std::string>(golden, "text");
         return room_ && here && there && (is_caption(golden) || are_cut_alike(*here, *there));
     }
@@ -252,8 +252,8 @@ class Comparer {
                 compare_values(place + pointer_token(key), a, g);
             });
         if (objects) return;
-        const auto* there = std::get_if<Elements>(&golden->data);
-        const auto* here = std::get_if<Elements>(&actual->data);
+        const auto* there = golden->as<Elements>();
+        const auto* here = actual->as<Elements>();
         if (there && here) return compare_arrays(place, *here, *there);
         if (const Unlike unlike = first_unlike(actual, golden))
             other_.push_back((place.empty() ? "the whole" : place) + ": " + unlike.words());
@@ -261,7 +261,7 @@ class Comparer {
 
     void compare_arrays(const std::string& place, const Elements& actual, const Elements& golden) {
         const auto at = [&](std::size_t i) { return place + '/' + std::to_string(i); };
-        const auto is_number = [](const JsonValue& value) { return std::holds_alternative<double>(value.data); };
+        const auto is_number = [](const JsonValue& value) { return value.as<double>() != nullptr; };
         if (actual.size() == golden.size() && std::ranges::all_of(golden, is_number)) {
             // A vector is one thing.
             for (std::size_t i = 0; i < golden.size(); ++i) {
@@ -300,7 +300,7 @@ class Comparer {
 DrawListComparison compare_draw_lists(std::string_view actual, const std::string& actual_name, std::string_view golden,
                                       const std::string& golden_name, const DrawListTerms& terms) {
     compare::Comparer comparer(terms.other_fonts);
-    comparer.compare(parse_json(actual, actual_name), parse_json(golden, golden_name));
+    comparer.compare(parse_json(actual, actual_name).root(), parse_json(golden, golden_name).root());
     return std::move(comparer).result(terms.most);
 }
 

@@ -68,23 +68,23 @@ std::string role_words(std::string_view role, const std::string& text) {
 /// `terms`: of its members, if not all count.
 void add_print(std::string& out, const JsonValue& value, bool rounded, const ElementTerms* terms = nullptr) {
     out += static_cast<char>('0' + value.data.index());
-    if (const auto* number = std::get_if<double>(&value.data)) {
+    if (const auto* number = value.as<double>()) {
         // asinh: near 0 the number itself, elsewhere like its logarithm; and 0 has no sign.
         const double kept = (rounded ? std::round(1000 * std::asinh(*number)) : *number) + 0.0;
         std::array<char, sizeof kept> bytes;
         std::memcpy(bytes.data(), &kept, sizeof kept);
         out.append(bytes.data(), bytes.size());
-    } else if (const auto* text = std::get_if<std::string>(&value.data)) {
+    } else if (const auto* text = value.as<std::string>()) {
         (out += *text) += '\0';
-    } else if (const auto* boolean = std::get_if<bool>(&value.data)) {
+    } else if (const auto* boolean = value.as<bool>()) {
         out += *boolean ? '1' : '0';
-    } else if (const auto* elements = std::get_if<Elements>(&value.data)) {
+    } else if (const auto* elements = value.as<Elements>()) {
         for (const JsonValue& element : *elements) add_print(out, element, rounded);
         out += ']';
-    } else if (const auto* members = std::get_if<Members>(&value.data)) {
+    } else if (const auto* members = value.as<Members>()) {
         for (const JsonMember& member : *members) {
-            if (terms && !terms->counts(member.key)) continue;
-            (out += member.key) += '\0';
+            if (terms && !terms->counts(member.key())) continue;
+            (out += member.key()) += '\0';
             add_print(out, member.value, rounded);
         }
         out += '}';
@@ -99,9 +99,9 @@ const ElementKind* kind_of(std::string_view list) {
 }
 
 bool is_draw_list(const JsonValue& value) {
-    const auto* object = std::get_if<Members>(&value.data);
+    const auto* object = value.as<Members>();
     return object && std::ranges::any_of(*object, [](const JsonMember& member) {
-               return kind_of(member.key) && std::holds_alternative<Elements>(member.value.data);
+               return kind_of(member.key()) && member.value.as<Elements>();
            });
 }
 
@@ -110,7 +110,7 @@ std::vector<std::string> participants_of(const JsonValue& list) {
     const auto* participants = held<Elements>(list, "participants");
     if (!participants) return out;
     for (const JsonValue& participant : *participants) {
-        const auto* name = std::get_if<std::string>(&participant.data);
+        const auto* name = participant.as<std::string>();
         out.push_back(name ? *name : "");
     }
     return out;
@@ -167,8 +167,8 @@ Likeness likeness(const ElementTerms& terms, const JsonValue& actual, const Json
         each_member(actual, golden, [&](const std::string& key, const JsonValue* a, const JsonValue* g) {
             if (terms.counts(key)) add(a, g, terms.bound_of(key));
         });
-    const auto* elements = std::get_if<Elements>(&golden.data);
-    const auto* others = std::get_if<Elements>(&actual.data);
+    const auto* elements = golden.as<Elements>();
+    const auto* others = actual.as<Elements>();
     if (elements && others) {
         for (std::size_t i = 0; i < std::max(elements->size(), others->size()); ++i) {
             add(element_at(*others, i), element_at(*elements, i), 0);

@@ -14,23 +14,23 @@ constexpr std::size_t kMostShown = 60;  // characters of an array or object in a
 
 void add_shown(std::string& out, const JsonValue& value) {
     if (out.size() > kMostShown) return;
-    if (const auto* number = std::get_if<double>(&value.data)) {
+    if (const auto* number = value.as<double>()) {
         out += brief(*number);
-    } else if (const auto* text = std::get_if<std::string>(&value.data)) {
+    } else if (const auto* text = value.as<std::string>()) {
         out += in_quotes(*text);
-    } else if (const auto* boolean = std::get_if<bool>(&value.data)) {
+    } else if (const auto* boolean = value.as<bool>()) {
         out += *boolean ? "true" : "false";
-    } else if (const auto* array = std::get_if<Elements>(&value.data)) {
+    } else if (const auto* array = value.as<Elements>()) {
         out += '[';
         for (std::size_t i = 0; i < array->size() && out.size() <= kMostShown; ++i) {
             out += i > 0 ? ", " : "";
             add_shown(out, (*array)[i]);
         }
         out += ']';
-    } else if (const auto* object = std::get_if<Members>(&value.data)) {
+    } else if (const auto* object = value.as<Members>()) {
         out += '{';
         for (std::size_t i = 0; i < object->size() && out.size() <= kMostShown; ++i) {
-            out += (i > 0 ? ", " : "") + cleaned((*object)[i].key) + ": ";
+            out += (i > 0 ? ", " : "") + cleaned((*object)[i].key()) + ": ";
             add_shown(out, (*object)[i].value);
         }
         out += '}';
@@ -44,7 +44,7 @@ void add_shown(std::string& out, const JsonValue& value) {
 const JsonValue* member_of(const Members& object, std::string_view key, std::size_t& hint) {
     for (std::size_t i = 0; i < object.size(); ++i) {
         const std::size_t at = (hint + i) % object.size();
-        if (object[at].key != key) continue;
+        if (object[at].key() != key) continue;
         hint = at + 1;
         return &object[at].value;
     }
@@ -60,7 +60,7 @@ std::string shown(const JsonValue* value) {
     if (!value) return "nothing";
     std::string out;
     add_shown(out, *value);
-    return std::holds_alternative<std::string>(value->data) ? out : shortened(out, kMostShown);
+    return value->as<std::string>() ? out : shortened(out, kMostShown);
 }
 
 bool agree(double a, double b, double bound) {
@@ -70,14 +70,12 @@ bool agree(double a, double b, double bound) {
 Unlike first_unlike(const JsonValue* actual, const JsonValue* golden, double bound) {
     const Unlike whole{actual, golden};
     if (!actual || !golden || actual->data.index() != golden->data.index()) return whole;
-    if (const auto* number = std::get_if<double>(&golden->data))
+    if (const auto* number = golden->as<double>())
         return agree(std::get<double>(actual->data), *number, bound) ? Unlike{} : whole;
-    if (const auto* text = std::get_if<std::string>(&golden->data))
-        return std::get<std::string>(actual->data) == *text ? Unlike{} : whole;
-    if (const auto* boolean = std::get_if<bool>(&golden->data))
-        return std::get<bool>(actual->data) == *boolean ? Unlike{} : whole;
+    if (const auto* text = golden->as<std::string>()) return *actual->as<std::string>() == *text ? Unlike{} : whole;
+    if (const auto* boolean = golden->as<bool>()) return std::get<bool>(actual->data) == *boolean ? Unlike{} : whole;
     Unlike out;
-    if (const auto* elements = std::get_if<Elements>(&golden->data)) {
+    if (const auto* elements = golden->as<Elements>()) {
         const auto& others = std::get<Elements>(actual->data);
         if (others.size() != elements->size()) return whole;
         for (std::size_t i = 0; i < others.size() && !out; ++i) out = first_unlike(&others[i], &(*elements)[i], bound);
@@ -90,9 +88,9 @@ Unlike first_unlike(const JsonValue* actual, const JsonValue* golden, double bou
 
 double distance(const JsonValue& a, const JsonValue& b) {
     if (a.data.index() != b.data.index()) return 0;
-    if (const auto* number = std::get_if<double>(&a.data)) return std::abs(*number - std::get<double>(b.data));
+    if (const auto* number = a.as<double>()) return std::abs(*number - std::get<double>(b.data));
     double out = 0;
-    if (const auto* elements = std::get_if<Elements>(&a.data)) {
+    if (const auto* elements = a.as<Elements>()) {
         const auto& others = std::get<Elements>(b.data);
         for (std::size_t i = 0; i < std::min(elements->size(), others.size()); ++i) {
             out += distance((*elements)[i], others[i]);

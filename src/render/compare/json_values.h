@@ -19,10 +19,10 @@ const JsonValue* member_of(const Members& object, std::string_view key, std::siz
 /// Null if the value is no object, or the member is missing or of another type.
 template <class Held>
 const Held* held(const JsonValue& value, std::string_view key) {
-    const auto* object = std::get_if<Members>(&value.data);
+    const auto* object = value.as<Members>();
     std::size_t hint = 0;
     const JsonValue* found = object ? member_of(*object, key, hint) : nullptr;
-    return found ? std::get_if<Held>(&found->data) : nullptr;
+    return found ? found->as<Held>() : nullptr;
 }
 
 /// Null beyond the end.
@@ -37,14 +37,14 @@ std::string text_in(const JsonValue& value, std::string_view key);
 /// where one has none.
 template <class Call>
 bool each_member(const JsonValue& actual, const JsonValue& golden, const Call& call) {
-    const auto* others = std::get_if<Members>(&actual.data);
-    const auto* members = std::get_if<Members>(&golden.data);
+    const auto* others = actual.as<Members>();
+    const auto* members = golden.as<Members>();
     if (!members || !others) return false;
     std::size_t hint = 0;
-    for (const JsonMember& member : *members) call(member.key, member_of(*others, member.key, hint), &member.value);
+    for (const JsonMember& member : *members) call(member.key(), member_of(*others, member.key(), hint), &member.value);
     hint = 0;
     for (const JsonMember& member : *others) {
-        if (!member_of(*members, member.key, hint)) call(member.key, &member.value, nullptr);
+        if (!member_of(*members, member.key(), hint)) call(member.key(), &member.value, nullptr);
     }
     return true;
 }

@@ -15,8 +15,8 @@ namespace {
 std::optional<glm::vec2> point_of(const JsonValue& element, std::string_view key) {
     const auto* both = held<Elements>(element, key);
     if (!both || both->size() != 2) return std::nullopt;
-    const auto* x = std::get_if<double>(&(*both)[0].data);
-    const auto* y = std::get_if<double>(&(*both)[1].data);
+    const auto* x = (*both)[0].as<double>();
+    const auto* y = (*both)[1].as<double>();
     if (!x || !y || std::max(std::abs(*x), std::abs(*y)) > 1e9) return std::nullopt;
     return glm::vec2(*x, *y);
 }

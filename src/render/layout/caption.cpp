@@ -98,6 +98,11 @@ Caption scene_caption(const FittedScene& fitted, std::span<const DrawnAgent> age
     return caption;
 }
 
+void mention(Caption& caption, const std::string& text) {
+    caption.detail = caption.detail.empty() ? text : text + kDot + caption.detail;
+    for (std::string& detail : caption.short_details) detail.insert(0, text + kDot);
+}
+
 Caption query_caption(const Palette& palette, std::span<const DrawnAgent> sides, const RecordedQuery& recorded,
                       const QueryProgress& progress) {
     Caption caption;
@@ -109,6 +114,7 @@ Caption query_caption(const Palette& palette, std::span<const DrawnAgent> sides,
     caption.detail = fit + answer_sentence(sides, recorded);
     caption.short_details = {fit + answer_sentence(with_short_names(sides, kShortName), recorded),
                              fit + cost_words(recorded.tests)};
+    if (recorded.trace.stopped()) mention(caption, recording_words(recorded.trace));
     caption.mark = outcome_style(state_found(progress), palette).color;
     return caption;
 }
@@ -126,11 +132,6 @@ Caption proof_caption(const Palette& palette, std::span<const DrawnAgent> sides,
     caption.short_details = {proven};
     caption.mark = palette.separated;
     return caption;
-}
-
-void mention(Caption& caption, const std::string& text) {
-    caption.detail = caption.detail.empty() ? text : text + kDot + caption.detail;
-    for (std::string& detail : caption.short_details) detail.insert(0, text + kDot);
 }
 
 void mention_cursor_outside(Caption& caption, double time, double begin, double end) {

@@ -15,11 +15,9 @@ KeptPaths& KeptPaths::shown_in(const ViewState& view) {
 }
 
 const RecordedQuery& KeptPaths::recorded(const ViewState& view) {
-    if (!asked_ || asked_->query != *view.query) {
-        const SceneQuery query = fitted_->queries()[static_cast<std::size_t>(*view.query)];
-        asked_ = Asked{*view.query, record(*fitted_, query)};
-    }
-    return asked_->recorded;
+    if (!asked_ || asked_->query != *view.query)
+        asked_ = Asked{*view.query, fitted_->recorded(static_cast<std::size_t>(*view.query))};
+    return *asked_->recorded;
 }
 
 const QueryProof& KeptPaths::proof(const ViewState& view) {
@@ -27,9 +25,15 @@ const QueryProof& KeptPaths::proof(const ViewState& view) {
     if (!asked_->proof) {
         const SceneQuery query = fitted_->queries()[static_cast<std::size_t>(*view.query)];
         const mobb::PlacedTree a = fitted_->placed(query.a), b = fitted_->placed(query.b);
-        asked_->proof = proof_of(*fitted_, query, asked, clearance_over_time(a.placed_clip(), b.placed_clip()));
+        asked_->proof = std::make_shared<const QueryProof>(
+            proof_of(*fitted_, query, asked, clearance_over_time(a.placed_clip(), b.placed_clip())));
     }
     return *asked_->proof;
+}
+
+void KeptPaths::adopt_proof(const ViewState& view, std::shared_ptr<const QueryProof> proof) {
+    recorded(view);
+    asked_->proof = std::move(proof);
 }
 
 const Bounds& KeptPaths::bounds(std::span<const DrawnAgent> agents, const ViewState& view) {

@@ -35,6 +35,8 @@ class KeptPaths {
     /// each made once.
     const RecordedQuery& recorded(const ViewState& view);
     const QueryProof& proof(const ViewState& view);
+    /// Somebody has made the proof of the view's query already.
+    void adopt_proof(const ViewState& view, std::shared_ptr<const QueryProof> proof);
 
     /// bounds_of the agents of a view.
     const Bounds& bounds(std::span<const DrawnAgent> agents, const ViewState& view);
@@ -80,8 +82,8 @@ class KeptPaths {
     std::optional<std::pair<std::pair<std::optional<int>, Arrange>, Bounds>> bounds_;
     struct Asked {
         int query = 0;
-        RecordedQuery recorded;
-        std::optional<QueryProof> proof{};
+        std::shared_ptr<const RecordedQuery> recorded;
+        std::shared_ptr<const QueryProof> proof{};
     };
     std::optional<Asked> asked_;
     std::optional<std::pair<int, FloorLines>> boundary_;  ///< by query

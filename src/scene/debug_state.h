@@ -1,0 +1,49 @@
+/// How the queries of a scene are debugged: filters, breakpoints and bookmarks, saved with the scene.
+///
+///     {"filters": [{"name": "tight", "where": "gap < 0.05"}], "breakpoints": [{"where": "outcome = hit", "on": true}],
+///      "bookmarks": [{"name": "the turn", "query": 0, "step": 412, "note": "B's box is loose here"}]}
+#pragma once
+
+#include <base/json.h>
+#include <base/json_writer.h>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope {
+
+struct NamedFilter {
+    std::string name;   ///< not empty; no two have the same
+    std::string where;  ///< an EventFilter
+    friend bool operator==(const NamedFilter&, const NamedFilter&) = default;
+};
+
+struct Breakpoint {
+    std::string where;  ///< an EventFilter; no two are the same
+    bool on = true;
+    friend bool operator==(const Breakpoint&, const Breakpoint&) = default;
+};
+
+/// A step of a query that is found again. A trace of other trees may be shorter: then it means the last step.
+struct Bookmark {
+    std::string name;
+    int query = 0;
+    int step = 0;
+    std::string note;
+    friend bool operator==(const Bookmark&, const Bookmark&) = default;
+};
+
+struct DebugState {
+    std::vector<NamedFilter> filters;
+    std::vector<Breakpoint> breakpoints;
+    std::vector<Bookmark> bookmarks;
+    friend bool operator==(const DebugState&, const DebugState&) = default;
+};
+
+/// Of a scene with so many queries. Throws InputError.
+DebugState read_debug_state(const JsonPlace& place, std::size_t queries);
+void write_debug_state(JsonWriter& out, const DebugState& debug);
+
+}  // namespace mobbscope

@@ -1,0 +1,61 @@
+// Long traces in the window: recorded once, and where recording stopped is said.
+#include <app/window/headless_window.h>
+#include <base/text.h>
+#include <explain/query_sentence.h>
+#include <render/gl/gl_context.h>
+
+#include "app/crossing_folder.h"
+
+#include <gtest/gtest.h>
+
+namespace mobbscope::app {
+namespace {
+
+struct LongTraceWindow {
+    testing::CrossingFolder folder;
+    Session session{false};
+    HeadlessWindow window{GlContext::open(Backend::automatic), session, {1280, 1100}, 1};
+
+    LongTraceWindow() {
+        session.files.open({folder.scene});
+        session.workspace.change_view([](ViewState& view) { view.query = 0; });
+        window.settle();
+    }
+    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
+};
+
+constexpr std::array kNotes{"query.stopped.steps", "query.stopped.counters", "query.stopped.square",
+                            "timeline.stopped"};
+
+TEST(LongTrace, ThePictureAndThePanelsShareOneRecord) {
+    LongTraceWindow w;
+    const auto recorded = w.session.workspace.fitted().recorded(0);
+    EXPECT_EQ(recorded.get(), w.session.workspace.recorded());
+    EXPECT_EQ(recorded.use_count(), 3) << "the picture, the panels, and this";
+    w.session.workspace.change_view([](ViewState& view) { view.step = {Step::Unit::event, 3}; });
+    w.window.settle();
+    EXPECT_EQ(recorded.get(), w.session.workspace.recorded());
+    EXPECT_EQ(recorded.use_count(), 3) << "stepping records nothing";
+}
+
+TEST(LongTrace, EveryPanelSaysWhereRecordingStopped) {
+    LongTraceWindow w;
+    for (const char* note : kNotes) EXPECT_FALSE(w.has(note)) << note;
+    const RecordedQuery whole = *w.session.workspace.recorded();
+    const auto stopped = std::make_shared<const RecordedQuery>(
+        record(w.session.workspace.fitted(), w.session.workspace.fitted().queries()[0], Search::trees, {.events = 9}));
+    Workspace::Derived& derived = w.session.workspace.derived();
+    derived.recorded.emplace(0, stopped);
+    derived.findings.reset();
+    w.session.workspace.change_view([](ViewState& view) { view.step = {Step::Unit::event, 4}; });
+    w.window.settle();
+    for (const char* note : kNotes) EXPECT_TRUE(w.has(note)) << note;
+    EXPECT_EQ(recording_words(w.session.workspace.recorded()->trace),
+              "recording stopped at event 9 of " + std::to_string(whole.trace.size()));
+    EXPECT_EQ(stopped->tests, whole.tests) << "the answer is that of the whole query";
+    EXPECT_EQ(stopped->contact, whole.contact);
+    EXPECT_EQ(recording_words(whole.trace), "");
+}
+
+}  // namespace
+}  // namespace mobbscope::app

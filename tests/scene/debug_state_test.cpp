@@ -1,0 +1,119 @@
+// Filters, breakpoints and bookmarks are kept with the scene, and follow its queries.
+#include <base/error.h>
+#include <scene/scene_edits.h>
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace mobbscope {
+namespace {
+
+constexpr const char* kDebug = R"({
+    "filters": [{"name": "tight", "where": "gap < 0.05"}],
+    "breakpoints": [{"where": "outcome = hit"}, {"where": "depth > 3", "on": false}],
+    "bookmarks": [{"name": "first", "query": 0, "step": 4}, {"name": "last", "query": 2, "step": 9, "note": "see \"why\""}]})";
+
+Scene debugged(const std::string& debug = kDebug, const std::string& more = "") {
+    return parse_scene(R"({"clips": {"walk": {"dt": 0.5, "samples": [[0, 0, 0.4], [1, 0, 0.5]]}},
+        "agents": [{"name": "A", "clip": "walk"}, {"name": "B", "clip": "walk"}, {"name": "C", "clip": "walk"}])" +
+                           more + R"(, "debug": )" + debug + "}",
+                       "s.json", "");
+}
+
+std::string debug_refusal(const std::string& debug) {
+    try {
+        debugged(debug);
+        return "";
+    } catch (const InputError& error) {
+        return error.what();
+    }
+}
+
+/// "first 0, last 2"
+std::string marks(const Scene& scene) {
+    std::string out;
+    for (const Bookmark& each : scene.debug.bookmarks) {
+        const SceneQuery query = query_at(scene, static_cast<std::size_t>(each.query));
+        out += (out.empty() ? "" : ", ") + each.name + ' ' + query.a.name + query.b.name;
+    }
+    return out;
+}
+
+TEST(DebugState, IsReadAndWritten) {
+    const Scene scene = debugged();
+    ASSERT_EQ(scene.debug.filters.size(), 1u);
+    EXPECT_EQ(scene.debug.filters[0].where, "gap < 0.05");
+    ASSERT_EQ(scene.debug.breakpoints.size(), 2u);
+    EXPECT_TRUE(scene.debug.breakpoints[0].on);
+    EXPECT_FALSE(scene.debug.breakpoints[1].on);
+    EXPECT_EQ(marks(scene), "first AB, last BC");
+    EXPECT_EQ(scene.debug.bookmarks[1].note, "see \"why\"");
+    const Scene again = parse_scene(to_json(scene), "s.json", "");
+    EXPECT_EQ(again.debug, scene.debug);
+    EXPECT_EQ(to_json(Scene{}).find("debug"), std::string::npos) << "without any nothing is written";
+}
+
+TEST(DebugState, IsRefusedWithItsPlace) {
+    EXPECT_NE(debug_refusal(R"({"filters": [{"name": "x", "where": "gpa < 1"}]})")
+                  .find("/debug/filters/0/where: at character 1 of 'gpa < 1': 'gpa' is no field (did you mean 'gap'?)"),
+              std::string::npos)
+        << debug_refusal(R"({"filters": [{"name": "x", "where": "gpa < 1"}]})");
+    for (const char* debug :
+         {R"([])", R"({"filter": []})", R"({"filters": [{"name": "", "where": "step = 1"}]})",
+          R"({"filters": [{"where": "step = 1"}]})",
+          R"({"filters": [{"name": "x", "where": "step = 1"}, {"name": "x", "where": "step = 2"}]})",
+          R"({"breakpoints": [{"where": "step = 1"}, {"where": "step = 1"}]})",
+          R"({"breakpoints": [{"where": "step = 1", "on": 1}]})", R"({"bookmarks": [{"query": 3, "step": 0}]})",
+          R"({"bookmarks": [{"query": 0}]})", R"({"bookmarks": [{"query": 0, "step": -1}]})",
+          R"({"bookmarks": [{"query": 0.5, "step": 1}]})"}) {
+        EXPECT_NE(debug_refusal(debug).find("/debug"), std::string::npos) << debug << ": " << debug_refusal(debug);
+    }
+}
+
+TEST(DebugState, BookmarksFollowImpliedQueries) {
+    Scene scene = debugged();
+    scene.view.query = 2;
+    duplicate_agent(scene, 0);
+    EXPECT_EQ(marks(scene), "first AB, last BC");
+    EXPECT_EQ(scene.view.query, 3) << "AB AC AA BC BA CA";
+    remove_agent(scene, 0);
+    EXPECT_EQ(marks(scene), "last BC");
+    EXPECT_EQ(scene.view.query, 0);
+    remove_agent(scene, 1);
+    EXPECT_EQ(marks(scene), "");
+    EXPECT_EQ(scene.view.query, std::nullopt);
+}
+
+TEST(DebugState, BookmarksFollowQueriesThatAreListed) {
+    Scene scene =
+        debugged(kDebug, R"(, "queries": [{"a": "A", "b": "B"}, {"a": "A", "b": "C"}, {"a": "B", "b": "C"}])");
+    scene.view.query = 1;
+    Scene other = scene;
+    remove_query(scene, 0);
+    EXPECT_EQ(marks(scene), "last BC");
+    EXPECT_EQ(scene.view.query, 0);
+    remove_query(scene, 0);
+    EXPECT_EQ(marks(scene), "last BC");
+    EXPECT_EQ(scene.view.query, std::nullopt);
+    remove_agent(other, 1);
+    EXPECT_EQ(marks(other), "") << "both bookmarks are about B";
+    EXPECT_EQ(other.view.query, 0);
+}
+
+TEST(DebugState, OfTwoScenesIsPutTogether) {
+    const std::string queries = R"(, "queries": [{"a": "A", "b": "B"}, {"a": "A", "b": "C"}, {"a": "B", "b": "C"}])";
+    Scene scene = debugged(kDebug, queries);
+    merge(scene, debugged(R"({"filters": [{"name": "tight", "where": "gap < 0.01"}],
+        "breakpoints": [{"where": "outcome = hit"}, {"where": "step = 7"}], "bookmarks": [{"name": "b", "query": 1, "step": 0}]})",
+                          queries));
+    ASSERT_EQ(scene.debug.filters.size(), 2u);
+    EXPECT_EQ(scene.debug.filters[1].name, "tight 2");
+    ASSERT_EQ(scene.debug.breakpoints.size(), 3u);
+    EXPECT_EQ(scene.debug.breakpoints[2].where, "step = 7");
+    EXPECT_EQ(scene.debug.bookmarks.back().query, 4);
+    EXPECT_EQ(parse_scene(to_json(scene), "s.json", "").debug, scene.debug);
+}
+
+}  // namespace
+}  // namespace mobbscope

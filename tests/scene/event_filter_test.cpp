@@ -1,0 +1,137 @@
+// Filters as text: every field and sign, words, errors with their place, completion.
+#include <scene/event_filter.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+namespace mobbscope {
+namespace {
+
+using Terms = std::vector<EventFilter::Term>;
+
+/// "message at N", or "" for a filter.
+std::string filter_refusal(std::string_view text) {
+    try {
+        const EventFilter filter(text);
+        return "";
+    } catch (const FilterError& error) {
+        return std::string(error.what()) + " at " + std::to_string(error.at());
+    }
+}
+
+TEST(EventFilter, TakesEveryFieldWithEverySignThatItHas) {
+    for (const EventFieldInfo& field : event_fields()) {
+        EXPECT_EQ(&info(field.field), &field);
+        const std::string name = std::string(field.name) + (field.of_side ? "(b)" : "");
+        if (field.kind == FieldKind::flag) {
+            const EventFilter filter(name);
+            EXPECT_EQ(filter.terms().front().field, field.field);
+            EXPECT_EQ(filter.terms().front().side, field.of_side ? 1 : 0);
+            EXPECT_NE(filter_refusal(name + " = 1"), "");
+            continue;
+        }
+        const std::string value = field.kind == FieldKind::word   ? std::string(field.values.back())
+                                  : field.kind == FieldKind::node ? "2.1"
+                                                                  : "3";
+        const bool ordered = field.kind == FieldKind::number || field.kind == FieldKind::range;
+        for (const std::string sign : {"=", "==", "!=", "\u2260", "<", "<=", "\u2264", ">", ">=", "\u2265"}) {
+            const bool equality = sign == "=" || sign == "==" || sign == "!=" || sign == "\u2260";
+            EXPECT_EQ(filter_refusal(name + sign + value).empty(), ordered || equality) << name << sign << value;
+        }
+        EXPECT_FALSE(field.doc.empty());
+        EXPECT_NE(filter_refusal(name), "") << "a comparison is missing";
+    }
+}
+
+TEST(EventFilter, BindsNotBeforeAndBeforeOr) {
+    using Kind = EventFilter::Term::Kind;
+    const EventFilter filter("step = 1 or not step = 2 and step = 3");
+    ASSERT_EQ(filter.terms().size(), 6u);
+    const EventFilter::Term& last = filter.terms().back();
+    EXPECT_EQ(last.kind, Kind::one_of);
+    EXPECT_EQ(filter.terms()[static_cast<std::size_t>(last.right)].kind, Kind::all_of);
+    const auto passes = [](const EventFilter& of, double step) {
+        return of.passes([&](const EventFilter::Term& term) { return term.value == step; });
+    };
+    EXPECT_TRUE(passes(filter, 1));
+    EXPECT_TRUE(passes(filter, 3));
+    EXPECT_FALSE(passes(filter, 2));
+    const EventFilter grouped("(step = 1 or step = 2) and not (step = 2)");
+    EXPECT_TRUE(passes(grouped, 1));
+    EXPECT_FALSE(passes(grouped, 2));
+}
+
+TEST(EventFilter, ReadsUnitsAndNodes) {
+    EXPECT_DOUBLE_EQ(EventFilter("gap < 5 cm").terms()[0].value, 0.05);
+    EXPECT_DOUBLE_EQ(EventFilter("gap < 5mm").terms()[0].value, 0.005);
+    EXPECT_DOUBLE_EQ(EventFilter("shared > 250 ms").terms()[0].value, 0.25);
+    EXPECT_DOUBLE_EQ(EventFilter("gap < 1e-3 m and step > 2").terms()[0].value, 0.001);
+    EXPECT_DOUBLE_EQ(EventFilter("clearance < -0.5").terms()[0].value, -0.5);
+    const EventFilter::Term node = EventFilter("NODE(B) = 2.10").terms()[0];
+    EXPECT_EQ(node.level, 2);
+    EXPECT_EQ(node.value, 10) << "a place, not a fraction";
+    EXPECT_EQ(EventFilter("node(a) = 17").terms()[0].level, -1);
+}
+
+TEST(EventFilter, SaysInWordsWhatItMeans) {
+    EXPECT_EQ(EventFilter("gap < 0.05 and level(b) >= 3 and outcome = disjoint_in_time").words(),
+              "the gap is below 0.05 m, and the level of B's node is at least 3, and the outcome is disjoint in time");
+    EXPECT_EQ(EventFilter("not (leaf(a) or leaf(b)) and node(a) != 2.1").words(),
+              "it is not so that (A's node is a leaf, or B's node is a leaf), and A's node is not 2.1");
+    EXPECT_EQ(EventFilter("(pairs > 3 or hit_below) and step = 7").words(),
+              "(the number of measured pairs is above 3, or a hit was found in it or below it), and the step is 7");
+}
+
+TEST(EventFilter, PointsAtWhatIsWrong) {
+    EXPECT_EQ(filter_refusal(""), "a field is missing at 0");
+    EXPECT_EQ(filter_refusal("gapp < 1"), "'gapp' is no field (did you mean 'gap'?) at 0");
+    EXPECT_EQ(filter_refusal("gap < "), "a number is missing at 6");
+    EXPECT_EQ(filter_refusal("gap 0.5"), "a comparison is missing: =, !=, <, <=, > or >= at 4");
+    EXPECT_EQ(filter_refusal("gap < 0.5 s"), "gap is given in m, cm or mm at 10");
+    EXPECT_EQ(filter_refusal("step < 5 m"), "step has no unit at 9");
+    EXPECT_EQ(filter_refusal("level > 2"), "whose? Give level(a) or level(b) at 6");
+    EXPECT_EQ(filter_refusal("level(c) > 2"), "a or b must stand here at 6");
+    EXPECT_EQ(filter_refusal("outcome = overlapp"),
+              "'overlapp' is not one of them: disjoint_in_time, separated, overlap, hit, no_hit at 10");
+    EXPECT_EQ(filter_refusal("outcome < hit"), "only = and != compare outcome at 8");
+    EXPECT_EQ(filter_refusal("gap < 1 gap > 2"), "'and' or 'or' is missing at 8");
+    EXPECT_EQ(filter_refusal("(gap < 1"), "')' is missing at 8");
+    EXPECT_EQ(filter_refusal("gap < 1.2.3"), "'1.2.3' is no number at 6");
+    EXPECT_EQ(filter_refusal("gap < 1e999"), "'1e999' is no number at 6");
+    EXPECT_EQ(filter_refusal("node(a) = 2.x"), "a node is missing: its level and place (2.1) or its index at 10");
+    EXPECT_EQ(filter_refusal("gap < 1 and"), "a field is missing at 11");
+    EXPECT_EQ(filter_refusal("gap < 1 & pairs > 2"), "'and' or 'or' is missing at 8");
+    EXPECT_EQ(filter_refusal(std::string(100'000, '(')).substr(0, 23), "it is nested too deep a");
+    EXPECT_EQ(filter_refusal(std::string("gap\0< 1", 7)).empty(), false);
+}
+
+TEST(EventFilter, PutsACaretUnderTheCharacter) {
+    const std::string text = "gap \u2264 0.5 and levl(a) > 1";
+    try {
+        const EventFilter filter(text);
+        FAIL();
+    } catch (const FilterError& error) {
+        EXPECT_EQ(with_caret(text, error), text + "\n              ^");
+    }
+}
+
+TEST(EventFilter, CompletesWhatIsBegun) {
+    const auto words = [](std::string_view text) { return completion_of(text).words; };
+    EXPECT_EQ(words("ga"), std::vector<std::string>{"gap"});
+    EXPECT_EQ(words("gap < 1 a"), std::vector<std::string>{"and"});
+    EXPECT_EQ(words("outcome = s"), std::vector<std::string>{"separated"});
+    EXPECT_EQ(words("gap "), (std::vector<std::string>{"=", "!=", "<", "<=", ">", ">="}));
+    EXPECT_EQ(words("lev"), (std::vector<std::string>{"level(a)", "level(b)"}));
+    EXPECT_EQ(completion_of("gap < 1 and le").from, 12u);
+    EXPECT_TRUE(words("nonsense and ga").empty()) << "what comes before is to be mended first";
+    // Whatever is proposed goes on to a filter, or is one.
+    for (const std::string& word : words("")) {
+        const std::string text = word;
+        EXPECT_TRUE(filter_refusal(text).empty() || !words(text + ' ').empty() || word == "not" || word == "(") << word;
+    }
+}
+
+}  // namespace
+}  // namespace mobbscope
