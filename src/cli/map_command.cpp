@@ -1,5 +1,6 @@
 #include <base/error.h>
 #include <base/file.h>
+#include <base/json_writer.h>
 #include <base/text.h>
 #include <cli/command_line.h>
 #include <cli/options.h>
