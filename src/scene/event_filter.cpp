@@ -18,7 +18,7 @@ using mobb::Outcome;
 using Term = EventFilter::Term;
 
 /// In the order of mobb::Outcome.
-const std::vector<std::string_view>& outcome_names() {
+const std::vector<std::string_view>& names_of_outcomes() {
     static const std::vector<std::string_view> names = [] {
         std::vector<std::string_view> out;
         for (int i = 0; i <= static_cast<int>(Outcome::no_hit); ++i) out.push_back(name(static_cast<Outcome>(i)));
@@ -28,7 +28,7 @@ const std::vector<std::string_view>& outcome_names() {
 }
 
 /// In the order of mobb::TestKind's indices.
-const std::vector<std::string_view>& test_names() {
+const std::vector<std::string_view>& names_of_tests() {
     static const std::vector<std::string_view> names = [] {
         std::vector<std::string_view> out;
         for (const mobb::TestKind test : mobb::kTestKinds) out.push_back(name(test));
@@ -85,13 +85,13 @@ std::vector<EventFieldInfo> all_event_fields() {
          .kind = FieldKind::word,
          .words = "the test",
          .doc = "What was tested",
-         .values = test_names()},
+         .values = names_of_tests()},
         {.field = outcome,
          .name = "outcome",
          .kind = FieldKind::word,
          .words = "the outcome",
          .doc = "What the test found",
-         .values = outcome_names()},
+         .values = names_of_outcomes()},
         {.field = axis,
          .name = "axis",
          .words = "the separating axis",
