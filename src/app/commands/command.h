@@ -186,6 +186,7 @@ std::vector<Command> view_commands();
 std::vector<Command> shown_commands();
 std::vector<Command> tree_commands();
 std::vector<Command> query_commands();
+std::vector<Command> debug_commands();  ///< among those of queries: events, breakpoints, bookmarks
 std::vector<Command> go_commands();
 std::vector<Command> crowd_commands();
 

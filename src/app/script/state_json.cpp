@@ -82,7 +82,19 @@ Json selection_json(const Workspace& workspace, const Selection& selection) {
     return json;
 }
 
-Json query_json(const Workspace& workspace) {
+/// The list of events, and how often breakpoints hold; null where the query has made no test.
+Json events_json(const Workspace& workspace, const QueryInspector& queries, bool shown) {
+    if (workspace.recorded()->trace.empty()) return nullptr;
+    const EventList& list = workspace.events;
+    return {{"shown", shown},
+            {"filter", list.filter ? Json(list.filter->text()) : Json(nullptr)},
+            {"listed", queries.listed_events()->size()},
+            {"sort", column_name(list.by)},
+            {"descending", list.descending},
+            {"breaks", queries.break_steps().size()}};
+}
+
+Json query_json(const Workspace& workspace, const QueryInspector& queries, const Settings& settings) {
     const RecordedQuery* recorded = workspace.recorded();
     if (!recorded) return nullptr;
     const int index = *workspace.view().query;
@@ -101,7 +113,8 @@ Json query_json(const Workspace& workspace) {
             {"steps", recorded->trace.size()},
             {"tests", std::move(tests)},
             {"outcome", mobb::name(event.outcome)},
-            {"sentence", step_sentence(sides, recorded->trace, workspace.step())}};
+            {"sentence", step_sentence(sides, recorded->trace, workspace.step())},
+            {"events", events_json(workspace, queries, settings.shows_events)}};
 }
 
 Json crowd_json(const Workspace& workspace, const CrowdInspector& crowds) {
@@ -243,7 +256,7 @@ Json state_json(const Session& session) {
     json["view"] = view_json(session.workspace.view());
     json["selection"] = selection_json(session.workspace, session.workspace.selection);
     json["hovered"] = selection_json(session.workspace, session.workspace.hovered);
-    json["query"] = query_json(session.workspace);
+    json["query"] = query_json(session.workspace, session.queries, session.settings);
     json["crowd"] = crowd_json(session.workspace, session.crowds);
     json["excerpt"] = session.workspace.in_excerpt();
     json["time"] = or_null(session.workspace.view().time);
