@@ -8,6 +8,7 @@
 #include <scene/crowd_run.h>
 #include <scene/load_files.h>
 #include <scene/scene_json.h>
+#include <scene/step_link.h>
 
 #include <unistd.h>
 
@@ -262,8 +263,10 @@ Progress tell(const std::string& doing, const std::string& things) {
     };
 }
 
-Scene load(const std::filesystem::path& file, const ImportOptions& options, RadiusOf radius) {
+Scene load(const std::filesystem::path& name, const ImportOptions& options, RadiusOf radius) {
+    const auto [file, link] = linked_file(name);
     Scene scene = load_scene(file, options, tell("read", "clips"));
+    if (link) show_step(scene, *link);
     const auto has_source = [](const SceneClip& clip) { return clip.source.has_value(); };
     ImportOptions for_sources = options;
     if (radius == RadiusOf::every_clip && options.radius) {

@@ -13,10 +13,12 @@
 #include <render/drawlist/picture_options.h>
 #include <review/review_screen.h>
 #include <scene/load_files.h>
+#include <scene/step_link.h>
 
 #include <cstdlib>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <system_error>
 #include <variant>
 
@@ -24,8 +26,22 @@ namespace mobbscope::cli {
 
 namespace {
 
-/// All files as one scene; without any, the demo.
-Scene load_all(const Command& program, const std::vector<std::filesystem::path>& files) {
+/// Takes the step that is quoted off the name of the file; none: there is none.
+std::optional<StepLink> take_link(std::vector<std::filesystem::path>& files) {
+    std::optional<StepLink> out;
+    for (std::filesystem::path& file : files) {
+        const LinkedFile linked = linked_file(file);
+        if (linked.link && files.size() > 1)
+            throw InputError(file.string(), "a step is quoted of one scene alone; name no other file");
+        out = linked.link;
+        file = linked.file;
+    }
+    return out;
+}
+
+/// All files as one scene, seen at that step; without any, the demo.
+Scene load_all(const Command& program, const std::vector<std::filesystem::path>& files,
+               const std::optional<StepLink>& link) {
     if (files.empty()) return demo_scene();
     std::vector<std::string> commands;
     for (const Command& command : program.subcommands()) commands.push_back(command.name());
@@ -36,7 +52,12 @@ Scene load_all(const Command& program, const std::vector<std::filesystem::path>&
                              did_you_mean(file.string(), commands));
         }
     }
-    return load_files(files);
+    Scene scene = load_files(files);
+    if (link) {
+        show_step(scene, *link);
+        check_step(scene, *link);
+    }
+    return scene;
 }
 
 /// Those that hold whatever is opened.
@@ -185,8 +206,10 @@ void check_not_before_command(const Command& program) {
                      "; a command's files and options come after its name");
 }
 
-int open_window(const Command& program, const WindowArguments& arguments) {
-    return show(load_all(program, arguments.files), arguments);
+int open_window(const Command& program, const WindowArguments& given) {
+    WindowArguments arguments = given;
+    const std::optional<StepLink> link = take_link(arguments.files);
+    return show(load_all(program, arguments.files, link), arguments);
 }
 
 }  // namespace mobbscope::cli

@@ -47,7 +47,10 @@ class EventValues {
     std::array<const mobb::PlacedTree*, 2> sides_;
 };
 
+/// Of each step whether it passes.
+std::vector<bool> passing_steps(const EventValues& values, const EventFilter& filter);
 /// The steps that pass, in order.
+std::vector<int> steps_of(const std::vector<bool>& passing);
 std::vector<int> steps_that_pass(const EventValues& values, const EventFilter& filter);
 
 /// Steps in order of a field (of ranges by their beginning), equal ones as they stand; those without a value come last.

@@ -1,6 +1,7 @@
 #include <base/text.h>
 #include <scene/debug_state.h>
 #include <scene/event_filter.h>
+#include <scene/step_link.h>
 
 #include <algorithm>
 
@@ -53,6 +54,15 @@ Bookmark read_bookmark(const JsonPlace& place, std::size_t queries) {
 }
 
 }  // namespace
+
+std::vector<std::string> names_of_bookmarks(const DebugState& debug) {
+    std::vector<std::string> out;
+    for (const Bookmark& bookmark : debug.bookmarks) {
+        const bool own = !bookmark.name.empty() && std::ranges::find(out, bookmark.name) == out.end();
+        out.push_back(own ? bookmark.name : to_string(StepLink{bookmark.query, bookmark.step}));
+    }
+    return out;
+}
 
 DebugState read_debug_state(const JsonPlace& place, std::size_t queries) {
     place.allow_only({"filters", "breakpoints", "bookmarks"});

@@ -42,6 +42,9 @@ struct DebugState {
     friend bool operator==(const DebugState&, const DebugState&) = default;
 };
 
+/// What bookmarks are chosen by: their names; where one has none, or that of one before, the step as it is quoted.
+std::vector<std::string> names_of_bookmarks(const DebugState& debug);
+
 /// Of a scene with so many queries. Throws InputError.
 DebugState read_debug_state(const JsonPlace& place, std::size_t queries);
 void write_debug_state(JsonWriter& out, const DebugState& debug);

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -724,6 +725,148 @@ std::vector<Case> cases() {
              EXPECT_TRUE(std::filesystem::exists(w.path("proof.json")));
          }});
     in_query("step.percent", "50", [](CommandWorld& w) { EXPECT_EQ(w.view().step, (Step{Step::Unit::percent, 50})); });
+
+    // Events, breakpoints, bookmarks
+    in_query("events.show", "", [](CommandWorld& w) { EXPECT_TRUE(w.session.settings.shows_events); });
+    in_query("events.find", "", [](CommandWorld& w) {
+        EXPECT_TRUE(w.session.settings.shows_events);
+        EXPECT_EQ(w.session.keys.field, "events.filter");
+    });
+    const std::pair<std::string, std::string> separated{"events.filter", "outcome = separated"};
+    in_query("events.filter", "gap < 5 cm", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.workspace.events.filter->text(), "gap < 5 cm");
+        EXPECT_EQ(*w.session.queries.listed_events(),
+                  steps_that_pass(w.session.queries.events(), EventFilter("gap < 0.05")));
+        EXPECT_TRUE(w.session.settings.shows_events);
+    });
+    add({"events.all", "", {kFirstQuery, separated}, [](CommandWorld& w) {
+             EXPECT_FALSE(w.session.workspace.events.filter);
+             EXPECT_EQ(static_cast<int>(w.session.queries.listed_events()->size()), w.session.queries.events().size());
+         }});
+    add({"events.sort", "tests_below", {kFirstQuery, {"events.sort", "tests_below"}}, [](CommandWorld& w) {
+             EXPECT_TRUE(w.session.workspace.events.descending);
+             const EventValues values = w.session.queries.events();
+             EXPECT_TRUE(std::ranges::is_sorted(*w.session.queries.listed_events(), std::greater(), [&](int step) {
+                 return values.value(EventField::tests_below, 0, step).least;
+             }));
+         }});
+    add({"events.next", "", {kFirstQuery, kFirstStep, separated}, [](CommandWorld& w) {
+             EXPECT_EQ(outcome_now(w), mobb::Outcome::separated) << "the present one is not listed, but has its place";
+             EXPECT_EQ(w.session.workspace.step(), w.session.queries.listed_events()->front());
+         }});
+    add({"events.previous", "", {kFirstQuery, separated, {"step.last", ""}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.session.workspace.step(), w.session.queries.listed_events()->back());
+         }});
+    const std::pair<std::string, std::string> saved{"events.save", "apart"};
+    add({"events.save",
+         "apart",
+         {kFirstQuery, separated},
+         [](CommandWorld& w) {
+             EXPECT_EQ(w.session.workspace.scene().debug.filters,
+                       (std::vector<NamedFilter>{{"apart", "outcome = separated"}}));
+         },
+         true});
+    add({"events.saved", "apart", {kFirstQuery, separated, saved, {"events.all", ""}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.session.workspace.events.filter->text(), "outcome = separated");
+         }});
+    add({"events.rename_saved",
+         "separations",
+         {kFirstQuery, separated, saved},
+         [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.scene().debug.filters[0].name, "separations"); },
+         true});
+    add({"events.remove_saved",
+         "apart",
+         {kFirstQuery, separated, saved},
+         [](CommandWorld& w) { EXPECT_TRUE(w.session.workspace.scene().debug.filters.empty()); },
+         true});
+    add({"events.copy", "", {kFirstQuery, separated}, [](CommandWorld& w) {
+             EXPECT_TRUE(w.desktop.text.starts_with("step\tnode(a)\tnode(b)\t")) << w.desktop.text;
+             EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(w.desktop.text, '\n')),
+                       w.session.queries.listed_events()->size() + 1);
+         }});
+    add({"events.copy_csv", "", {kFirstQuery, separated}, [](CommandWorld& w) {
+             EXPECT_TRUE(w.desktop.text.starts_with("step,node(a),node(b),")) << w.desktop.text;
+         }});
+    const auto breakpoints = [](const CommandWorld& w) { return w.session.workspace.scene().debug.breakpoints; };
+    const std::pair<std::string, std::string> at_separations{"breakpoint.add", "outcome = separated"};
+    add({"breakpoint.here",
+         "",
+         {kFirstQuery, kFirstStep},
+         [=](CommandWorld& w) {
+             EXPECT_EQ(breakpoints(w), (std::vector<Breakpoint>{{"node(a) = 0.0 and node(b) = 0.0", true}}));
+         },
+         true});
+    add({"breakpoint.here",
+         "",
+         {kFirstQuery, kFirstStep, {"breakpoint.here", ""}},
+         [=](CommandWorld& w) { EXPECT_TRUE(breakpoints(w).empty()); },
+         true});
+    add({"breakpoint.add",
+         "gap < 0.1",
+         {},
+         [=](CommandWorld& w) {
+             EXPECT_EQ(breakpoints(w), (std::vector<Breakpoint>{{"gap < 0.1", true}}));
+         },
+         true});
+    add({"breakpoint.switch",
+         "outcome = separated",
+         {at_separations},
+         [=](CommandWorld& w) { EXPECT_FALSE(breakpoints(w).at(0).on); },
+         true});
+    add({"breakpoint.remove",
+         "outcome = separated",
+         {at_separations},
+         [=](CommandWorld& w) { EXPECT_TRUE(breakpoints(w).empty()); },
+         true});
+    add({"breakpoint.next", "", {kFirstQuery, kFirstStep, at_separations}, [](CommandWorld& w) {
+             EXPECT_EQ(w.session.workspace.step(), w.session.queries.break_steps().front());
+             EXPECT_EQ(outcome_now(w), mobb::Outcome::separated);
+         }});
+    add({"breakpoint.previous", "", {kFirstQuery, at_separations, {"step.last", ""}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.session.workspace.step(), w.session.queries.break_steps().back());
+         }});
+    const auto bookmarks = [](const CommandWorld& w) { return w.session.workspace.scene().debug.bookmarks; };
+    const std::pair<std::string, std::string> to_3{"step.to", "3"}, turn{"bookmark.add", "the turn"};
+    add({"bookmark.add",
+         "the turn",
+         {kFirstQuery, to_3},
+         [=](CommandWorld& w) {
+             EXPECT_EQ(bookmarks(w), (std::vector<Bookmark>{{"the turn", 0, 3, ""}}));
+         },
+         true});
+    add({"bookmark.add",
+         "",
+         {kFirstQuery, kFirstStep},
+         [=](CommandWorld& w) { EXPECT_EQ(bookmarks(w).at(0).name, "A 0.0, B 0.0"); },
+         true});
+    add({"bookmark.go", "the turn", {kFirstQuery, to_3, turn, {"query.select", "1"}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.view().query, 0);
+             EXPECT_EQ(w.session.workspace.step(), 3);
+         }});
+    add({"bookmark.rename",
+         "the bend",
+         {kFirstQuery, to_3, turn},
+         [=](CommandWorld& w) { EXPECT_EQ(bookmarks(w).at(0).name, "the bend"); },
+         true});
+    add({"bookmark.note",
+         "B's box is loose",
+         {kFirstQuery, to_3, turn},
+         [=](CommandWorld& w) { EXPECT_EQ(bookmarks(w).at(0).note, "B's box is loose"); },
+         true});
+    add({"bookmark.remove",
+         "the turn",
+         {kFirstQuery, to_3, turn},
+         [=](CommandWorld& w) { EXPECT_TRUE(bookmarks(w).empty()); },
+         true});
+    add({"step.visited_back", "", {kFirstQuery, kFirstStep, to_3}, [](CommandWorld& w) {
+             EXPECT_EQ(w.session.workspace.step(), 0);
+         }});
+    add({"step.visited_forward", "", {kFirstQuery, kFirstStep, to_3, {"step.visited_back", ""}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.session.workspace.step(), 3);
+         }});
+    add({"step.copy_link", "", {kFirstQuery, to_3}, [](CommandWorld& w) {
+             EXPECT_EQ(w.desktop.text, w.path("scene.json") + "#q0@3");
+         }});
 
     // Go
     look("go.palette", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::palette); });

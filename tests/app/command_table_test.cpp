@@ -179,7 +179,7 @@ TEST(CommandTable, NumbersThatNobodyMeansAreRefusedEverywhere) {
             session.files.open({folder.scene});
             run_command(session, "go.agent", "A");
             run_command(session, "query.select", "0");
-            if (command.id == "agent.rename") continue;  // names are free
+            if (command.id == "agent.rename" || command.id == "bookmark.add") continue;  // names are free
             EXPECT_THROW(run_command(session, command.id, text), std::invalid_argument) << command.id << ' ' << text;
         }
     }
@@ -223,16 +223,24 @@ TEST(CommandTable, ChoicesCanAllBeChosen) {
         // recovery_test.cpp has unsaved work.
         if (command.id == "file.recover" || command.id == "file.discard_unsaved") continue;
         SCOPED_TRACE(command.id);
+        const auto prepare = [&](Session& session) {
+            session.files.open({folder.scene});
+            run_command(session, "go.agent", "A");
+            if (!command.menu.starts_with("Query/")) return;
+            run_command(session, "query.select", "0");
+            run_command(session, "events.filter", "outcome = separated");
+            run_command(session, "events.save", "apart");
+            run_command(session, "breakpoint.add", "gap < 0.1");
+            run_command(session, "bookmark.add", "the end");
+        };
         Session session(false);
         session.settings.recent = {folder.file("walk.csv")};
-        session.files.open({folder.scene});
-        run_command(session, "go.agent", "A");
+        prepare(session);
         const std::vector<std::string> choices = command.choices(session);
         EXPECT_FALSE(choices.empty());
         for (const std::string& choice : choices) {
             Session other(false);
-            other.files.open({folder.scene});
-            run_command(other, "go.agent", "A");
+            prepare(other);
             EXPECT_NO_THROW(run_command(other, command.id, choice)) << choice;
             EXPECT_EQ(all_messages(other), "");
             if (command.chosen) {

@@ -45,6 +45,11 @@ const std::vector<Steps> kSituations{
     {{"go.agent", "A"}, {"agent.move", "3 3"}},
     {{"go.agent", "A"}, {"agent.move", "3 3"}, {"edit.undo", ""}},
     {{"view.top", ""}, {"view.previous", ""}},
+    {{"query.select", "0"},
+     {"step.to", "6"},
+     {"step.to", "9"},
+     {"step.visited_back", ""},
+     {"breakpoint.add", "outcome = overlap"}},
 };
 
 /// A window, again and again on a new folder's scene after what was done.

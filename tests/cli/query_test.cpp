@@ -60,6 +60,22 @@ TEST(Query, NoCollisionHasNoContact) {
     EXPECT_EQ(found[0]["contacts"], json::array());
 }
 
+TEST(Query, WhereTellsOnlyWhatPasses) {
+    const std::string file = kQueryScenes + "crossing.json";
+    const json whole = results({"query", file, "--json", "--trace"})[0]["trace"];
+    const json passing = results({"query", file, "--json", "--where", "outcome = separated and gap < 0.5"})[0]["trace"];
+    std::size_t wanted = 0;
+    for (const json& event : whole) wanted += event["outcome"] == "separated" && event["gap"] < 0.5 ? 1 : 0;
+    EXPECT_GT(wanted, 0u);
+    EXPECT_EQ(passing.size(), wanted);
+    const Result words = run_program({"query", file, "--where", "outcome = overlap"});
+    EXPECT_NE(words.out.find(" of " + std::to_string(whole.size()) + " events"), std::string::npos) << words.out;
+    const Result wrong = run_program({"query", file, "--where", "gap < 0.05 and levle(a) > 2"});
+    EXPECT_EQ(wrong.status, 2);
+    EXPECT_NE(wrong.err.find("gap < 0.05 and levle(a) > 2\n               ^\n"), std::string::npos) << wrong.err;
+    EXPECT_NE(wrong.err.find("did you mean 'level'"), std::string::npos) << wrong.err;
+}
+
 TEST(Query, EveryTreeAndTheDirectSearchGiveTheSameContacts) {
     const std::string file = kQueryScenes + "collision.json";
     const json brute = results({"query", file, "--json", "--all-contacts", "--tree", "brute"});

@@ -1,5 +1,6 @@
 // Filters as text: every field and sign, words, errors with their place, completion.
 #include <scene/event_filter.h>
+#include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
 
@@ -18,6 +19,17 @@ std::string filter_refusal(std::string_view text) {
         return "";
     } catch (const FilterError& error) {
         return std::string(error.what()) + " at " + std::to_string(error.at());
+    }
+}
+
+TEST(EventFilter, TheDocumentListsEveryField) {
+    const std::string document = testing::slurp(MOBBSCOPE_SOURCE_DIR "/docs/command_line.md");
+    for (const EventFieldInfo& field : event_fields()) {
+        const std::string name(field.name);
+        const std::string row = field.of_side ? "| `" + name + "(a)`, `" + name + "(b)` |" : "| `" + name + "` |";
+        EXPECT_NE(document.find(row), std::string::npos) << row;
+        for (const std::string_view value : field.values)
+            EXPECT_NE(document.find('`' + std::string(value) + '`'), std::string::npos) << value;
     }
 }
 

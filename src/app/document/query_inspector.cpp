@@ -1,5 +1,9 @@
 #include <app/document/query_inspector.h>
 
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <string>
 #include <utility>
 
 namespace mobbscope::app {
@@ -25,8 +29,10 @@ std::shared_ptr<const QueryFindings> QueryInspector::findings() const {
     const RecordedQuery* query = workspace_.recorded();
     if (!query) return nullptr;
     Workspace::Derived& d = workspace_.derived();
-    if (!d.findings)
-        d.findings = std::make_shared<const QueryFindings>(find_out(workspace_.fitted(), workspace_.view(), *query));
+    if (!d.findings) {
+        d.findings_of = workspace_.shown();
+        d.findings = std::make_shared<const QueryFindings>(find_out(*d.findings_of, workspace_.view(), *query));
+    }
     return d.findings;
 }
 
@@ -36,6 +42,78 @@ void QueryInspector::replace_recursion(const std::shared_ptr<const QueryFindings
     auto findings = std::make_shared<QueryFindings>(*of);
     findings->recursion = std::move(recursion);
     now = std::move(findings);
+}
+
+EventValues QueryInspector::events() const {
+    const QueryFindings& found = *findings();
+    return {workspace_.recorded()->trace, found.recursion, found.sides[0].placed, found.sides[1].placed};
+}
+
+const PassingEvents& QueryInspector::passing(const EventFilter& filter) const {
+    constexpr std::size_t kMostFilters = 200;  // each letter that is typed makes another one
+    const EventValues values = events();
+    std::map<std::string, PassingEvents>& known = workspace_.derived().passing;
+    if (known.size() > kMostFilters) known.clear();
+    const auto [at, is_new] = known.try_emplace(filter.text());
+    if (is_new) {
+        at->second.passes = passing_steps(values, filter);
+        at->second.count = static_cast<int>(std::ranges::count(at->second.passes, true));
+    }
+    return at->second;
+}
+
+const std::vector<int>& QueryInspector::break_steps() const {
+    const int count = events().size();
+    std::optional<std::vector<int>>& known = workspace_.derived().break_steps;
+    if (known) return *known;
+    std::vector<bool> any(static_cast<std::size_t>(count));
+    for (const Breakpoint& breakpoint : workspace_.scene().debug.breakpoints) {
+        if (!breakpoint.on) continue;
+        const std::vector<bool>& passes = passing(EventFilter(breakpoint.where)).passes;
+        for (std::size_t step = 0; step < any.size(); ++step) any[step] = any[step] || passes[step];
+    }
+    return known.emplace(steps_of(any));
+}
+
+namespace {
+
+void sort_as(std::vector<int>& steps, const EventValues& values, const EventList& list) {
+    // As they stand they are in order of time.
+    if (list.by.field == EventField::step && !list.descending) return;
+    sort_steps(steps, values, list.by.field, list.by.side, list.descending);
+}
+
+}  // namespace
+
+std::shared_ptr<const std::vector<int>> QueryInspector::listed_events() const {
+    const EventValues values = events();
+    const EventList& list = workspace_.events;
+    std::shared_ptr<const std::vector<int>>& known = workspace_.derived().listed_events;
+    if (known) return known;
+    std::vector<int> steps(static_cast<std::size_t>(values.size()));
+    if (list.filter) {
+        steps = steps_of(passing(*list.filter).passes);
+    } else {
+        std::iota(steps.begin(), steps.end(), 0);
+    }
+    sort_as(steps, values, list);
+    return known = std::make_shared<const std::vector<int>>(std::move(steps));
+}
+
+std::optional<int> QueryInspector::listed_event_beside(int by) const {
+    const int present = workspace_.step();
+    std::vector<int> steps = *listed_events();
+    auto at = std::ranges::find(steps, present);
+    if (at == steps.end()) {
+        // It has its place among them all the same.
+        std::ranges::sort(steps);
+        steps.insert(std::ranges::lower_bound(steps, present), present);
+        sort_as(steps, events(), workspace_.events);
+        at = std::ranges::find(steps, present);
+    }
+    const std::ptrdiff_t place = at - steps.begin() + by;
+    if (place < 0 || place >= std::ssize(steps)) return std::nullopt;
+    return steps[static_cast<std::size_t>(place)];
 }
 
 const Answer& QueryInspector::answer_of(std::size_t query) const {

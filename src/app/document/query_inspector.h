@@ -2,6 +2,7 @@
 #pragma once
 
 #include <app/document/workspace.h>
+#include <explain/event_values.h>
 
 #include <cstddef>
 #include <memory>
@@ -22,6 +23,15 @@ class QueryInspector {
     std::shared_ptr<const QueryFindings> findings() const;
     /// The same findings with another recursion, if these are still those of the query in view.
     void replace_recursion(const std::shared_ptr<const QueryFindings>& of, Recursion recursion);
+    /// Of the query in view, which has made tests, until findings() are others.
+    EventValues events() const;
+    const PassingEvents& passing(const EventFilter& filter) const;
+    /// In which events breakpoints hold that are on, in order.
+    const std::vector<int>& break_steps() const;
+    /// The rows of the list of events.
+    std::shared_ptr<const std::vector<int>> listed_events() const;
+    /// The event `by` rows further on in that list, of which the present step need not be; none: it ends there.
+    std::optional<int> listed_event_beside(int by) const;
     /// The first contact of any query, with what it cost.
     const Answer& answer_of(std::size_t query) const;
     /// Figures of a clip's tree.

@@ -32,10 +32,11 @@ struct NumberSetting {
     double Settings::*value;
     double least, most;  ///< others in the file do not count
 };
-constexpr std::array<NumberSetting, 4> kNumberSettings{{{"ui_scale", &Settings::ui_scale, 0.5, 4},
+constexpr std::array<NumberSetting, 5> kNumberSettings{{{"ui_scale", &Settings::ui_scale, 0.5, 4},
                                                         {"left_width", &Settings::left_width, 50, 5000},
                                                         {"right_width", &Settings::right_width, 50, 5000},
-                                                        {"bottom_height", &Settings::bottom_height, 50, 5000}}};
+                                                        {"bottom_height", &Settings::bottom_height, 50, 5000},
+                                                        {"events_height", &Settings::events_height, 50, 5000}}};
 
 using Json = nlohmann::ordered_json;
 
@@ -194,6 +195,7 @@ Json json_of(const Settings& settings) {
     if (settings.theme) json["theme"] = name(*settings.theme);
     if (settings.window) json["window"] = json_of(*settings.window);
     json["folded"] = settings.folded;
+    json["shows_events"] = settings.shows_events;
     json["last_session"] = json_of(settings.last);
     json["export"] = json_of(settings.picture_export);
     return json;
@@ -287,6 +289,8 @@ Settings load_settings(const std::filesystem::path& file) {
             if (is.is_boolean()) settings.folded[name] = is.get<bool>();
         }
     }
+    const auto shows_events = json.find("shows_events");
+    settings.shows_events = shows_events != json.end() && shows_events->is_boolean() && shows_events->get<bool>();
     const std::string order = setting_text(json, "file_order");
     if (std::ranges::find(kFileOrders, order) != kFileOrders.end()) settings.file_order = order;
     settings.last = read_last(json);

@@ -37,6 +37,8 @@ struct Settings {
     double left_width = 256;       ///< of the panels, pixels at scale 1
     double right_width = 320;
     double bottom_height = 150;
+    double events_height = 300;         ///< of the panel below with the list of events
+    bool shows_events = false;          ///< the list of a query's events stands in place of its recursion
     std::optional<Theme> theme;         ///< that was chosen last; none: never
     std::optional<WindowPlace> window;  ///< none: it was never open
     std::map<std::string, bool>

@@ -56,6 +56,9 @@ const RecordedQuery* Workspace::recorded() const {
     Derived& d = derived();
     if (!d.recorded || d.recorded->first != *view().query) {
         d.findings.reset();
+        d.passing.clear();
+        d.break_steps.reset();
+        d.listed_events.reset();
         d.recorded.emplace(*view().query, fitted().recorded(static_cast<std::size_t>(*view().query)));
     }
     return d.recorded->second.get();
@@ -77,16 +80,33 @@ void Workspace::edit(const EditName& name, const std::function<void(Scene&)>& ch
     change_document(with_scene(document(), changed_scene(change)), name);
 }
 
+void Workspace::edit_debug(const std::string& title, const std::function<void(DebugState&)>& change) {
+    Document next = with_scene(document(), changed_scene([&](Scene& scene) { change(scene.debug); }));
+    Derived& was = derived();
+    history.change(std::move(next), {title, ""});
+    Derived kept{document().fitted};
+    kept.recorded = std::move(was.recorded);
+    kept.findings = std::move(was.findings);
+    kept.findings_of = std::move(was.findings_of);
+    kept.passing = std::move(was.passing);
+    kept.listed_events = std::move(was.listed_events);
+    derived_ = std::move(kept);
+    changed();
+}
+
 void Workspace::change_view(const std::function<void(ViewState&)>& change, const std::optional<EditName>& name) {
     Document next = document();
     change(next.view);
     next.view = clamped(next.view, *next.fitted);
     if (next.view == view()) return;
     if (next.view.theme != view().theme) settings_->theme = next.view.theme;
+    const std::optional<VisitedStep> left = present_step();
+    const bool goes_on = stepping_;
     remember_step(next);
     const EditName as = name ? *name : name_of_looking(document(), next.view);
     history.look(std::move(next), as);
     changed();
+    visited.moved(left, present_step(), goes_on);
 }
 
 void Workspace::change_document(Document next, const EditName& name) {
@@ -153,6 +173,9 @@ void Workspace::remember_step(Document& next) {
     }
     if (next.view.step == view().step) return;
     const mobb::Trace& trace = recorded()->trace;
+    // One that was quoted may lie behind the end.
+    if (next.view.step.unit == Step::Unit::event && next.view.step.value >= trace.size())
+        next.view.step = {Step::Unit::end, 0};
     const int was = step();
     const int is = event_of(next.view.step, trace);
     QuerySteps& looked_at = next.steps[from];
@@ -177,6 +200,33 @@ void Workspace::close_group() {
 }
 
 void Workspace::select(const Selection& selected) { selection = exists(fitted(), selected) ? selected : Selection{}; }
+
+std::optional<VisitedStep> Workspace::present_step() const {
+    const RecordedQuery* query = recorded();
+    if (!query || query->trace.empty()) return std::nullopt;
+    return VisitedStep{step_key(*document().fitted, *view().query), step()};
+}
+
+bool Workspace::revisit(bool forward) {
+    const std::optional<VisitedStep> present = present_step();
+    VisitedSteps way = visited;
+    std::vector<VisitedStep>& from = forward ? way.after : way.before;
+    while (!from.empty()) {
+        const VisitedStep next = from.back();
+        from.pop_back();
+        const std::optional<int> query = find_query(*document().fitted, next.of.first);
+        // It is asked no more, or one is there already.
+        if (!query || next == present) continue;
+        if (present) (forward ? way.before : way.after).push_back(*present);
+        change_view([&](ViewState& view) {
+            view.query = query;
+            view.step = {Step::Unit::event, static_cast<double>(next.step)};
+        });
+        visited = std::move(way);
+        return true;
+    }
+    return false;
+}
 
 bool is_crowd(const Workspace& workspace) {
     const Scene& scene = workspace.scene();

@@ -8,8 +8,10 @@
 #include <app/document/job.h>
 #include <app/document/selection.h>
 #include <app/document/settings.h>
+#include <app/document/visited_steps.h>
 #include <conflicts/conflicts.h>
 #include <crowd/simulation/choice.h>
+#include <explain/event_table.h>
 #include <explain/query_findings.h>
 #include <mobb/level_figures.h>
 #include <render/drawlist/camera.h>
@@ -57,6 +59,19 @@ struct ShownRun {
     std::shared_ptr<const FittedScene> at(const SceneView& seen);
 };
 
+/// How the list of a query's events shows them.
+struct EventList {
+    std::optional<EventFilter> filter{};  ///< none: all
+    EventColumn by = event_columns().front();
+    bool descending = false;
+};
+
+/// Which events of a query pass a filter.
+struct PassingEvents {
+    std::vector<bool> passes;
+    int count = 0;
+};
+
 class Workspace {
   public:
     /// An empty scene. `settings` outlive it.
@@ -76,6 +91,8 @@ class Workspace {
     std::optional<Isolation> isolation;   ///< since agents were shown alone
     std::string filter;                   ///< lists show what has this text in its name; empty: all
     std::set<std::string> folded_groups;  ///< of clips, by title
+    EventList events;
+    VisitedSteps visited;
 
     /// Of which size the pictures are that cameras stand for; none: nothing was drawn since the scene was opened.
     std::optional<PictureSize> picture_size;
@@ -131,6 +148,8 @@ class Workspace {
     Scene changed_scene(const std::function<void(Scene&)>& change) const;
     /// Changes the scene at once. Throws as changed_scene does: nothing is changed then.
     void edit(const EditName& name, const std::function<void(Scene&)>& change);
+    /// Changes how queries are debugged: what was found out about them stays.
+    void edit_debug(const std::string& title, const std::function<void(DebugState&)>& change);
     /// Changes how it is seen, which undo leaves as it is (see History::look). No name: as what it changes says.
     void change_view(const std::function<void(ViewState&)>& change, const std::optional<EditName>& name = {});
     /// The next document of the history.
@@ -142,12 +161,20 @@ class Workspace {
     /// An interaction has ended: what follows is undone apart from it.
     void close_group();
     void select(const Selection& selected);
+    /// The step of the query in view; none: none is in view.
+    std::optional<VisitedStep> present_step() const;
+    /// Back to the step that was visited before, or forward again; whether there was one.
+    bool revisit(bool forward);
 
     /// What is computed from the present scene when asked for.
     struct Derived {
         std::shared_ptr<const FittedScene> of;
         std::optional<std::pair<int, std::shared_ptr<const RecordedQuery>>> recorded{};
-        std::shared_ptr<const QueryFindings> findings{};  ///< of `recorded`
+        std::shared_ptr<const QueryFindings> findings{};   ///< of `recorded`
+        std::shared_ptr<const FittedScene> findings_of{};  ///< refers to it
+        std::map<std::string, PassingEvents> passing{};    ///< by filter; of `recorded`, too
+        std::optional<std::vector<int>> break_steps{};
+        std::shared_ptr<const std::vector<int>> listed_events{};
         std::map<std::size_t, Answer> answers{};
         std::map<int, std::vector<mobb::LevelFigures>> figures{};
         std::optional<std::vector<ClipGroup>> groups{};

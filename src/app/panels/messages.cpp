@@ -225,8 +225,8 @@ void messages(Ui& ui, Notifications& notifications, Dialogs& dialogs) {
                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize);
     ImGui::PopStyleColor();
     ImGui::PopStyleVar(2);
-    // Over dialogs too: what went wrong in one is read there.
-    ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
+    // Over dialogs too: what went wrong in one is read there. Not over an open menu.
+    if (!ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
     std::optional<std::size_t> gone;
     // The latest at the bottom, where the eye goes first.
     for (std::size_t i = shown; i-- > 0;) {

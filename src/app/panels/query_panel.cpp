@@ -115,6 +115,8 @@ void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures) {
         why_axes(ui, *findings);
         measured_pairs(ui, *findings);
         query_counters(ui, *findings);
+        break_when(ui, queries);
+        bookmarks(ui);
         if (section(ui, "RECURSION: TIME OF A BY TIME OF B")) {
             pictures.square(ui, queries, *findings);
             recording_note(ui, "square");

@@ -2,6 +2,7 @@
 /// cursor of the current ImGui window.
 #pragma once
 
+#include <app/panels/event_list.h>
 #include <app/panels/recursion_picture.h>
 #include <app/ui/ui.h>
 #include <app/ui/widgets.h>
@@ -44,6 +45,10 @@ void current_test(Ui& ui, const QueryFindings& findings);
 void why_axes(Ui& ui, const QueryFindings& findings);
 /// The pairs of samples that were measured.
 void measured_pairs(Ui& ui, const QueryFindings& findings);
+/// The scene's breakpoints, each with how often it holds here, and a field for another one.
+void break_when(Ui& ui, QueryInspector& queries);
+/// The scene's bookmarks, with the notes on them.
+void bookmarks(Ui& ui);
 
 /// The map of placements, with what it was last drawn from.
 class MapPicture {
@@ -68,6 +73,7 @@ class MapPicture {
 /// The pictures of a trace, each with the cells that it was last drawn from: most frames draw the same ones.
 class QueryPictures {
   public:
+    EventTable events;
     /// A's time by B's: every pair of nodes that was tested.
     void square(Ui& ui, QueryInspector& queries, const QueryFindings& findings);
     /// How far A and B are apart at each moment.

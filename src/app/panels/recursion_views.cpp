@@ -320,6 +320,13 @@ void QueryPictures::strip(Ui& ui, QueryInspector& queries, float width, float he
     for (const StripCell& cell : cells) {
         draw_cell(list, ui.style, cell, {at.x, at.y + ui.px(4)}, room, cell.first <= step ? 1 : kStripAhead);
     }
+    const std::vector<int>& breaks = queries.break_steps();
+    for (const StripCell& cell : cells) {
+        const auto first = std::ranges::lower_bound(breaks, cell.first);
+        if (first == breaks.end() || *first >= cell.end) continue;
+        list.AddRectFilled({at.x + cell.x0, at.y}, {at.x + std::max(cell.x1, cell.x0 + ui.px(2)), at.y + ui.px(3)},
+                           ui.style.error);
+    }
     const auto present =
         std::partition_point(cells.begin(), cells.end(), [&](const StripCell& c) { return c.end <= step; });
     const float x = at.x + 0.5f * (present->x0 + present->x1);

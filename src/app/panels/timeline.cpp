@@ -227,8 +227,13 @@ void timeline(Ui& ui, Playback& playback, QueryInspector& queries, QueryPictures
     time_row(ui, playback, queries, !steps);
     if (steps) {
         step_row(ui, queries, pictures);
+        event_tabs(ui);
         const ImVec2 room = ImGui::GetContentRegionAvail();
-        if (room.y > ui.px(24)) pictures.icicle(ui, queries, room);
+        if (shows_event_list(ui, queries)) {
+            pictures.events.draw(ui, queries);
+        } else if (room.y > ui.px(24)) {
+            pictures.icicle(ui, queries, room);
+        }
     }
     ImGui::PopID();
 }

@@ -166,8 +166,8 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     const float right = sides.right;
     const bool fold = sides.fold;
     const float highest = std::min(0.6f * room.y, std::max(0.4f * room.y, room.y - ui.px(kEnoughHeight)));
-    const float bottom =
-        std::clamp(ui.px(static_cast<float>(settings.bottom_height)), std::min(ui.px(90), highest), highest);
+    double& bottom_height = shows_event_list(ui, ui.session.queries) ? settings.events_height : settings.bottom_height;
+    const float bottom = std::clamp(ui.px(static_cast<float>(bottom_height)), std::min(ui.px(90), highest), highest);
     const auto spacing = [] { ImGui::SameLine(0, 0); };
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
 
@@ -215,7 +215,7 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
         viewport_toolbar(ui);
         draw_views(ui, viewports);
         ImGui::EndChild();
-        settings.bottom_height -= splitter(ui, "splitter.bottom", {middle, bar}, false) / ui.style.scale;
+        bottom_height -= splitter(ui, "splitter.bottom", {middle, bar}, false) / ui.style.scale;
         panel(ui, "timeline", {middle, bottom},
               [&] { timeline(ui, ui.session.playback, ui.session.queries, pictures); });
     }
@@ -253,7 +253,7 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
 
     settings.left_width = std::clamp(settings.left_width, 180.0, 900.0);
     settings.right_width = std::clamp(settings.right_width, 180.0, 900.0);
-    settings.bottom_height = std::clamp(settings.bottom_height, 90.0, 900.0);
+    bottom_height = std::clamp(bottom_height, 90.0, 900.0);
 
     ui.focus.panel("dialog");
     dialogs(ui);

@@ -92,7 +92,19 @@ Json proof_json(const Workspace& workspace, const QueryProof& proof) {
     return json;
 }
 
-Json query_json(const Workspace& workspace, const QueryInspector& queries) {
+/// The list of events, and how often breakpoints hold; null where the query has made no test.
+Json events_json(const Workspace& workspace, const QueryInspector& queries, bool shown) {
+    if (workspace.recorded()->trace.empty()) return nullptr;
+    const EventList& list = workspace.events;
+    return {{"shown", shown},
+            {"filter", list.filter ? Json(list.filter->text()) : Json(nullptr)},
+            {"listed", queries.listed_events()->size()},
+            {"sort", column_name(list.by)},
+            {"descending", list.descending},
+            {"breaks", queries.break_steps().size()}};
+}
+
+Json query_json(const Workspace& workspace, const QueryInspector& queries, const Settings& settings) {
     const RecordedQuery* recorded = workspace.recorded();
     if (!recorded) return nullptr;
     const int index = *workspace.view().query;
@@ -112,8 +124,9 @@ Json query_json(const Workspace& workspace, const QueryInspector& queries) {
               {"tests", std::move(tests)},
               {"outcome", mobb::name(event.outcome)},
               {"proof", proof_json(workspace, queries.findings()->proof)},
-              {"sentence", step_sentence(sides, recorded->trace, workspace.step())}};
-    if (recorded->trace.stopped()) json["events"] = recorded->trace.events();
+              {"sentence", step_sentence(sides, recorded->trace, workspace.step())},
+              {"events", events_json(workspace, queries, settings.shows_events)}};
+    if (recorded->trace.stopped()) json["all_events"] = recorded->trace.events();
     return json;
 }
 
@@ -272,7 +285,7 @@ Json state_json(const Session& session) {
     json["view"] = view_json(session.workspace.view());
     json["selection"] = selection_json(session.workspace, session.workspace.selection);
     json["hovered"] = selection_json(session.workspace, session.workspace.hovered);
-    json["query"] = query_json(session.workspace, session.queries);
+    json["query"] = query_json(session.workspace, session.queries, session.settings);
     json["crowd"] = crowd_json(session.workspace, session.crowds);
     if (Json map = map_json(session.maps); !map.is_null()) json["map"] = std::move(map);
     json["excerpt"] = session.workspace.in_excerpt();

@@ -47,6 +47,7 @@ enum class FocusMove { none, next_panel, previous_panel, menu_bar, menu_of_this,
 struct Keys {
     std::string focus;                 ///< the widget that has them, by its mark; empty: the viewport
     FocusMove move = FocusMove::none;  ///< asked for, and done in the next frame
+    std::string field{};               ///< to be typed into, by its mark: likewise
 };
 
 /// Of text and panels.

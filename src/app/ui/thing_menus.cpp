@@ -1,4 +1,5 @@
 #include <app/document/agents.h>
+#include <app/document/debug_texts.h>
 #include <app/ui/thing_menus.h>
 #include <base/text.h>
 #include <explain/query_findings.h>
@@ -6,6 +7,7 @@
 #include <scene/view_options.h>
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -72,6 +74,15 @@ std::vector<MenuEntry> node_menu(const Session& session) {
         const std::string level =
             std::to_string(session.workspace.fitted().tree(who->clip).level(session.workspace.selection.index));
         menu.push_back({"view.level", level, "Show level " + level + " alone"});
+    }
+    const std::optional<int> side =
+        session.workspace.view().query
+            ? index_in_view(session.workspace.fitted(), session.workspace.view(), session.workspace.selection.path)
+            : std::nullopt;
+    if (who && side) {
+        const mobb::Tree& tree = session.workspace.fitted().tree(who->clip);
+        menu.push_back(
+            {"breakpoint.add", node_filter(tree, *side, session.workspace.selection.index), "Break when it is tested"});
     }
     append_agent(menu, session);
     return menu;
@@ -167,6 +178,17 @@ std::vector<MenuEntry> test_menu(const Workspace& workspace, const QueryInspecto
     for (const auto& [side, node] : {std::pair(&sides[0], test.a), std::pair(&sides[1], test.b)}) {
         menu.push_back({"go.node", side->name + ' ' + std::to_string(node), "Select " + node_name(*side, node)});
     }
+    const auto break_when = [&](const std::string& where, const std::string& what) {
+        menu.push_back({"breakpoint.add", where, "Break when " + what});
+    };
+    menu.push_back({""});
+    break_when(pair_filter(queries, event), "these two are tested");
+    for (const auto& [side, node] : {std::pair(0, test.a), std::pair(1, test.b)}) {
+        const DrawnAgent& of = sides[static_cast<std::size_t>(side)];
+        break_when(node_filter(of.placed.tree(), side, node), node_name(of, node) + " is tested");
+    }
+    const std::string outcome = "outcome = " + std::string(mobb::name(test.outcome));
+    break_when(outcome, EventFilter(outcome).words());
     append(menu, {{"step.first"}, {"step.last"}, {"go.contact", "", "Go to contact"}, {"file.copy_command"}});
     return menu;
 }

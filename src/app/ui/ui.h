@@ -60,6 +60,7 @@ struct FieldInput {
     bool fresh = false;   ///< the field does not have the keys yet
     int waits = 2;        ///< frames until it must have them
     bool typing = false;  ///< else it is dragged
+    int picked = 0;       ///< of the words that may go on with the text
 
     /// Keys that are pressed meanwhile are for the field.
     bool waits_for_keys() const { return typing && waits > 0; }

@@ -1,0 +1,33 @@
+/// The tests of the query in view as a table: sorted, filtered, each row a step.
+#pragma once
+
+#include <app/ui/ui.h>
+
+#include <memory>
+#include <vector>
+
+namespace mobbscope::app {
+
+class EventTable {
+  public:
+    /// The filter with its words, and the table below it, in what room there is. Requires a query in view with tests.
+    void draw(Ui& ui, QueryInspector& queries);
+
+  private:
+    void table(Ui& ui, QueryInspector& queries);
+    void row(Ui& ui, QueryInspector& queries, int index) const;
+    /// Scrolls to the row of the present step, where that has changed or rows have.
+    void follow(int step, float row_height, float head_height);
+
+    std::shared_ptr<const std::vector<int>> rows_;  ///< as they were drawn last
+    int step_ = -1;                                 ///< likewise
+    int present_ = -1;                              ///< its row; -1: it has none
+};
+
+/// Whether the list stands in place of the recursion.
+bool shows_event_list(const Ui& ui, QueryInspector& queries);
+
+/// The two tabs: the recursion, the list of events.
+void event_tabs(Ui& ui);
+
+}  // namespace mobbscope::app
