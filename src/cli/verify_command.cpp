@@ -34,7 +34,9 @@ int run_verify(VerifyCommandArguments& arguments) {
             std::cout << number << ": " << sentence(query, each.proof.contact) << ' ' << proof_words(each.proof, {})
                       << '\n';
         } else {
-            complain(name + ": query " + number + " is not proven: " + why);
+            std::string message = name;
+            message.append(": query ").append(number).append(" is not proven: ").append(why);
+            complain(message);
             ++failed;
         }
     }
