@@ -47,7 +47,7 @@ int run_verify(VerifyCommandArguments& arguments) {
 
 void add_verify_options(Command& command, VerifyCommandArguments& arguments) {
     add_scene_file(command, arguments.file);
-    command.add_option("CERT", arguments.certificate, openable_files()).required();
+    command.add_option("CERT", arguments.certificate, "What query --certificate wrote; - is standard input").required();
     add_import_options(command, arguments.import_options);
 }
 
