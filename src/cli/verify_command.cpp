@@ -34,7 +34,9 @@ int run_verify(VerifyCommandArguments& arguments) {
             std::cout << number << ": " << sentence(query, each.proof.contact) << ' ' << proof_words(each.proof, {})
                       << '\n';
         } else {
-            complain(name + ": query " + number + " is not proven: " + why);
+            std::string message = name;
+            message.append(": query ").append(number).append(" is not proven: ").append(why);
+            complain(message);
             ++failed;
         }
     }
@@ -45,7 +47,7 @@ int run_verify(VerifyCommandArguments& arguments) {
 
 void add_verify_options(Command& command, VerifyCommandArguments& arguments) {
     add_scene_file(command, arguments.file);
-    command.add_option("CERT", arguments.certificate, openable_files()).required();
+    command.add_option("CERT", arguments.certificate, "What query --certificate wrote; - is standard input").required();
     add_import_options(command, arguments.import_options);
 }
 

@@ -123,7 +123,10 @@ double shift_in_time(const ShiftCheck& check) {
     const double all = check.all_shifts();
     constexpr double kLeast = 1e-6, kPrecise = 1e-6;  // seconds that are worth naming; share of the result
     double holds = 0, fails = kLeast;
-    for (; fails < all && check.holds(fails); fails *= 2) holds = fails;
+    while (fails < all && check.holds(fails)) {
+        holds = fails;
+        fails *= 2;
+    }
     if (holds == 0) return 0;
     if (fails >= all && check.holds(all)) return kForever;
     while (fails - holds > kPrecise * holds) {

@@ -246,11 +246,12 @@ void check(const MapOrder& order, const mobb::Placement& b) {
     if (order.across.axis == order.up.axis)
         throw std::invalid_argument("both axes are " + std::string(name(order.up.axis)) + "; give two different ones");
     for (const MapRange& range : {order.across, order.up}) {
-        const std::string axis(name(range.axis));
         // Written so that NaN fails it.
-        if (!(std::isfinite(range.from) && std::isfinite(range.to) && range.from < range.to))
-            throw std::invalid_argument(axis + " must go from a finite number up to a larger one, as " + axis +
-                                        "=-5:5");
+        if (std::isfinite(range.from) && std::isfinite(range.to) && range.from < range.to) continue;
+        const std::string axis(name(range.axis));
+        std::string message = axis;
+        message.append(" must go from a finite number up to a larger one, as ").append(axis).append("=-5:5");
+        throw std::invalid_argument(message);
     }
     for (const int cells : {order.width, order.height}) {
         if (cells < 1 || cells > kMostMapCells)
@@ -312,7 +313,7 @@ std::string map_words(const PlacementMap& map, const std::string& a, const std::
 
 std::string cell_words(const PlacementMap& map, int x, int y) {
     const double value = map.value(x, y);
-    const std::string answer = map.hit(x, y) ? "they collide" : "they never collide";
+    std::string answer = map.hit(x, y) ? "they collide" : "they never collide";
     switch (map.order.show) {
         case MapShow::answer:
             break;

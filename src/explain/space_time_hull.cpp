@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <ranges>
 #include <span>
 #include <utility>
 
@@ -19,8 +18,15 @@ namespace {
 
 /// The first sample of [first, end) that begins at a time or later, or end.
 int first_beginning_at(const mobb::PlacedClip& clip, int first, int end, double time) {
-    const auto samples = std::views::iota(first, end);
-    return *std::ranges::partition_point(samples, [&](int i) { return clip.time(i) < time; });
+    while (first < end) {
+        const int middle = first + (end - first) / 2;
+        if (clip.time(middle) < time) {
+            first = middle + 1;
+        } else {
+            end = middle;
+        }
+    }
+    return first;
 }
 
 /// Up to four points of the difference of two bodies.

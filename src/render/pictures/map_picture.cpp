@@ -267,7 +267,7 @@ class MapDrawing {
 
 /// What the numbers are of.
 std::string below_headline(const PlacementMap& map) {
-    const std::string cells = std::to_string(map.order.width) + " x " + std::to_string(map.order.height) + " cells";
+    std::string cells = std::to_string(map.order.width) + " x " + std::to_string(map.order.height) + " cells";
     if (map.order.show == MapShow::answer) return cells;
     std::optional<std::pair<double, double>> range;
     for (const double value : map.values) {

@@ -89,14 +89,17 @@ std::vector<PixelLine> hit_hatch(const PlacementMap& map, const Rect& area, floa
     };
     const float across = apart * std::sqrt(2.0f);
     // Each begins at the left or at the lower side, and is walked pixel by pixel.
-    for (float c = across; c < size.x + size.y; c += across) {
+    for (int line = 1; static_cast<float>(line) * across < size.x + size.y; ++line) {
+        const float c = static_cast<float>(line) * across;
         const float begin = std::max(0.0f, c - size.y), end = std::min(size.x, c);
         std::optional<glm::vec2> from;
-        for (float x = begin; x <= end; x += 1) {
+        const int last = static_cast<int>(end - begin);
+        for (int pixel = 0; pixel <= last; ++pixel) {
+            const float x = begin + static_cast<float>(pixel);
             const glm::vec2 at{area.min.x + x, area.min.y + c - x};
             const bool hit = is_hit(at);
             if (hit && !from) from = at;
-            if (from && (!hit || x + 1 > end)) {
+            if (from && (!hit || pixel == last)) {
                 if (at.x - from->x > 2) out.push_back({*from, at});
                 from.reset();
             }

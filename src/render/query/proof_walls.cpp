@@ -146,7 +146,8 @@ std::optional<glm::vec3> add_free_region(DrawList& list, const DrawnAgent& b, co
         low = std::min(low, glm::dot(across, corner));
         high = std::max(high, glm::dot(across, corner));
     }
-    for (double at = std::ceil(low / step) * step; at < high; at += step) {
+    for (int line = static_cast<int>(std::ceil(low / step)); line * step < high; ++line) {
+        const double at = line * step;
         if (const auto run = chord(region, along, at))
             pen.line(drawn(run->t0 * along + at * across), drawn(run->t1 * along + at * across),
                      scaled({.color = with_alpha(color, 0.22f), .width = 1}, scale));
