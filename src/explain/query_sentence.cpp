@@ -93,6 +93,22 @@ std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::E
     return std::string(shape.meets) + ", " + what_next(sides, event);
 }
 
+std::string short_outcome(const mobb::Trace::Event& event) {
+    switch (event.outcome) {
+        case mobb::Outcome::disjoint_in_time:
+            return "apart in time";
+        case mobb::Outcome::separated:
+            return "apart " + with_unit(event.gap, "m");
+        case mobb::Outcome::overlap:
+            return event.test == mobb::TestKind::time ? "share time" : "overlap";
+        case mobb::Outcome::hit:
+            return "hit";
+        case mobb::Outcome::no_hit:
+            return "no hit";
+    }
+    return "";
+}
+
 std::string step_of(int step, const mobb::Trace& trace) {
     return "step " + std::to_string(step) + " of 0.." + std::to_string(trace.size() - 1);
 }

@@ -1,6 +1,15 @@
 #include <app/document/query_inspector.h>
+#include <base/text.h>
+#include <explain/query_sentence.h>
+#include <explain/reasons.h>
 
 namespace mobbscope::app {
+
+namespace {
+
+constexpr std::size_t kMostBranches = 100;
+
+}  // namespace
 
 void QueryInspector::show(int query, std::optional<Step> step) {
     const auto looked_at = workspace_.document().steps.find(step_key(*workspace_.document().fitted, query));
@@ -26,6 +35,62 @@ std::shared_ptr<const QueryFindings> QueryInspector::findings() const {
     if (!d.findings)
         d.findings = std::make_shared<const QueryFindings>(find_out(workspace_.fitted(), workspace_.view(), *query));
     return d.findings;
+}
+
+Workspace::Derived::Focused& QueryInspector::focused() const {
+    const std::shared_ptr<const QueryFindings> found = findings();
+    std::optional<Workspace::Derived::Focused>& kept = workspace_.derived().focused;
+    const FocusWindow& window = workspace_.look.focus;
+    if (!kept || kept->window != window) kept = {window, events_in(found->recursion, window)};
+    return *kept;
+}
+
+const InFocus& QueryInspector::in_focus() const { return focused().inside; }
+
+StepCounts QueryInspector::counts_so_far() const {
+    auto& [at, counts] = focused().counts;
+    const int step = workspace_.step();
+    if (at == step) return counts;
+    counts = counts_in(in_focus(), workspace_.recorded()->trace, findings()->recursion, step);
+    at = step;
+    return counts;
+}
+
+StepCounts QueryInspector::counts_in_all() const {
+    Workspace::Derived::Focused& now = focused();
+    const Recursion& recursion = findings()->recursion;
+    if (!now.in_all) {
+        const int last = static_cast<int>(recursion.pair_of.size()) - 1;
+        now.in_all = counts_in(now.inside, workspace_.recorded()->trace, recursion, last);
+    }
+    return *now.in_all;
+}
+
+const std::vector<BranchCost>& QueryInspector::branches() const {
+    Workspace::Derived::Focused& now = focused();
+    if (!now.branches) {
+        now.branches = costliest_branches(findings()->recursion, now.window, now.inside, kMostBranches);
+    }
+    return *now.branches;
+}
+
+std::optional<PlaceReasons> QueryInspector::reasons() const {
+    const std::shared_ptr<const QueryFindings> found = findings();
+    if (!found) return std::nullopt;
+    const QueryLook& look = workspace_.look;
+    if (look.sample) {
+        const DrawnAgent& side = found->sides[static_cast<std::size_t>(look.sample->side)];
+        return PlaceReasons{
+            "sample " + std::to_string(look.sample->index) + " of " + side.label,
+            end_pairs_of_sample(found->recursion, side.placed.tree(), look.sample->side, look.sample->index)};
+    }
+    if (look.point) {
+        return PlaceReasons{formatted("%.2f s by %.2f s", look.point->time_a, look.point->time_b),
+                            pairs_at(found->recursion, look.point->time_a, look.point->time_b)};
+    }
+    const std::optional<double>& time = workspace_.view().time;
+    if (!time) return std::nullopt;
+    return PlaceReasons{with_unit(*time, "s"), pairs_at(found->recursion, *time, *time)};
 }
 
 const Answer& QueryInspector::answer_of(std::size_t query) const {

@@ -6,9 +6,16 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace mobbscope::app {
+
+/// The pairs that decided about a place.
+struct PlaceReasons {
+    std::string of;          ///< "3.77 s", "sample 31 of A"
+    std::vector<int> pairs;  ///< of the recursion, in order
+};
 
 class QueryInspector {
   public:
@@ -20,12 +27,23 @@ class QueryInspector {
     std::optional<Step> step_before() const;
     /// What follows from Workspace::recorded; null if no query is in the view.
     std::shared_ptr<const QueryFindings> findings() const;
+    /// By event of the query in view, whether lists show it; empty where they show all. Requires findings().
+    const InFocus& in_focus() const;
+    /// What had been counted in the focus after the present step, and in all of it. Requires findings() with events.
+    StepCounts counts_so_far() const;
+    StepCounts counts_in_all() const;
+    /// The costliest of the focus (costliest_branches), some hundred. Requires findings() with events.
+    const std::vector<BranchCost>& branches() const;
+    /// Of what is asked about (QueryLook), else of the time cursor's moment; none: nothing is, or no query is in view.
+    std::optional<PlaceReasons> reasons() const;
     /// The first contact of any query, with what it cost.
     const Answer& answer_of(std::size_t query) const;
     /// Figures of a clip's tree.
     const std::vector<mobb::LevelFigures>& figures_of(int clip) const;
 
   private:
+    Workspace::Derived::Focused& focused() const;
+
     Workspace& workspace_;
 };
 

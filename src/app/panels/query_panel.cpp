@@ -85,6 +85,21 @@ void right_aligned(const std::string& text, float right, ImU32 color) {
     text_line(color, text);
 }
 
+/// What lists and counts are restricted to.
+void focus_line(Ui& ui, const QueryFindings& findings) {
+    const FocusWindow& focus = ui.workspace.look.focus;
+    if (focus.is_all()) return;
+    std::string text = "Focus:";
+    if (focus.branch) {
+        const RecursionPair& pair = findings.recursion.pairs[static_cast<std::size_t>(*focus.branch)];
+        text += ' ' + node_name(findings.sides[0], pair.a) + " / " + node_name(findings.sides[1], pair.b);
+    }
+    if (focus.time) text += formatted(" %.2f to %.2f s", focus.time->t0, focus.time->t1);
+    words(ui.style.accent, text);
+    flow(button_width("everything"));
+    query_button(ui, "everything", "focus.none");
+}
+
 /// What to do to see one.
 void no_query(Ui& ui) {
     if (!section(ui, "QUERY")) return;
@@ -109,11 +124,14 @@ void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures) {
     query_header(ui);
     query_answer(ui, queries, *findings);
     if (!findings->recursion.pairs.empty()) {
+        focus_line(ui, *findings);
         step_transport(ui);
         current_test(ui, *findings);
+        reasons(ui, queries, *findings);
         why_axes(ui, *findings);
         measured_pairs(ui, *findings);
-        query_counters(ui, *findings);
+        costliest(ui, queries, ui.session.costs, *findings);
+        query_counters(ui, queries, *findings);
         if (section(ui, "RECURSION: TIME OF A BY TIME OF B")) {
             pictures.square(ui, queries, *findings);
             outcome_legend(ui);
@@ -142,12 +160,10 @@ void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings
     expectation(ui, queries);
 }
 
-void query_counters(Ui& ui, const QueryFindings& findings) {
-    if (!section(ui, "TESTS")) return;
-    const StepCounts total = findings.recursion.total();
-    const StepCounts now = findings.recursion.so_far.empty()
-                               ? StepCounts{}
-                               : findings.recursion.so_far[static_cast<std::size_t>(ui.workspace.step())];
+void query_counters(Ui& ui, QueryInspector& queries, const QueryFindings& findings) {
+    if (!section(ui, "TESTS", ui.workspace.look.focus.is_all() ? "" : "in the focus")) return;
+    const StepCounts total = queries.counts_in_all();
+    const StepCounts now = queries.counts_so_far();
     const float left = ImGui::GetCursorPosX();
     const float room = ImGui::GetContentRegionAvail().x;
     const float first = left + 0.68f * room;
@@ -175,7 +191,7 @@ void query_counters(Ui& ui, const QueryFindings& findings) {
     }
     tests("sample pairs", "Pairs of disks whose distance was measured", mobb::TestKind::samples);
     row("wasted", "Box tests that found an overlap which led to no hit", now.wasted, total.wasted);
-    words(ui.style.quiet, gain_words(total.tests, findings.clearance));
+    words(ui.style.quiet, gain_words(findings.recursion.total().tests, findings.clearance));
 }
 
 }  // namespace mobbscope::app

@@ -1,6 +1,7 @@
 #include <app/script/state_json.h>
 #include <base/text.h>
 #include <explain/query_sentence.h>
+#include <explain/reasons.h>
 #include <render/drawlist/font.h>
 #include <render/pictures/candidates.h>
 #include <scene/scene_json.h>
@@ -102,6 +103,31 @@ Json query_json(const Workspace& workspace) {
             {"tests", std::move(tests)},
             {"outcome", mobb::name(event.outcome)},
             {"sentence", step_sentence(sides, recorded->trace, workspace.step())}};
+}
+
+/// Which part of the query is looked at, and what is pointed out in it.
+Json look_json(const Workspace& workspace, const QueryInspector& queries) {
+    const std::shared_ptr<const QueryFindings> findings = queries.findings();
+    if (!findings || findings->recursion.pairs.empty()) return nullptr;
+    const QueryLook& look = workspace.look;
+    Json json{{"hovered_event", workspace.hovered_event < 0 ? Json(nullptr) : Json(workspace.hovered_event)},
+              {"ended", ended_words(findings->sides, findings->recursion, workspace.step())},
+              {"focus", {{"branch", nullptr}, {"time", nullptr}, {"tests", queries.counts_in_all().tests.all()}}},
+              {"zoom", nullptr},
+              {"reasons", nullptr}};
+    if (look.focus.branch) {
+        json["focus"]["branch"] = findings->recursion.pairs[static_cast<std::size_t>(*look.focus.branch)].last;
+    }
+    if (look.focus.time) json["focus"]["time"] = {look.focus.time->t0, look.focus.time->t1};
+    if (look.zoom) json["zoom"] = {look.zoom->first, look.zoom->end - 1};
+    if (const std::optional<PlaceReasons> found = queries.reasons()) {
+        Json steps = Json::array();
+        for (const int pair : found->pairs) {
+            steps.push_back(findings->recursion.pairs[static_cast<std::size_t>(pair)].last);
+        }
+        json["reasons"] = {{"of", found->of}, {"steps", std::move(steps)}};
+    }
+    return json;
 }
 
 Json crowd_json(const Workspace& workspace, const CrowdInspector& crowds) {
@@ -244,6 +270,7 @@ Json state_json(const Session& session) {
     json["selection"] = selection_json(session.workspace, session.workspace.selection);
     json["hovered"] = selection_json(session.workspace, session.workspace.hovered);
     json["query"] = query_json(session.workspace);
+    json["look"] = look_json(session.workspace, session.queries);
     json["crowd"] = crowd_json(session.workspace, session.crowds);
     json["excerpt"] = session.workspace.in_excerpt();
     json["time"] = or_null(session.workspace.view().time);

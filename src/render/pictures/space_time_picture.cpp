@@ -28,7 +28,7 @@ struct QueryAtStep {
 
     QueryAtStep(const FittedScene& fitted, const ViewState& view)
         : recorded(record(fitted, fitted.queries()[static_cast<std::size_t>(*view.query)])),
-          progress(progress_at(recorded.trace, event_of(view.step, recorded.trace), view.past)) {}
+          progress(progress_at(recorded.trace, event_of(view.step, recorded.trace, fitted, *view.query), view.past)) {}
     QueryAtStep(const QueryAtStep&) = delete;
     QueryAtStep& operator=(const QueryAtStep&) = delete;
 };
