@@ -93,12 +93,12 @@ std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::E
     return std::string(shape.meets) + ", " + what_next(sides, event);
 }
 
-std::string short_outcome(const mobb::Trace::Event& event) {
+std::string short_outcome(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
     switch (event.outcome) {
         case mobb::Outcome::disjoint_in_time:
             return "apart in time";
         case mobb::Outcome::separated:
-            return "apart " + with_unit(event.gap, "m");
+            return separating_axis(sides, event) + ' ' + with_unit(event.gap, "m");
         case mobb::Outcome::overlap:
             return event.test == mobb::TestKind::time ? "share time" : "overlap";
         case mobb::Outcome::hit:

@@ -16,8 +16,8 @@ std::string node_name(const DrawnAgent& agent, int node);
 /// What a test found: "separated along B's long axis by 0.183 m".
 std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event);
 
-/// The same in few words, for lists: "apart 0.183 m", "overlap", "apart in time".
-std::string short_outcome(const mobb::Trace::Event& event);
+/// The same in few words, for lists: "along B's long axis 0.183 m", "overlap", "apart in time".
+std::string short_outcome(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event);
 
 /// "step 14 of 0..61": where a step stands in a trace, in the same words everywhere.
 std::string step_of(int step, const mobb::Trace& trace);

@@ -190,12 +190,12 @@ TEST(ReasonsWindow, ASpanIsItsPairAndBelowItsTests) {
     DebuggerWindow w;
     w.run("run recursion.zoom 0:15");
     const Rect icicle = w.mark("query.icicle");
-    const int row = icicle_row(static_cast<float>(icicle.size().y), w.recursion().depth, 1);
+    const int row = icicle_row(icicle.size().y, w.recursion().depth, 1);
     const double each = icicle.size().x / 16.0;
     int tried = 0;
     for (const RecursionPair& pair : w.recursion().pairs) {
         if (pair.end > 16) continue;
-        const double top = icicle.min.y + pair.depth * row;
+        const double top = double{icicle.min.y} + pair.depth * row;
         if (top + row > icicle.max.y) continue;
         const double left = icicle.min.x + pair.first * each;
         w.run("click " + w.at(left + 0.5 * each, top + 0.3 * row));

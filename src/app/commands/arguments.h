@@ -31,7 +31,7 @@ double number_in(std::string_view text, std::string_view what, double low, doubl
 int whole_number_in(std::string_view text, std::string_view what, int low, int high);
 /// One of these names, which stand in the order of the enumeration.
 template <class Enum>
-Enum choice_in(std::span<const std::string_view> names, const std::string& text, const std::string& what) {
+Enum choice_named(std::span<const std::string_view> names, const std::string& text, const std::string& what) {
     if (const auto found = enumerator_named<Enum>(names, text)) return *found;
     throw std::invalid_argument(what + " cannot be " + in_quotes(text) + ": give " + either(names));
 }

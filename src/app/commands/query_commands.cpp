@@ -150,7 +150,7 @@ void copy_answer(Session& session, const std::string& text) {
 constexpr std::array<std::string_view, 2> kQueryOrders{"number", "tests"};
 
 void sort_queries(CostInspector& costs, const std::string& text) {
-    costs.order = choice_in<CostInspector::Order>(kQueryOrders, text, "the order");
+    costs.order = choice_named<CostInspector::Order>(kQueryOrders, text, "the order");
     if (costs.order == CostInspector::Order::tests) costs.count();
 }
 

@@ -107,7 +107,7 @@ void no_focus(Workspace& workspace) {
     workspace.look.zoom.reset();
 }
 
-void zoom(Workspace& workspace, const std::string& text) {
+void zoom_steps(Workspace& workspace, const std::string& text) {
     const auto [from, to] = range_in(text, "the steps");
     const int events = workspace.recorded()->trace.size();
     const int first = static_cast<int>(std::clamp(from, 0.0, events - 1.0));
@@ -120,7 +120,7 @@ void zoom(Workspace& workspace, const std::string& text) {
 constexpr std::array<std::string_view, 2> kBranchesOf{"query", "scene"};
 
 void branches_of(CostInspector& costs, const std::string& text) {
-    costs.branches_of = choice_in<CostInspector::Of>(kBranchesOf, text, "the branches");
+    costs.branches_of = choice_named<CostInspector::Of>(kBranchesOf, text, "the branches");
     if (costs.branches_of == CostInspector::Of::scene) costs.count();
 }
 
@@ -172,7 +172,7 @@ std::vector<Command> reason_commands() {
                 {.enabled = {[](const Workspace& workspace) { return !workspace.look.focus.is_all(); },
                              []() -> std::string_view { return "there is no focus"; }}}),
         Command("recursion.zoom", "Zoom the steps to", "Shows only a range of steps in the strip and the recursion.",
-                zoom, {.menu = kNoMenu, .argument = "FROM:TO", .enabled = in_query}),
+                zoom_steps, {.menu = kNoMenu, .argument = "FROM:TO", .enabled = in_query}),
         Command("recursion.zoom_all", "All steps", "Shows all steps in the strip and the recursion again.",
                 [](Workspace& workspace) { workspace.look.zoom.reset(); },
                 {.shortcut = "Z",

@@ -187,7 +187,7 @@ std::vector<Command> step_commands() {
                 "Goes back to where the last jump, or the last run of single steps, began; once more comes back, so "
                 "that one key compares two steps.",
                 to_step_before, {.shortcut = "J", .enabled = {has_step_before, why_no_step_before}}),
-        Command("step.to", "Go to step...", "Shows a test by its number from 0; without one asks for it.", to,
+        Command("step.to", "Go to step...", "Shows a test by its number from 0.", to,
                 {.shortcut = "Ctrl+G",
                  .argument = "[N]",
                  .enabled = {in_any_query, why_no_step},

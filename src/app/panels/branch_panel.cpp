@@ -63,7 +63,7 @@ void neighbours(Ui& ui, const char* what, const std::string& mark, const std::ve
     rows(ui, ("##" + mark).c_str(), static_cast<int>(all.size()), kMostBranchRows, [&](int i) {
         const Sandwich::Neighbour& neighbour = all[static_cast<std::size_t>(i)];
         const std::string name =
-            name_of(ui.workspace, neighbour.nodes[0]) + " / " + name_of(ui.workspace, neighbour.nodes[1]);
+            tree_node_name(ui.workspace, neighbour.nodes[0]) + " / " + tree_node_name(ui.workspace, neighbour.nodes[1]);
         static_cast<void>(cost_row(
             ui, {.mark = mark + '.' + std::to_string(i), .name = name, .remark = std::to_string(neighbour.tests)},
             static_cast<double>(neighbour.tests) / static_cast<double>(all.front().tests)));
@@ -81,7 +81,7 @@ void of_scene(Ui& ui, const CostInspector& costs) {
     if (nodes.empty()) return;
     rows(ui, "##nodes", static_cast<int>(nodes.size()), kMostBranchRows, [&](int i) {
         const NodeCost& cost = nodes[static_cast<std::size_t>(i)];
-        const std::string name = name_of(ui.workspace, cost.at);
+        const std::string name = tree_node_name(ui.workspace, cost.at);
         const std::int64_t all = cost.own + cost.below;
         if (cost_row(ui,
                      {.mark = "cost." + std::to_string(i),
@@ -97,7 +97,7 @@ void of_scene(Ui& ui, const CostInspector& costs) {
                           counted(cost.own, "test", "tests").c_str(), std::to_string(cost.below).c_str());
     });
     if (const Sandwich* around = costs.sandwich()) {
-        const std::string name = name_of(ui.workspace, around->of);
+        const std::string name = tree_node_name(ui.workspace, around->of);
         neighbours(ui, ("Called pairs with " + name).c_str(), "above", around->above);
         neighbours(ui, ("Called by pairs with " + name).c_str(), "below", around->below);
     }

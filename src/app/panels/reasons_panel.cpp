@@ -15,7 +15,7 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr int kMostReasonRows = 9;
+constexpr int kMostReasonRows = 12;
 
 /// A pair in a list of this query: it lights up where the mouse is, and a click goes to its last test.
 void pair_row(Ui& ui, QueryInspector& queries, const QueryFindings& findings, int index, const std::string& mark) {
@@ -26,7 +26,7 @@ void pair_row(Ui& ui, QueryInspector& queries, const QueryFindings& findings, in
     const int hovered = ui.workspace.hovered_event;
     if (row(ui, {.mark = mark,
                  .name = node_name(findings.sides[0], pair.a) + " / " + node_name(findings.sides[1], pair.b),
-                 .remark = short_outcome(event),
+                 .remark = short_outcome(findings.sides, event),
                  .selected = ui.workspace.step() >= pair.first && ui.workspace.step() <= pair.last,
                  .hovered = hovered >= pair.first && hovered <= pair.last,
                  .indent = ui.px(14),

@@ -83,7 +83,7 @@ std::vector<PairCell> square_cells(const Recursion& recursion, mobb::Interval a,
 }
 
 int icicle_row(float height, int depth, float scale) {
-    return static_cast<int>(std::clamp(height / static_cast<float>(std::max(1, depth)), 13 * scale, 20 * scale));
+    return static_cast<int>(std::clamp(height / static_cast<float>(std::max(1, depth)), 8 * scale, 20 * scale));
 }
 
 std::vector<PairCell> icicle_cells(const Recursion& recursion, const ShownEvents& shown, int width, int row) {

@@ -42,7 +42,7 @@ struct PairCell {
 std::vector<PairCell> square_cells(const Recursion& recursion, mobb::Interval a, mobb::Interval b, int width,
                                    int height);
 
-/// Pixels of a row of an icicle so high and deep, at a scale: one that can be read, if not all fit.
+/// Pixels of a row of an icicle so high and deep, at a scale: not too low to be clicked, even if not all fit.
 int icicle_row(float height, int depth, float scale);
 /// Pairs as the events of them and below them (to the right) by depth (downwards); rows of `row` pixels.
 std::vector<PairCell> icicle_cells(const Recursion& recursion, const ShownEvents& shown, int width, int row);

@@ -355,7 +355,7 @@ void QueryPictures::shift_icicle(Ui& ui, const EventRange& range, int events, fl
     if (ImGui::IsItemActivated()) held_ = {range, scroll_};
     if (ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left)) {
         const ImVec2 by = ImGui::GetMouseDragDelta(ImGuiMouseButton_Left);
-        const double first = held_.range.first - by.x / width * held_.range.size();
+        const double first = held_.range.first - static_cast<double>(by.x / width) * held_.range.size();
         const EventRange wanted = range_at(first, held_.range.size(), events);
         if (wanted != range) set_zoom(ui, wanted, events);
         scroll_ = held_.scroll - by.y;
@@ -430,6 +430,12 @@ void QueryPictures::icicle(Ui& ui, QueryInspector& queries, ImVec2 size) {
     };
     if (const auto pair = hovered_pair(ui.workspace, recursion)) outline(*pair, ui.style.accent);
     outline(present, ui.style.text);
+    if (most_scroll > 0) {
+        const float whole = static_cast<float>(row * recursion.depth);
+        const float right = corner.x + size.x;
+        const float top = corner.y + scroll_ / whole * size.y;
+        list.AddRectFilled({right - ui.px(3), top}, {right, top + size.y / whole * size.y}, ui.style.quiet, ui.px(1));
+    }
     list.PopClipRect();
     if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) set_zoom(ui, {0, events}, events);
     if (!hovered || !under || held) return;

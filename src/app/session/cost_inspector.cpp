@@ -45,7 +45,7 @@ std::vector<int> CostInspector::listed() const {
     return out;
 }
 
-std::string name_of(const Workspace& workspace, TreeNode node) {
+std::string tree_node_name(const Workspace& workspace, TreeNode node) {
     const mobb::Tree& tree = workspace.fitted().tree(node.clip);
     return workspace.fitted().scene().clips[static_cast<std::size_t>(node.clip)].name + ' ' +
            std::to_string(tree.level(node.node)) + '.' + std::to_string(tree.place_in_level(node.node));

@@ -37,6 +37,6 @@ class CostInspector {
 };
 
 /// "walk 2.1": a node of a clip's tree.
-std::string name_of(const Workspace& workspace, TreeNode node);
+std::string tree_node_name(const Workspace& workspace, TreeNode node);
 
 }  // namespace mobbscope::app
