@@ -4,13 +4,17 @@
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
+#include <explain/avoidable.h>
 #include <explain/certificate_file.h>
 #include <explain/event_values.h>
+#include <explain/query_sentence.h>
 #include <scene/answer.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <iostream>
 #include <optional>
 #include <sstream>
@@ -27,7 +31,8 @@ struct QueryCommandArguments : FittedArguments {
     std::optional<std::string> where;   ///< filter of the trace's events
 };
 
-void print_event(std::ostream& out, int step, const mobb::Trace::Event& event) {
+void print_event(std::ostream& out, int step, const SceneQuery& query, const mobb::Trace::Event& event,
+                 const AvoidableOverlap* avoidable) {
     // A step's number leads each line, so that it can be given to `render --step`.
     const std::string number = std::to_string(step);
     out << std::string(8 - std::min<std::size_t>(number.size(), 7), ' ') << number << "  "
@@ -37,6 +42,7 @@ void print_event(std::ostream& out, int step, const mobb::Trace::Event& event) {
     constexpr std::array kWords{"apart in time", "separated", "overlap", "hit", "no hit"};
     static_assert(kWords.size() == static_cast<std::size_t>(mobb::Outcome::no_hit) + 1);
     out << kWords[static_cast<std::size_t>(event.outcome)];
+    if (avoidable) out << ", avoidable: " << avoidable_words(*avoidable, cleaned(query.a.name), cleaned(query.b.name));
     if (event.outcome == mobb::Outcome::separated) {
         out << " along axis " << event.axis << " by " << brief(event.gap) << " m";
     }
@@ -52,7 +58,8 @@ void print_event(std::ostream& out, int step, const mobb::Trace::Event& event) {
 }
 
 /// A sentence, the counts, and what else was asked for.
-void print_answer(std::ostream& out, std::size_t index, const SceneQuery& query, const Answer& answer) {
+void print_answer(std::ostream& out, std::size_t index, const SceneQuery& query, const Answer& answer,
+                  const AvoidableOverlaps& avoidable) {
     out << index << ": " << sentence(query, answer.contact) << '\n'
         << "   Tests: " << answer.tests[mobb::TestKind::time] << " of time";
     for (const mobb::BoxKind kind : mobb::kBoxKinds) {
@@ -73,12 +80,13 @@ void print_answer(std::ostream& out, std::size_t index, const SceneQuery& query,
     }
     if (answer.trace) {
         out << "   Trace (node of " << cleaned(query.a.name) << " x node of " << cleaned(query.b.name) << ")";
+        const auto print = [&](int step) { print_event(out, step, query, (*answer.trace)[step], avoidable.at(step)); };
         if (!answer.steps) {
             out << ":\n";
-            for (int step = 0; step < answer.trace->size(); ++step) print_event(out, step, (*answer.trace)[step]);
+            for (int step = 0; step < answer.trace->size(); ++step) print(step);
         } else {
             out << ", " << answer.steps->size() << " of " << counted(answer.trace->size(), "event", "events") << ":\n";
-            for (const int step : *answer.steps) print_event(out, step, (*answer.trace)[step]);
+            std::ranges::for_each(*answer.steps, print);
         }
     }
 }
@@ -87,14 +95,55 @@ std::vector<int> steps_to_tell(const FittedScene& fitted, const SceneQuery& quer
                                const EventFilter& filter) {
     const mobb::PlacedTree a = fitted.placed(query.a);
     const mobb::PlacedTree b = fitted.placed(query.b);
-    const Recursion recursion = recursion_of(trace, a, b);
+    const Recursion recursion = recursion_of(trace, a, b, 0);
     return steps_that_pass(EventValues(trace, recursion, a, b), filter);
+}
+
+/// An answer, and which of its overlaps were avoidable: of the trees, where the output says so.
+Answer judged_answer(const FittedScene& fitted, const SceneQuery& query, const QueryCommandArguments& arguments,
+                     AvoidableOverlaps& avoidable, BlameInScene& blame) {
+    Details details = arguments.details;
+    const bool judges = details.search == Search::trees && (arguments.json || details.trace);
+    details.trace = details.trace || judges;
+    Answer out = answer(fitted, query, details);
+    if (judges) {
+        avoidable = avoidable_overlaps(*out.trace, fitted.placed(query.a), fitted.placed(query.b));
+        blame.add(fitted, query, *out.trace, avoidable);
+        out.avoidable = avoidable.events;
+    }
+    if (!arguments.details.trace) out.trace.reset();
+    return out;
+}
+
+/// The nodes that are to blame, those of the most overlaps first.
+void write_blame(JsonWriter& json, const FittedScene& fitted, const BlameInScene& blame) {
+    struct Entry {
+        int clip, node;
+        std::int64_t overlaps;
+    };
+    std::vector<Entry> entries;
+    for (std::size_t clip = 0; clip < blame.of_clip.size(); ++clip) {
+        for (std::size_t node = 0; node < blame.of_clip[clip].size(); ++node) {
+            if (const std::int64_t overlaps = blame.of_clip[clip][node]; overlaps > 0)
+                entries.push_back({static_cast<int>(clip), static_cast<int>(node), overlaps});
+        }
+    }
+    std::ranges::stable_sort(entries, std::greater<>(), &Entry::overlaps);
+    json.begin_array("blame");
+    for (const Entry& entry : entries) {
+        json.begin_object(JsonWriter::Layout::row);
+        json.members("clip", fitted.scene().clips[static_cast<std::size_t>(entry.clip)].name, "node", entry.node,
+                     "level", fitted.tree(entry.clip).level(entry.node), "overlaps", entry.overlaps);
+        json.end_object();
+    }
+    json.end_array();
 }
 
 /// Answers every query in order; returns the sentences of those that disagree with what the file expects.
 std::vector<std::string> answer_all(const FittedScene& fitted, const QueryCommandArguments& arguments,
                                     const std::optional<EventFilter>& where) {
     std::vector<std::string> complaints;
+    BlameInScene blame(fitted);
     JsonWriter json(std::cout);
     if (arguments.json) {
         json.begin_object();
@@ -102,33 +151,30 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
     }
     for (std::size_t index = 0; index < fitted.queries().size(); ++index) {
         const SceneQuery query = fitted.queries()[index];
-        Answer found = answer(fitted, query, arguments.details);
+        AvoidableOverlaps avoidable;
+        Answer found = judged_answer(fitted, query, arguments, avoidable, blame);
         if (where) found.steps = steps_to_tell(fitted, query, *found.trace, *where);
-        arguments.json ? write_answer(json, index, query, found) : print_answer(std::cout, index, query, found);
+        arguments.json ? write_answer(json, index, query, found)
+                       : print_answer(std::cout, index, query, found, avoidable);
         if (const auto complaint = disagreement(query, found)) {
             complaints.push_back("query " + std::to_string(index) + ": " + *complaint);
         }
     }
     if (arguments.json) {
         json.end_array();
+        if (arguments.details.search == Search::trees) write_blame(json, fitted, blame);
         json.end_object();
     }
     return complaints;
 }
 
 void write_certificates(const FittedScene& scene, const std::filesystem::path& file) {
-    std::ostringstream text;
-    JsonWriter json(text);
-    json.begin_object();
-    json.member("mobbscope_certificate", 1);
-    json.begin_array("queries");
+    std::vector<QueryCertificate> proofs;
     for (std::size_t index = 0; index < scene.queries().size(); ++index) {
         const SceneQuery query = scene.queries()[index];
-        write_certificate(json, scene, {static_cast<int>(index), certify(scene, query, record(scene, query))});
+        proofs.push_back({static_cast<int>(index), certify(scene, query, record(scene, query))});
     }
-    json.end_array();
-    json.end_object();
-    write_file(file, std::move(text).str());
+    write_file(file, certificate_text(scene, proofs));
 }
 
 /// Says what is wrong in one line, behind the text with a caret.

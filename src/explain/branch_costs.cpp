@@ -13,7 +13,7 @@ namespace {
 /// Of the events first .. end - 1.
 std::int64_t tests_of(const Recursion& recursion, int first, int end) {
     const auto all = [&](int count) {
-        return count == 0 ? 0 : recursion.so_far[static_cast<std::size_t>(count) - 1].tests.all();
+        return count == 0 ? 0 : recursion.so_far[static_cast<std::size_t>(count) - 1].all();
     };
     return all(end) - all(first);
 }
@@ -25,7 +25,7 @@ void for_each_recursion(const FittedScene& fitted, const CostProgress& told, con
     for (std::size_t i = 0; i < count; ++i) {
         const SceneQuery query = fitted.queries()[i];
         const RecordedQuery recorded = record(fitted, query);
-        use(i, recursion_of(recorded.trace, fitted.placed(query.a), fitted.placed(query.b)),
+        use(i, recursion_of(recorded.trace, fitted.placed(query.a), fitted.placed(query.b), 0),
             std::array{query.a.clip, query.b.clip});
         if (told) told(i + 1, count);
     }
@@ -78,7 +78,7 @@ SceneCosts scene_costs(const FittedScene& fitted, const CostProgress& told) {
     SceneCosts out;
     std::map<TreeNode, NodeCost> nodes;
     for_each_recursion(fitted, told, [&](std::size_t, const Recursion& recursion, const std::array<int, 2>& clips) {
-        out.tests.push_back(recursion.total().tests.all());
+        out.tests.push_back(recursion.total().all());
         for (const RecursionPair& pair : recursion.pairs) {
             const std::int64_t own = tests_of(recursion, pair.first, pair.last + 1);
             const std::int64_t all = tests_of(recursion, pair.first, pair.end);

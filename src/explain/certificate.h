@@ -2,6 +2,7 @@
 /// "Certificates").
 #pragma once
 
+#include <explain/separating_line.h>
 #include <mobb/query.h>
 #include <mobb/trace.h>
 #include <scene/fitted_scene.h>
@@ -14,15 +15,6 @@
 #include <vector>
 
 namespace mobbscope {
-
-/// A time interval and a line that keeps all disks of A on one side and all of B's on the other throughout. The line
-/// crosses `direction`, fixed or moving evenly along it.
-struct Tile {
-    double t0 = 0, t1 = 0;       ///< global seconds, t0 < t1
-    glm::dvec2 direction{1, 0};  ///< unit, from A to B
-    double speed = 0;            ///< of the line along `direction`, m/s
-    double gap = 0;              ///< metres between the two along it, rounded down; touching disks may give -1e-9
-};
 
 /// The proof of an answer. Of a miss the tiles cover the common time; of a hit the time before its contact.
 struct Certificate {

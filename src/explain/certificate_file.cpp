@@ -1,8 +1,12 @@
 #include <base/error.h>
 #include <base/json.h>
+#include <base/json_writer.h>
 #include <base/text.h>
 #include <explain/certificate_file.h>
 #include <scene/scene_json.h>
+
+#include <sstream>
+#include <utility>
 
 namespace mobbscope {
 
@@ -46,8 +50,7 @@ QueryCertificate read_certificate(const JsonPlace& place, const FittedScene& fit
     return out;
 }
 
-}  // namespace
-
+/// An element of `queries`.
 void write_certificate(JsonWriter& out, const FittedScene& fitted, const QueryCertificate& certificate) {
     const SceneQuery query = fitted.queries()[static_cast<std::size_t>(certificate.query)];
     const Certificate& proof = certificate.proof;
@@ -64,6 +67,18 @@ void write_certificate(JsonWriter& out, const FittedScene& fitted, const QueryCe
         out.end_object();
     });
     out.end_object();
+}
+
+}  // namespace
+
+std::string certificate_text(const FittedScene& fitted, const std::vector<QueryCertificate>& certificates) {
+    std::ostringstream text;
+    JsonWriter out(text);
+    out.begin_object();
+    out.member("mobbscope_certificate", kVersion);
+    out.list("queries", certificates, [&](const QueryCertificate& one) { write_certificate(out, fitted, one); });
+    out.end_object();
+    return std::move(text).str();
 }
 
 std::vector<QueryCertificate> read_certificates(std::string_view text, const std::string& file,

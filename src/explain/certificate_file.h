@@ -4,7 +4,6 @@
 ///      "tiles": [{"t0": 0, "t1": 5, "direction": [1, 0], "speed": 0, "gap": 0.2}]}]}
 #pragma once
 
-#include <base/json_writer.h>
 #include <explain/certificate.h>
 
 #include <string>
@@ -19,8 +18,8 @@ struct QueryCertificate {
     Certificate proof;
 };
 
-/// An element of `queries`.
-void write_certificate(JsonWriter& out, const FittedScene& fitted, const QueryCertificate& certificate);
+/// The file of these.
+std::string certificate_text(const FittedScene& fitted, const std::vector<QueryCertificate>& certificates);
 
 /// Of a scene: the queries that a text names must be there, under the same names. `file` stands for it in messages.
 /// Throws InputError.

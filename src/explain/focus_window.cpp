@@ -22,19 +22,17 @@ InFocus events_in(const Recursion& recursion, const FocusWindow& focus) {
     return out;
 }
 
-StepCounts counts_in(const InFocus& focus, const mobb::Trace& trace, const Recursion& recursion, int step) {
-    if (focus.empty()) return recursion.so_far[static_cast<std::size_t>(step)];
-    StepCounts out;
+FocusCounts counts_in(const InFocus& focus, const mobb::Trace& trace, const Recursion& recursion, int step) {
+    if (focus.empty()) {
+        return {recursion.so_far[static_cast<std::size_t>(step)], recursion.avoidable.before(step + 1)};
+    }
+    FocusCounts out;
     for (int event = 0; event <= step; ++event) {
         if (focus[static_cast<std::size_t>(event)] == 0) continue;
         const mobb::Trace::Event test = trace[event];
         const bool samples = test.test == mobb::TestKind::samples;
         out.tests[test.test] += samples ? static_cast<std::int64_t>(test.pairs.size()) : 1;
-        const RecursionPair& pair =
-            recursion.pairs[static_cast<std::size_t>(recursion.pair_of[static_cast<std::size_t>(event)])];
-        if (test.test.is_box() && test.outcome == mobb::Outcome::overlap && !pair.hit && pair.end <= step + 1) {
-            ++out.wasted;
-        }
+        out.avoidable += recursion.avoidable.at(event) ? 1 : 0;
     }
     return out;
 }

@@ -27,7 +27,11 @@ struct FocusWindow {
 using InFocus = std::vector<char>;
 InFocus events_in(const Recursion& recursion, const FocusWindow& focus);
 
+struct FocusCounts {
+    mobb::TestCounts tests;
+    std::int64_t avoidable = 0;  ///< overlaps, of those that were judged
+};
 /// What had been counted in the focus after an event.
-StepCounts counts_in(const InFocus& focus, const mobb::Trace& trace, const Recursion& recursion, int step);
+FocusCounts counts_in(const InFocus& focus, const mobb::Trace& trace, const Recursion& recursion, int step);
 
 }  // namespace mobbscope

@@ -45,6 +45,7 @@ QueryFindings find_out(const FittedScene& fitted, const ViewState& view, const R
     out.clearance = clearance_over_time(a.placed_clip(), b.placed_clip());
     if (!out.clearance.contact) out.floor = floor_paths(a.placed_clip(), b.placed_clip());
     out.recursion = recursion_of(recorded.trace, a, b);
+    out.proof = proof_of(fitted, fitted.queries()[static_cast<std::size_t>(*view.query)], recorded, out.clearance);
     return out;
 }
 
@@ -76,6 +77,13 @@ std::vector<std::string> why_words(std::span<const DrawnAgent> sides, const Clea
         out.push_back("They come nearest at " + with_unit(nearest.least_at, "s") + ": " +
                       with_unit(nearest.clearance, "m") + " apart.");
     }
+    return out;
+}
+
+std::vector<std::string> proof_sentences(const QueryFindings& findings) {
+    if (!findings.clearance.least) return {};
+    std::vector<std::string> out{proof_words(findings.proof.certificate, findings.proof.ends)};
+    if (findings.proof.margins) out.push_back(margin_words(*findings.proof.margins, findings.sides[1].label));
     return out;
 }
 

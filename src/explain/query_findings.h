@@ -2,6 +2,7 @@
 #pragma once
 
 #include <explain/clearance.h>
+#include <explain/query_proof.h>
 #include <explain/recursion.h>
 #include <scene/drawn_agent.h>
 
@@ -16,6 +17,7 @@ struct QueryFindings {
     Clearance clearance;
     FloorPaths floor;  ///< known only where there is no contact
     Recursion recursion;
+    QueryProof proof;
 };
 
 /// Requires a query in the view, and `recorded` to be its record.
@@ -28,6 +30,9 @@ std::string answer_words(std::span<const DrawnAgent> sides, const Clearance& cle
 /// contact.
 std::vector<std::string> why_words(std::span<const DrawnAgent> sides, const Clearance& clearance,
                                    const FloorPaths& floor);
+
+/// The proof in sentences; none where two share no time, so that no line is needed.
+std::vector<std::string> proof_sentences(const QueryFindings& findings);
 
 /// How many pairs the direct search measures: up to the first contact.
 std::int64_t direct_pairs(const Clearance& clearance);

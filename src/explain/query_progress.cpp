@@ -45,6 +45,7 @@ bool is_counted(const Step& step, const mobb::Trace& trace, int event, const mob
             const mobb::Trace::Event next = trace[event + 1];
             return next.a != test.a || next.b != test.b;
         }
+        case Step::Unit::avoidable:
         case Step::Unit::event:
         case Step::Unit::percent:
         case Step::Unit::end:
@@ -68,17 +69,21 @@ int event_of(const Step& step, const mobb::Trace& trace, const FittedScene& fitt
         case Step::Unit::separated:
         case Step::Unit::overlap:
         case Step::Unit::hit:
+        case Step::Unit::avoidable:
         case Step::Unit::leaf:
         case Step::Unit::depth:
             break;
     }
     const SceneQuery asked = fitted.queries()[static_cast<std::size_t>(query)];
-    const mobb::Tree& a = fitted.tree(asked.a.clip);
-    const mobb::Tree& b = fitted.tree(asked.b.clip);
+    const mobb::PlacedTree placed_a = fitted.placed(asked.a);
+    const mobb::PlacedTree placed_b = fitted.placed(asked.b);
     const int wanted = step.unit == Step::Unit::depth ? 1 : static_cast<int>(step.value);
     int found = 0;
     for (int event = 0; event <= last; ++event) {
-        found += is_counted(step, trace, event, a, b) ? 1 : 0;
+        const bool counts = step.unit == Step::Unit::avoidable
+                                ? avoidable_overlap(placed_a, placed_b, trace[event]).has_value()
+                                : is_counted(step, trace, event, placed_a.tree(), placed_b.tree());
+        found += counts ? 1 : 0;
         if (found == wanted) return event;
     }
     const std::string there_is = found == 0 ? "none such" : "only " + std::to_string(found);

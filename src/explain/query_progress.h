@@ -1,11 +1,13 @@
 /// What a query has found out up to a step of its trace.
 #pragma once
 
+#include <explain/avoidable.h>
 #include <mobb/trace.h>
 #include <mobb/tree.h>
 #include <scene/fitted_scene.h>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace mobbscope {
@@ -29,6 +31,7 @@ struct NodeProgress {
 struct QueryProgress {
     int step = 0;
     mobb::Trace::Event event;                        ///< the test under way; refers to the trace
+    std::optional<AvoidableOverlap> avoidable;       ///< what that found; left to who has the trees
     std::array<std::vector<NodeProgress>, 2> nodes;  ///< of A and of B, by index, without those of the pair under test
 };
 

@@ -1,5 +1,6 @@
 #include <base/name_list.h>
 #include <base/text.h>
+#include <explain/avoidable.h>
 #include <explain/axis_intervals.h>
 #include <explain/clearance.h>
 #include <explain/query_sentence.h>
@@ -13,7 +14,7 @@ namespace mobbscope {
 
 namespace {
 
-std::string separating_axis(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
+std::string separating_axis_words(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
     const auto axis_of = [&](const DrawnAgent& side, int node, int axis) {
         return side.label + "'s " + axis_word(side.placed.tree().box(node), event.test, axis) + " axis";
     };
@@ -88,7 +89,11 @@ std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::E
     const mobb::BoxInfo& shape = mobb::info(event.test.box());
     if (event.outcome == mobb::Outcome::separated) {
         const char* when = shape.moves ? " at the nearest" : "";
-        return "separated " + separating_axis(sides, event) + " by " + with_unit(event.gap, "m") + when;
+        return "separated " + separating_axis_words(sides, event) + " by " + with_unit(event.gap, "m") + when;
+    }
+    if (const auto avoidable = avoidable_overlap(sides[0].placed, sides[1].placed, event)) {
+        return std::string(shape.meets) + ", avoidable: " +
+               avoidable_words(*avoidable, node_name(sides[0], event.a), node_name(sides[1], event.b));
     }
     return std::string(shape.meets) + ", " + what_next(sides, event);
 }
@@ -107,6 +112,33 @@ std::string short_outcome(std::span<const DrawnAgent> sides, const mobb::Trace::
             return "no hit";
     }
     return "";
+}
+
+std::string avoidable_words(const AvoidableOverlap& overlap, const std::string& a, const std::string& b) {
+    const std::string kept = "a line keeps the disks " + with_unit(overlap.line.gap, "m") + " apart; ";
+    switch (overlap.blame) {
+        case Blame::a:
+            return kept + "the box of " + a + " is to blame";
+        case Blame::b:
+            return kept + "the box of " + b + " is to blame";
+        case Blame::both:
+            return kept + "the boxes of " + a + " and " + b + " are to blame";
+        case Blame::none:
+            break;
+    }
+    return kept + "no tighter box of its kind would have helped";
+}
+
+std::string judged_words(const AvoidableOverlaps& avoidable) {
+    return "The first " + std::to_string(avoidable.judged) + " of " + std::to_string(avoidable.overlaps) +
+           " overlaps were judged.";
+}
+
+std::string blame_words(const BlameInScene& blame, std::size_t queries) {
+    return counted(blame.overlaps, "avoidable overlap", "avoidable overlaps") + " in " +
+           counted(queries, "query", "queries") +
+           (blame.without_blame > 0 ? "; of " + std::to_string(blame.without_blame) + " of them no box is to blame"
+                                    : "");
 }
 
 std::string step_of(int step, const mobb::Trace& trace) {
@@ -137,8 +169,11 @@ std::vector<std::string> step_sentences(std::span<const DrawnAgent> sides, const
 
 std::vector<std::string> outcome_sentences(std::span<const DrawnAgent> sides, const mobb::Trace& trace, int step) {
     const std::string number = "step " + std::to_string(step) + ": ";
-    return {number + outcome_text(with_short_names(sides, kShortName), trace[step]),
-            number + outcome_text(with_short_names(sides, kShortestName), trace[step])};
+    std::vector<std::string> out{number + outcome_text(with_short_names(sides, kShortName), trace[step]),
+                                 number + outcome_text(with_short_names(sides, kShortestName), trace[step])};
+    if (const auto avoidable = avoidable_overlap(sides[0].placed, sides[1].placed, trace[step]))
+        out.push_back(number + "avoidable overlap, " + with_unit(avoidable->line.gap, "m"));
+    return out;
 }
 
 std::string answer_sentence(std::span<const DrawnAgent> sides, const RecordedQuery& recorded) {

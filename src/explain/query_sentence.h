@@ -1,9 +1,11 @@
 /// Queries in words.
 #pragma once
 
+#include <explain/avoidable.h>
 #include <mobb/trace.h>
 #include <scene/drawn_agent.h>
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +20,16 @@ std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::E
 
 /// The same in few words, for lists: "along B's long axis 0.183 m", "overlap", "apart in time".
 std::string short_outcome(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event);
+
+/// "a line keeps the disks 0.310 m apart; the box of A 2.1 is to blame"
+/// `a`, `b`: what the nodes are called.
+std::string avoidable_words(const AvoidableOverlap& overlap, const std::string& a, const std::string& b);
+
+/// "The first 1200 of 4000 overlaps were judged." Of a query with more than the window can judge at once.
+std::string judged_words(const AvoidableOverlaps& avoidable);
+
+/// "12 avoidable overlaps in 40 queries; of 3 of them no box is to blame"
+std::string blame_words(const BlameInScene& blame, std::size_t queries);
 
 /// "step 14 of 0..61": where a step stands in a trace, in the same words everywhere.
 std::string step_of(int step, const mobb::Trace& trace);

@@ -4,7 +4,8 @@
 
 namespace mobbscope {
 
-Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, const mobb::PlacedTree& b) {
+Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, const mobb::PlacedTree& b,
+                       std::int64_t most_visits, const Progress& progress) {
     Recursion out;
     const auto size = static_cast<std::size_t>(trace.size());
     out.pair_of.resize(size);
@@ -36,7 +37,7 @@ Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, cons
         out.pair_of[static_cast<std::size_t>(step)] = static_cast<int>(out.pairs.size()) - 1;
         const bool pairs = event.test == mobb::TestKind::samples;
         tests[event.test] += pairs ? static_cast<std::int64_t>(event.pairs.size()) : 1;
-        out.so_far[static_cast<std::size_t>(step)].tests = tests;
+        out.so_far[static_cast<std::size_t>(step)] = tests;
     }
     for (std::size_t i = out.pairs.size(); i-- > 0;) {
         const RecursionPair& pair = out.pairs[i];
@@ -45,14 +46,11 @@ Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, cons
         above.end = std::max(above.end, pair.end);
         above.hit = above.hit || pair.hit;
     }
-    for (int step = 0; step < trace.size(); ++step) {
-        const RecursionPair& pair = out.pairs[static_cast<std::size_t>(out.pair_of[static_cast<std::size_t>(step)])];
-        const mobb::Trace::Event event = trace[step];
-        if (!event.test.is_box() || event.outcome != mobb::Outcome::overlap || pair.hit) continue;
-        ++out.so_far[static_cast<std::size_t>(pair.end) - 1].wasted;
+    out.avoidable = avoidable_overlaps(trace, a, b, most_visits, progress);
+    for (const int event : out.avoidable.events) {
+        const int pair = out.pair_of[static_cast<std::size_t>(event)];
+        out.pairs[static_cast<std::size_t>(pair)].avoidable = true;
     }
-    std::int64_t wasted = 0;
-    for (StepCounts& counts : out.so_far) counts.wasted = wasted += counts.wasted;
     return out;
 }
 

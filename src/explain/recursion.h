@@ -1,6 +1,7 @@
 /// The recursion of a query as pairs of nodes: what the recursion square, the icicle and the counters show.
 #pragma once
 
+#include <explain/avoidable.h>
 #include <mobb/placed_tree.h>
 #include <mobb/query.h>
 #include <mobb/trace.h>
@@ -21,31 +22,27 @@ struct RecursionPair {
     int end = 0;                                     ///< it and all below it are the events first .. end - 1
     mobb::Outcome outcome = mobb::Outcome::overlap;  ///< of its last test
     bool hit = false;                                ///< a hit was found in it or below it
+    bool avoidable = false;                          ///< its boxes overlap, which is avoidable (explain/avoidable.h)
     mobb::Interval time_a{};                         ///< of the nodes, global seconds
     mobb::Interval time_b{};
 
     bool has_children() const { return end > last + 1; }
 };
 
-/// What had been counted after an event.
-struct StepCounts {
-    mobb::TestCounts tests;
-    /// Box tests that found an overlap which led to no hit. One counts from the end of its pair on: until then it may
-    /// still lead to one.
-    std::int64_t wasted = 0;
-};
-
 struct Recursion {
-    std::vector<RecursionPair> pairs;  ///< in the order of their first tests: parents before children
-    std::vector<int> pair_of;          ///< by event: index of its pair
-    std::vector<StepCounts> so_far;    ///< by event
-    int depth = 0;                     ///< number of levels; 0 for an empty trace
+    std::vector<RecursionPair> pairs;      ///< in the order of their first tests: parents before children
+    std::vector<int> pair_of;              ///< by event: index of its pair
+    std::vector<mobb::TestCounts> so_far;  ///< by event: what had been counted after it
+    AvoidableOverlaps avoidable;
+    int depth = 0;  ///< number of levels; 0 for an empty trace
 
     /// The whole query's; zero for an empty trace.
-    StepCounts total() const { return so_far.empty() ? StepCounts{} : so_far.back(); }
+    mobb::TestCounts total() const { return so_far.empty() ? mobb::TestCounts{} : so_far.back(); }
 };
 
-/// `trace` must be that of a query of these two. Takes time linear in the trace.
-Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, const mobb::PlacedTree& b);
+/// `trace` must be that of a query of these two. Takes time linear in the trace, and what judging overlaps takes
+/// (avoidable_overlaps).
+Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, const mobb::PlacedTree& b,
+                       std::int64_t most_visits = kVisitsWhileDragging, const Progress& progress = {});
 
 }  // namespace mobbscope

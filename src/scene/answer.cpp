@@ -58,13 +58,16 @@ void write_answer(JsonWriter& out, std::size_t index, const SceneQuery& query, c
     out.begin_object("tests", JsonWriter::Layout::row);
     for (const mobb::TestKind test : mobb::kTestKinds) out.member(mobb::name(test), answer.tests[test]);
     out.end_object();
+    if (answer.avoidable) out.member("avoidable", answer.avoidable->size());
     if (answer.contacts) {
         out.list("contacts", *answer.contacts,
                  [&](const mobb::Interval& interval) { out.tuple(interval.t0, interval.t1); });
     }
     if (answer.trace) {
         out.key("trace");
-        answer.steps ? write_events(out, *answer.trace, *answer.steps) : write_trace(out, *answer.trace);
+        const std::vector<int> avoidable = answer.avoidable.value_or(std::vector<int>());
+        answer.steps ? write_events(out, *answer.trace, *answer.steps, avoidable)
+                     : write_trace(out, *answer.trace, avoidable);
     }
     out.end_object();
 }

@@ -23,6 +23,7 @@ struct Answer {
     mobb::TestCounts tests;
     std::optional<mobb::Trace> trace;                     ///< if it was asked for
     std::optional<std::vector<int>> steps;                ///< of the trace that are told of; none: all
+    std::optional<std::vector<int>> avoidable{};          ///< events that are avoidable overlaps, from who judges them
     std::optional<std::vector<mobb::Interval>> contacts;  ///< likewise
 };
 

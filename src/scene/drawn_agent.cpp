@@ -1,5 +1,6 @@
 #include <base/name_list.h>
 #include <base/text.h>
+#include <mobb/separation.h>
 #include <scene/arrangement.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
@@ -150,6 +151,27 @@ std::optional<int> sample_at(const DrawnAgent& agent, double time) {
     if (time < agent.begin() || time >= agent.end()) return std::nullopt;
     const int i = mobb::first_ending_after(clip, 0, clip.count(), time);
     return i < clip.count() ? std::optional(i) : std::nullopt;
+}
+
+mobb::Box world_box(const mobb::PlacedTree& tree, int node) {
+    mobb::Box box = tree.tree().box(node);
+    const mobb::PlacedClip& clip = tree.placed_clip();
+    const auto turn = [&](glm::dvec3 v) {
+        const glm::dvec2 turned = clip.rotation()(glm::dvec2(v.x, v.y));
+        return glm::dvec3(turned.x, turned.y, v.z);
+    };
+    if (mobb::info(box.kind).axes == mobb::BoxAxes::world) {
+        // Its test wraps it again along the world's axes.
+        const glm::dvec2 half = mobb::half_in_world(glm::dvec2(box.half), clip.rotation());
+        box.half = {half.x, half.y, box.half.z};
+    } else {
+        for (glm::dvec3& axis : box.axes) axis = turn(axis);
+        box.drift = clip.rotation()(box.drift);
+    }
+    const mobb::Placement& placement = clip.placement();
+    box.center = turn(box.center) +
+                 glm::dvec3(placement.translate.x, placement.translate.y, tree.time_scale() * placement.start);
+    return box;
 }
 
 }  // namespace mobbscope

@@ -57,4 +57,7 @@ std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState&
 /// unless the agent goes on with another. None: nobody is there.
 std::optional<int> sample_at(const DrawnAgent& agent, double time);
 
+/// A node's box in world (x, y, w*t), global time. An aabb is wrapped again along the world's x and y.
+mobb::Box world_box(const mobb::PlacedTree& tree, int node);
+
 }  // namespace mobbscope

@@ -134,7 +134,7 @@ std::vector<mobb::MeasuredPair> read_pairs(const JsonPlace& place, int samples_a
     return pairs;
 }
 
-void write_event(JsonWriter& out, int step, const mobb::Trace::Event& event) {
+void write_event(JsonWriter& out, int step, const mobb::Trace::Event& event, bool avoidable) {
     const bool separated = event.outcome == mobb::Outcome::separated;
     out.begin_object(Layout::row);
     out.members("step", step, "parent", event.parent, "depth", event.depth, "a", event.a, "b", event.b);
@@ -142,6 +142,7 @@ void write_event(JsonWriter& out, int step, const mobb::Trace::Event& event) {
     out.member("axis", separated ? std::optional(event.axis) : std::nullopt);
     out.member("gap", separated ? std::optional(event.gap) : std::nullopt);
     out.list("pairs", event.pairs, [&](const mobb::MeasuredPair& pair) { out.tuple(pair.i, pair.j, pair.distance); });
+    if (avoidable) out.member("avoidable", true);
     out.end_object();
 }
 
@@ -208,15 +209,17 @@ std::optional<mobb::Contact> read_contact(const JsonPlace& place, int samples_a,
                          place.require("distance").number(0, kAnyLength), place.require("radii").number(0, kAnyLength)};
 }
 
-void write_trace(JsonWriter& out, const mobb::Trace& trace) {
+void write_trace(JsonWriter& out, const mobb::Trace& trace, std::span<const int> avoidable) {
     out.begin_array();
-    for (int step = 0; step < trace.size(); ++step) write_event(out, step, trace[step]);
+    for (int step = 0; step < trace.size(); ++step)
+        write_event(out, step, trace[step], std::ranges::binary_search(avoidable, step));
     out.end_array();
 }
 
-void write_events(JsonWriter& out, const mobb::Trace& trace, std::span<const int> steps) {
+void write_events(JsonWriter& out, const mobb::Trace& trace, std::span<const int> steps,
+                  std::span<const int> avoidable) {
     out.begin_array();
-    for (const int step : steps) write_event(out, step, trace[step]);
+    for (const int step : steps) write_event(out, step, trace[step], std::ranges::binary_search(avoidable, step));
     out.end_array();
 }
 
@@ -224,7 +227,7 @@ mobb::Trace read_trace(const JsonPlace& place, int samples_a, int samples_b) {
     mobb::Trace trace;
     for (int step = 0; step < place.size(); ++step) {
         const JsonPlace entry = place[step];
-        entry.allow_only({"step", "parent", "depth", "a", "b", "test", "outcome", "axis", "gap", "pairs"});
+        entry.allow_only({"step", "parent", "depth", "a", "b", "test", "outcome", "axis", "gap", "pairs", "avoidable"});
         mobb::Trace::Event event;
         entry.require("step").integer(step, step);
         event.parent = entry.require("parent").integer(-1, step - 1);

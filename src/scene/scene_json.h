@@ -36,9 +36,11 @@ void write_contact(JsonWriter& out, const std::optional<mobb::Contact>& contact)
 std::optional<mobb::Contact> read_contact(const JsonPlace& place, int samples_a, int samples_b);
 
 /// One event a line. `axis` and `gap` are null where nothing is separated, `pairs` is empty where none is measured.
-void write_trace(JsonWriter& out, const mobb::Trace& trace);
+/// `avoidable`: events that are marked so, in order.
+void write_trace(JsonWriter& out, const mobb::Trace& trace, std::span<const int> avoidable = {});
 /// The events of these steps alone.
-void write_events(JsonWriter& out, const mobb::Trace& trace, std::span<const int> steps);
+void write_events(JsonWriter& out, const mobb::Trace& trace, std::span<const int> steps,
+                  std::span<const int> avoidable = {});
 /// Checks that steps count from 0, parents come earlier, depths follow from them, outcomes fit their tests, and nodes
 /// and samples exist in clips of so many samples. Throws InputError.
 mobb::Trace read_trace(const JsonPlace& place, int samples_a, int samples_b);

@@ -242,9 +242,9 @@ std::vector<ViewOption> all_view_options() {
             {.key = "step",
              .what =
                  "Step of the query: an event number, a percentage such as 40%, end, hit, leaf:3 (the third; likewise "
-                 "separated, overlap) or depth:4",
+                 "separated, overlap, avoidable) or depth:4",
              .schema = R"("type": ["integer", "string"],
-          "pattern": "^([0-9]+|[+]?([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][+-]?[0-9]+)?%|end|(separated|overlap|hit|leaf)(:0*[1-9][0-9]*)?|depth:[0-9]+)$",
+          "pattern": "^([0-9]+|[+]?([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][+-]?[0-9]+)?%|end|(separated|overlap|hit|avoidable|leaf)(:0*[1-9][0-9]*)?|depth:[0-9]+)$",
           "minimum": 0,
           "maximum": 2147483647
         )",
@@ -418,6 +418,23 @@ std::vector<ViewOption> all_view_options() {
                                    .menu = "View/Show",
                                    .shortcut = "B",
                                    .at_hand = true}),
+        toggle<&ViewState::proof>({.key = "proof",
+                                   .what = "The lines that keep the two of a query apart: as walls at its last step, "
+                                           "of a miss in place of the pair tested last; at a moment on the floor",
+                                   .title = "Proof",
+                                   .menu = "View/Show",
+
+                                   .at_hand = true,
+                                   .draws = DrawnPart::surroundings,
+                                   .may_be_seen = [](const ViewState& view) { return view.query.has_value(); }}),
+        toggle<&ViewState::free_region>(
+            {.key = "free_region",
+             .what = "With the proof of a miss: the region of the floor where the second one may start and never "
+                     "meets the first",
+             .title = "Free region",
+             .menu = "View/Show",
+             .draws = DrawnPart::surroundings,
+             .may_be_seen = [](const ViewState& view) { return view.query && view.show == Show::space_time; }}),
         toggle<&ViewState::floor>({.key = "floor",
                                    .what = "The grid in metres with the paths' traces on it",
                                    .title = "Floor",

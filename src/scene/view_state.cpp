@@ -21,7 +21,8 @@ constexpr std::array<std::string_view, 2> kColorings{"agent", "level"};
 constexpr std::array<std::string_view, 4> kPasts{"pair", "ancestors", "siblings", "all"};
 constexpr std::array<std::string_view, 2> kArrangements{"none", "grid"};
 constexpr std::array<std::string_view, 2> kShows{"space-time", "moment"};
-constexpr std::array<std::string_view, 8> kStepUnits{"", "", "end", "separated", "overlap", "hit", "leaf", "depth"};
+constexpr std::array<std::string_view, 9> kStepUnits{"",    "",          "end",  "separated", "overlap",
+                                                     "hit", "avoidable", "leaf", "depth"};
 
 /// "leaf", "leaf:3", "depth:4".
 std::optional<Step> found_step(std::string_view text) {
@@ -68,7 +69,7 @@ Step parse_step(const std::string& text) {
     }
     throw std::invalid_argument(in_quotes(text) +
                                 " is no step: give an event number from 0, a percentage (40%), end, hit, leaf:3 (the "
-                                "third; likewise separated, overlap) or depth:4");
+                                "third; likewise separated, overlap, avoidable) or depth:4");
 }
 
 std::string to_string(const LevelRange& levels) {
@@ -88,6 +89,7 @@ std::string to_string(const Step& step) {
         case Step::Unit::separated:
         case Step::Unit::overlap:
         case Step::Unit::hit:
+        case Step::Unit::avoidable:
         case Step::Unit::leaf:
         case Step::Unit::depth:
             break;

@@ -91,8 +91,9 @@ struct Step {
         separated,
         overlap,
         hit,
-        leaf,   ///< the last test of a pair of leaves
-        depth,  ///< the first event at a depth
+        avoidable,  ///< overlap
+        leaf,       ///< the last test of a pair of leaves
+        depth,      ///< the first event at a depth
     } unit = Unit::end;
     double value = 0;  ///< event number, percentage 0..100, which of its kind, or the depth
     friend bool operator==(const Step&, const Step&) = default;
@@ -128,7 +129,9 @@ struct ViewState {
     bool labels = true;     ///< all text
     bool caption = true;    ///< the sentences at the top; where a title says it they are not needed
     bool legend = true;
-    bool inset = true;  ///< the small map of the floor
+    bool inset = true;        ///< the small map of the floor
+    bool proof = true;        ///< at the last step of a query: the lines that keep the two apart, as walls
+    bool free_region = true;  ///< ... and where B may stand without ever meeting A, on the floor
     // Overlays fold to a header in their corner; where the picture has no room they do so by themselves.
     bool fold_caption = false;
     bool fold_legend = false;
@@ -140,7 +143,7 @@ struct ViewState {
 /// "2", "1:3" or "leaves". Throws std::invalid_argument saying what is allowed.
 LevelRange parse_level_range(const std::string& text);
 /// An event number, "end", a percentage such as "40%", "separated:2" (the second that found boxes separated; "overlap",
-/// "hit" and "leaf" likewise, and without a number the first), or "depth:4". Throws std::invalid_argument.
+/// "hit", "avoidable" and "leaf" likewise, and without a number the first), or "depth:4". Throws std::invalid_argument.
 Step parse_step(const std::string& text);
 /// "iso", "top", "front", "side" (and "free"); nothing for any other name.
 std::optional<CameraPreset> camera_preset(const std::string& name);

@@ -579,6 +579,14 @@ std::vector<Case> cases() {
              EXPECT_FALSE(w.view().query);
          },
          true});
+    in_query("query.judge", "",
+             [](CommandWorld& w) { EXPECT_TRUE(w.session.queries.findings()->recursion.avoidable.all_judged()); });
+    look("query.blame", "", [](CommandWorld& w) {
+        ASSERT_NE(w.session.workspace.blame(), nullptr);
+        EXPECT_NE(all_messages(w.session).find(" in 3 queries"), std::string::npos) << all_messages(w.session);
+        w.session.workspace.edit({"moving", ""}, [](Scene& scene) { scene.agents[0].placement.start += 0.5; });
+        EXPECT_EQ(w.session.workspace.blame(), nullptr) << "of another scene nobody has counted";
+    });
     add({"query.expect",
          "",
          {kFirstQuery},
@@ -649,6 +657,16 @@ std::vector<Case> cases() {
         EXPECT_EQ(outcome_now(w), mobb::Outcome::overlap);
         EXPECT_GT(w.session.workspace.step(), 0);
     });
+    add({"step.next_avoidable", "", {{"query.select", "1"}, kFirstStep}, [](CommandWorld& w) {
+             const Recursion& recursion = w.session.queries.findings()->recursion;
+             const bool found = recursion.avoidable.at(w.session.workspace.step()) != nullptr;
+             EXPECT_NE(found, all_messages(w.session).find("voidable") != std::string::npos);
+         }});
+    add({"step.previous_avoidable", "", {{"query.select", "1"}}, [](CommandWorld& w) {
+             const Recursion& recursion = w.session.queries.findings()->recursion;
+             const bool found = recursion.avoidable.at(w.session.workspace.step()) != nullptr;
+             EXPECT_NE(found, all_messages(w.session).find("voidable") != std::string::npos);
+         }});
     in_query("step.next_hit", "", [](CommandWorld& w) { EXPECT_EQ(outcome_now(w), mobb::Outcome::hit); });
     in_query("step.next_leaf", "", [](CommandWorld& w) {
         const mobb::Tree& tree = w.session.workspace.fitted().tree(0);
@@ -707,6 +725,21 @@ std::vector<Case> cases() {
              w.session.workspace.close_group();
              run_command(w.session, "step.before");
              EXPECT_EQ(w.session.workspace.step(), 0) << "and back";
+         }});
+    // The proof. B passes where A has not come yet, so some line keeps the two apart.
+    const auto line_now = [](CommandWorld& w) { return w.session.queries.findings()->proof.at(*w.view().time); };
+    const std::pair<std::string, std::string> kMiss{"query.select", "1"};
+    add({"proof.next", "", {kMiss, kFirstStep}, [line_now](CommandWorld& w) {
+             EXPECT_EQ(line_now(w), w.session.queries.findings()->proof.tightest);
+             EXPECT_EQ(w.view().step, Step{}) << "where the walls are shown";
+         }});
+    add({"proof.previous", "", {kMiss}, [line_now](CommandWorld& w) {
+             EXPECT_EQ(line_now(w), w.session.queries.findings()->proof.tightest);
+         }});
+    add({"proof.line", "0", {kMiss}, [line_now](CommandWorld& w) { EXPECT_EQ(line_now(w), 0u); }});
+    add({"proof.save", "", {kMiss}, [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::save_proof); }});
+    add({"proof.save", "@proof.json", {kMiss}, [](CommandWorld& w) {
+             EXPECT_TRUE(std::filesystem::exists(w.path("proof.json")));
          }});
     in_query("step.percent", "50", [](CommandWorld& w) { EXPECT_EQ(w.view().step, (Step{Step::Unit::percent, 50})); });
 

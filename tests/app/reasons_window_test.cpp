@@ -133,7 +133,7 @@ TEST(ReasonsWindow, CostliestBranchesAreGoneToAndFocusedOn) {
         EXPECT_TRUE(pair.first > focused.first && pair.end <= focused.end);
     }
     w.run("run focus.none\nrun focus.time 0.5:0.7\nexpect /look/focus/time [0.5, 0.7]");
-    EXPECT_LT(w.session.queries.counts_in_all().tests.all(), w.recursion().total().tests.all());
+    EXPECT_LT(w.session.queries.counts_in_all().tests.all(), w.recursion().total().all());
     w.run("click query.none");
     EXPECT_TRUE(w.session.workspace.look.focus.is_all()) << "another query begins anew";
 }

@@ -15,11 +15,12 @@ using mobb::test::Random;
 
 TEST(RecursionPicture, AStripHoldsEveryEventOnce) {
     Random random(11);
-    int merged = 0;
+    int merged = 0, avoidable_in_all = 0;
     for (int round = 0; round < 200; ++round) {
         const mobbscope::testing::RandomQuery asked = mobbscope::testing::random_query(random);
+        const Recursion recursion = recursion_of(asked.trace, asked.a(), asked.b());
         const int width = random.integer(1, random.chance(0.5) ? 12 : 300);
-        const auto cells = strip_cells(asked.trace, {{0, asked.trace.size()}}, width);
+        const auto cells = strip_cells(asked.trace, recursion, {{0, asked.trace.size()}}, width);
         MarkCounts counts{};
         int next = 0;
         float x = 0;
@@ -37,11 +38,15 @@ TEST(RecursionPicture, AStripHoldsEveryEventOnce) {
         EXPECT_FLOAT_EQ(x, static_cast<float>(width));
         MarkCounts expected{};
         for (int e = 0; e < asked.trace.size(); ++e) {
-            ++expected[static_cast<std::size_t>(mark_of(asked.trace[e].test, asked.trace[e].outcome))];
+            const bool avoidable = avoidable_overlap(asked.a(), asked.b(), asked.trace[e]).has_value();
+            ++expected[static_cast<std::size_t>(avoidable ? EventMark::avoidable
+                                                          : mark_of(asked.trace[e].test, asked.trace[e].outcome))];
         }
         EXPECT_EQ(counts, expected);
+        avoidable_in_all += counts[static_cast<std::size_t>(EventMark::avoidable)];
     }
     EXPECT_GT(merged, 100);
+    EXPECT_GT(avoidable_in_all, 20);
 }
 
 int pixel(double t, const mobb::Interval& whole, int size) {
@@ -128,7 +133,7 @@ TEST(RecursionPicture, AZoomShowsItsEventsAloneAndAFocusItsOwn) {
         const int width = random.integer(1, 300);
         int events = 0;
         int next = range.first;
-        for (const StripCell& cell : strip_cells(asked.trace, shown, width)) {
+        for (const StripCell& cell : strip_cells(asked.trace, recursion, shown, width)) {
             EXPECT_EQ(cell.first, next);
             next = cell.end;
             events += std::accumulate(cell.marks.begin(), cell.marks.end(), 0);

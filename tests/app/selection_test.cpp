@@ -1,6 +1,8 @@
 // What is selected means the same in every picture, and never what is gone.
+#include <app/commands/command.h>
 #include <app/document/described.h>
 #include <app/document/selection.h>
+#include <app/session/session.h>
 #include <app/viewport/selection_display.h>
 #include <scene/load_files.h>
 #include <scene/scene_edits.h>
@@ -65,8 +67,11 @@ TEST(Selection, OnlyWhatThereIsExists) {
 }
 
 TEST(Selection, IsDescribedByItsNumbers) {
-    const FittedScene fitted = fitted_demo();
-    const Described node = describe(fitted, {Selection::Kind::node, {1, -1, 0}, 0});
+    Session session(false);
+    run_command(session, "file.demo");
+    const Workspace& workspace = session.workspace;
+    const FittedScene& fitted = workspace.fitted();
+    const Described node = describe(workspace, {Selection::Kind::node, {1, -1, 0}, 0});
     EXPECT_EQ(node.name, "B 0.0");
     const auto fact = [&](const Described& what, const std::string& key) {
         for (const auto& [name, value] : what.facts) {
@@ -76,9 +81,15 @@ TEST(Selection, IsDescribedByItsNumbers) {
     };
     const int count = fitted.tree(1).clip().count();
     EXPECT_EQ(fact(node, "samples"), "0.." + std::to_string(count - 1) + " (" + std::to_string(count) + ")");
-    const Described sample = describe(fitted, {Selection::Kind::sample, {0, -1, 0}, 0});
+    const Described sample = describe(workspace, {Selection::Kind::sample, {0, -1, 0}, 0});
     EXPECT_EQ(sample.name, "A, sample 0");
     EXPECT_EQ(fact(sample, "time").substr(0, 5), "0.000");
+    EXPECT_EQ(fact(node, "to blame"), "none") << "nobody has counted yet";
+    run_command(session, "query.blame");
+    const Described counted = describe(workspace, {Selection::Kind::node, {1, -1, 0}, 0});
+    const int clip = fitted.placed_agents()[1].clip;
+    ASSERT_NE(workspace.blame(), nullptr);
+    EXPECT_TRUE(fact(counted, "to blame").starts_with(std::to_string(workspace.blame()->of(clip, 0)) + " avoidable"));
 }
 
 TEST(Selection, ANodeOfATreeThatIsFittedAnewIsItsPath) {

@@ -1,12 +1,15 @@
 #include "run_program.h"
 
+#include <explain/avoidable.h>
 #include <scene/fitted_scene.h>
 #include <support/json_keys.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <set>
 
 namespace mobbscope {
@@ -33,7 +36,7 @@ TEST(Query, JsonIsTheAnswer) {
     const std::string file = kQueryScenes + "collision.json";
     const json found = results({"query", file, "--json"});
     ASSERT_EQ(found.size(), 1u);
-    EXPECT_EQ(keys(found[0]), (std::set<std::string>{"query", "a", "b", "collides", "contact", "tests"}));
+    EXPECT_EQ(keys(found[0]), (std::set<std::string>{"query", "a", "b", "collides", "contact", "tests", "avoidable"}));
     EXPECT_EQ(found[0]["query"], 0);
     EXPECT_EQ(found[0]["a"], "A");
     EXPECT_EQ(found[0]["b"], "B");
@@ -84,14 +87,18 @@ TEST(Query, TheTraceIsTheRecord) {
     options.tree = mobb::TreeKind::umobb;
     const FittedScene fitted(scene, options);
     const mobb::Trace trace = record(fitted, fitted.queries()[0]).trace;
+    const AvoidableOverlaps avoidable =
+        avoidable_overlaps(trace, fitted.placed(fitted.queries()[0].a), fitted.placed(fitted.queries()[0].b));
+    EXPECT_EQ(found[0]["avoidable"], avoidable.events.size());
     const json& printed = found[0]["trace"];
     int separations = 0;
     std::size_t measured = 0;
     ASSERT_EQ(static_cast<int>(printed.size()), trace.size());
     for (int step = 0; step < trace.size(); ++step) {
         const json& event = printed[static_cast<std::size_t>(step)];
-        EXPECT_EQ(keys(event), (std::set<std::string>{"step", "parent", "depth", "a", "b", "test", "outcome", "axis",
-                                                      "gap", "pairs"}));
+        std::set<std::string> said{"step", "parent", "depth", "a", "b", "test", "outcome", "axis", "gap", "pairs"};
+        if (avoidable.at(step)) said.insert("avoidable");
+        EXPECT_EQ(keys(event), said);
         const mobb::Trace::Event recorded = trace[step];
         EXPECT_EQ(event["step"], step);
         EXPECT_EQ(event["parent"], recorded.parent);
@@ -168,6 +175,49 @@ TEST(Query, ACrowdsPairsAreAskedInOrder) {
     std::string pairs;
     for (const json& entry : found) pairs += entry["a"].get<std::string>() + entry["b"].get<std::string>() + ' ';
     EXPECT_EQ(pairs, "AB AC AD BC BD CD ");
+}
+
+TEST(Query, SaysWhichOverlapsWereAvoidableAndWhoIsToBlame) {
+    for (const char* tree : {"moving", "umobb", "aabb"}) {
+        const std::vector<std::string> asked{"query", kQueryScenes + "crossing.json", "--tree", tree};
+        std::vector<std::string> as_json = asked, as_text = asked;
+        as_json.insert(as_json.end(), {"--json", "--trace"});
+        as_text.emplace_back("--trace");
+        const json all = json::parse(run_program(as_json).out);
+        const json& found = all["results"][0];
+        int marked = 0;
+        for (const json& event : found["trace"]) {
+            if (!event.contains("avoidable")) continue;
+            EXPECT_EQ(event["avoidable"], true);
+            EXPECT_EQ(event["outcome"], "overlap");
+            ++marked;
+        }
+        EXPECT_EQ(found["avoidable"], marked) << tree;
+        int told = 0;
+        const std::string text = run_program(as_text).out;
+        for (std::size_t at = 0; (at = text.find(": overlap, avoidable: a line keeps the disks ", at)) != text.npos;
+             ++at)
+            ++told;
+        EXPECT_EQ(told, marked) << text;
+        const Scene scene = load_scene(kQueryScenes + "crossing.json");
+        mobb::FitOptions options = scene.fit;
+        options.tree = *mobb::tree_kind_from_name(tree);
+        const FittedScene fitted(scene, options);
+        const BlameInScene blame = blame_in(fitted);
+        std::int64_t last = std::numeric_limits<std::int64_t>::max(), in_all = 0, listed = 0;
+        for (const json& node : all["blame"]) {
+            const int clip = node["clip"] == fitted.scene().clips[0].name ? 0 : 1;
+            EXPECT_EQ(node["overlaps"], blame.of(clip, node["node"]));
+            EXPECT_EQ(node["level"], fitted.tree(clip).level(node["node"]));
+            EXPECT_LE(node["overlaps"], last) << "those of the most first";
+            last = node["overlaps"];
+            listed += last;
+        }
+        for (const BlameByNode& nodes : blame.of_clip) in_all = std::accumulate(nodes.begin(), nodes.end(), in_all);
+        EXPECT_EQ(listed, in_all);
+    }
+    const json brute = results({"query", kQueryScenes + "crossing.json", "--json", "--tree", "brute"});
+    EXPECT_FALSE(brute[0].contains("avoidable")) << "the direct search has no boxes";
 }
 
 TEST(Query, TextIsASentence) {

@@ -82,7 +82,7 @@ TEST(WhyWords, TheGainCountsWhatTheDirectSearchWouldMeasure) {
     const SceneQuery query = fitted->queries()[0];
     static_cast<void>(ask(*fitted, query, Search::direct, statistics));
     EXPECT_EQ(direct_pairs(findings.clearance), statistics.tests[mobb::TestKind::samples]);
-    EXPECT_EQ(gain_words(findings.recursion.total().tests, findings.clearance),
+    EXPECT_EQ(gain_words(findings.recursion.total(), findings.clearance),
               "The direct search would measure 40 pairs of samples; this took 2 tests, 20 times fewer.");
 }
 

@@ -406,7 +406,8 @@ TEST(QuerySentence, NamesItsAgentsHoweverShortItIs) {
 TEST(QuerySentence, ANarrowCaptionKeepsStepTreeAndCounts) {
     const Query query(testing::miss_scene());
     const int step = query.find(mobb::BoxKind::obb2d, mobb::Outcome::separated);
-    const Caption caption = query_caption(palette(Theme::dark), query.sides, query.recorded, step);
+    const Caption caption = query_caption(palette(Theme::dark), query.sides, query.recorded,
+                                          progress_at(query.recorded.trace, step, Past::pair));
     for (const float room : {120.0f, 150.0f, 250.0f, 600.0f}) {
         const CaptionLines lines =
             caption_lines(caption, room, 1, room < 400 ? CaptionSize::small : CaptionSize::large);

@@ -89,14 +89,19 @@ FittedScene two_walks() {
 
 /// Views of these two in which a toggle may show something.
 std::vector<ViewState> views() {
-    ViewState levels, query, moment;
+    ViewState levels, query, moment, proven, line;
     levels.levels = {0, 0, true};
     levels.time = 4;
     query.query = 0;
     query.step = parse_step("40%");
     moment.show = Show::moment;
     moment.time = 4;
-    return {levels, query, moment};
+    proven.query = 0;
+    proven.past = Past::all;  // else the walls stand in place of the boxes
+    line.query = 0;
+    line.show = Show::moment;
+    line.time = 4;
+    return {levels, query, moment, proven, line};
 }
 
 std::string described(const ViewOption& option, const ViewState& view) {

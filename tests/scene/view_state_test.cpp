@@ -30,8 +30,8 @@ TEST(ViewState, StepsAreReadAndWritten) {
     EXPECT_EQ(parse_step("separated:2"), (Step{Step::Unit::separated, 2}));
     EXPECT_EQ(parse_step("depth:0"), (Step{Step::Unit::depth, 0}));
     EXPECT_EQ(parse_step("overlap:1"), parse_step("overlap"));
-    for (const char* text :
-         {"0", "12", "40%", "33.5%", "end", "leaf:3", "leaf", "separated:2", "overlap", "hit", "depth:0", "depth:1"}) {
+    for (const char* text : {"0", "12", "40%", "33.5%", "end", "leaf:3", "leaf", "avoidable:3", "separated:2",
+                             "overlap", "hit", "depth:0", "depth:1"}) {
         EXPECT_EQ(to_string(parse_step(text)), text);
     }
     for (const char* bad : {"", "-1", "101%", "-1%", "%", "nan%", "1.5", "last", "leaf:0", "leaf:", "leaf:-1", "depth",

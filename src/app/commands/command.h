@@ -188,6 +188,7 @@ std::vector<Command> tree_commands();
 std::vector<Command> query_commands();
 std::vector<Command> step_commands();
 std::vector<Command> reason_commands();
+std::vector<Command> proof_commands();  ///< among those of queries
 std::vector<Command> go_commands();
 std::vector<Command> crowd_commands();
 

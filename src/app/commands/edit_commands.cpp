@@ -129,7 +129,7 @@ void go_to_state(Workspace& workspace, Edits& edits, const std::string& text) {
 }
 
 void copy_figures(Session& session) {
-    const Described what = describe(session.workspace.fitted(), session.workspace.selection);
+    const Described what = describe(session.workspace, session.workspace.selection);
     session.desktop->set_clipboard(lines_of(what));
     session.notifications.tell(MessageLevel::info, "Copied the figures of " + what.name);
 }

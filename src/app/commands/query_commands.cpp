@@ -3,6 +3,7 @@
 #include <app/document/agents.h>
 #include <base/text.h>
 #include <explain/query_findings.h>
+#include <explain/query_sentence.h>
 #include <scene/scene_edits.h>
 
 #include <algorithm>
@@ -138,11 +139,43 @@ void copy_answer(Session& session, const std::string& text) {
     session.queries.show(asked_query(session.workspace, text));
     const std::shared_ptr<const QueryFindings> findings = session.queries.findings();
     std::string answer = answer_words(findings->sides, findings->clearance) + ".\n";
-    for (const std::string& sentence : why_words(findings->sides, findings->clearance, findings->floor)) {
-        answer += sentence + '\n';
-    }
+    const std::vector<std::string> why = why_words(findings->sides, findings->clearance, findings->floor);
+    for (const auto& sentences : {proof_sentences(*findings), why})
+        for (const std::string& sentence : sentences) answer += sentence + '\n';
     session.desktop->set_clipboard(answer);
     session.notifications.tell(MessageLevel::info, "Copied: " + answer);
+}
+
+/// In the background: a scene may ask thousands.
+void count_blame(Session& session) {
+    session.jobs.start("Summing avoidable overlaps",
+                       [&session, in = session.workspace.document().fitted](JobControl& control) -> Job::Finish {
+                           auto blame = std::make_shared<const BlameInScene>(blame_in(*in, progress_of(control)));
+                           return [&session, in, blame = std::move(blame)] {
+                               Workspace& workspace = session.workspace;
+                               if (in != workspace.document().fitted) {
+                                   return session.notifications.tell(
+                                       MessageLevel::info, "The scene has changed: sum avoidable overlaps again");
+                               }
+                               workspace.counted_blame = blame;
+                               workspace.blame_counted_in = in;
+                               session.notifications.tell(MessageLevel::info,
+                                                          blame_words(*blame, in->queries().size()));
+                           };
+                       });
+}
+
+/// Those of the query in view that take too long for each new trace.
+void judge_all(Session& session) {
+    session.jobs.start("Judging overlaps",
+                       [&session, findings = session.queries.findings(), trace = session.workspace.recorded()->trace,
+                        fitted = session.workspace.shown()](JobControl& control) -> Job::Finish {
+                           Recursion all = recursion_of(trace, findings->sides[0].placed, findings->sides[1].placed,
+                                                        kAnyVisits, progress_of(control));
+                           return [&session, findings, all = std::move(all)]() mutable {
+                               session.queries.replace_recursion(findings, std::move(all));
+                           };
+                       });
 }
 
 // --- what they cost
@@ -208,12 +241,21 @@ std::vector<Command> query_commands() {
         Command("query.copy_answer", "Copy the answer in words",
                 "Shows a query and copies whether the two collide, and why.", copy_answer,
                 {.argument = "[N]", .enabled = {has_queries, why_no_query}}),
+        Command("query.judge", "Judge all overlaps",
+                "Finds out which overlaps of the query in view were avoidable, where there are too many to do so at "
+                "once.",
+                judge_all, {.enabled = {in_query, why_no_step}}),
+        Command(
+            "query.blame", "Sum avoidable overlaps by node",
+            "Asks all queries and counts, by node, the overlaps that a tighter box would have avoided; the facts of "
+            "a selected node say it then.",
+            count_blame, {.enabled = {has_queries, why_no_query}}),
         Command("query.expect", "Expect this answer",
                 "Writes the present answer into the scene: `mobbscope query` then says when it has changed.", expect,
                 {.enabled = [](const Workspace& workspace) { return edited_query(workspace).has_value(); },
                  .checked = is_expected}),
     };
-    return in_menu("Query", rows);
+    return in_menu("Query", joined({rows, proof_commands()}));
 }
 
 }  // namespace mobbscope::app

@@ -3,7 +3,9 @@
 #include <app/commands/command.h>
 #include <app/document/agents.h>
 #include <base/text.h>
+#include <explain/query_findings.h>
 #include <explain/query_progress.h>
+#include <explain/query_sentence.h>
 
 #include <algorithm>
 #include <limits>
@@ -118,6 +120,25 @@ void to_depth(Workspace& workspace, QueryInspector& queries, Notifications& noti
                     "at depth " + text);
 }
 
+/// To the next or the previous avoidable overlap; says so if there is none.
+template <int way>
+void to_avoidable(Workspace& workspace, QueryInspector& queries, Notifications& notifications) {
+    const bool was_in = in_any_query(workspace);
+    entered(workspace, queries, way > 0 ? kFirst : kEnd);
+    const AvoidableOverlaps& avoidable = queries.findings()->recursion.avoidable;
+    // The step at which the query is entered is looked at too.
+    const int here = workspace.step() + (was_in ? 0 : -way);
+    const auto behind = std::ranges::upper_bound(avoidable.events, here);
+    const auto at = std::ranges::lower_bound(avoidable.events, here);
+    if (way > 0 && behind != avoidable.events.end()) return to_event(workspace, *behind);
+    if (way < 0 && at != avoidable.events.begin()) return to_event(workspace, *(at - 1));
+    std::string why = avoidable.events.empty() ? "No overlap of this query was avoidable"
+                      : way > 0                ? "There is no later avoidable overlap"
+                                               : "There is no earlier avoidable overlap";
+    if (!avoidable.all_judged()) why.append(". ").append(judged_words(avoidable));
+    notifications.tell(MessageLevel::info, why);
+}
+
 /// Which side of the query in view the selected node is of; none if no node of it is selected.
 std::optional<int> side_of_node(const Workspace& workspace) {
     if (!in_any_query(workspace) || workspace.selection.kind != Selection::Kind::node) return std::nullopt;
@@ -208,6 +229,12 @@ std::vector<Command> step_commands() {
                                  "Shows the last test before that found samples which collide."),
         found_row<Way::previous>("step.previous_leaf", "Previous pair of leaves", "Shift+R", kLeaf,
                                  "Shows the last test of the two leaves before."),
+        Command("step.next_avoidable", "Next avoidable overlap",
+                "Shows the next test that found an overlap although one line keeps the disks apart.", to_avoidable<1>,
+                {.shortcut = "U", .enabled = {has_any_query, why_no_step}}),
+        Command("step.previous_avoidable", "Previous avoidable overlap",
+                "Shows the last test before that found an overlap although one line keeps the disks apart.",
+                to_avoidable<-1>, {.shortcut = "Shift+U", .enabled = {has_any_query, why_no_step}}),
         Command("step.next_depth", "Next test at a depth",
                 "Shows the next test so deep in the recursion, 0 at the roots.", to_depth<Way::next>, of_depth),
         Command("step.previous_depth", "Previous test at a depth",

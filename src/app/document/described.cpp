@@ -86,7 +86,8 @@ DrawnAgent drawn_agent_of(const FittedScene& fitted, const PlacedAgent& who) {
     return {fitted.placed(who), who.name, who.name, Rgba(1), 0};
 }
 
-Described describe(const FittedScene& fitted, const Selection& what) {
+Described describe(const Workspace& workspace, const Selection& what) {
+    const FittedScene& fitted = workspace.fitted();
     Described out;
     switch (what.kind) {
         case Selection::Kind::none:
@@ -107,7 +108,13 @@ Described describe(const FittedScene& fitted, const Selection& what) {
     const auto who = placed_agent_of(fitted, what.path);
     if (!who) return out;
     if (what.kind == Selection::Kind::path) describe_path(out, fitted, *who);
-    if (what.kind == Selection::Kind::node) describe_node(out, drawn_agent_of(fitted, *who), what.index);
+    if (what.kind == Selection::Kind::node) {
+        describe_node(out, drawn_agent_of(fitted, *who), what.index);
+        if (const BlameInScene* blame = workspace.blame()) {
+            const std::int64_t overlaps = blame->of(who->clip, what.index);
+            out.facts.emplace_back("to blame", counted(overlaps, "avoidable overlap", "avoidable overlaps"));
+        }
+    }
     if (what.kind == Selection::Kind::sample) describe_sample(out, drawn_agent_of(fitted, *who), what.index);
     return out;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <app/document/selection.h>
+#include <app/document/workspace.h>
 #include <scene/drawn_agent.h>
 
 #include <string>
@@ -16,7 +17,7 @@ struct Described {
     std::vector<std::pair<std::string, std::string>> facts;  ///< "time", "1.20..1.53 s"
 };
 /// Of nothing, nothing.
-Described describe(const FittedScene& fitted, const Selection& what);
+Described describe(const Workspace& workspace, const Selection& what);
 
 /// A line for the name and one for each fact, its value behind a tab.
 std::string lines_of(const Described& what);

@@ -25,6 +25,7 @@ std::string words_of_step(const Step& step) {
         case Step::Unit::separated:
         case Step::Unit::overlap:
         case Step::Unit::hit:
+        case Step::Unit::avoidable:
         case Step::Unit::leaf:
         case Step::Unit::depth:
             break;

@@ -3,6 +3,8 @@
 #include <explain/query_sentence.h>
 #include <explain/reasons.h>
 
+#include <utility>
+
 namespace mobbscope::app {
 
 namespace {
@@ -47,7 +49,7 @@ Workspace::Derived::Focused& QueryInspector::focused() const {
 
 const InFocus& QueryInspector::in_focus() const { return focused().inside; }
 
-StepCounts QueryInspector::counts_so_far() const {
+FocusCounts QueryInspector::counts_so_far() const {
     auto& [at, counts] = focused().counts;
     const int step = workspace_.step();
     if (at == step) return counts;
@@ -56,7 +58,7 @@ StepCounts QueryInspector::counts_so_far() const {
     return counts;
 }
 
-StepCounts QueryInspector::counts_in_all() const {
+FocusCounts QueryInspector::counts_in_all() const {
     Workspace::Derived::Focused& now = focused();
     const Recursion& recursion = findings()->recursion;
     if (!now.in_all) {
@@ -91,6 +93,15 @@ std::optional<PlaceReasons> QueryInspector::reasons() const {
     const std::optional<double>& time = workspace_.view().time;
     if (!time) return std::nullopt;
     return PlaceReasons{with_unit(*time, "s"), pairs_at(found->recursion, *time, *time)};
+}
+
+void QueryInspector::replace_recursion(const std::shared_ptr<const QueryFindings>& of, Recursion recursion) {
+    std::shared_ptr<const QueryFindings>& now = workspace_.derived().findings;
+    if (now != of) return;
+    auto findings = std::make_shared<QueryFindings>(*of);
+    findings->recursion = std::move(recursion);
+    now = std::move(findings);
+    workspace_.derived().focused.reset();
 }
 
 const Answer& QueryInspector::answer_of(std::size_t query) const {

@@ -30,12 +30,14 @@ class QueryInspector {
     /// By event of the query in view, whether lists show it; empty where they show all. Requires findings().
     const InFocus& in_focus() const;
     /// What had been counted in the focus after the present step, and in all of it. Requires findings() with events.
-    StepCounts counts_so_far() const;
-    StepCounts counts_in_all() const;
+    FocusCounts counts_so_far() const;
+    FocusCounts counts_in_all() const;
     /// The costliest of the focus (costliest_branches), some hundred. Requires findings() with events.
     const std::vector<BranchCost>& branches() const;
     /// Of what is asked about (QueryLook), else of the time cursor's moment; none: nothing is, or no query is in view.
     std::optional<PlaceReasons> reasons() const;
+    /// The same findings with another recursion, if these are still those of the query in view.
+    void replace_recursion(const std::shared_ptr<const QueryFindings>& of, Recursion recursion);
     /// The first contact of any query, with what it cost.
     const Answer& answer_of(std::size_t query) const;
     /// Figures of a clip's tree.

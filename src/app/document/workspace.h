@@ -99,6 +99,9 @@ class Workspace {
     };
     std::optional<FoundConflicts> found;  ///< none: nobody has looked yet
     int conflict = -1;                    ///< that was gone to last; -1: none
+    /// Whom the queries of a scene blame; null: nobody has counted yet.
+    std::shared_ptr<const BlameInScene> counted_blame;
+    std::shared_ptr<const FittedScene> blame_counted_in;
 
     std::vector<RunningJob> jobs;                   ///< the oldest first
     std::deque<ImportChange> import_changes;        ///< not begun yet
@@ -122,6 +125,8 @@ class Workspace {
     std::string title() const;
     /// What is asked in the view, recorded; null if no query is in the view.
     const RecordedQuery* recorded() const;
+    /// Whom the queries blame for avoidable overlaps; null if nobody has counted since the scene or its fit changed.
+    const BlameInScene* blame() const { return blame_counted_in == document().fitted ? counted_blame.get() : nullptr; }
     /// The event of the trace that the view shows; requires recorded().
     int step() const;
 
@@ -151,8 +156,8 @@ class Workspace {
         struct Focused {
             FocusWindow window;
             InFocus inside;
-            std::pair<int, StepCounts> counts{-1, {}};  ///< up to a step
-            std::optional<StepCounts> in_all{};
+            std::pair<int, FocusCounts> counts{-1, {}};  ///< up to a step
+            std::optional<FocusCounts> in_all{};
             std::optional<std::vector<BranchCost>> branches{};
         };
         std::optional<Focused> focused{};  ///< of `findings`

@@ -202,7 +202,7 @@ void sample_cell(Ui& ui, int side, int sample, ImU32 color) {
 
 void current_test(Ui& ui, const QueryFindings& findings) {
     const mobb::Trace::Event event = ui.workspace.recorded()->trace[ui.workspace.step()];
-    const EventMark mark = mark_of(event.test, event.outcome);
+    const EventMark mark = mark_of(ui.workspace.recorded()->trace, findings.recursion, ui.workspace.step());
     if (!section(ui, "THIS TEST", "depth " + std::to_string(event.depth))) return;
     framed(ui, mark_color(ui.style, mark, 0.10f), mark_color(ui.style, mark), [&] {
         outcome_sign(ui, mark, ui.px(12));

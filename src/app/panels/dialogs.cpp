@@ -80,12 +80,13 @@ void dropped(Ui& ui) {
 void ask_for_file(Ui& ui) { file_dialog(ui, ui.session.dialogs, ui.session.settings); }
 
 using Draw = void (*)(Ui&);
-constexpr std::array<std::pair<Dialog, Draw>, 14> kDrawn{
+constexpr std::array<std::pair<Dialog, Draw>, 15> kDrawn{
     {{Dialog::open, ask_for_file},
      {Dialog::add, ask_for_file},
      {Dialog::save_as, ask_for_file},
      {Dialog::export_file, ask_for_file},
      {Dialog::folder, ask_for_file},
+     {Dialog::save_proof, ask_for_file},
      {Dialog::export_picture, export_dialog},
      {Dialog::unsaved, unsaved},
      {Dialog::palette, [](Ui& ui) { palette(ui, ui.session.dialogs); }},

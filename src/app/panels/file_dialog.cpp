@@ -66,9 +66,10 @@ void begin(Settings& settings, Workspace& workspace, Dialogs& dialogs, const Fil
     dialogs.browser.order_by(settings.file_order);
     dialogs.browser.begin(folder, question.extensions(), open);
     const std::string stem = std::filesystem::path(workspace.title()).stem().string();
-    dialogs.input.set_text(to_export           ? exported.filename().string()
-                           : question.writes() ? stem + question.extension
-                                               : "");
+    dialogs.input.set_text(to_export                           ? exported.filename().string()
+                           : dialogs.now == Dialog::save_proof ? stem + "_proof.json"
+                           : question.writes()                 ? stem + question.extension
+                                                               : "");
 }
 
 /// What was typed led elsewhere; the name of a file that is to be written stays.

@@ -123,6 +123,7 @@ void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures) {
     if (!findings) return no_query(ui);
     query_header(ui);
     query_answer(ui, queries, *findings);
+    proof_section(ui, *findings);
     if (!findings->recursion.pairs.empty()) {
         focus_line(ui, *findings);
         step_transport(ui);
@@ -148,9 +149,9 @@ void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings
         answer_sign(ui, collide, mark_color(ui.style, mark));
         words(mark_text(ui.style, mark), answer_words(findings.sides, findings.clearance));
         ImGui::PopFont();
-        for (const std::string& sentence : why_words(findings.sides, findings.clearance, findings.floor)) {
-            words(ui.style.text, sentence);
-        }
+        for (const std::string& sentence : proof_sentences(findings)) words(ui.style.text, sentence);
+        for (const std::string& sentence : why_words(findings.sides, findings.clearance, findings.floor))
+            words(ui.style.quiet, sentence);
     });
     ui.mark("query.answer");
     if (const auto& contact = ui.workspace.recorded()->contact) {
@@ -162,8 +163,9 @@ void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings
 
 void query_counters(Ui& ui, QueryInspector& queries, const QueryFindings& findings) {
     if (!section(ui, "TESTS", ui.workspace.look.focus.is_all() ? "" : "in the focus")) return;
-    const StepCounts total = queries.counts_in_all();
-    const StepCounts now = queries.counts_so_far();
+    const Recursion& recursion = findings.recursion;
+    const FocusCounts total = queries.counts_in_all();
+    const FocusCounts now = queries.counts_so_far();
     const float left = ImGui::GetCursorPosX();
     const float room = ImGui::GetContentRegionAvail().x;
     const float first = left + 0.68f * room;
@@ -190,8 +192,14 @@ void query_counters(Ui& ui, QueryInspector& queries, const QueryFindings& findin
         if (box.in_paper || total.tests[kind] > 0) tests(std::string(box.title) + " tests", box.test, kind);
     }
     tests("sample pairs", "Pairs of disks whose distance was measured", mobb::TestKind::samples);
-    row("wasted", "Box tests that found an overlap which led to no hit", now.wasted, total.wasted);
-    words(ui.style.quiet, gain_words(findings.recursion.total().tests, findings.clearance));
+    row("avoidable", "Box tests that found an overlap although one line keeps the disks apart", now.avoidable,
+        total.avoidable);
+    ui.mark("query.avoidable");
+    if (!recursion.avoidable.all_judged()) {
+        words(ui.style.warning, judged_words(recursion.avoidable));
+        query_button(ui, "Judge all", "query.judge");
+    }
+    words(ui.style.quiet, gain_words(recursion.total(), findings.clearance));
 }
 
 }  // namespace mobbscope::app

@@ -20,6 +20,12 @@ void query_button(Ui& ui, const char* label, const char* command);
 
 // These need a query in the view and its findings.
 void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings);
+/// The lines of the proof as rows, and what the trees found instead. Nothing without lines.
+void proof_section(Ui& ui, const QueryFindings& findings);
+/// The line that the time cursor is in; none: it is in none.
+std::optional<std::size_t> selected_line(const Workspace& workspace, const QueryProof& proof);
+/// The lines of the proof over their times, as bars with gaps; a click goes to one.
+void proof_bars(Ui& ui, const QueryFindings& findings, const ChartAxis& time, ImVec2 corner, ImVec2 size);
 void query_counters(Ui& ui, QueryInspector& queries, const QueryFindings& findings);
 /// Buttons that step, and the slider over the trace.
 void step_transport(Ui& ui);

@@ -21,10 +21,18 @@ void merge(PairCell& cell, const Recursion& recursion, int pair) {
 EventMark mark_of(const RecursionPair& pair) {
     // A pair that went on to others stands for what they found.
     if (pair.has_children() && pair.hit) return EventMark::hit;
+    if (pair.avoidable) return EventMark::avoidable;
     return mark_of(mobb::BoxKind::obb2d, pair.outcome);
 }
 
-std::vector<StripCell> strip_cells(const mobb::Trace& trace, const ShownEvents& shown, int width) {
+EventMark mark_of(const mobb::Trace& trace, const Recursion& recursion, int event) {
+    if (recursion.avoidable.at(event)) return EventMark::avoidable;
+    const mobb::Trace::Event found = trace[event];
+    return mark_of(found.test, found.outcome);
+}
+
+std::vector<StripCell> strip_cells(const mobb::Trace& trace, const Recursion& recursion, const ShownEvents& shown,
+                                   int width) {
     const int events = shown.range.size();
     const int count = std::min(events, width);
     std::vector<StripCell> out;
@@ -37,8 +45,7 @@ std::vector<StripCell> strip_cells(const mobb::Trace& trace, const ShownEvents& 
         cell.x1 = static_cast<float>(c + 1) * static_cast<float>(width) / static_cast<float>(count);
         for (int e = cell.first; e < cell.end; ++e) {
             if (!shown.has(e)) continue;
-            const mobb::Trace::Event event = trace[e];
-            ++cell.marks[static_cast<std::size_t>(mark_of(event.test, event.outcome))];
+            ++cell.marks[static_cast<std::size_t>(mark_of(trace, recursion, e))];
         }
         out.push_back(cell);
     }

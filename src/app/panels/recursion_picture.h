@@ -28,7 +28,8 @@ struct ShownEvents {
 
 /// Events of a trace side by side in `width` >= 1 pixels. No cell is narrower than a pixel, so a long trace has at most
 /// `width` of them. A cell has no marks of events out of focus.
-std::vector<StripCell> strip_cells(const mobb::Trace& trace, const ShownEvents& shown, int width);
+std::vector<StripCell> strip_cells(const mobb::Trace& trace, const Recursion& recursion, const ShownEvents& shown,
+                                   int width);
 
 /// A pair of nodes as a rectangle, or several that fall on the same pixels.
 struct PairCell {
@@ -47,7 +48,8 @@ int icicle_row(float height, int depth, float scale);
 /// Pairs as the events of them and below them (to the right) by depth (downwards); rows of `row` pixels.
 std::vector<PairCell> icicle_cells(const Recursion& recursion, const ShownEvents& shown, int width, int row);
 
-/// How a pair's outcome is shown.
+/// How a pair's outcome is shown, and an event's.
 EventMark mark_of(const RecursionPair& pair);
+EventMark mark_of(const mobb::Trace& trace, const Recursion& recursion, int event);
 
 }  // namespace mobbscope::app

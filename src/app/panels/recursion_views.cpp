@@ -78,6 +78,33 @@ void common_time(ImDrawList& list, const Style& style, const Square& square) {
                  1.3f * style.scale);
 }
 
+/// The lines of the proof along the common time, each between two ticks. Returns the one that the mouse is on.
+std::optional<std::size_t> proof_intervals(Ui& ui, const QueryFindings& findings, const Square& square) {
+    const auto selected = selected_line(ui.workspace, findings.proof);
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    std::optional<std::size_t> under;
+    for (std::size_t i = 0; i < findings.proof.lines.size(); ++i) {
+        const ProofLine& line = findings.proof.lines[i];
+        const ImVec2 from{square.x.pixel(line.t0), square.y.pixel(line.t0)};
+        const ImVec2 to{square.x.pixel(line.t1), square.y.pixel(line.t1)};
+        const ImVec2 way{to.x - from.x, to.y - from.y};
+        const float length = std::max(std::hypot(way.x, way.y), 1e-3f);
+        const ImVec2 across{-way.y / length, way.x / length};
+        const ImU32 color = mark_color(ui.style, EventMark::separated);
+        const float width = ui.px(i == selected ? 4.5f : 2.5f), tick = ui.px(5);
+        list.AddLine(from, to, color, width);
+        for (const ImVec2 end : {from, to}) {
+            list.AddLine({end.x - tick * across.x, end.y - tick * across.y},
+                         {end.x + tick * across.x, end.y + tick * across.y}, color, ui.px(1.5f));
+        }
+        const ImVec2 at{mouse.x - from.x, mouse.y - from.y};
+        const float along = (at.x * way.x + at.y * way.y) / length, aside = at.x * across.x + at.y * across.y;
+        if (along >= 0 && along <= length && std::abs(aside) <= tick) under = i;
+    }
+    return under;
+}
+
 void axis_labels(Ui& ui, const QueryFindings& findings, const Square& square) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImFont& font = *ui.style.caption;
@@ -138,28 +165,39 @@ void zoom_by_wheel(Ui& ui, const EventRange& range, int events, float left, floa
     set_zoom(ui, range_at(range.first + share * (range.size() - size), size, events), events);
 }
 
+/// Of a pair whose children lie in it: a corner with a line beside it, which leaves them to be seen.
+void avoidable_corner(ImDrawList& list, const Style& style, ImVec2 min, ImVec2 max, float strength) {
+    const ImU32 color = mark_color(style, EventMark::avoidable, strength);
+    const float side = std::min(6 * style.scale, 0.5f * std::min(max.x - min.x, max.y - min.y));
+    list.AddTriangleFilled(min, {min.x + side, min.y}, {min.x, min.y + side}, color);
+    list.AddRect(min, max, color, 0, 0, style.scale);
+}
+
 constexpr float kIcicleAhead = 0.35f;  // strength of what comes after the present step
 
 /// Pairs that went on to others stay quiet: what they found stands below them.
-void draw_inner(ImDrawList& list, const Style& style, ImVec2 min, ImVec2 max, bool hit, float strength) {
+void draw_inner(ImDrawList& list, const Style& style, ImVec2 min, ImVec2 max, const RecursionPair& pair,
+                float strength) {
     list.AddRectFilled(min, max, style.raised);
-    if (hit) list.AddRectFilled({min.x, max.y - 2 * style.scale}, max, mark_color(style, EventMark::hit, strength));
+    if (pair.avoidable) outcome_cell(list, style, min, max, EventMark::avoidable, 0.6f * strength);
+    if (pair.hit)
+        list.AddRectFilled({min.x, max.y - 2 * style.scale}, max, mark_color(style, EventMark::hit, strength));
 }
 
 /// The tests of a pair, as a second level in the lower part of its span where they are wide enough.
 class IcicleTests {
   public:
-    IcicleTests(const mobb::Trace& trace, float left, float each, int first, int row, float least)
-        : trace_(trace), left_(left), each_(each), first_(first), row_(row), least_(least) {}
+    IcicleTests(const mobb::Trace& trace, const Recursion& recursion, float left, float each, int first, int row,
+                float least)
+        : trace_(trace), recursion_(recursion), left_(left), each_(each), first_(first), row_(row), least_(least) {}
 
     float x(int event) const { return left_ + each_ * static_cast<float>(event - first_); }
     void draw(ImDrawList& list, const Style& style, const RecursionPair& pair, ImVec2 max, float strength) const {
         if (!are_shown(pair)) return;
         const float top = max.y - height();
         for (int event = pair.first; event <= pair.last; ++event) {
-            const mobb::Trace::Event test = trace_[event];
             list.AddRectFilled({x(event), top}, {x(event + 1) - 1, max.y},
-                               mark_color(style, mark_of(test.test, test.outcome), strength));
+                               mark_color(style, mark_of(trace_, recursion_, event), strength));
         }
         list.AddLine({x(pair.first), top}, {x(pair.last + 1) - 1, top}, style.window, style.scale);
     }
@@ -177,6 +215,7 @@ class IcicleTests {
     float height() const { return std::floor(0.3f * static_cast<float>(row_)); }
 
     const mobb::Trace& trace_;
+    const Recursion& recursion_;
     float left_, each_;
     int first_, row_;
     float least_;
@@ -242,7 +281,7 @@ void way_to(Ui& ui, const QueryFindings& findings, int pair, float width) {
 }
 
 /// How much of the strip's height an event takes: what says more stands taller.
-constexpr std::array<float, kEventMarks> kHeights{0.14f, 0.3f, 0.55f, 0.8f, 0.8f, 1.0f};
+constexpr std::array<float, kEventMarks> kHeights{0.14f, 0.3f, 0.55f, 0.7f, 0.7f, 0.85f, 1.0f};
 
 constexpr float kStripAhead = 0.4f;  // strength of what comes after the present step
 
@@ -304,6 +343,7 @@ void QueryPictures::square(Ui& ui, QueryInspector& queries, const QueryFindings&
             const float strength = !shown.has(pair.last) ? kOutOfFocus : past ? 1 : kSquareAhead;
             if (pair.has_children()) {
                 list.AddRect(min, max, to_im(with_alpha(ui.style.palette.axis, 0.6f * strength)), 0, 0, ui.style.scale);
+                if (pair.avoidable) avoidable_corner(list, ui.style, min, max, strength);
             } else {
                 const float gap = cell.x1 - cell.x0 > 4 ? 1.0f : 0.0f;
                 outcome_cell(list, ui.style, min, {max.x - gap, max.y - gap}, mark_of(pair), strength);
@@ -327,9 +367,15 @@ void QueryPictures::square(Ui& ui, QueryInspector& queries, const QueryFindings&
         list.AddCircle({square.x.pixel(point->time_a), square.y.pixel(point->time_b)}, ui.px(4), ui.style.text, 0,
                        ui.px(1.5f));
     }
+    const auto line = proof_intervals(ui, findings, square);
     axis_labels(ui, findings, square);
     ImGui::SetCursorScreenPos({at.x, square.max.y + label});
     ImGui::Dummy({0, 0});
+    if (hovered && line) {
+        ImGui::SetTooltip("%s", tile_words(findings.sides, findings.proof, *line).c_str());
+        if (clicked) ui.invoke("proof.line", std::to_string(*line));
+        return;
+    }
     if (!hovered || !under) return;
     const RecursionPair& pair = recursion.pairs[static_cast<std::size_t>(under->pair)];
     ui.hovered_event = pair.last;
@@ -404,7 +450,8 @@ void QueryPictures::icicle(Ui& ui, QueryInspector& queries, ImVec2 size) {
     const ImGuiIO& io = ImGui::GetIO();
     const float reach = io.MouseDragThreshold;
     const bool clicked = ImGui::IsItemDeactivated() && io.MouseDragMaxDistanceSqr[0] < reach * reach;
-    const IcicleTests tests{trace, at.x, size.x / static_cast<float>(range.size()), range.first, row, ui.px(5)};
+    const IcicleTests tests{trace,       recursion, at.x,    size.x / static_cast<float>(range.size()),
+                            range.first, row,       ui.px(5)};
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
     const auto draw = [&](const PairCell& cell, const RecursionPair& pair, ImVec2 min, ImVec2 end, bool past) {
@@ -412,7 +459,7 @@ void QueryPictures::icicle(Ui& ui, QueryInspector& queries, ImVec2 size) {
         const ImVec2 max{end.x - gap, end.y - gap};
         const float strength = past ? 1 : kIcicleAhead;
         if (pair.has_children()) {
-            draw_inner(list, ui.style, min, max, pair.hit, strength);
+            draw_inner(list, ui.style, min, max, pair, strength);
         } else {
             outcome_cell(list, ui.style, min, max, mark_of(pair), strength);
         }
@@ -456,7 +503,7 @@ void QueryPictures::strip(Ui& ui, QueryInspector& queries, float width, float he
     const mobb::Trace& trace = ui.workspace.recorded()->trace;
     const EventRange range = shown_range(ui.workspace);
     const std::vector<StripCell>& cells = strip_.of(findings, {columns, 0, range, ui.workspace.look.focus}, [&] {
-        return strip_cells(trace, {range, &queries.in_focus()}, columns);
+        return strip_cells(trace, findings->recursion, {range, &queries.in_focus()}, columns);
     });
 
     const ImVec2 at = ImGui::GetCursorScreenPos();

@@ -375,7 +375,7 @@ void selection_panel(Ui& ui) {
               "roll the wheel to zoom. F1 says what can be done.");
         return;
     }
-    const Described what = describe(ui.workspace.fitted(), ui.workspace.selection);
+    const Described what = describe(ui.workspace, ui.workspace.selection);
     ImGui::TextWrapped("%s", what.name.c_str());
     for (const auto& [key, value] : what.facts) {
         form_label(ui, key.c_str(), nullptr);
@@ -383,6 +383,9 @@ void selection_panel(Ui& ui) {
         ImGui::TextWrapped("%s", value.c_str());
         ImGui::PopFont();
     }
+    const bool may_count = ui.workspace.selection.kind == Selection::Kind::node && !ui.workspace.blame() &&
+                           !ui.workspace.fitted().queries().empty();
+    if (may_count) command_button(ui, "sum avoidable overlaps", "query.blame", "query.blame");
 }
 
 }  // namespace mobbscope::app

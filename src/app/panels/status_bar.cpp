@@ -48,7 +48,7 @@ std::string hover_facts(const Workspace& workspace, const QueryInspector& querie
     }
     constexpr std::array<std::string_view, 7> kFacts{"clip",  "samples",   "time", "radius",
                                                      "speed", "tightness", "lasts"};
-    const Described described = describe(workspace.fitted(), what);
+    const Described described = describe(workspace, what);
     std::string out = cleaned(described.name);
     for (const auto& [key, value] : described.facts) {
         if (std::ranges::find(kFacts, key) != kFacts.end()) out += "   " + key + ' ' + cleaned(value);

@@ -20,6 +20,7 @@ namespace {
 
 constexpr float kLeastBars = 60;   // width, pixels at scale 1
 constexpr float kMostBar = 26;     // height of a path's bar, pixels at scale 1
+constexpr float kProofBar = 7;     // height of the lines of a proof, pixels at scale 1
 constexpr float kLeastStrip = 60;  // of the strip of steps, which else has a line of its own
 
 /// An empty span has some length too.
@@ -127,7 +128,7 @@ void time_bars(Ui& ui, float width, float height) {
 }
 
 /// The first clock. `tall`: nothing stands below it.
-void time_row(Ui& ui, Playback& playback, bool tall) {
+void time_row(Ui& ui, Playback& playback, QueryInspector& queries, bool tall) {
     const mobb::Interval span = time_span(ui.workspace);
     command_button(ui, playback.playing() ? "Pause" : "Play", "time.play", "timeline.time.play");
     ImGui::SameLine();
@@ -154,6 +155,10 @@ void time_row(Ui& ui, Playback& playback, bool tall) {
     ImGui::EndDisabled();
     ui.mark("timeline.clear");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Hide the time cursor");
+    const auto findings = queries.findings();
+    if (!findings || findings->proof.lines.empty()) return;
+    proof_bars(ui, *findings, time_axis(span, corner.x, width), {corner.x, corner.y + height + ui.px(3)},
+               {width, ui.px(kProofBar)});
 }
 
 /// The second clock: where in the trace we stand.
@@ -214,7 +219,7 @@ void timeline(Ui& ui, Playback& playback, QueryInspector& queries, QueryPictures
     if (ui.workspace.empty()) return;
     ImGui::PushID("timeline");
     const bool steps = ui.workspace.recorded() != nullptr;
-    time_row(ui, playback, !steps);
+    time_row(ui, playback, queries, !steps);
     if (steps) {
         step_row(ui, queries, pictures);
         const ImVec2 room = ImGui::GetContentRegionAvail();
@@ -243,6 +248,7 @@ void step_transport(Ui& ui) {
     text_line(ui.style.quiet, "next");
     text_button(ui, "separated", "step.next_separated");
     text_button(ui, "overlap", "step.next_overlap");
+    text_button(ui, "avoidable", "step.next_avoidable");
     text_button(ui, "hit", "step.next_hit");
     text_button(ui, "leaf", "step.next_leaf");
     ImGui::PopStyleVar(2);

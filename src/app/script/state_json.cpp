@@ -80,10 +80,20 @@ Json selection_json(const Workspace& workspace, const Selection& selection) {
         json["path"] = {{"participant", path.agent}, {"query", path.query}, {"side", path.side}};
     }
     if (selection.kind != Selection::Kind::path) json["index"] = selection.index;
+    if (selection.kind == Selection::Kind::node && workspace.blame()) {
+        const int clip = placed_agent_of(workspace.fitted(), selection.path)->clip;
+        json["to_blame"] = workspace.blame()->of(clip, selection.index);
+    }
     return json;
 }
 
-Json query_json(const Workspace& workspace) {
+Json proof_json(const Workspace& workspace, const QueryProof& proof) {
+    Json json{{"lines", proof.lines.size()}, {"tightest", or_null(proof.tightest)}, {"line", nullptr}};
+    if (const auto& time = workspace.view().time) json["line"] = or_null(proof.at(*time));
+    return json;
+}
+
+Json query_json(const Workspace& workspace, const QueryInspector& queries) {
     const RecordedQuery* recorded = workspace.recorded();
     if (!recorded) return nullptr;
     const int index = *workspace.view().query;
@@ -102,6 +112,7 @@ Json query_json(const Workspace& workspace) {
             {"steps", recorded->trace.size()},
             {"tests", std::move(tests)},
             {"outcome", mobb::name(event.outcome)},
+            {"proof", proof_json(workspace, queries.findings()->proof)},
             {"sentence", step_sentence(sides, recorded->trace, workspace.step())}};
 }
 
@@ -269,7 +280,7 @@ Json state_json(const Session& session) {
     json["view"] = view_json(session.workspace.view());
     json["selection"] = selection_json(session.workspace, session.workspace.selection);
     json["hovered"] = selection_json(session.workspace, session.workspace.hovered);
-    json["query"] = query_json(session.workspace);
+    json["query"] = query_json(session.workspace, session.queries);
     json["look"] = look_json(session.workspace, session.queries);
     json["crowd"] = crowd_json(session.workspace, session.crowds);
     json["excerpt"] = session.workspace.in_excerpt();

@@ -14,6 +14,8 @@ constexpr FileQuestion kOpen{"Open", "Open", "open", "file.open", openable_exten
 constexpr FileQuestion kAdd{"Add files", "Add", "add", "file.add", openable_extensions};
 constexpr FileQuestion kSaveAs{
     .title = "Save as", .button = "Save", .prefix = "save", .command = "file.save_as", .extension = ".json"};
+constexpr FileQuestion kSaveProof{
+    .title = "Save the proof", .button = "Save", .prefix = "proof", .command = "proof.save", .extension = ".json"};
 constexpr FileQuestion kExportTo{"Export picture to", "Choose", "file", "picture.file", picture_extensions, ".png"};
 
 /// In the order of Dialog.
@@ -40,6 +42,7 @@ constexpr auto kDialogs = std::to_array<DialogRow>({
      .question = &kExportTo,
      .about_scene = true,
      .over = Dialog::export_picture},
+    {.name = "save_proof", .has_field = true, .question = &kSaveProof, .about_scene = true},
 });
 
 }  // namespace

@@ -30,8 +30,9 @@ enum class Dialog {
     dropped,
     import_clip,
     history,
-    folder,      ///< that a screen looks into, see Dialogs::ask_for_folder
-    export_file  ///< where Dialog::export_picture writes to
+    folder,       ///< that a screen looks into, see Dialogs::ask_for_folder
+    export_file,  ///< where Dialog::export_picture writes to
+    save_proof
 };
 
 /// A file or a folder that is asked for.

@@ -24,6 +24,11 @@ void hatch(ImDrawList& list, ImVec2 min, ImVec2 max, ImU32 color, float spacing,
     }
 }
 
+/// Level lines inside a rectangle.
+void stripes(ImDrawList& list, ImVec2 min, ImVec2 max, ImU32 color, float spacing, float width) {
+    for (float y = min.y + 0.5f * spacing; y < max.y; y += spacing) list.AddLine({min.x, y}, {max.x, y}, color, width);
+}
+
 struct MarkInfo {
     const char* headline;
     BoxState state;  ///< whose colour and line it has in pictures
@@ -34,6 +39,7 @@ constexpr std::array<MarkInfo, kEventMarks> kMarks{{{"They share time", BoxState
                                                     {"Separated in space", BoxState::separated},
                                                     {"Boxes overlap", BoxState::overlap},
                                                     {"No hit in these samples", BoxState::overlap},
+                                                    {"Avoidable overlap", BoxState::avoidable},
                                                     {"Hit", BoxState::hit}}};
 
 const MarkInfo& info(EventMark mark) { return kMarks[static_cast<std::size_t>(mark)]; }
@@ -101,6 +107,15 @@ void outcome_cell(ImDrawList& list, const Style& style, ImVec2 min, ImVec2 max, 
             hatch(list, min, max, color, 5 * line, 1.3f * line);
             list.AddRect(min, max, color, 0, 0, line);
             return;
+        case EventMark::avoidable:
+            if (plain) {
+                list.AddRectFilled(min, max, color);
+                return;
+            }
+            list.AddRectFilled(min, max, mark_color(style, mark, 0.25f * strength));
+            stripes(list, min, max, color, 4 * line, 1.6f * line);
+            list.AddRect(min, max, color, 0, 0, line);
+            return;
         case EventMark::hit:
             list.AddRectFilled(min, max, color);
             if (!plain) {
@@ -127,6 +142,7 @@ void outcome_legend(Ui& ui) {
     constexpr Entry kEntries[] = {{EventMark::separated, "separated in space"},
                                   {EventMark::apart_in_time, "apart in time"},
                                   {EventMark::overlap, "overlap, no hit"},
+                                  {EventMark::avoidable, "avoidable overlap"},
                                   {EventMark::hit, "hit"}};
     ImGui::PushFont(ui.style.caption);
     ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);

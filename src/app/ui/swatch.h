@@ -11,8 +11,8 @@
 namespace mobbscope::app {
 
 /// In order of how much it says: where many are drawn on one pixel, the last is on top.
-enum class EventMark { shares_time, apart_in_time, separated, overlap, no_hit, hit };
-inline constexpr std::size_t kEventMarks = 6;
+enum class EventMark { shares_time, apart_in_time, separated, overlap, no_hit, avoidable, hit };
+inline constexpr std::size_t kEventMarks = 7;
 
 EventMark mark_of(mobb::TestKind test, mobb::Outcome outcome);
 
@@ -27,7 +27,8 @@ ImU32 mark_color(const Style& style, EventMark mark, float strength = 1);
 /// Readable as text.
 ImU32 mark_text(const Style& style, EventMark mark);
 
-/// Separated in space: solid. Apart in time: an empty dashed outline. Overlap: hatched. Hit: solid with a cross in it.
+/// Separated in space: solid. Apart in time: an empty dashed outline. Overlap: hatched.
+/// Avoidable overlap: striped across. Hit: solid with a cross in it.
 void outcome_cell(ImDrawList& list, const Style& style, ImVec2 min, ImVec2 max, EventMark mark, float strength);
 
 /// A cell of `side` pixels at the cursor, in the middle of a line of text.

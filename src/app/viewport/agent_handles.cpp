@@ -1,4 +1,6 @@
+#include <app/ui/swatch.h>
 #include <app/viewport/agent_handles.h>
+#include <explain/query_proof.h>
 #include <render/drawlist/pen.h>
 #include <render/drawlist/pick.h>
 #include <render/parts/floor_and_axes.h>
@@ -123,6 +125,40 @@ void draw_handles(Ui& ui, const ShownPicture& picture, const HandlePlaces& place
         const float arm = ui.px(kKnob - 2);
         draw.AddLine({at.x - arm, at.y}, {at.x + arm, at.y}, ground, ui.px(1.5f));
         draw.AddLine({at.x, at.y - arm}, {at.x, at.y + arm}, ground, ui.px(1.5f));
+    }
+}
+
+std::optional<double> DragPromise::room(const HandleDrag& drag, const mobb::Placement& now) const {
+    if (drag.handle == Handle::shift) return margins.shift_in_time - std::abs(now.start - drag.start.start);
+    if (drag.handle != Handle::move) return std::nullopt;
+    const glm::dvec2 shift = now.translate - drag.start.translate;
+    return room_left(certificate, of_a ? -shift : shift);
+}
+
+std::vector<glm::dvec2> DragPromise::region(const HandleDrag& drag) const {
+    std::vector<glm::dvec2> out;
+    for (const glm::dvec2 shift : margins.free_region) out.push_back(drag.pivot + (of_a ? -shift : shift));
+    return out;
+}
+
+void draw_promise(Ui& ui, const ShownPicture& picture, const DragPromise& promise, const HandleDrag& drag, bool kept) {
+    const EventMark mark = kept ? EventMark::separated : EventMark::overlap;
+    std::vector<std::optional<ImVec2>> corners;
+    for (const glm::dvec2 at : promise.region(drag))
+        corners.push_back(picture.at(picture.list.space.point(at.x, at.y, drag.time)));
+    if (corners.empty()) return;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    if (std::ranges::all_of(corners, [](const auto& at) { return at.has_value(); })) {
+        std::vector<ImVec2> points;
+        for (const auto& at : corners) points.push_back(*at);
+        draw.AddConvexPolyFilled(
+            points.data(), static_cast<int>(points.size()),
+            to_im(with_alpha(kept ? ui.style.palette.separated : ui.style.palette.overlap, 0.12f)));
+    }
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const auto& from = corners[i];
+        const auto& to = corners[(i + 1) % corners.size()];
+        if (from && to) draw.AddLine(*from, *to, mark_color(ui.style, mark), ui.px(2));
     }
 }
 

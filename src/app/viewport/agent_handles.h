@@ -2,12 +2,14 @@
 #pragma once
 
 #include <app/ui/ui.h>
+#include <explain/margins.h>
 #include <mobb/clip.h>
 #include <render/drawlist/draw_list.h>
 
 #include <imgui.h>
 
 #include <optional>
+#include <vector>
 
 namespace mobbscope::app {
 
@@ -47,6 +49,22 @@ struct HandleDrag {
     double time = 0;      ///< of the plane in which it is dragged
     glm::vec2 from{0};    ///< pixel of the picture
 };
+
+/// What the proof of a miss promises of a drag of one of the two: while it stays in there, the answer cannot change.
+struct DragPromise {
+    Certificate certificate;
+    Margins margins;
+    bool of_a = false;  ///< the first of the two is dragged, so the other one's region is mirrored
+
+    /// How far it may still go, metres or seconds; 0 or less: no further, the answer may have changed. None of a turn,
+    /// of which nothing is promised.
+    std::optional<double> room(const HandleDrag& drag, const mobb::Placement& now) const;
+    /// Where the dragged one may start, world metres: a convex polygon.
+    std::vector<glm::dvec2> region(const HandleDrag& drag) const;
+};
+
+/// Draws the region of a promise; `kept`: the agent is in it.
+void draw_promise(Ui& ui, const ShownPicture& picture, const DragPromise& promise, const HandleDrag& drag, bool kept);
 
 /// The placement with the mouse at a pixel of the picture; none where the line of sight misses the floor. `snap`: whole
 /// decimetres, steps of 5 degrees, tenths of a second.

@@ -2,10 +2,14 @@
 #include <app/document/described.h>
 #include <app/document/edit_names.h>
 #include <app/document/shown_agents.h>
+#include <app/ui/swatch.h>
 #include <app/ui/thing_menus.h>
+#include <app/ui/widgets.h>
 #include <app/viewport/selection_display.h>
 #include <app/viewport/viewport.h>
 #include <base/text.h>
+#include <explain/query_findings.h>
+#include <explain/query_sentence.h>
 #include <render/drawlist/camera.h>
 #include <render/drawlist/pick.h>
 #include <render/drawlist/picture_options.h>
@@ -204,7 +208,9 @@ void Viewport::take_off(Ui& ui, const Key& next) {
 Viewport::Key Viewport::wanted(const Ui& ui, PictureSize size, const FollowedChoice* choice) const {
     // Text follows the panels where they are made larger than the picture would have it by itself.
     const double words = ui.style.scale > 1 ? std::max<double>(ui.style.scale, metrics_of(size).scale) : 0;
-    const SceneView seen = ui.session.views.at(view_place_);
+    SceneView seen = ui.session.views.at(view_place_);
+    // The region that the drag began in stays in its place.
+    if (drags_on_promise()) seen.view.free_region = false;
     return {seen.fitted,
             seen.view,
             size,
@@ -464,6 +470,15 @@ std::optional<HandleDrag> Viewport::take_hold(Ui& ui, const ShownPicture& pictur
     return HandleDrag{handle, who.agent, who.placement, places.pivot, places.time, pixel};
 }
 
+std::optional<DragPromise> Viewport::promise_of(const Ui& ui, const HandleDrag& drag) {
+    const std::shared_ptr<const QueryFindings> findings = ui.session.queries.findings();
+    if (!findings || !findings->proof.margins) return std::nullopt;
+    const SceneQuery query = ui.workspace.fitted().queries()[static_cast<std::size_t>(*ui.workspace.view().query)];
+    const bool of_a = query.a.agent == drag.agent;
+    if (of_a == (query.b.agent == drag.agent)) return std::nullopt;
+    return DragPromise{findings->proof.certificate, *findings->proof.margins, of_a};
+}
+
 void Viewport::press(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) {
     const ImGuiIO& io = ImGui::GetIO();
     pressed_at_ = pixel;
@@ -480,6 +495,7 @@ void Viewport::press(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) {
     } else if (hold) {
         drag_ = Drag::handle;
         handle_drag_ = *hold;
+        promise_ = promise_of(ui, *hold);
         lit_ = hold->handle;
     } else if (on_overlay) {
         drag_ = Drag::none;
@@ -579,7 +595,7 @@ void Viewport::click(Ui& ui, glm::vec2 pixel) {
 
 void Viewport::tooltip(Ui& ui) const {
     if (!place_ || ui.workspace.hovered.kind == Selection::Kind::none) return;
-    const Described what = describe(ui.workspace.fitted(), ui.workspace.hovered);
+    const Described what = describe(ui.workspace, ui.workspace.hovered);
     ImGui::BeginTooltip();
     ImGui::TextUnformatted(what.name.c_str());
     ImGui::PushFont(ui.style.mono);
@@ -613,7 +629,26 @@ void Viewport::handle_tooltip(Ui& ui, const mobb::Placement& placement) const {
     if (lit_ == Handle::turn) ImGui::Text("%.1f\u00B0", placement.rotate_deg);
     if (lit_ == Handle::shift) ImGui::Text("starts at %.2f s", placement.start);
     ImGui::PopFont();
+    promise_words(ui, placement);
     ImGui::EndTooltip();
+}
+
+/// Whether the answer can have changed, and how far it is until then.
+void Viewport::promise_words(Ui& ui, const mobb::Placement& now) const {
+    if (!drags_on_promise()) return;
+    const std::optional<double> room = promise_->room(handle_drag_, now);
+    if (!room) return;
+    const bool in_time = handle_drag_.handle == Handle::shift;
+    if (*room > 0) {
+        const std::string still =
+            in_time ? "for another " + with_unit(*room, "s") : with_unit(*room, "m") + " to the edge";
+        text_line(mark_text(ui.style, EventMark::separated),
+                  "The answer cannot change" + (std::isinf(*room) ? std::string() : ": " + still));
+    } else {
+        text_line(mark_text(ui.style, EventMark::overlap), in_time ? "Further than is proven: the answer may change"
+                                                                   : "Outside the region: the answer may change");
+    }
+    ui.mark_only(*room > 0 ? "drag.answer_stays" : "drag.answer_may_change");
 }
 
 /// Says where overlays can be clicked, and lights what is under the mouse.
@@ -647,6 +682,10 @@ void Viewport::decorate(Ui& ui, const ShownPicture& picture) {
                      picture.corner.y + static_cast<float>(list_->size.height)};
     ImGui::GetWindowDrawList()->PushClipRect(picture.corner, end, true);
     const auto held = handles(ui, picture);
+    if (held && drags_on_promise() && handle_drag_.handle == Handle::move) {
+        const std::optional<double> room = promise_->room(handle_drag_, held->who.placement);
+        draw_promise(ui, picture, *promise_, handle_drag_, room && *room > 0);
+    }
     if (held) {
         draw_handles(ui, picture, held->places, lit_);
         const auto mark = [&](const char* name, const std::optional<ImVec2>& at) {

@@ -84,6 +84,9 @@ class Viewport {
         HandlePlaces places;
     };
     static std::optional<Handles> handles(Ui& ui, const ShownPicture& picture);
+    static std::optional<DragPromise> promise_of(const Ui& ui, const HandleDrag& drag);
+    bool drags_on_promise() const { return drag_ == Drag::handle && moved_ && promise_; }
+    void promise_words(Ui& ui, const mobb::Placement& now) const;
     std::optional<HandleDrag> take_hold(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) const;
 
     std::optional<KeptPaths> paths_;  ///< of key_'s scene
@@ -101,7 +104,8 @@ class Viewport {
 
     Drag drag_ = Drag::none;
     HandleDrag handle_drag_;
-    Handle lit_ = Handle::none;  ///< under the mouse or held
+    std::optional<DragPromise> promise_;  ///< of the answer when that drag began; none: nothing is promised
+    Handle lit_ = Handle::none;           ///< under the mouse or held
     glm::vec2 pressed_at_{0};
     glm::vec2 last_{0};
     bool moved_ = false;         ///< since the button went down: no click

@@ -135,7 +135,7 @@ struct DiskInstance {
 };
 
 /// What a box stands for: each state has its own colour and line.
-enum class BoxState { level, under_test, apart_in_time, separated, overlap, hit, annotation };
+enum class BoxState { level, under_test, apart_in_time, separated, overlap, avoidable, hit, annotation };
 
 /// A box as it is drawn: a parallelepiped.
 struct BoxInstance {

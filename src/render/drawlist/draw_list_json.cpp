@@ -88,7 +88,8 @@ bool on_screen(const ViewProjection& projection, const DiskInstance& disk) {
 }
 
 // What enumerators are called, in order.
-constexpr std::array kBoxStates{"level", "under_test", "apart_in_time", "separated", "overlap", "hit", "annotation"};
+constexpr std::array kBoxStates{"level",   "under_test", "apart_in_time", "separated",
+                                "overlap", "avoidable",  "hit",           "annotation"};
 constexpr std::array kLegendMarks{"disk", "ring", "double_ring", "box", "line", "remark"};
 constexpr std::array kOverlays{"caption", "legend", "inset"};
 constexpr std::array kHighlightRoles{"selection", "hover", "candidate", "conflict", "ghost"};

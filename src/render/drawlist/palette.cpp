@@ -35,7 +35,8 @@ const Palette& palette(Theme theme) {
                               .apart_in_time = hex(0x9AA3AD),
                               .separated = hex(0x12B587),  // bluish green, lifted off the dark ground
                               .overlap = hex(kYellow),
-                              .hit = hex(0xF0701A),  // vermillion, lifted likewise
+                              .avoidable = hex(0xB99BFF),  // violet, no agent's colour
+                              .hit = hex(0xF0701A),        // vermillion, lifted likewise
                               .dark = true};
     static const Palette light{.background = hex(0xF7F8F9),
                                .grid = hex(0xD6DBE0),
@@ -48,6 +49,7 @@ const Palette& palette(Theme theme) {
                                .apart_in_time = hex(0x7A838C),
                                .separated = hex(kBluishGreen),
                                .overlap = hex(0xB9A900),  // yellow, darkened to be seen on white
+                               .avoidable = hex(0x6A3FC8),
                                .hit = hex(kVermillion),
                                .dark = false};
     return theme == Theme::dark ? dark : light;

@@ -19,6 +19,7 @@ struct Palette {
     Rgba apart_in_time;
     Rgba separated;
     Rgba overlap;
+    Rgba avoidable;
     Rgba hit;
     bool dark = true;
 };

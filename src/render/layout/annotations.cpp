@@ -2,6 +2,7 @@
 #include <mobb/traversal.h>
 #include <render/layout/annotations.h>
 #include <render/parts/paths.h>
+#include <render/query/proof_walls.h>
 #include <render/query/separation_gap.h>
 
 #include <glm/common.hpp>
@@ -72,6 +73,13 @@ std::vector<LabelRequest> add_findings(DrawList& list, std::span<const DrawnAgen
         note(notes, list, 0.5f * (gap->from + gap->to), gap->seconds > 1e-9 ? with_unit(gap->seconds, "s") : "0 s",
              list.palette.apart_in_time, metrics.text);
     }
+    if (progress.avoidable) {
+        const mobb::PlacedClip& a = sides[0].clip();
+        const mobb::PlacedClip& b = sides[1].clip();
+        const ProofLine line = proof_line_of(a, b, progress.avoidable->line, clearance_over_time(a, b));
+        const WallGap gap = add_avoidable_wall(list, line, metrics.scale);
+        note(notes, list, gap.at, with_unit(gap.gap, "m"), list.palette.avoidable, metrics.text);
+    }
     if (event.outcome == mobb::Outcome::hit && !event.pairs.empty() && recorded.contact) {
         const mobb::PlacedClip& clip = sides[0].clip();
         const int sample = event.pairs.back().i;
@@ -82,6 +90,16 @@ std::vector<LabelRequest> add_findings(DrawList& list, std::span<const DrawnAgen
              list.palette.hit, metrics.text);
     }
     return notes;
+}
+
+void add_gap_note(std::vector<LabelRequest>& notes, const DrawList& list, const WallGap& gap, const Metrics& metrics) {
+    note(notes, list, gap.at, with_unit(std::max(gap.gap, 0.0), "m"), list.palette.separated, metrics.text);
+}
+
+void add_region_note(std::vector<LabelRequest>& notes, const DrawList& list, const DrawnAgent& b, glm::vec3 middle,
+                     const Metrics& metrics) {
+    note(notes, list, middle, b.label + " may start anywhere in here", list.palette.separated, metrics.small);
+    if (!notes.empty()) notes.back().face = FontFace::text;
 }
 
 void add_notes(DrawList& list, LabelLayout& layout, std::span<const LabelRequest> notes, float scale) {

@@ -3,6 +3,7 @@
 
 #include <render/drawlist/draw_list.h>
 #include <render/drawlist/picture_options.h>
+#include <render/query/proof_walls.h>
 #include <render/query/query_boxes.h>
 #include <render/text/labels.h>
 #include <scene/drawn_agent.h>
@@ -19,6 +20,11 @@ void add_rings(DrawList& list, std::span<const DrawnAgent> agents, const Emphasi
 /// The gap that the test under way found, and the hit; returns the numbers to stand beside them. Needs the projection.
 std::vector<LabelRequest> add_findings(DrawList& list, std::span<const DrawnAgent> sides, const RecordedQuery& recorded,
                                        const QueryProgress& progress, const Metrics& metrics);
+
+/// The number beside a gap across a wall of the proof, and the words in the free region, if they can be seen.
+void add_gap_note(std::vector<LabelRequest>& notes, const DrawList& list, const WallGap& gap, const Metrics& metrics);
+void add_region_note(std::vector<LabelRequest>& notes, const DrawList& list, const DrawnAgent& b, glm::vec3 middle,
+                     const Metrics& metrics);
 
 /// Places those numbers, each with a line to its place.
 void add_notes(DrawList& list, LabelLayout& layout, std::span<const LabelRequest> notes, float scale);

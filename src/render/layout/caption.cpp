@@ -99,8 +99,9 @@ Caption scene_caption(const FittedScene& fitted, std::span<const DrawnAgent> age
 }
 
 Caption query_caption(const Palette& palette, std::span<const DrawnAgent> sides, const RecordedQuery& recorded,
-                      int step) {
+                      const QueryProgress& progress) {
     Caption caption;
+    const int step = progress.step;
     caption.headlines = step_sentences(sides, recorded.trace, step);
     caption.short_headlines = outcome_sentences(sides, recorded.trace, step);
     caption.title = step_of(step, recorded.trace);
@@ -108,8 +109,22 @@ Caption query_caption(const Palette& palette, std::span<const DrawnAgent> sides,
     caption.detail = fit + answer_sentence(sides, recorded);
     caption.short_details = {fit + answer_sentence(with_short_names(sides, kShortName), recorded),
                              fit + cost_words(recorded.tests)};
-    const mobb::Outcome outcome = recorded.trace[step].outcome;
-    caption.mark = outcome_style(box_state(outcome), palette).color;
+    caption.mark = outcome_style(state_found(progress), palette).color;
+    return caption;
+}
+
+Caption proof_caption(const Palette& palette, std::span<const DrawnAgent> sides, const RecordedQuery& recorded,
+                      const QueryProof& proof) {
+    Caption caption;
+    const std::vector<DrawnAgent> short_names = with_short_names(sides, kShortName);
+    for (const std::span<const DrawnAgent> named : {sides, std::span<const DrawnAgent>(short_names)})
+        caption.headlines.push_back(named[0].label + " and " + named[1].label + " never collide");
+    caption.title = "never collide";
+    const std::string fit = fit_words(sides[0].placed.tree().options()) + kDot;
+    const std::string proven = proof_words(proof.certificate, proof.ends);
+    caption.detail = fit + proven + kDot + cost_words(recorded.tests);
+    caption.short_details = {proven};
+    caption.mark = palette.separated;
     return caption;
 }
 

@@ -1,6 +1,8 @@
 /// The words at the top of a picture.
 #pragma once
 
+#include <explain/query_progress.h>
+#include <explain/query_proof.h>
 #include <render/drawlist/draw_list.h>
 #include <scene/drawn_agent.h>
 
@@ -24,7 +26,12 @@ Caption scene_caption(const FittedScene& fitted, std::span<const DrawnAgent> age
 
 /// What a step of a query shows.
 Caption query_caption(const Palette& palette, std::span<const DrawnAgent> sides, const RecordedQuery& recorded,
-                      int step);
+                      const QueryProgress& progress);
+
+/// What the last step of a query shows where the proof of a miss stands in place of the test: the answer, and its
+/// proof.
+Caption proof_caption(const Palette& palette, std::span<const DrawnAgent> sides, const RecordedQuery& recorded,
+                      const QueryProof& proof);
 
 /// " at 1.23 s".
 std::string at_time(double time);

@@ -138,7 +138,7 @@ void add_query(std::vector<LegendEntry>& entries, const DrawList& list, const Se
         if (side.hidden) continue;
         const Rgba color = outline == PairOutline::owner
                                ? side.color
-                               : pair_style(outline, side, progress.event.outcome, list.palette).color;
+                               : pair_style(outline, side, state_found(progress), list.palette).color;
         entries.push_back({Mark::box, color, with_alpha(side.color, 0.3f), 2, kSolid, side.label + ", under test"});
     }
     const auto present = [&](BoxState state) {
@@ -147,10 +147,11 @@ void add_query(std::vector<LegendEntry>& entries, const DrawList& list, const Se
     const std::pair<BoxState, const char*> outcomes[] = {{BoxState::separated, "separated in space"},
                                                          {BoxState::apart_in_time, "apart in time"},
                                                          {BoxState::overlap, "overlap without a hit so far"},
+                                                         {BoxState::avoidable, "avoidable overlap"},
                                                          {BoxState::hit, "hit"}};
     for (const auto& [state, text] : outcomes) {
         // What the test under way found is shown between its boxes.
-        if (present(state) || box_state(progress.event.outcome) == state)
+        if (present(state) || state_found(progress) == state)
             entries.push_back(line_entry(outcome_style(state, list.palette), text));
     }
     const auto is_earlier = [](const NodeProgress& node) { return !node.open; };
@@ -188,6 +189,11 @@ float mark_width(float text_size) { return std::round(1.7f * text_size); }
 
 LegendEntry line_entry(const LineStyle& style, std::string text) {
     return {.color = style.color, .width = style.width, .dash = style.dash, .text = std::move(text)};
+}
+
+LegendEntry proof_entry(const Palette& palette) {
+    return {LegendEntry::Mark::box,         palette.separated, with_alpha(palette.separated, kSwatchFill), 1.5f, kSolid,
+            "line that keeps the two apart"};
 }
 
 std::vector<LegendEntry> agent_entries(const DrawList& list, std::span<const DrawnAgent> agents,

@@ -25,6 +25,9 @@ std::vector<LegendEntry> agent_entries(const DrawList& list, std::span<const Dra
 /// What lines of a style (at scale 1) stand for.
 LegendEntry line_entry(const LineStyle& style, std::string text);
 
+/// What the walls of a proof stand for.
+LegendEntry proof_entry(const Palette& palette);
+
 /// How large rows of a legend are, pixels. `text_room`: words longer than that are cut off.
 glm::vec2 legend_size(std::span<const LegendEntry> rows, float text_size, float text_room);
 /// How high a row is, pixels.

@@ -1,4 +1,3 @@
-#include <mobb/separation.h>
 #include <render/parts/node_boxes.h>
 
 #include <glm/common.hpp>
@@ -163,27 +162,6 @@ void add_level_boxes(DrawList& list, std::span<const DrawnAgent> agents, const L
             list.boxes.push_back(box);
         }
     }
-}
-
-mobb::Box world_box(const mobb::PlacedTree& tree, int node) {
-    mobb::Box box = tree.tree().box(node);
-    const mobb::PlacedClip& clip = tree.placed_clip();
-    const auto turn = [&](glm::dvec3 v) {
-        const glm::dvec2 turned = clip.rotation()(glm::dvec2(v.x, v.y));
-        return glm::dvec3(turned.x, turned.y, v.z);
-    };
-    if (mobb::info(box.kind).axes == mobb::BoxAxes::world) {
-        // Its test wraps it again along the world's axes.
-        const glm::dvec2 half = mobb::half_in_world(glm::dvec2(box.half), clip.rotation());
-        box.half = {half.x, half.y, box.half.z};
-    } else {
-        for (glm::dvec3& axis : box.axes) axis = turn(axis);
-        box.drift = clip.rotation()(box.drift);
-    }
-    const mobb::Placement& placement = clip.placement();
-    box.center = turn(box.center) +
-                 glm::dvec3(placement.translate.x, placement.translate.y, tree.time_scale() * placement.start);
-    return box;
 }
 
 BoxInstance node_box(const DrawnAgent& agent, int node, const DrawnSpace& space) {

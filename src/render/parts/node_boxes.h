@@ -42,9 +42,6 @@ void refine_crowded_boxes(DrawList& list, float scale);
 /// The last level that there is to show in a tree.
 int last_shown_level(const mobb::Tree& tree, const LevelRange& levels);
 
-/// A node's box in world (x, y, w*t), global time. An aabb is wrapped again along the world's x and y.
-mobb::Box world_box(const mobb::PlacedTree& tree, int node);
-
 /// A node's box as it is drawn, with its place in the order and its id; the style is left to the caller.
 BoxInstance node_box(const DrawnAgent& agent, int node, const DrawnSpace& space);
 

@@ -31,7 +31,7 @@ void check_scale(double scale) {
 std::unique_ptr<Picture> picture_of(KeptPaths& kept, const ViewState& view, const PictureOptions& options,
                                     const FollowedChoice* choice) {
     const FittedScene& seen = *kept.fitted();
-    if (view.show == Show::moment) return moment_picture(seen, view, options, choice);
+    if (view.show == Show::moment) return moment_picture(kept, view, options, choice);
     if (seen.scene().crowd) return crowd_picture(kept, view, options, choice);
     if (view.projection) return disk_projection_picture(seen, view, options);
     return space_time_picture(kept, view, options);

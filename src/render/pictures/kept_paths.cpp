@@ -14,6 +14,24 @@ KeptPaths& KeptPaths::shown_in(const ViewState& view) {
     return *at_moment_;
 }
 
+const RecordedQuery& KeptPaths::recorded(const ViewState& view) {
+    if (!asked_ || asked_->query != *view.query) {
+        const SceneQuery query = fitted_->queries()[static_cast<std::size_t>(*view.query)];
+        asked_ = Asked{*view.query, record(*fitted_, query)};
+    }
+    return asked_->recorded;
+}
+
+const QueryProof& KeptPaths::proof(const ViewState& view) {
+    const RecordedQuery& asked = recorded(view);
+    if (!asked_->proof) {
+        const SceneQuery query = fitted_->queries()[static_cast<std::size_t>(*view.query)];
+        const mobb::PlacedTree a = fitted_->placed(query.a), b = fitted_->placed(query.b);
+        asked_->proof = proof_of(*fitted_, query, asked, clearance_over_time(a.placed_clip(), b.placed_clip()));
+    }
+    return *asked_->proof;
+}
+
 const Bounds& KeptPaths::bounds(std::span<const DrawnAgent> agents, const ViewState& view) {
     const std::pair of(view.query, view.arrange);
     if (!bounds_ || bounds_->first != of) bounds_.emplace(of, bounds_of(agents));

@@ -1,6 +1,8 @@
-/// What pictures of one scene have in common: the disks of its paths, from whatever side and at whatever time.
+/// What pictures of one scene have in common, from whatever side and at whatever time: the disks of its paths, and the
+/// query with its proof.
 #pragma once
 
+#include <explain/query_proof.h>
 #include <render/drawlist/draw_list.h>
 #include <render/drawlist/shown_points.h>
 #include <render/layout/framing.h>
@@ -27,6 +29,11 @@ class KeptPaths {
     /// Those of the scene that a view of a run shows (fitted_at), kept as long as the views show the same
     /// kind of picture, time and window; of any other scene these themselves.
     KeptPaths& shown_in(const ViewState& view);
+
+    /// The query of a view, which must have one, and the proof of its answer: of the last query that was asked for,
+    /// each made once.
+    const RecordedQuery& recorded(const ViewState& view);
+    const QueryProof& proof(const ViewState& view);
 
     /// bounds_of the agents of a view.
     const Bounds& bounds(std::span<const DrawnAgent> agents, const ViewState& view);
@@ -67,6 +74,12 @@ class KeptPaths {
     std::unique_ptr<KeptPaths> at_moment_;  ///< of a run
     /// By the view's query and arrangement.
     std::optional<std::pair<std::pair<std::optional<int>, Arrange>, Bounds>> bounds_;
+    struct Asked {
+        int query = 0;
+        RecordedQuery recorded;
+        std::optional<QueryProof> proof{};
+    };
+    std::optional<Asked> asked_;
     std::optional<Shapes> shapes_;
     Colors colors_;
     SharedValues<DiskInstance> disks_;

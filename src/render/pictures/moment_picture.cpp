@@ -6,9 +6,11 @@
 #include <render/parts/floor_and_axes.h>
 #include <render/parts/paths.h>
 #include <render/pictures/candidates.h>
+#include <render/pictures/kept_paths.h>
 #include <render/pictures/moment.h>
 #include <render/pictures/picture.h>
 #include <render/pictures/standing_agents.h>
+#include <render/query/proof_walls.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 
@@ -111,22 +113,24 @@ void add_ways(DrawList& list, std::span<const DrawnAgent> agents, const Moment& 
 
 class MomentPicture final : public Picture {
   public:
-    MomentPicture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
-                  const FollowedChoice* choice)
-        : Picture(fitted, view, options), crowd_(fitted.scene().crowd.get()), heights_(cylinder_heights(agents_)) {
+    MomentPicture(KeptPaths& kept, const ViewState& view, const PictureOptions& options, const FollowedChoice* choice)
+        : Picture(*kept.fitted(), view, options),
+          crowd_(fitted_.scene().crowd.get()),
+          heights_(cylinder_heights(agents_)) {
         // Time is no direction of this picture.
         view_.time_axis = false;
-        const double time = crowd_ ? run_time(fitted.scene(), view) : view.time.value_or(beginning(agents_));
+        const double time = crowd_ ? run_time(fitted_.scene(), view) : view.time.value_or(beginning(agents_));
         moment_ = moment_of(agents_, heights_, time);
         // Of a run each person stands there with several plays.
         count_ = crowd_ ? crowd_->agents.size() : agents_.size();
         list_.moment = moment_.time;
-        bounds_ = moment_bounds(fitted, agents_);
+        bounds_ = moment_bounds(fitted_, agents_);
         const bool someone_is_there = !crowd_ && !moment_.bodies.empty();
         outside_ = (moment_.time < bounds_.min.z || moment_.time >= bounds_.max.z) && !someone_is_there;
         if (!outside_) choice_ = choice;
+        if (view_.query && view_.proof && shown_count(agents_) == 2) proof_ = &kept.proof(view_);
         const glm::dvec3 middle = bounds_.middle();
-        list_.space = {{middle.x, middle.y, 0}, 1, camera_anchor(fitted, view_, moment_.time)};
+        list_.space = {{middle.x, middle.y, 0}, 1, camera_anchor(fitted_, view_, moment_.time)};
         const double highest = *std::max_element(heights_.begin(), heights_.end());
         floor_extent_ =
             crowd_ ? floor_stage(crowd_->area, 0, highest)
@@ -151,6 +155,7 @@ class MomentPicture final : public Picture {
             if (!choice_->comes_out) mention(out.caption, edited_run_warning(fitted_.scene(), *choice_));
             out.legend = candidate_legend(list_.palette, choice_->choice);
         }
+        if (proof_ && proof_->at(moment_.time)) out.legend.push_back(proof_entry(list_.palette));
         const std::vector<LegendEntry> who = moment_legend(list_, persons(), agents_, view_);
         out.legend.insert(out.legend.end(), who.begin(), who.end());
         return out;
@@ -165,6 +170,7 @@ class MomentPicture final : public Picture {
             }
         }
         add_bodies(list_, agents_, moment_, {view_.disks, view_.boxes}, metrics_.scale);
+        if (proof_) add_proof_pane(list_, *proof_, moment_.time, kWallHeight, metrics_.scale);
         std::vector<LabelRequest> notes;
         const auto add = [&](const std::vector<LabelRequest>& some) {
             notes.insert(notes.end(), some.begin(), some.end());
@@ -203,6 +209,7 @@ class MomentPicture final : public Picture {
 
     const CrowdRun* crowd_;
     const FollowedChoice* choice_ = nullptr;
+    const QueryProof* proof_ = nullptr;  ///< of the view's query, if it is shown
     std::vector<double> heights_;
     Moment moment_;
     std::size_t count_ = 0;  ///< people
@@ -213,9 +220,9 @@ class MomentPicture final : public Picture {
 
 }  // namespace
 
-std::unique_ptr<Picture> moment_picture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
+std::unique_ptr<Picture> moment_picture(KeptPaths& kept, const ViewState& view, const PictureOptions& options,
                                         const FollowedChoice* choice) {
-    return std::make_unique<MomentPicture>(fitted, view, options, choice);
+    return std::make_unique<MomentPicture>(kept, view, options, choice);
 }
 
 }  // namespace mobbscope

@@ -82,7 +82,7 @@ inline constexpr std::size_t kMostCrowdBoxes = 200;
 /// are there. It is framed so that nothing moves but the people while time runs; of a run with its walls around it, and
 /// the followed agent's `choice` on the floor (null: none). Scene and choice outlive the picture. Throws
 /// std::invalid_argument if the scene has nothing to draw, or no such query.
-std::unique_ptr<Picture> moment_picture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
+std::unique_ptr<Picture> moment_picture(KeptPaths& kept, const ViewState& view, const PictureOptions& options,
                                         const FollowedChoice* choice);
 
 }  // namespace mobbscope

@@ -9,6 +9,7 @@
 #include <render/pictures/candidates.h>
 #include <render/pictures/kept_paths.h>
 #include <render/pictures/picture.h>
+#include <render/query/proof_walls.h>
 #include <render/query/query_boxes.h>
 #include <render/text/labels.h>
 
@@ -20,18 +21,6 @@
 namespace mobbscope {
 
 namespace {
-
-/// The view's query at its step. The progress refers to the trace, so the two stay together where they were made.
-struct QueryAtStep {
-    RecordedQuery recorded;
-    QueryProgress progress;
-
-    QueryAtStep(const FittedScene& fitted, const ViewState& view)
-        : recorded(record(fitted, fitted.queries()[static_cast<std::size_t>(*view.query)])),
-          progress(progress_at(recorded.trace, event_of(view.step, recorded.trace, fitted, *view.query), view.past)) {}
-    QueryAtStep(const QueryAtStep&) = delete;
-    QueryAtStep& operator=(const QueryAtStep&) = delete;
-};
 
 /// What matters of each path; `behind`: all step back.
 std::vector<PathFocus> foci_of(std::span<const DrawnAgent> agents, const Emphasis& emphasis,
@@ -73,33 +62,50 @@ class SpaceTimePicture final : public Picture {
         const Bounds& bounds = kept.bounds(agents_, view_);
         list_.space = space_for(bounds, view_);
         list_.space.anchor = camera_anchor(fitted_, view_, view_.time.value_or(bounds.min.z));
-        if (view_.query) query_.emplace(fitted_, view_);
-        emphasis_ = emphasis_of(view_, agents_, bounds.min.z, bounds.max.z, progress());
-        if (view_.boxes && progress()) {
-            add_query_boxes(list_, agents_, *progress(), pair_outline(view_), metrics_.scale);
-        }
-        const bool levels = view_.boxes && !progress();
+        if (view_.query) ask(kept);
+        emphasis_ = emphasis_of(view_, agents_, bounds.min.z, bounds.max.z, test());
+        if (view_.boxes && test()) add_query_boxes(list_, agents_, *test(), pair_outline(view_), metrics_.scale);
+        const bool levels = view_.boxes && !view_.query;
         if (levels) add_level_boxes(list_, agents_, view_.levels, view_.color_by, metrics_.scale);
         const bool behind = levels && view_.color_by == ColorBy::level;
-        framed_ = kept.add_disks_of(list_, agents_, view_, foci_of(agents_, emphasis_, progress(), behind));
+        framed_ = kept.add_disks_of(list_, agents_, view_, foci_of(agents_, emphasis_, test(), behind));
         if (!view_.disks) list_.disks = {};
         floor_extent_ = floor_extent_of(bounds.min, bounds.max);
+        if (walls_) gaps_ = add_proof_walls(list_, *walls_, view_.time, metrics_.scale);
         points_ = framed_;
         for (const BoxInstance& box : list_.boxes) points_.add(box_corners(box));
         add_floor_points(points_, list_.space, floor_extent_, view_, emphasis_.cursor.has_value());
     }
 
   private:
-    const QueryProgress* progress() const { return query_ ? &query_->progress : nullptr; }
+    /// Finds out how far the search is, and whether the proof is shown.
+    void ask(KeptPaths& kept) {
+        recorded_ = &kept.recorded(view_);
+        const mobb::Trace& trace = recorded_->trace;
+        progress_ = progress_at(trace, event_of(view_.step, trace, fitted_, *view_.query), view_.past);
+        progress_->avoidable = avoidable_overlap(agents_[0].placed, agents_[1].placed, progress_->event);
+        const bool last_step = progress_->step + 1 == trace.size();
+        if (!view_.proof || !last_step || shown_count(agents_) < 2) return;
+        const QueryProof& proof = kept.proof(view_);
+        if (proof.lines.empty()) return;
+        walls_ = &proof;
+        // A miss is explained by its lines, not by the pair that happened to be tested last.
+        replaces_test_ = !proof.certificate.contact && view_.past != Past::all;
+    }
+
+    /// The test that is drawn; null: none.
+    const QueryProgress* test() const { return progress_ && !replaces_test_ ? &*progress_ : nullptr; }
 
     OverlayContents words() override {
         OverlayContents out;
-        out.caption = query_ ? query_caption(list_.palette, agents_, query_->recorded, progress()->step)
-                             : scene_caption(fitted_, agents_, view_);
+        out.caption = replaces_test_ ? proof_caption(list_.palette, agents_, *recorded_, *walls_)
+                      : recorded_    ? query_caption(list_.palette, agents_, *recorded_, *progress_)
+                                     : scene_caption(fitted_, agents_, view_);
         if (view_.time && !emphasis_.cursor) {
             mention_cursor_outside(out.caption, *view_.time, floor_extent_.t0, floor_extent_.t1);
         }
-        out.legend = legend_entries(list_, agents_, view_, emphasis_, progress());
+        out.legend = legend_entries(list_, agents_, view_, emphasis_, test());
+        if (walls_) out.legend.push_back(proof_entry(list_.palette));
         if (emphasis_.cursor) {
             out.map_title = "floor" + at_time(*emphasis_.cursor);
             out.map = map_size(floor_extent_, metrics_.scale);
@@ -115,13 +121,28 @@ class SpaceTimePicture final : public Picture {
                 if (!agent.hidden) add_thin_path(list_, agent, 1.3f * metrics_.scale);
             }
         }
-        if (progress() && view_.time_axis && pair_outline(view_) == PairOutline::outcome) {
-            add_time_intervals(list_, floor_extent_, agents_, progress()->event, metrics_.scale);
+        if (test() && view_.time_axis && pair_outline(view_) == PairOutline::outcome) {
+            add_time_intervals(list_, floor_extent_, agents_, test()->event, metrics_.scale);
         }
         if (emphasis_.cursor) add_time_cursor(list_, floor_extent_, *emphasis_.cursor, metrics_.scale);
         add_rings(list_, agents_, emphasis_, metrics_.scale);
-        if (!query_) return followed_name();
-        return add_findings(list_, agents_, query_->recorded, *progress(), metrics_);
+        if (!recorded_) return followed_name();
+        std::vector<LabelRequest> notes;
+        if (walls_) notes = proof_notes();
+        if (!test()) return notes;
+        const std::vector<LabelRequest> found = add_findings(list_, agents_, *recorded_, *test(), metrics_);
+        notes.insert(notes.end(), found.begin(), found.end());
+        return notes;
+    }
+
+    /// The numbers beside the walls, and the region that is free.
+    std::vector<LabelRequest> proof_notes() {
+        std::vector<LabelRequest> notes;
+        for (const WallGap& gap : gaps_) add_gap_note(notes, list_, gap, metrics_);
+        if (!view_.free_region || !walls_->margins || floor_on_edge(list_.projection)) return notes;
+        if (const auto middle = add_free_region(list_, agents_[1], *walls_->margins, floor_extent_, metrics_.scale))
+            add_region_note(notes, list_, agents_[1], *middle, metrics_);
+        return notes;
     }
 
     /// Of so many that the rest dims, the followed one is ringed: at the time cursor, else where its path begins.
@@ -143,7 +164,11 @@ class SpaceTimePicture final : public Picture {
         add_names(list_, layout, agents_, metrics_);
     }
 
-    std::optional<QueryAtStep> query_;
+    const RecordedQuery* recorded_ = nullptr;  ///< of the view's query; null: it has none
+    std::optional<QueryProgress> progress_;    ///< refers to it
+    const QueryProof* walls_ = nullptr;        ///< null: they are not shown
+    bool replaces_test_ = false;               ///< the walls stand alone
+    std::vector<WallGap> gaps_;
     Emphasis emphasis_;
 };
 

@@ -41,6 +41,10 @@ BoxState box_state(mobb::Outcome outcome) {
     return BoxState::overlap;
 }
 
+BoxState state_found(const QueryProgress& progress) {
+    return progress.avoidable ? BoxState::avoidable : box_state(progress.event.outcome);
+}
+
 LineStyle outcome_style(BoxState state, const Palette& palette) {
     switch (state) {
         case BoxState::apart_in_time:
@@ -49,6 +53,8 @@ LineStyle outcome_style(BoxState state, const Palette& palette) {
             return {palette.separated, 1.2f};
         case BoxState::overlap:
             return {palette.overlap, 1.2f, {10, 4, 2, 4}};
+        case BoxState::avoidable:
+            return {palette.avoidable, 1.2f, {2, 3, 2, 3}};
         case BoxState::hit:
             return {palette.hit, 2.2f};
         case BoxState::level:
@@ -63,10 +69,10 @@ PairOutline pair_outline(const ViewState& view) {
     return view.past == Past::pair ? PairOutline::outcome : PairOutline::owner;
 }
 
-LineStyle pair_style(PairOutline outline, const DrawnAgent& side, mobb::Outcome outcome, const Palette& palette) {
+LineStyle pair_style(PairOutline outline, const DrawnAgent& side, BoxState found, const Palette& palette) {
     constexpr float kWidth = 2.2f;
     if (outline == PairOutline::owner) return {outlining(side.color, palette), kWidth};
-    LineStyle style = outcome_style(box_state(outcome), palette);
+    LineStyle style = outcome_style(found, palette);
     style.width = kWidth;
     return style;
 }
@@ -89,7 +95,7 @@ void add_query_boxes(DrawList& list, std::span<const DrawnAgent> sides, const Qu
         BoxInstance box = node_box(agent, side == 0 ? progress.event.a : progress.event.b, list.space);
         box.state = BoxState::under_test;
         box.fill = with_alpha(agent.color, 0.17f);
-        const LineStyle style = scaled(pair_style(outline, agent, progress.event.outcome, list.palette), scale);
+        const LineStyle style = scaled(pair_style(outline, agent, state_found(progress), list.palette), scale);
         box.edge = style.color;
         box.width = style.width;
         box.dash = style.dash;

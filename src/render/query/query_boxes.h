@@ -16,6 +16,8 @@ namespace mobbscope {
 
 /// What a pair's boxes become by the outcome of a test.
 BoxState box_state(mobb::Outcome outcome);
+/// ... and those of the pair under test.
+BoxState state_found(const QueryProgress& progress);
 
 /// Colour and line of an outcome, at scale 1.
 LineStyle outcome_style(BoxState state, const Palette& palette);
@@ -26,8 +28,8 @@ enum class PairOutline {
     outcome,  ///< by how its test ended: there are no others (Past::pair)
 };
 PairOutline pair_outline(const ViewState& view);
-/// Of one side's box, whose faces always have the agent's colour.
-LineStyle pair_style(PairOutline outline, const DrawnAgent& side, mobb::Outcome outcome, const Palette& palette);
+/// `found`: by the test. Of one side's box, whose faces always have the agent's colour.
+LineStyle pair_style(PairOutline outline, const DrawnAgent& side, BoxState found, const Palette& palette);
 
 /// Those of the pair under test and of the nodes that the progress tells of. `sides`: A and B. `scale`: of line widths.
 void add_query_boxes(DrawList& list, std::span<const DrawnAgent> sides, const QueryProgress& progress,
