@@ -26,7 +26,7 @@ struct DebuggerWindow {
     Session session{false};
     HeadlessWindow window;
 
-    explicit DebuggerWindow(PictureSize size = {1280, 1400})
+    explicit DebuggerWindow(PictureSize size = {1280, 1900})
         : window(GlContext::open(Backend::automatic), session, size, 1) {
         folder.write("scene.json", R"({
             "clips": {"walk": {"source": "walk.csv"}},
