@@ -36,7 +36,7 @@ struct DebuggerWindow {
             "fit": {"leaf": 4}})");
         session.files.open({folder.scene});
         window.settle();
-        run("run query.select 0\nrun step.first");
+        run("run query.select 0\nrun step.first\nframes 3");
     }
     void run(const std::string& script) {
         std::ostringstream out;
