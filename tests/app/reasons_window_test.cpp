@@ -36,7 +36,7 @@ struct DebuggerWindow {
             "fit": {"leaf": 4}})");
         session.files.open({folder.scene});
         window.settle();
-        run("run query.select 0\nrun step.first");
+        run("run query.select 0\nrun step.first\nframes 3");
     }
     void run(const std::string& script) {
         std::ostringstream out;
@@ -50,7 +50,8 @@ struct DebuggerWindow {
     int last_of(int pair) const { return recursion().pairs[static_cast<std::size_t>(pair)].last; }
     std::vector<int> reasons() const {
         std::vector<int> out;
-        for (const int pair : session.queries.reasons().value().pairs) out.push_back(last_of(pair));
+        const PlaceReasons found = session.queries.reasons().value();
+        for (const int pair : found.pairs) out.push_back(last_of(pair));
         return out;
     }
     static std::string at(double x, double y) { return std::to_string(x) + ' ' + std::to_string(y); }

@@ -36,7 +36,7 @@ struct Settings {
     double ui_scale = 0;           ///< of text and panels; 0: the monitor's
     double left_width = 256;       ///< of the panels, pixels at scale 1
     double right_width = 320;
-    double bottom_height = 200;
+    double bottom_height = 150;
     std::optional<Theme> theme;         ///< that was chosen last; none: never
     std::optional<WindowPlace> window;  ///< none: it was never open
     std::map<std::string, bool>
