@@ -104,17 +104,18 @@ void print_answer(std::ostream& out, std::size_t index, const SceneQuery& query,
             for (int step = 0; step < answer.trace->size(); ++step) print(step);
         } else {
             out << ", " << answer.steps->size() << " of " << counted(answer.trace->size(), "event", "events") << ":\n";
-            for (const int step : *answer.steps) print(step);
+            std::ranges::for_each(*answer.steps, print);
         }
         if (answer.trace->stopped()) out << "   Here " << recording_words(*answer.trace) << ".\n";
     }
 }
 
 std::vector<int> steps_to_tell(const FittedScene& fitted, const SceneQuery& query, const mobb::Trace& trace,
-                               const EventFilter& filter) {
+                               const AvoidableOverlaps& avoidable, const EventFilter& filter) {
     const mobb::PlacedTree a = fitted.placed(query.a);
     const mobb::PlacedTree b = fitted.placed(query.b);
-    const Recursion recursion = recursion_of(trace, a, b, 0);
+    Recursion recursion = recursion_of(trace, a, b, 0);
+    recursion.avoidable = avoidable;
     return steps_that_pass(EventValues(trace, recursion, a, b), filter);
 }
 
@@ -170,7 +171,7 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
         const SceneQuery query = fitted.queries()[index];
         AvoidableOverlaps avoidable;
         Answer found = judged_answer(fitted, query, arguments, avoidable, blame);
-        if (where) found.steps = steps_to_tell(fitted, query, *found.trace, *where);
+        if (where) found.steps = steps_to_tell(fitted, query, *found.trace, avoidable, *where);
         std::optional<Proven> proven;
         if (arguments.proof || !arguments.certificate.empty()) proven = prove(fitted, query);
         if (arguments.json) {

@@ -111,6 +111,8 @@ EventValues::Range EventValues::value(EventField field, int side, int step) cons
             return one(pair.end - 1 - pair.last);
         case EventField::hit_below:
             return one(pair.hit ? 1 : 0);
+        case EventField::avoidable:
+            return one(recursion_->avoidable.at(step) ? 1 : 0);
     }
     return one(kNone);
 }

@@ -28,7 +28,33 @@ std::vector<int> events_of_past(const mobb::Trace& trace, int step, Past past) {
 
 }  // namespace
 
-int event_of(const Step& step, const mobb::Trace& trace) {
+bool is_counted(const Step& step, const mobb::Trace& trace, int event, const mobb::Tree& a, const mobb::Tree& b) {
+    const mobb::Trace::Event test = trace[event];
+    switch (step.unit) {
+        case Step::Unit::separated:
+            return test.outcome == mobb::Outcome::separated;
+        case Step::Unit::overlap:
+            return test.outcome == mobb::Outcome::overlap;
+        case Step::Unit::hit:
+            return test.outcome == mobb::Outcome::hit;
+        case Step::Unit::depth:
+            return test.depth == static_cast<int>(step.value);
+        case Step::Unit::leaf: {
+            if (!a.is_leaf(test.a) || !b.is_leaf(test.b)) return false;
+            if (event + 1 == trace.size()) return true;
+            const mobb::Trace::Event next = trace[event + 1];
+            return next.a != test.a || next.b != test.b;
+        }
+        case Step::Unit::avoidable:
+        case Step::Unit::event:
+        case Step::Unit::percent:
+        case Step::Unit::end:
+            break;
+    }
+    return false;
+}
+
+int event_of(const Step& step, const mobb::Trace& trace, const FittedScene& fitted, int query) {
     const int last = trace.size() - 1;
     if (last < 0) throw ViewMismatch("step", "the query made no test: it has no steps");
     switch (step.unit) {
@@ -37,13 +63,31 @@ int event_of(const Step& step, const mobb::Trace& trace) {
         case Step::Unit::percent:
             return static_cast<int>(std::lround(step.value / 100 * last));
         case Step::Unit::event:
+            if (step.value >= 0 && step.value <= last) return static_cast<int>(step.value);
+            throw ViewMismatch("step", "there is no step " + std::to_string(static_cast<long long>(step.value)) +
+                                           ": the query's go from 0 to " + std::to_string(last));
+        case Step::Unit::separated:
+        case Step::Unit::overlap:
+        case Step::Unit::hit:
+        case Step::Unit::avoidable:
+        case Step::Unit::leaf:
+        case Step::Unit::depth:
             break;
     }
-    if (step.value < 0 || step.value > last) {
-        throw ViewMismatch("step", "there is no step " + std::to_string(static_cast<long long>(step.value)) +
-                                       ": the query's go from 0 to " + std::to_string(last));
+    const SceneQuery asked = fitted.queries()[static_cast<std::size_t>(query)];
+    const mobb::PlacedTree placed_a = fitted.placed(asked.a);
+    const mobb::PlacedTree placed_b = fitted.placed(asked.b);
+    const int wanted = step.unit == Step::Unit::depth ? 1 : static_cast<int>(step.value);
+    int found = 0;
+    for (int event = 0; event <= last; ++event) {
+        const bool counts = step.unit == Step::Unit::avoidable
+                                ? avoidable_overlap(placed_a, placed_b, trace[event]).has_value()
+                                : is_counted(step, trace, event, placed_a.tree(), placed_b.tree());
+        found += counts ? 1 : 0;
+        if (found == wanted) return event;
     }
-    return static_cast<int>(step.value);
+    const std::string there_is = found == 0 ? "none such" : "only " + std::to_string(found);
+    throw ViewMismatch("step", "there is no step " + to_string(step) + ": the query has " + there_is);
 }
 
 QueryProgress progress_at(const mobb::Trace& trace, int step, Past past) {

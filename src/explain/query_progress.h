@@ -3,7 +3,8 @@
 
 #include <explain/avoidable.h>
 #include <mobb/trace.h>
-#include <scene/view_state.h>
+#include <mobb/tree.h>
+#include <scene/fitted_scene.h>
 
 #include <array>
 #include <optional>
@@ -11,8 +12,12 @@
 
 namespace mobbscope {
 
-/// The event that a step means. Throws std::invalid_argument if the trace has none such.
-int event_of(const Step& step, const mobb::Trace& trace);
+/// Whether an event is one of those that a step counts, as "leaf:3" does; of Unit::depth one at that depth. No event is
+/// of those that count none.
+bool is_counted(const Step& step, const mobb::Trace& trace, int event, const mobb::Tree& a, const mobb::Tree& b);
+
+/// The event that a step means in the trace of a query of the scene. Throws std::invalid_argument if it has none such.
+int event_of(const Step& step, const mobb::Trace& trace, const FittedScene& fitted, int query);
 
 /// What is known of a node that has been tested.
 struct NodeProgress {

@@ -98,6 +98,22 @@ std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::E
     return std::string(shape.meets) + ", " + what_next(sides, event);
 }
 
+std::string short_outcome(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
+    switch (event.outcome) {
+        case mobb::Outcome::disjoint_in_time:
+            return "apart in time";
+        case mobb::Outcome::separated:
+            return separating_axis(sides, event) + ' ' + with_unit(event.gap, "m");
+        case mobb::Outcome::overlap:
+            return event.test == mobb::TestKind::time ? "share time" : "overlap";
+        case mobb::Outcome::hit:
+            return "hit";
+        case mobb::Outcome::no_hit:
+            return "no hit";
+    }
+    return "";
+}
+
 std::string avoidable_words(const AvoidableOverlap& overlap, const std::string& a, const std::string& b) {
     const std::string kept = "a line keeps the disks " + with_unit(overlap.line.gap, "m") + " apart; ";
     switch (overlap.blame) {

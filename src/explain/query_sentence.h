@@ -18,6 +18,9 @@ std::string node_name(const DrawnAgent& agent, int node);
 /// What a test found: "separated along B's long axis by 0.183 m".
 std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event);
 
+/// The same in few words, for lists: "along B's long axis 0.183 m", "overlap", "apart in time".
+std::string short_outcome(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event);
+
 /// "a line keeps the disks 0.310 m apart; the box of A 2.1 is to blame"
 /// `a`, `b`: what the nodes are called.
 std::string avoidable_words(const AvoidableOverlap& overlap, const std::string& a, const std::string& b);

@@ -119,6 +119,11 @@ std::vector<EventFieldInfo> all_event_fields() {
          .kind = FieldKind::flag,
          .words = "a hit was found in it or below it",
          .doc = "Pairs that led to the hit"},
+        {.field = avoidable,
+         .name = "avoidable",
+         .kind = FieldKind::flag,
+         .words = "the overlap was avoidable",
+         .doc = "Overlaps of boxes whose disks one line keeps apart, of those that were judged"},
     };
 }
 

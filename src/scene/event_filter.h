@@ -35,6 +35,7 @@ enum class EventField : std::uint8_t {
     pairs,
     tests_below,
     hit_below,
+    avoidable,
 };
 
 enum class FieldKind : std::uint8_t {

@@ -240,9 +240,11 @@ std::vector<ViewOption> all_view_options() {
              .text = [](const ViewState& view) { return std::to_string(*view.query); }}),
         text_or_number<&ViewState::step, parse_step>(
             {.key = "step",
-             .what = "Step of the query: an event number, a percentage such as 40%, or end",
+             .what =
+                 "Step of the query: an event number, a percentage such as 40%, end, hit, leaf:3 (the third; likewise "
+                 "separated, overlap, avoidable) or depth:4",
              .schema = R"("type": ["integer", "string"],
-          "pattern": "^([0-9]+|[+]?([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][+-]?[0-9]+)?%|end)$",
+          "pattern": "^([0-9]+|[+]?([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][+-]?[0-9]+)?%|end|(separated|overlap|hit|avoidable|leaf)(:0*[1-9][0-9]*)?|depth:[0-9]+)$",
           "minimum": 0,
           "maximum": 2147483647
         )",

@@ -21,6 +21,24 @@ constexpr std::array<std::string_view, 2> kColorings{"agent", "level"};
 constexpr std::array<std::string_view, 4> kPasts{"pair", "ancestors", "siblings", "all"};
 constexpr std::array<std::string_view, 2> kArrangements{"none", "grid"};
 constexpr std::array<std::string_view, 2> kShows{"space-time", "moment"};
+constexpr std::array<std::string_view, 9> kStepUnits{"",    "",          "end",  "separated", "overlap",
+                                                     "hit", "avoidable", "leaf", "depth"};
+
+/// "leaf", "leaf:3", "depth:4".
+std::optional<Step> found_step(std::string_view text) {
+    const std::size_t colon = text.find(':');
+    const auto unit = enumerator_named<Step::Unit>(kStepUnits, text.substr(0, colon));
+    if (!unit || *unit <= Step::Unit::end) return std::nullopt;
+    const int least = *unit == Step::Unit::depth ? 0 : 1;
+    std::optional<int> value;
+    if (colon != std::string_view::npos) {
+        value = parse_int(text.substr(colon + 1));
+    } else if (*unit != Step::Unit::depth) {
+        value = 1;
+    }
+    if (!value || *value < least) return std::nullopt;
+    return Step{*unit, static_cast<double>(*value)};
+}
 
 }  // namespace
 
@@ -46,9 +64,12 @@ Step parse_step(const std::string& text) {
         if (percent && *percent >= 0 && *percent <= 100) return {Step::Unit::percent, *percent};
     } else if (const std::optional<int> event = parse_int(text); event && *event >= 0) {
         return {Step::Unit::event, static_cast<double>(*event)};
+    } else if (const std::optional<Step> found = found_step(text)) {
+        return *found;
     }
     throw std::invalid_argument(in_quotes(text) +
-                                " is no step: give an event number from 0, a percentage (40%) or end");
+                                " is no step: give an event number from 0, a percentage (40%), end, hit, leaf:3 (the "
+                                "third; likewise separated, overlap, avoidable) or depth:4");
 }
 
 std::string to_string(const LevelRange& levels) {
@@ -64,9 +85,18 @@ std::string to_string(const Step& step) {
         case Step::Unit::percent:
             return short_double(step.value) + '%';
         case Step::Unit::end:
+            return "end";
+        case Step::Unit::separated:
+        case Step::Unit::overlap:
+        case Step::Unit::hit:
+        case Step::Unit::avoidable:
+        case Step::Unit::leaf:
+        case Step::Unit::depth:
             break;
     }
-    return "end";
+    const std::string unit(kStepUnits[static_cast<std::size_t>(step.unit)]);
+    const int value = static_cast<int>(step.value);
+    return value == 1 && step.unit != Step::Unit::depth ? unit : unit + ':' + std::to_string(value);
 }
 
 std::optional<CameraPreset> camera_preset(const std::string& name) {

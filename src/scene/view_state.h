@@ -83,8 +83,19 @@ struct LevelRange {
 
 /// Where in a query's trace we stand.
 struct Step {
-    enum class Unit { event, percent, end } unit = Unit::end;
-    double value = 0;  ///< event number, or percentage 0..100
+    enum class Unit {
+        event,
+        percent,
+        end,
+        // The event that is so many-th of its kind, from 1.
+        separated,
+        overlap,
+        hit,
+        avoidable,  ///< overlap
+        leaf,       ///< the last test of a pair of leaves
+        depth,      ///< the first event at a depth
+    } unit = Unit::end;
+    double value = 0;  ///< event number, percentage 0..100, which of its kind, or the depth
     friend bool operator==(const Step&, const Step&) = default;
 };
 
@@ -132,7 +143,8 @@ struct ViewState {
 
 /// "2", "1:3" or "leaves". Throws std::invalid_argument saying what is allowed.
 LevelRange parse_level_range(const std::string& text);
-/// An event number, "end" or a percentage such as "40%". Throws std::invalid_argument.
+/// An event number, "end", a percentage such as "40%", "separated:2" (the second that found boxes separated; "overlap",
+/// "hit", "avoidable" and "leaf" likewise, and without a number the first), or "depth:4". Throws std::invalid_argument.
 Step parse_step(const std::string& text);
 /// "iso", "top", "front", "side" (and "free"); nothing for any other name.
 std::optional<CameraPreset> camera_preset(const std::string& name);

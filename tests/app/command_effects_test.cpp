@@ -663,6 +663,7 @@ std::vector<Case> cases() {
         EXPECT_EQ(w.session.workspace.step(), w.session.workspace.recorded()->trace.size() - 1);
     });
     in_query("step.to", "3", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.step(), 3); });
+    in_query("step.to", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::palette); });
     add({"step.next_separated", "", {{"query.select", "1"}, kFirstStep}, [](CommandWorld& w) {
              EXPECT_EQ(outcome_now(w), mobb::Outcome::separated);
          }});
@@ -686,6 +687,41 @@ std::vector<Case> cases() {
              EXPECT_NE(found, all_messages(w.session).find("voidable") != std::string::npos);
          }});
     in_query("step.next_hit", "", [](CommandWorld& w) { EXPECT_EQ(outcome_now(w), mobb::Outcome::hit); });
+    in_query("step.next_leaf", "", [](CommandWorld& w) {
+        const mobb::Tree& tree = w.session.workspace.fitted().tree(0);
+        const mobb::Trace::Event event = w.session.workspace.recorded()->trace[w.session.workspace.step()];
+        EXPECT_TRUE(tree.is_leaf(event.a) && tree.is_leaf(event.b));
+    });
+    in_query("step.next_depth", "2", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.workspace.recorded()->trace[w.session.workspace.step()].depth, 2);
+    });
+    add({"step.previous_depth", "0", {kFirstQuery}, [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.step(), 1); }});
+    add({"step.previous_leaf", "", {kFirstQuery}, [](CommandWorld& w) {
+             const mobb::Trace& trace = w.session.workspace.recorded()->trace;
+             EXPECT_LT(w.session.workspace.step(), trace.size() - 1);
+         }});
+    for (const auto& [id, outcome] : {std::pair("step.previous_separated", mobb::Outcome::separated),
+                                      std::pair("step.previous_overlap", mobb::Outcome::overlap)}) {
+        add({id, "", {{"query.select", "1"}}, [outcome = outcome](CommandWorld& w) {
+                 const mobb::Trace& trace = w.session.workspace.recorded()->trace;
+                 const int step = w.session.workspace.step();
+                 const bool found = step < trace.size() - 1 && trace[step].outcome == outcome;
+                 EXPECT_NE(found, all_messages(w.session).find("no test before") != std::string::npos);
+             }});
+    }
+    in_query("step.previous_hit", "", [](CommandWorld& w) {
+        EXPECT_NE(all_messages(w.session).find("There is no test before that found a hit"), std::string::npos);
+    });
+    in_query("step.into", "", [](CommandWorld& w) {
+        const mobb::Trace& trace = w.session.workspace.recorded()->trace;
+        EXPECT_EQ(trace[w.session.workspace.step()].depth, 1);
+        EXPECT_EQ(trace[w.session.workspace.step() - 1].depth, 0) << "the first test of the first pair that was called";
+    });
+    add({"step.over_back", "", {kFirstQuery}, [](CommandWorld& w) {
+             const mobb::Trace& trace = w.session.workspace.recorded()->trace;
+             EXPECT_LE(trace[w.session.workspace.step()].depth, trace[trace.size() - 1].depth);
+             EXPECT_LT(w.session.workspace.step(), trace.size() - 1);
+         }});
     in_query("step.over", "", [](CommandWorld& w) {
         const mobb::Trace& trace = w.session.workspace.recorded()->trace;
         EXPECT_EQ(w.session.workspace.step(), 1) << "the root pair's other test";
@@ -867,6 +903,43 @@ std::vector<Case> cases() {
     add({"step.copy_link", "", {kFirstQuery, to_3}, [](CommandWorld& w) {
              EXPECT_EQ(w.desktop.text, w.path("scene.json") + "#q0@3");
          }});
+    // Reasons and costs
+    in_query("reasons.at", "0.5", [](CommandWorld& w) {
+        EXPECT_EQ(w.view().time, 0.5);
+        EXPECT_FALSE(w.session.queries.reasons()->pairs.empty());
+    });
+    in_query("reasons.of_point", "0.5 0.7",
+             [](CommandWorld& w) { EXPECT_EQ(w.session.queries.reasons()->of, "0.50 s by 0.70 s"); });
+    in_query("reasons.of_sample", "b 3", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.queries.reasons()->of, "sample 3 of B");
+        EXPECT_NE(testing::refusal(w.session, "reasons.of_sample", "c 3"), "");
+        EXPECT_NE(testing::refusal(w.session, "reasons.of_sample", "a 60"), "");
+    });
+    add({"reasons.of_selection", "", {kFirstQuery, {"go.sample", "B 5"}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.session.queries.reasons()->of, "sample 5 of B");
+         }});
+    add({"reasons.none", "", {kFirstQuery, {"reasons.at", "0.5"}}, [](CommandWorld& w) {
+             EXPECT_FALSE(w.session.queries.reasons());
+         }});
+    in_query("focus.branch", "", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.look.focus.branch, 0); });
+    in_query("focus.time", "0.1:0.2", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.workspace.look.focus.time->t1, 0.2);
+        EXPECT_NE(testing::refusal(w.session, "focus.time", "2:1"), "");
+    });
+    add({"focus.none", "", {kFirstQuery, {"focus.branch", "3"}}, [](CommandWorld& w) {
+             EXPECT_TRUE(w.session.workspace.look.focus.is_all());
+         }});
+    in_query("recursion.zoom", "1:3", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.workspace.look.zoom, (EventRange{1, 4}));
+    });
+    add({"recursion.zoom_all", "", {kFirstQuery, {"recursion.zoom", "1:3"}}, [](CommandWorld& w) {
+             EXPECT_FALSE(w.session.workspace.look.zoom);
+         }});
+    look("branches.of", "scene", [](CommandWorld& w) { EXPECT_EQ(w.session.costs.costs()->tests.size(), 3u); });
+    look("branches.of_node", "walk 1.0", [](CommandWorld& w) { EXPECT_EQ(w.session.costs.sandwich()->of.node, 1); });
+    look("query.sort", "tests",
+         [](CommandWorld& w) { EXPECT_EQ(w.session.costs.listed(), w.session.costs.costs()->by_tests); });
+    look("query.worst", "", [](CommandWorld& w) { EXPECT_EQ(w.view().query, w.session.costs.costs()->by_tests[0]); });
 
     // Go
     look("go.palette", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::palette); });

@@ -136,9 +136,10 @@ TEST(Menus, AClickOnTheRecursionGoesToTheTestThatItsTooltipTells) {
     w.run("run query.select 0\nrun step.first");
     const Recursion& recursion = w.session.queries.findings()->recursion;
     const Rect icicle = w.marks().at("query.icicle");
-    const int row = std::clamp(static_cast<int>(icicle.size().y) / recursion.depth, 2, 20);
+    const int row = icicle_row(icicle.size().y, recursion.depth, 1);
+    const ShownEvents all{{0, w.session.workspace.recorded()->trace.size()}};
     int inner = 0;
-    for (const PairCell& cell : icicle_cells(recursion, static_cast<int>(icicle.size().x), row)) {
+    for (const PairCell& cell : icicle_cells(recursion, all, static_cast<int>(icicle.size().x), row)) {
         const RecursionPair& pair = recursion.pairs[static_cast<std::size_t>(cell.pair)];
         const glm::vec2 at = icicle.min + 0.5f * glm::vec2(cell.x0 + cell.x1, cell.y0 + cell.y1);
         if (at.y >= icicle.max.y) continue;

@@ -20,7 +20,7 @@ TEST(RecursionPicture, AStripHoldsEveryEventOnce) {
         const mobbscope::testing::RandomQuery asked = mobbscope::testing::random_query(random);
         const Recursion recursion = recursion_of(asked.trace, asked.a(), asked.b());
         const int width = random.integer(1, random.chance(0.5) ? 12 : 300);
-        const auto cells = strip_cells(asked.trace, recursion, width);
+        const auto cells = strip_cells(asked.trace, recursion, {{0, asked.trace.size()}}, width);
         MarkCounts counts{};
         int next = 0;
         float x = 0;
@@ -97,7 +97,7 @@ TEST(RecursionPicture, AnIcicleHoldsEveryPairOnceAndLosesNoHit) {
         const mobbscope::testing::RandomQuery asked = mobbscope::testing::random_query(random);
         const Recursion recursion = recursion_of(asked.trace, asked.a(), asked.b());
         const int width = random.integer(1, random.chance(0.5) ? 12 : 300);
-        const auto cells = icicle_cells(recursion, width, 10);
+        const auto cells = icicle_cells(recursion, {{0, asked.trace.size()}}, width, 10);
         std::size_t pairs = 0;
         bool hit = false;
         for (const PairCell& cell : cells) {
@@ -116,6 +116,46 @@ TEST(RecursionPicture, AnIcicleHoldsEveryPairOnceAndLosesNoHit) {
     }
     EXPECT_GT(merged, 100);
     EXPECT_GT(hits, 20);
+}
+
+TEST(RecursionPicture, AZoomShowsItsEventsAloneAndAFocusItsOwn) {
+    Random random(14);
+    int left_out = 0;
+    for (int round = 0; round < 200; ++round) {
+        const mobbscope::testing::RandomQuery asked = mobbscope::testing::random_query(random);
+        const Recursion recursion = recursion_of(asked.trace, asked.a(), asked.b());
+        const int first = random.integer(0, asked.trace.size() - 1);
+        const EventRange range{first, random.integer(first + 1, asked.trace.size())};
+        FocusWindow focus;
+        if (random.chance(0.5)) focus.branch = random.integer(0, static_cast<int>(recursion.pairs.size()) - 1);
+        const InFocus inside = events_in(recursion, focus);
+        const ShownEvents shown{range, &inside};
+        const int width = random.integer(1, 300);
+        int events = 0;
+        int next = range.first;
+        for (const StripCell& cell : strip_cells(asked.trace, recursion, shown, width)) {
+            EXPECT_EQ(cell.first, next);
+            next = cell.end;
+            events += std::accumulate(cell.marks.begin(), cell.marks.end(), 0);
+        }
+        EXPECT_EQ(next, range.end);
+        int expected = 0;
+        for (int event = range.first; event < range.end; ++event) expected += shown.has(event);
+        EXPECT_EQ(events, expected);
+        int pairs = 0;
+        for (const PairCell& cell : icicle_cells(recursion, shown, width, 10)) {
+            EXPECT_GE(cell.x0, 0);
+            EXPECT_LE(cell.x1, width);
+            pairs += cell.merged;
+        }
+        int seen = 0;
+        for (const RecursionPair& pair : recursion.pairs) {
+            seen += pair.first < range.end && pair.end > range.first && shown.has(pair.last);
+        }
+        EXPECT_EQ(pairs, seen);
+        left_out += static_cast<int>(recursion.pairs.size()) - seen;
+    }
+    EXPECT_GT(left_out, 100);
 }
 
 }  // namespace

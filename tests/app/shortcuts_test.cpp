@@ -33,6 +33,7 @@ const std::vector<Steps> kSituations{
     {{"query.select", "0"}, {"step.to", "1"}},
     {{"query.select", "0"}, {"step.first", ""}},
     {{"query.select", "1"}, {"step.first", ""}},
+    {{"query.select", "0"}, {"recursion.zoom", "1:3"}},
     {{"go.node", "B 1.0"}},
     {{"go.node", "B 1.1"}},
     {{"view.level", "2"}},

@@ -101,6 +101,7 @@ TEST(EventValues, FiltersAgreeWithTheTrace) {
                 all.recursion.pairs[static_cast<std::size_t>(all.recursion.pair_of[static_cast<std::size_t>(step)])];
             return pair.end - pair.last - 1 > 5;
         }));
+        EXPECT_EQ(all.pass("avoidable"), all.recursion.avoidable.events);
         EXPECT_EQ(all.pass("hit_below and depth = 0").empty(), all.pass("outcome = hit").empty());
     }
 }

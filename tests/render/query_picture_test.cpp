@@ -52,11 +52,12 @@ struct Query {
 TEST(QueryProgress, StepsAreEventsPercentagesOrTheEnd) {
     const Query query(testing::hit_scene());
     const int last = query.recorded.trace.size() - 1;
-    EXPECT_EQ(event_of({Step::Unit::end, 0}, query.recorded.trace), last);
-    EXPECT_EQ(event_of({Step::Unit::percent, 100}, query.recorded.trace), last);
-    EXPECT_EQ(event_of({Step::Unit::percent, 0}, query.recorded.trace), 0);
-    EXPECT_EQ(event_of({Step::Unit::event, 3}, query.recorded.trace), 3);
-    EXPECT_THROW(event_of({Step::Unit::event, last + 1.0}, query.recorded.trace), std::invalid_argument);
+    const auto event_at = [&](const Step& step) { return event_of(step, query.recorded.trace, query.fitted, 0); };
+    EXPECT_EQ(event_at({Step::Unit::end, 0}), last);
+    EXPECT_EQ(event_at({Step::Unit::percent, 100}), last);
+    EXPECT_EQ(event_at({Step::Unit::percent, 0}), 0);
+    EXPECT_EQ(event_at({Step::Unit::event, 3}), 3);
+    EXPECT_THROW(event_at({Step::Unit::event, last + 1.0}), std::invalid_argument);
 }
 
 TEST(QueryProgress, OnlyTestedNodesAreKnown) {

@@ -92,6 +92,7 @@ TEST(EventFilter, SaysInWordsWhatItMeans) {
               "the gap is below 0.05 m, and the level of B's node is at least 3, and the outcome is disjoint in time");
     EXPECT_EQ(EventFilter("not (leaf(a) or leaf(b)) and node(a) != 2.1").words(),
               "it is not so that (A's node is a leaf, or B's node is a leaf), and A's node is not 2.1");
+    EXPECT_EQ(EventFilter("avoidable").words(), "the overlap was avoidable");
     EXPECT_EQ(EventFilter("(pairs > 3 or hit_below) and step = 7").words(),
               "(the number of measured pairs is above 3, or a hit was found in it or below it), and the step is 7");
 }

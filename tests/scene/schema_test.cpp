@@ -145,8 +145,11 @@ bool view_is_read(const char* key, const std::string& text) {
 }
 
 TEST(Schema, PatternsTakeWhatTheReaderTakes) {
-    const std::string texts[] = {"",  "0",  "12",  "1:3", "leaves", "end", "40%", "33.5%", "+4%", "1e1%", ".5%",  "5.%",
-                                 "%", "-1", "-1%", "1.5", "nan%",   "x",   "2 ",  "1:",    "0x1", "all",  "1e-5%"};
+    const std::string texts[] = {
+        "",      "0",           "12",          "1:3",     "leaves",  "end",   "40%",    "33.5%",  "+4%",
+        "1e1%",  ".5%",         "5.%",         "%",       "-1",      "-1%",   "1.5",    "nan%",   "x",
+        "2 ",    "1:",          "0x1",         "all",     "1e-5%",   "hit",   "leaf:3", "leaf:0", "leaf:03",
+        "leaf:", "separated:2", "avoidable:3", "overlap", "depth:0", "depth", "end:1",  ":1"};
     for (const char* key : {"levels", "step"}) {
         const std::regex pattern(properties("view")[key]["pattern"].get<std::string>());
         for (const std::string& text : texts) {

@@ -26,8 +26,16 @@ TEST(ViewState, StepsAreReadAndWritten) {
     EXPECT_EQ(parse_step("12"), (Step{Step::Unit::event, 12}));
     EXPECT_EQ(parse_step("40%"), (Step{Step::Unit::percent, 40}));
     EXPECT_EQ(parse_step("end"), (Step{Step::Unit::end, 0}));
-    for (const char* text : {"0", "12", "40%", "33.5%", "end"}) EXPECT_EQ(to_string(parse_step(text)), text);
-    for (const char* bad : {"", "-1", "101%", "-1%", "%", "nan%", "1.5", "last"}) {
+    EXPECT_EQ(parse_step("leaf:3"), (Step{Step::Unit::leaf, 3}));
+    EXPECT_EQ(parse_step("separated:2"), (Step{Step::Unit::separated, 2}));
+    EXPECT_EQ(parse_step("depth:0"), (Step{Step::Unit::depth, 0}));
+    EXPECT_EQ(parse_step("overlap:1"), parse_step("overlap"));
+    for (const char* text : {"0", "12", "40%", "33.5%", "end", "leaf:3", "leaf", "avoidable:3", "separated:2",
+                             "overlap", "hit", "depth:0", "depth:1"}) {
+        EXPECT_EQ(to_string(parse_step(text)), text);
+    }
+    for (const char* bad : {"", "-1", "101%", "-1%", "%", "nan%", "1.5", "last", "leaf:0", "leaf:", "leaf:-1", "depth",
+                            "end:1", ":3", "hit:x"}) {
         EXPECT_THROW(parse_step(bad), std::invalid_argument) << bad;
     }
 }

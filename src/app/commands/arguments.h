@@ -1,11 +1,14 @@
 /// What commands take, read from text. Everything here throws std::invalid_argument in one sentence.
 #pragma once
 
+#include <base/text.h>
 #include <mobb/tree.h>
 
 #include <glm/vec2.hpp>
 
 #include <filesystem>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -26,6 +29,12 @@ std::string as_argument(const std::vector<std::filesystem::path>& files);
 double number_in(std::string_view text, std::string_view what, double low, double high);
 /// A whole number within [low, high].
 int whole_number_in(std::string_view text, std::string_view what, int low, int high);
+/// One of these names, which stand in the order of the enumeration.
+template <class Enum>
+Enum choice_named(std::span<const std::string_view> names, const std::string& text, const std::string& what) {
+    if (const auto found = enumerator_named<Enum>(names, text)) return *found;
+    throw std::invalid_argument(what + " cannot be " + in_quotes(text) + ": give " + either(names));
+}
 /// Two finite numbers with a blank between them.
 glm::dvec2 two_numbers(std::string_view text, std::string_view what);
 /// "walker north 12": a name, which may hold blanks, and the word behind it.

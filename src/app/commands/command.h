@@ -186,6 +186,8 @@ std::vector<Command> view_commands();
 std::vector<Command> shown_commands();
 std::vector<Command> tree_commands();
 std::vector<Command> query_commands();
+std::vector<Command> step_commands();
+std::vector<Command> reason_commands();
 std::vector<Command> proof_commands();  ///< among those of queries
 std::vector<Command> map_commands();    ///< among those of queries
 std::vector<Command> debug_commands();  ///< among those of queries: events, breakpoints, bookmarks

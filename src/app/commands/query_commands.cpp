@@ -7,15 +7,16 @@
 #include <scene/scene_edits.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace mobbscope::app {
 
 namespace {
-
-using mobb::Outcome;
 
 bool has_queries(const Workspace& workspace) { return !workspace.fitted().queries().empty(); }
 std::string_view why_no_query(const Workspace& workspace) {
@@ -177,118 +178,18 @@ void judge_all(Session& session) {
                        });
 }
 
-// --- steps
+// --- what they cost
 
-void to_event(Workspace& workspace, int event) {
-    workspace.change_view([&](ViewState& view) { view.step = {Step::Unit::event, static_cast<double>(event)}; });
+constexpr std::array<std::string_view, 2> kQueryOrders{"number", "tests"};
+
+void sort_queries(CostInspector& costs, const std::string& text) {
+    costs.order = choice_named<CostInspector::Order>(kQueryOrders, text, "the order");
+    if (costs.order == CostInspector::Order::tests) costs.count();
 }
 
-/// Without a query in view its first one is shown instead, at this step.
-bool entered(Workspace& workspace, QueryInspector& queries, Step step) {
-    if (in_query(workspace)) return false;
-    queries.show(0, step);
-    return true;
-}
-
-constexpr Step kFirst{Step::Unit::event, 0};
-constexpr Step kEnd{Step::Unit::end, 0};
-
-void first(Workspace& workspace, QueryInspector& queries) {
-    if (!entered(workspace, queries, kFirst)) to_event(workspace, 0);
-}
-
-void back(Workspace& workspace, QueryInspector& queries) {
-    if (!entered(workspace, queries, kEnd)) to_event(workspace, std::max(workspace.step() - 1, 0));
-}
-
-void forward(Workspace& workspace, QueryInspector& queries) {
-    if (!entered(workspace, queries, kFirst))
-        to_event(workspace, std::min(workspace.step() + 1, workspace.recorded()->trace.size() - 1));
-}
-
-void last(Workspace& workspace, QueryInspector& queries) {
-    if (!entered(workspace, queries, kEnd)) workspace.change_view([](ViewState& view) { view.step = kEnd; });
-}
-
-void to(Workspace& workspace, const std::string& text) {
-    to_event(workspace, whole_number_in(text, "the step", 0, workspace.recorded()->trace.size() - 1));
-}
-
-void percent(Workspace& workspace, const std::string& text) {
-    const double share = number_in(text, "the percentage", 0, 100);
-    workspace.change_view([&](ViewState& view) { view.step = {Step::Unit::percent, share}; });
-}
-
-bool has_step_before(const QueryInspector& queries) { return queries.step_before().has_value(); }
-std::string_view why_no_step_before(const Workspace& workspace) {
-    return in_query(workspace) ? "no other step was looked at" : "no query is shown";
-}
-
-void to_step_before(QueryInspector& queries, Workspace& workspace) {
-    const Step before = *queries.step_before();
-    workspace.change_view([&](ViewState& view) { view.step = before; });
-}
-
-/// To the next event that ended so; says so if there is none.
-void to_next(Workspace& workspace, QueryInspector& queries, Notifications& notifications, Outcome outcome,
-             const char* what) {
-    const int from = in_query(workspace) ? workspace.step() : -1;
-    entered(workspace, queries, kFirst);
-    const mobb::Trace& trace = workspace.recorded()->trace;
-    for (int event = from + 1; event < trace.size(); ++event) {
-        if (trace[event].outcome == outcome) return to_event(workspace, event);
-    }
-    notifications.tell(MessageLevel::info, std::string("There is no later test that ") + what);
-}
-
-/// To the next or the previous avoidable overlap; says so if there is none.
-template <int way>
-void to_avoidable(Workspace& workspace, QueryInspector& queries, Notifications& notifications) {
-    const bool was_in = in_query(workspace);
-    entered(workspace, queries, way > 0 ? kFirst : kEnd);
-    const AvoidableOverlaps& avoidable = queries.findings()->recursion.avoidable;
-    // The step at which the query is entered is looked at too.
-    const int here = workspace.step() + (was_in ? 0 : -way);
-    const auto behind = std::ranges::upper_bound(avoidable.events, here);
-    const auto at = std::ranges::lower_bound(avoidable.events, here);
-    if (way > 0 && behind != avoidable.events.end()) return to_event(workspace, *behind);
-    if (way < 0 && at != avoidable.events.begin()) return to_event(workspace, *(at - 1));
-    std::string why = avoidable.events.empty() ? "No overlap of this query was avoidable"
-                      : way > 0                ? "There is no later avoidable overlap"
-                                               : "There is no earlier avoidable overlap";
-    if (!avoidable.all_judged()) why.append(". ").append(judged_words(avoidable));
-    notifications.tell(MessageLevel::info, why);
-}
-
-/// Which side of the query in view the selected node is of; none if no node of it is selected.
-std::optional<int> side_of_node(const Workspace& workspace) {
-    if (!in_query(workspace) || workspace.selection.kind != Selection::Kind::node) return std::nullopt;
-    return index_in_view(workspace.fitted(), workspace.view(), workspace.selection.path);
-}
-
-/// To the next test of the selected node; behind the last one to the first again.
-void to_next_of_node(Workspace& workspace, Notifications& notifications) {
-    const bool of_a = *side_of_node(workspace) == 0;
-    const mobb::Trace& trace = workspace.recorded()->trace;
-    for (int i = 1; i <= trace.size(); ++i) {
-        const int event = (workspace.step() + i) % trace.size();
-        if ((of_a ? trace[event].a : trace[event].b) == workspace.selection.index) return to_event(workspace, event);
-    }
-    notifications.tell(MessageLevel::info, "The selected node is never tested: the search ended before it");
-}
-
-/// The next event of the same pair, or of the next pair that is not below it.
-std::optional<int> event_after_pair(const Workspace& workspace, const QueryInspector& queries) {
-    const std::shared_ptr<const QueryFindings> findings = queries.findings();
-    const int step = workspace.step();
-    const RecursionPair& pair = findings->recursion.pair_at(step);
-    const int next = step < pair.last ? step + 1 : pair.end;
-    return next < workspace.recorded()->trace.size() ? std::optional(next) : std::nullopt;
-}
-
-int parent_event(const Workspace& workspace) {
-    const mobb::Trace& trace = workspace.recorded()->trace;
-    return trace[workspace.step()].parent;
+void show_worst(CostInspector& costs, QueryInspector& queries, Keys& keys) {
+    costs.count([&] { queries.show(costs.costs()->by_tests.front()); });
+    keys.move = FocusMove::picture;
 }
 
 }  // namespace
@@ -311,6 +212,17 @@ std::vector<Command> query_commands() {
                      [](const Workspace& workspace) {
                          return workspace.view().query.value_or(query_total(workspace)) > 0;
                      }}),
+        Command("query.sort", "Sort queries by", "Lists queries in their order, or the costliest first.", sort_queries,
+                {.argument = "ORDER",
+                 .enabled = {has_queries, why_no_query},
+                 .choices =
+                     [](const Session&) { return std::vector<std::string>(kQueryOrders.begin(), kQueryOrders.end()); },
+                 .chosen =
+                     [](const CostInspector& costs, const std::string& text) {
+                         return kQueryOrders[static_cast<std::size_t>(costs.order)] == text;
+                     }}),
+        Command("query.worst", "Costliest query", "Shows the query with the most tests.", show_worst,
+                {.enabled = {has_queries, why_no_query}}),
         Command("query.none", "Close the query", "Leaves the query in view for the levels of all trees.", leave,
                 {.shortcut = "Q", .enabled = {in_query, why_no_step}}),
         Command("query.add", "Ask against", "Asks whether the selected agent collides with another.", add_against,
@@ -342,73 +254,6 @@ std::vector<Command> query_commands() {
                 "Writes the present answer into the scene: `mobbscope query` then says when it has changed.", expect,
                 {.enabled = [](const Workspace& workspace) { return edited_query(workspace).has_value(); },
                  .checked = is_expected}),
-        Command("step.first", "First step", "Shows the first test of the query.", first,
-                {.shortcut = "Shift+Left", .enabled = {has_queries, why_no_step}}),
-        Command("step.back", "Step back", "Shows the test before.", back,
-                {.shortcut = "Left", .repeats = true, .enabled = {has_queries, why_no_step}}),
-        Command("step.forward", "Step forward", "Shows the next test.", forward,
-                {.shortcut = "Right", .repeats = true, .enabled = {has_queries, why_no_step}}),
-        Command("step.last", "Last step", "Shows the last test, with the answer.", last,
-                {.shortcut = "Shift+Right", .enabled = {has_queries, why_no_step}}),
-        Command("step.before", "Step looked at before",
-                "Goes back to where the last jump, or the last run of single steps, began; once more comes back, so "
-                "that one key compares two steps.",
-                to_step_before, {.shortcut = "J", .enabled = {has_step_before, why_no_step_before}}),
-        Command("step.to", "Go to step", "Shows a test by its number from 0.", to,
-                {.menu = kNoMenu,
-                 .argument = "N",
-                 .enabled = {in_query, why_no_step},
-                 .present = [](const Workspace& workspace) { return std::to_string(workspace.step()); }}),
-        Command("step.next_separated", "Next separation",
-                "Shows the next test that found two boxes separated in space.",
-                [](Workspace& workspace, QueryInspector& queries, Notifications& notifications) {
-                    to_next(workspace, queries, notifications, Outcome::separated, "found boxes separated in space");
-                },
-                {.shortcut = "S", .enabled = {has_queries, why_no_step}}),
-        Command("step.next_overlap", "Next overlap",
-                "Shows the next test that found an overlap, so that the search went on below.",
-                [](Workspace& workspace, QueryInspector& queries, Notifications& notifications) {
-                    to_next(workspace, queries, notifications, Outcome::overlap, "found an overlap");
-                },
-                {.shortcut = "O", .enabled = {has_queries, why_no_step}}),
-        Command("step.next_avoidable", "Next avoidable overlap",
-                "Shows the next test that found an overlap although one line keeps the disks apart.", to_avoidable<1>,
-                {.shortcut = "U", .enabled = {has_queries, why_no_step}}),
-        Command("step.previous_avoidable", "Previous avoidable overlap",
-                "Shows the last test before that found an overlap although one line keeps the disks apart.",
-                to_avoidable<-1>, {.shortcut = "Shift+U", .enabled = {has_queries, why_no_step}}),
-        Command("step.next_hit", "Next hit", "Shows the test that found samples which collide.",
-                [](Workspace& workspace, QueryInspector& queries, Notifications& notifications) {
-                    to_next(workspace, queries, notifications, Outcome::hit, "found a hit");
-                },
-                {.shortcut = "H", .enabled = {has_queries, why_no_step}}),
-        Command("step.next_of_node", "Next test of the selected node",
-                "Shows the next test of the selected node, and behind the last one the first.", to_next_of_node,
-                {.enabled = {[](const Workspace& workspace) { return side_of_node(workspace).has_value(); },
-                             [](const Workspace& workspace) -> std::string_view {
-                                 return workspace.view().query ? "no node of the query is selected"
-                                                               : "no query is shown";
-                             }}}),
-        Command("step.over", "Step over", "Shows the next test that is not about parts of the present two nodes.",
-                [](Workspace& workspace, QueryInspector& queries) {
-                    to_event(workspace, *event_after_pair(workspace, queries));
-                },
-                {.shortcut = "Down",
-                 .repeats = true,
-                 .enabled = {[](const Workspace& workspace, const QueryInspector& queries) {
-                                 return in_query(workspace) && event_after_pair(workspace, queries);
-                             },
-                             why_no_step}}),
-        Command(
-            "step.out", "Step out", "Shows the test that led to the present one.",
-            [](Workspace& workspace) { to_event(workspace, parent_event(workspace)); },
-            {.shortcut = "Up",
-             .repeats = true,
-             .enabled = {[](const Workspace& workspace) { return in_query(workspace) && parent_event(workspace) >= 0; },
-                         why_no_step}}),
-        Command("step.percent", "Go to a percentage of the steps",
-                "Shows the test at a percentage of the way, 0 to 100.", percent,
-                {.menu = kNoMenu, .argument = "P", .enabled = {in_query, why_no_step}}),
     };
     return in_menu("Query", joined({rows, proof_commands()}));
 }

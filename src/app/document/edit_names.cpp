@@ -21,9 +21,16 @@ std::string words_of_step(const Step& step) {
         case Step::Unit::percent:
             return formatted("%.0f %%", step.value);
         case Step::Unit::end:
+            return "the last";
+        case Step::Unit::separated:
+        case Step::Unit::overlap:
+        case Step::Unit::hit:
+        case Step::Unit::avoidable:
+        case Step::Unit::leaf:
+        case Step::Unit::depth:
             break;
     }
-    return "the last";
+    return to_string(step);
 }
 
 std::string words_of_levels(const LevelRange& levels) {

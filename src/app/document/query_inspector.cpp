@@ -1,4 +1,7 @@
 #include <app/document/query_inspector.h>
+#include <base/text.h>
+#include <explain/query_sentence.h>
+#include <explain/reasons.h>
 
 #include <algorithm>
 #include <iterator>
@@ -7,6 +10,12 @@
 #include <utility>
 
 namespace mobbscope::app {
+
+namespace {
+
+constexpr std::size_t kMostBranches = 100;
+
+}  // namespace
 
 void QueryInspector::show(int query, std::optional<Step> step) {
     const auto looked_at = workspace_.document().steps.find(step_key(*workspace_.document().fitted, query));
@@ -36,12 +45,75 @@ std::shared_ptr<const QueryFindings> QueryInspector::findings() const {
     return d.findings;
 }
 
+Workspace::Derived::Focused& QueryInspector::focused() const {
+    const std::shared_ptr<const QueryFindings> found = findings();
+    std::optional<Workspace::Derived::Focused>& kept = workspace_.derived().focused;
+    const FocusWindow& window = workspace_.look.focus;
+    if (!kept || kept->window != window) {
+        kept = {window, events_in(found->recursion, window)};
+        workspace_.derived().listed_events.reset();
+    }
+    return *kept;
+}
+
+const InFocus& QueryInspector::in_focus() const { return focused().inside; }
+
+FocusCounts QueryInspector::counts_so_far() const {
+    auto& [at, counts] = focused().counts;
+    const int step = workspace_.step();
+    if (at == step) return counts;
+    counts = counts_in(in_focus(), workspace_.recorded()->trace, findings()->recursion, step);
+    at = step;
+    return counts;
+}
+
+FocusCounts QueryInspector::counts_in_all() const {
+    Workspace::Derived::Focused& now = focused();
+    const Recursion& recursion = findings()->recursion;
+    if (!now.in_all) {
+        const int last = static_cast<int>(recursion.pair_of.size()) - 1;
+        now.in_all = counts_in(now.inside, workspace_.recorded()->trace, recursion, last);
+    }
+    return *now.in_all;
+}
+
+const std::vector<BranchCost>& QueryInspector::branches() const {
+    Workspace::Derived::Focused& now = focused();
+    if (!now.branches) {
+        now.branches = costliest_branches(findings()->recursion, now.window, now.inside, kMostBranches);
+    }
+    return *now.branches;
+}
+
+std::optional<PlaceReasons> QueryInspector::reasons() const {
+    const std::shared_ptr<const QueryFindings> found = findings();
+    if (!found) return std::nullopt;
+    const QueryLook& look = workspace_.look;
+    if (look.sample) {
+        const DrawnAgent& side = found->sides[static_cast<std::size_t>(look.sample->side)];
+        return PlaceReasons{
+            "sample " + std::to_string(look.sample->index) + " of " + side.label,
+            end_pairs_of_sample(found->recursion, side.placed.tree(), look.sample->side, look.sample->index)};
+    }
+    if (look.point) {
+        return PlaceReasons{formatted("%.2f s by %.2f s", look.point->time_a, look.point->time_b),
+                            pairs_at(found->recursion, look.point->time_a, look.point->time_b)};
+    }
+    const std::optional<double>& time = workspace_.view().time;
+    if (!time) return std::nullopt;
+    return PlaceReasons{with_unit(*time, "s"), pairs_at(found->recursion, *time, *time)};
+}
+
 void QueryInspector::replace_recursion(const std::shared_ptr<const QueryFindings>& of, Recursion recursion) {
     std::shared_ptr<const QueryFindings>& now = workspace_.derived().findings;
     if (now != of) return;
     auto findings = std::make_shared<QueryFindings>(*of);
     findings->recursion = std::move(recursion);
     now = std::move(findings);
+    Workspace::Derived& d = workspace_.derived();
+    d.focused.reset();
+    d.passing.clear();
+    d.break_steps.reset();
 }
 
 EventValues QueryInspector::events() const {
@@ -88,6 +160,7 @@ void sort_as(std::vector<int>& steps, const EventValues& values, const EventList
 std::shared_ptr<const std::vector<int>> QueryInspector::listed_events() const {
     const EventValues values = events();
     const EventList& list = workspace_.events;
+    const InFocus& inside = in_focus();
     std::shared_ptr<const std::vector<int>>& known = workspace_.derived().listed_events;
     if (known) return known;
     std::vector<int> steps(static_cast<std::size_t>(values.size()));
@@ -96,6 +169,7 @@ std::shared_ptr<const std::vector<int>> QueryInspector::listed_events() const {
     } else {
         std::iota(steps.begin(), steps.end(), 0);
     }
+    if (!inside.empty()) std::erase_if(steps, [&](int step) { return inside[static_cast<std::size_t>(step)] == 0; });
     sort_as(steps, values, list);
     return known = std::make_shared<const std::vector<int>>(std::move(steps));
 }

@@ -59,12 +59,13 @@ const RecordedQuery* Workspace::recorded() const {
         d.passing.clear();
         d.break_steps.reset();
         d.listed_events.reset();
+        d.focused.reset();
         d.recorded.emplace(*view().query, fitted().recorded(static_cast<std::size_t>(*view().query)));
     }
     return d.recorded->second.get();
 }
 
-int Workspace::step() const { return event_of(view().step, recorded()->trace); }
+int Workspace::step() const { return event_of(view().step, recorded()->trace, fitted(), *view().query); }
 
 Scene Workspace::changed_scene(const std::function<void(Scene&)>& change) const {
     Scene next = scene();
@@ -90,7 +91,11 @@ void Workspace::edit_debug(const std::string& title, const std::function<void(De
     kept.findings_of = std::move(was.findings_of);
     kept.passing = std::move(was.passing);
     kept.listed_events = std::move(was.listed_events);
+    kept.focused = std::move(was.focused);
+    kept.costs = std::move(was.costs);
+    kept.sandwich = std::move(was.sandwich);
     derived_ = std::move(kept);
+    looked_at_.fitted = document().fitted;
     changed();
 }
 
@@ -146,12 +151,37 @@ void Workspace::changed() {
     selection = remapped(selection, *pointed_into_, fitted());
     hovered = remapped(hovered, *pointed_into_, fitted());
     pointed_into_ = shown();
-    const RecordedQuery* query = recorded();
-    if (query && view().step.unit == Step::Unit::event && view().step.value >= query->trace.size()) {
-        Document next = document();
-        next.view.step = {Step::Unit::end, 0};
-        history.amend(std::move(next));
+    settle_step();
+    settle_look();
+}
+
+/// A step that the trace does not have is its end; one that was found ("leaf:3") is an event from then on.
+void Workspace::settle_step() {
+    if (!recorded() || view().step.unit == Step::Unit::end || view().step.unit == Step::Unit::percent) return;
+    Step settled{Step::Unit::end, 0};
+    try {
+        settled = {Step::Unit::event, static_cast<double>(step())};
+    } catch (const ViewMismatch&) {
     }
+    if (settled == view().step) return;
+    Document next = document();
+    next.view.step = settled;
+    history.amend(std::move(next));
+}
+
+/// Branches and ranges are of one trace; who is asked about moves with the time cursor.
+void Workspace::settle_look() {
+    if (looked_at_.query != view().query) look = {};
+    if (looked_at_.fitted != document().fitted) {
+        look.focus.branch.reset();
+        look.zoom.reset();
+    }
+    if (looked_at_.time != view().time) {
+        look.sample.reset();
+        look.point.reset();
+    }
+    if (looked_at_.fitted != document().fitted || looked_at_.query != view().query) hovered_event = -1;
+    looked_at_ = {document().fitted, view().query, view().time};
 }
 
 void Workspace::remember_step(Document& next) {
@@ -172,17 +202,17 @@ void Workspace::remember_step(Document& next) {
         return;
     }
     if (next.view.step == view().step) return;
-    const mobb::Trace& trace = recorded()->trace;
     // One that was quoted may lie behind the end.
-    if (next.view.step.unit == Step::Unit::event && next.view.step.value >= trace.size())
+    if (next.view.step.unit == Step::Unit::event && next.view.step.value >= recorded()->trace.size())
         next.view.step = {Step::Unit::end, 0};
+    const auto event_at = [&](const Step& at) { return event_of(at, recorded()->trace, fitted(), *view().query); };
     const int was = step();
-    const int is = event_of(next.view.step, trace);
+    const int is = event_at(next.view.step);
     QuerySteps& looked_at = next.steps[from];
     const bool by_one = std::abs(is - was) == 1;
     const bool goes_on = std::exchange(stepping_, true) || (by_one && looked_at.by_one);
     // A run that comes back to where it began has turned round somewhere: that was seen before.
-    if (!goes_on || !looked_at.before || event_of(*looked_at.before, trace) == is) looked_at.before = view().step;
+    if (!goes_on || !looked_at.before || event_at(*looked_at.before) == is) looked_at.before = view().step;
     looked_at.by_one = by_one;
 }
 

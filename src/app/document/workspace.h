@@ -6,12 +6,15 @@
 #include <app/document/clip_import.h>
 #include <app/document/history.h>
 #include <app/document/job.h>
+#include <app/document/query_look.h>
 #include <app/document/selection.h>
 #include <app/document/settings.h>
 #include <app/document/visited_steps.h>
 #include <conflicts/conflicts.h>
 #include <crowd/simulation/choice.h>
+#include <explain/branch_costs.h>
 #include <explain/event_table.h>
+#include <explain/focus_window.h>
 #include <explain/query_findings.h>
 #include <mobb/level_figures.h>
 #include <render/drawlist/camera.h>
@@ -85,8 +88,10 @@ class Workspace {
     /// When files were written last that it is read from, as was seen last; none: they were not there.
     std::map<std::filesystem::path, std::optional<std::filesystem::file_time_type>> seen_files;
 
-    Selection selection;  ///< always of something that exists
-    Selection hovered;    ///< under the mouse in any panel
+    Selection selection;     ///< always of something that exists
+    Selection hovered;       ///< under the mouse in any panel
+    int hovered_event = -1;  ///< of the query in view, likewise; -1: none
+    QueryLook look;
 
     std::optional<Isolation> isolation;   ///< since agents were shown alone
     std::string filter;                   ///< lists show what has this text in its name; empty: all
@@ -175,6 +180,16 @@ class Workspace {
         std::map<std::string, PassingEvents> passing{};    ///< by filter; of `recorded`, too
         std::optional<std::vector<int>> break_steps{};
         std::shared_ptr<const std::vector<int>> listed_events{};
+        struct Focused {
+            FocusWindow window;
+            InFocus inside;
+            std::pair<int, FocusCounts> counts{-1, {}};  ///< up to a step
+            std::optional<FocusCounts> in_all{};
+            std::optional<std::vector<BranchCost>> branches{};
+        };
+        std::optional<Focused> focused{};  ///< of `findings`
+        std::optional<SceneCosts> costs{};
+        std::optional<Sandwich> sandwich{};
         std::map<std::size_t, Answer> answers{};
         std::map<int, std::vector<mobb::LevelFigures>> figures{};
         std::optional<std::vector<ClipGroup>> groups{};
@@ -189,10 +204,18 @@ class Workspace {
     /// another kind of trees goes on where it was left with that.
     void remember_step(Document& next);
     void share_time_and_camera();
+    void settle_step();
+    void settle_look();
 
     Settings* settings_;
     std::shared_ptr<const FittedScene> pointed_into_;  ///< what selection and hovered are of
     bool stepping_ = false;                            ///< the step was changed in the present interaction
+    struct LookedAt {
+        std::shared_ptr<const FittedScene> fitted;
+        std::optional<int> query;
+        std::optional<double> time;
+    };
+    LookedAt looked_at_;  ///< what `look` is of
     mutable Derived derived_;
     mutable ShownRun shown_;  ///< of the active view
 };

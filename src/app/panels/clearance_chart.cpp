@@ -107,7 +107,7 @@ void QueryPictures::clearance(Ui& ui, QueryInspector& queries, const QueryFindin
     const float right = at.x + static_cast<float>(width);
     Chart chart{at, {right, at.y + height - label}, time, {time.t0, time.t1, at.x, right}};
     const std::vector<ClearanceColumn>& columns = clearance_.of(
-        queries.findings(), width, 0, [&] { return columns_of(clearance, chart.time.t0, chart.time.t1, width); });
+        queries.findings(), {width, 0}, [&] { return columns_of(clearance, chart.time.t0, chart.time.t1, width); });
     double most = 0;
     for (const ClearanceColumn& column : columns) {
         if (column.any) most = std::max(most, column.most);
@@ -126,6 +126,11 @@ void QueryPictures::clearance(Ui& ui, QueryInspector& queries, const QueryFindin
             "contact");
     least_mark(list, ui.style, chart, least);
     ruler(ui, *ui.style.caption, chart.x, chart.max.y, " s");
+    if (const auto& focus = ui.workspace.look.focus.time) {
+        list.AddRectFilled({chart.x.pixel(std::max(focus->t0, time.t0)), chart.min.y},
+                           {chart.x.pixel(std::min(focus->t1, time.t1)), chart.max.y},
+                           to_im(with_alpha(ui.style.palette.accent, 0.2f)));
+    }
     if (const auto& now = ui.workspace.view().time; now && *now >= time.t0 && *now <= time.t1) {
         list.AddLine({chart.x.pixel(*now), chart.min.y}, {chart.x.pixel(*now), chart.max.y}, ui.style.accent,
                      ui.px(1.5f));
@@ -140,7 +145,12 @@ void QueryPictures::clearance(Ui& ui, QueryInspector& queries, const QueryFindin
         ImGui::SetTooltip("%s: only one of them is there", with_unit(t, "s").c_str());
     }
     if (!active) return;
-    if (ui.workspace.view().time != t) ui.invoke("time.at", formatted("%.17g", t));
+    const double from = std::clamp(chart.x.value(ImGui::GetIO().MouseClickedPos[0].x), chart.time.t0, chart.time.t1);
+    if (!ImGui::GetIO().KeyShift) {
+        if (ui.workspace.view().time != t) ui.invoke("time.at", formatted("%.17g", t));
+    } else if (from != t) {
+        ui.invoke("focus.time", formatted("%.17g:%.17g", std::min(from, t), std::max(from, t)));
+    }
 }
 
 }  // namespace mobbscope::app

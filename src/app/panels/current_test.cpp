@@ -5,6 +5,7 @@
 #include <explain/axis_intervals.h>
 #include <explain/clearance.h>
 #include <explain/query_sentence.h>
+#include <explain/reasons.h>
 
 #include <algorithm>
 #include <array>
@@ -177,6 +178,26 @@ void untried_axes(Ui& ui, const QueryFindings& findings, const mobb::Trace::Even
 
 constexpr std::size_t kMostPairs = 100;
 
+/// The number of a sample in a table: a click asks which tests ended the search for it.
+void sample_cell(Ui& ui, int side, int sample, ImU32 color) {
+    ImGui::TableNextColumn();
+    ImGui::PushID(side);
+    ImGui::PushFont(ui.style.mono);
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    const std::string text = std::to_string(sample);
+    if (ImGui::Selectable((text + "##" + std::to_string(ImGui::TableGetRowIndex())).c_str())) {
+        ui.invoke("reasons.of_sample", (side == 0 ? "a " : "b ") + text);
+    }
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+    ImGui::PopID();
+    ui.mark("sample." + std::string(side == 0 ? "a." : "b.") + text);
+    if (!ImGui::IsItemHovered()) return;
+    ui.hovered = {Selection::Kind::sample, agent_in_view(ui.workspace.fitted(), ui.workspace.view(), side), sample};
+    ui.hovered_event = ui.workspace.step();
+    ImGui::SetTooltip("Click for the tests that decided about it");
+}
+
 }  // namespace
 
 void current_test(Ui& ui, const QueryFindings& findings) {
@@ -194,6 +215,9 @@ void current_test(Ui& ui, const QueryFindings& findings) {
     ui.mark("query.test");
     node_line(ui, findings, 0, event.a);
     node_line(ui, findings, 1, event.b);
+    for (const std::string& ended : ended_words(findings.sides, findings.recursion, ui.workspace.step())) {
+        words(ui.style.quiet, ended + '.');
+    }
 }
 
 void why_axes(Ui& ui, const QueryFindings& findings) {
@@ -240,8 +264,8 @@ void measured_pairs(Ui& ui, const QueryFindings& findings) {
                 ImGui::TableNextColumn();
                 number(ui, shown, value, unit, color);
             };
-            cell(std::to_string(p.i), p.i, "");
-            cell(std::to_string(p.j), p.j, "");
+            sample_cell(ui, 0, p.i, color);
+            sample_cell(ui, 1, p.j, color);
             cell(formatted("%.3f", p.distance), p.distance, "m");
             cell(formatted("%.3f", radii(p)), radii(p), "m");
             cell(signed_metres(clearance(p)), clearance(p), "m");

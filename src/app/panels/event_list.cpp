@@ -187,7 +187,12 @@ void EventTable::row(Ui& ui, QueryInspector& queries, int index) const {
     // Arrows step as they go.
     if (clicked || (ui.focus.arrived_at_last() && step != ui.workspace.step()))
         ui.invoke("step.to", std::to_string(step));
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", step_sentence(queries.findings()->sides, trace, step).c_str());
+    if (ImGui::IsItemHovered()) {
+        ui.hovered_event = step;
+        ImGui::SetTooltip("%s", step_sentence(queries.findings()->sides, trace, step).c_str());
+    }
+    if (step == ui.workspace.hovered_event && index != present_)
+        ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg0, ImGui::GetColorU32(ImGuiCol_HeaderHovered));
     context_menu(ui, [&] { return test_menu(ui.workspace, queries, step); });
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     if (std::ranges::binary_search(queries.break_steps(), step)) {
@@ -209,7 +214,11 @@ void EventTable::row(Ui& ui, QueryInspector& queries, int index) const {
 void EventTable::table(Ui& ui, QueryInspector& queries) {
     const auto rows = queries.listed_events();
     if (std::exchange(rows_, rows) != rows) present_ = -2;
-    if (rows->empty()) return words(ui.style.quiet, "No event passes the filter.");
+    if (rows->empty()) {
+        const bool whole = ui.workspace.look.focus.is_all();
+        return words(ui.style.quiet,
+                     whole ? "No event passes the filter." : "No event of the focus passes the filter.");
+    }
     const int columns = static_cast<int>(event_columns().size());
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {ui.px(7), 0});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), 0});

@@ -85,6 +85,21 @@ void right_aligned(const std::string& text, float right, ImU32 color) {
     text_line(color, text);
 }
 
+/// What lists and counts are restricted to.
+void focus_line(Ui& ui, const QueryFindings& findings) {
+    const FocusWindow& focus = ui.workspace.look.focus;
+    if (focus.is_all()) return;
+    std::string text = "Focus:";
+    if (focus.branch) {
+        const RecursionPair& pair = findings.recursion.pairs[static_cast<std::size_t>(*focus.branch)];
+        text += ' ' + node_name(findings.sides[0], pair.a) + " / " + node_name(findings.sides[1], pair.b);
+    }
+    if (focus.time) text += formatted(" %.2f to %.2f s", focus.time->t0, focus.time->t1);
+    words(ui.style.accent, text);
+    flow(button_width("everything"));
+    query_button(ui, "everything", "focus.none");
+}
+
 /// What to do to see one.
 void no_query(Ui& ui) {
     if (!section(ui, "QUERY")) return;
@@ -110,11 +125,14 @@ void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures) {
     query_answer(ui, queries, *findings);
     proof_section(ui, *findings);
     if (!findings->recursion.pairs.empty()) {
+        focus_line(ui, *findings);
         step_transport(ui);
         current_test(ui, *findings);
+        reasons(ui, queries, *findings);
         why_axes(ui, *findings);
         measured_pairs(ui, *findings);
-        query_counters(ui, *findings);
+        costliest(ui, queries, ui.session.costs, *findings);
+        query_counters(ui, queries, *findings);
         break_when(ui, queries);
         bookmarks(ui);
         if (section(ui, "RECURSION: TIME OF A BY TIME OF B")) {
@@ -153,12 +171,15 @@ void recording_note(Ui& ui, const std::string& where) {
     ui.mark_only("query.stopped." + where);
 }
 
-void query_counters(Ui& ui, const QueryFindings& findings) {
-    if (!section(ui, "TESTS")) return;
+void query_counters(Ui& ui, QueryInspector& queries, const QueryFindings& findings) {
+    const bool whole = ui.workspace.look.focus.is_all();
+    if (!section(ui, "TESTS", whole ? "" : "in the focus")) return;
     const Recursion& recursion = findings.recursion;
-    const RecordedQuery& recorded = *ui.workspace.recorded();
-    const mobb::TestCounts& total = recorded.tests;
-    const mobb::TestCounts now = recorded.trace.counts(ui.workspace.step() + 1);
+    const mobb::TestCounts& of_query = ui.workspace.recorded()->tests;
+    FocusCounts total = queries.counts_in_all();
+    // All that were made are known where recording stopped, too.
+    if (whole) total.tests = of_query;
+    const FocusCounts now = queries.counts_so_far();
     const float left = ImGui::GetCursorPosX();
     const float room = ImGui::GetContentRegionAvail().x;
     const float first = left + 0.68f * room;
@@ -177,23 +198,22 @@ void query_counters(Ui& ui, const QueryFindings& findings) {
         ImGui::PopFont();
     };
     const auto tests = [&](const std::string& label, std::string_view doc, mobb::TestKind test) {
-        row(label, doc, now[test], total[test]);
+        row(label, doc, now.tests[test], total.tests[test]);
     };
     tests("time tests", "Do two nodes share time?", mobb::TestKind::time);
     for (const mobb::BoxKind kind : mobb::kBoxKinds) {
         const mobb::BoxInfo& box = mobb::info(kind);
-        if (box.in_paper || total[kind] > 0) tests(std::string(box.title) + " tests", box.test, kind);
+        if (box.in_paper || total.tests[kind] > 0) tests(std::string(box.title) + " tests", box.test, kind);
     }
     tests("sample pairs", "Pairs of disks whose distance was measured", mobb::TestKind::samples);
-    row("avoidable", "Box tests that found an overlap although one line keeps the disks apart",
-        recursion.avoidable.before(ui.workspace.step() + 1),
-        static_cast<std::int64_t>(recursion.avoidable.events.size()));
+    row("avoidable", "Box tests that found an overlap although one line keeps the disks apart", now.avoidable,
+        total.avoidable);
     ui.mark("query.avoidable");
     if (!recursion.avoidable.all_judged()) {
         words(ui.style.warning, judged_words(recursion.avoidable));
         query_button(ui, "Judge all", "query.judge");
     }
-    words(ui.style.quiet, gain_words(total, findings.clearance));
+    words(ui.style.quiet, gain_words(of_query, findings.clearance));
     recording_note(ui, "counters");
 }
 

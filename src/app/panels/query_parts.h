@@ -2,6 +2,7 @@
 /// cursor of the current ImGui window.
 #pragma once
 
+#include <app/document/query_look.h>
 #include <app/panels/event_list.h>
 #include <app/panels/recursion_picture.h>
 #include <app/ui/ui.h>
@@ -11,7 +12,6 @@
 
 #include <memory>
 #include <optional>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -34,7 +34,7 @@ struct LineRun {
 std::vector<LineRun> line_runs(const QueryProof& proof, const ChartAxis& time, std::optional<std::size_t> selected);
 /// The lines of the proof over their times, as bars with gaps; a click goes to one.
 void proof_bars(Ui& ui, const QueryFindings& findings, const ChartAxis& time, ImVec2 corner, ImVec2 size);
-void query_counters(Ui& ui, const QueryFindings& findings);
+void query_counters(Ui& ui, QueryInspector& queries, const QueryFindings& findings);
 /// Says where recording stopped, if it did: below whatever shows the whole trace, "query.stopped.<where>".
 void recording_note(Ui& ui, const std::string& where);
 /// Buttons that step, and the slider over the trace.
@@ -43,6 +43,10 @@ void step_transport(Ui& ui);
 void current_test(Ui& ui, const QueryFindings& findings);
 /// Both nodes projected on time and on every axis of a box test.
 void why_axes(Ui& ui, const QueryFindings& findings);
+/// Of a moment, a point of the recursion map or a sample: the tests that decided about it.
+void reasons(Ui& ui, QueryInspector& queries, const QueryFindings& findings);
+/// Where the tests are: branches of this query, or nodes over all queries of the scene.
+void costliest(Ui& ui, QueryInspector& queries, CostInspector& costs, const QueryFindings& findings);
 /// The pairs of samples that were measured.
 void measured_pairs(Ui& ui, const QueryFindings& findings);
 /// The scene's breakpoints, each with how often it holds here, and a field for another one.
@@ -81,33 +85,48 @@ class QueryPictures {
     /// The events of the trace as a strip, the present one marked; click and drag set the step. Nothing without a query
     /// in the view.
     void strip(Ui& ui, QueryInspector& queries, float width, float height);
-    /// The recursion, depth downwards; a click steps to a pair's first event. Nothing without a query in the view.
+    /// The way to the present pair, and the recursion, depth downwards: a click steps to a pair's last test, or to the
+    /// test that it is on. The wheel zooms it and the strip, a drag shifts it. Nothing without a query in the view.
     void icicle(Ui& ui, QueryInspector& queries, ImVec2 size);
 
     MapPicture map;
 
   private:
+    void shift_icicle(Ui& ui, const EventRange& range, int events, float width, float most_scroll);
+
+    /// What cells were made for.
+    struct Cut {
+        int width = 0, height = 0;  ///< pixels
+        EventRange range{};
+        FocusWindow focus{};
+        friend bool operator==(const Cut&, const Cut&) = default;
+    };
     template <class Cell>
     class Kept {
       public:
-        /// The cells of these findings at a size in pixels, made if they are not what is kept. Valid until the next
-        /// call.
+        /// The cells of these findings, made if they are not what is kept. Valid until the next call.
         template <class Make>
-        const std::vector<Cell>& of(const std::shared_ptr<const QueryFindings>& findings, int width, int height,
+        const std::vector<Cell>& of(const std::shared_ptr<const QueryFindings>& findings, const Cut& cut,
                                     const Make& make) {
-            const auto wanted = std::tuple(findings, width, height);
+            const auto wanted = std::pair(findings, cut);
             if (made_for_ != wanted) cells_ = make();
             made_for_ = wanted;
             return cells_;
         }
 
       private:
-        std::optional<std::tuple<std::shared_ptr<const QueryFindings>, int, int>> made_for_;
+        std::optional<std::pair<std::shared_ptr<const QueryFindings>, Cut>> made_for_;
         std::vector<Cell> cells_;
     };
     Kept<PairCell> square_, icicle_;
     Kept<ClearanceColumn> clearance_;
     Kept<StripCell> strip_;
+    float scroll_ = 0;   ///< of the icicle, pixels
+    int followed_ = -1;  ///< the step that was brought into strip and icicle last
+    struct {
+        EventRange range;
+        float scroll = 0;
+    } held_;  ///< when the drag of the icicle began
 };
 
 }  // namespace mobbscope::app

@@ -31,18 +31,20 @@ EventMark mark_of(const mobb::Trace& trace, const Recursion& recursion, int even
     return mark_of(found.test, found.outcome);
 }
 
-std::vector<StripCell> strip_cells(const mobb::Trace& trace, const Recursion& recursion, int width) {
-    const int events = trace.size();
+std::vector<StripCell> strip_cells(const mobb::Trace& trace, const Recursion& recursion, const ShownEvents& shown,
+                                   int width) {
+    const int events = shown.range.size();
     const int count = std::min(events, width);
     std::vector<StripCell> out;
     out.reserve(static_cast<std::size_t>(count));
     for (int c = 0; c < count; ++c) {
         StripCell cell;
-        cell.first = static_cast<int>(static_cast<std::int64_t>(c) * events / count);
-        cell.end = static_cast<int>(static_cast<std::int64_t>(c + 1) * events / count);
+        cell.first = shown.range.first + static_cast<int>(static_cast<std::int64_t>(c) * events / count);
+        cell.end = shown.range.first + static_cast<int>(static_cast<std::int64_t>(c + 1) * events / count);
         cell.x0 = static_cast<float>(c) * static_cast<float>(width) / static_cast<float>(count);
         cell.x1 = static_cast<float>(c + 1) * static_cast<float>(width) / static_cast<float>(count);
         for (int e = cell.first; e < cell.end; ++e) {
+            if (!shown.has(e)) continue;
             ++cell.marks[static_cast<std::size_t>(mark_of(trace, recursion, e))];
         }
         out.push_back(cell);
@@ -87,16 +89,25 @@ std::vector<PairCell> square_cells(const Recursion& recursion, mobb::Interval a,
     return out;
 }
 
-std::vector<PairCell> icicle_cells(const Recursion& recursion, int width, int row) {
+int icicle_row(float height, int depth, float scale) {
+    return static_cast<int>(std::clamp(height / static_cast<float>(std::max(1, depth)), 8 * scale, 20 * scale));
+}
+
+std::vector<PairCell> icicle_cells(const Recursion& recursion, const ShownEvents& shown, int width, int row) {
     std::vector<PairCell> out;
     std::vector<std::size_t> last(static_cast<std::size_t>(recursion.depth), SIZE_MAX);  // by depth: cell to the left
-    const double per_event = static_cast<double>(width) / static_cast<double>(recursion.pair_of.size());
+    const double per_event = static_cast<double>(width) / static_cast<double>(shown.range.size());
+    const auto pixel = [&](int event) {
+        return static_cast<int>(std::clamp((event - shown.range.first) * per_event, 0.0, static_cast<double>(width)));
+    };
     for (std::size_t i = 0; i < recursion.pairs.size(); ++i) {
         const RecursionPair& pair = recursion.pairs[i];
+        if (pair.first >= shown.range.end) break;
+        if (pair.end <= shown.range.first || !shown.has(pair.last)) continue;
         PairCell cell;
         cell.pair = static_cast<int>(i);
-        cell.x0 = std::min(static_cast<int>(pair.first * per_event), width - 1);
-        cell.x1 = std::max(static_cast<int>(pair.end * per_event), cell.x0 + 1);
+        cell.x0 = std::min(pixel(pair.first), width - 1);
+        cell.x1 = std::max(pixel(pair.end), cell.x0 + 1);
         cell.y0 = pair.depth * row;
         cell.y1 = cell.y0 + row;
         std::size_t& left = last[static_cast<std::size_t>(pair.depth)];

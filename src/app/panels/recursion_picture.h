@@ -1,6 +1,7 @@
 /// A recursion in pixels: what is too small to be seen apart is put together, and nothing that says more is lost.
 #pragma once
 
+#include <app/document/query_look.h>
 #include <app/ui/swatch.h>
 #include <explain/recursion.h>
 
@@ -17,9 +18,18 @@ struct StripCell {
     MarkCounts marks{};
 };
 
-/// All events of a trace side by side in `width` >= 1 pixels. No cell is narrower than a pixel, so a long trace has at
-/// most `width` of them.
-std::vector<StripCell> strip_cells(const mobb::Trace& trace, const Recursion& recursion, int width);
+/// Which events are shown.
+struct ShownEvents {
+    EventRange range;                ///< not empty
+    const InFocus* focus = nullptr;  ///< null or empty: all of them
+
+    bool has(int event) const { return !focus || focus->empty() || (*focus)[static_cast<std::size_t>(event)] != 0; }
+};
+
+/// Events of a trace side by side in `width` >= 1 pixels. No cell is narrower than a pixel, so a long trace has at most
+/// `width` of them. A cell has no marks of events out of focus.
+std::vector<StripCell> strip_cells(const mobb::Trace& trace, const Recursion& recursion, const ShownEvents& shown,
+                                   int width);
 
 /// A pair of nodes as a rectangle, or several that fall on the same pixels.
 struct PairCell {
@@ -33,8 +43,10 @@ struct PairCell {
 std::vector<PairCell> square_cells(const Recursion& recursion, mobb::Interval a, mobb::Interval b, int width,
                                    int height);
 
+/// Pixels of a row of an icicle so high and deep, at a scale: not too low to be clicked, even if not all fit.
+int icicle_row(float height, int depth, float scale);
 /// Pairs as the events of them and below them (to the right) by depth (downwards); rows of `row` pixels.
-std::vector<PairCell> icicle_cells(const Recursion& recursion, int width, int row);
+std::vector<PairCell> icicle_cells(const Recursion& recursion, const ShownEvents& shown, int width, int row);
 
 /// How a pair's outcome is shown, and an event's.
 EventMark mark_of(const RecursionPair& pair);

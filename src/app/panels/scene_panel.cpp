@@ -293,19 +293,40 @@ void clips(Ui& ui) {
     }
 }
 
-void query_list(Ui& ui, QueryInspector& queries) {
+/// The queries by their tests, and how these are spread; the order is chosen here.
+void query_costs(Ui& ui, const CostInspector& costs) {
+    const SceneCosts* known = costs.costs();
+    if (costs.order == CostInspector::Order::tests && known) {
+        const auto at = [&](double share) { return std::to_string(tests_at(*known, share)); };
+        words(ui.style.quiet, "tests: p50 " + at(0.5) + ", p95 " + at(0.95) + ", p99 " + at(0.99) + ", max " + at(1));
+        if (small_button(ui, "in their order", "queries.number")) ui.invoke("query.sort", "number");
+        flow(button_width("show the costliest"));
+        if (small_button(ui, "show the costliest", "queries.worst")) ui.invoke("query.worst");
+        return;
+    }
+    if (small_button(ui, "sort by tests", "queries.tests", "The costliest first, and how the tests are spread")) {
+        ui.invoke("query.sort", "tests");
+    }
+}
+
+void query_list(Ui& ui, QueryInspector& queries, const CostInspector& costs) {
     const auto count = static_cast<int>(ui.workspace.fitted().queries().size());
     const bool all_pairs = ui.workspace.scene().queries.empty() && count > 1;
     if (!section(ui, "QUERIES", (all_pairs ? "all pairs, " : "") + std::to_string(count))) return;
     const NameList names = names_of_agents(ui.workspace.fitted());
-    rows(ui, "##queries", count, kMostSceneRows, [&](int i) {
+    const std::vector<int> listed = costs.listed();
+    const bool by_tests = costs.order == CostInspector::Order::tests && costs.costs();
+    rows(ui, "##queries", count, kMostSceneRows, [&](int place) {
+        const int i = listed[static_cast<std::size_t>(place)];
         const SceneQuery query = ui.workspace.fitted().queries()[static_cast<std::size_t>(i)];
         const Answer& answer = queries.answer_of(static_cast<std::size_t>(i));
         const Selection self{Selection::Kind::query, {}, i};
         const bool hit = answer.contact.has_value();
         const bool unexpected = query.expect && query.expect->collides != hit;
         const Palette& palette = ui.style.palette;
-        const std::string found = hit ? formatted("hit %.2f s", answer.contact->time) : "miss";
+        const std::string found = by_tests ? counted(costs.costs()->tests[static_cast<std::size_t>(i)], "test", "tests")
+                                  : hit    ? formatted("hit %.2f s", answer.contact->time)
+                                           : "miss";
         if (row(ui, {.mark = "query." + std::to_string(i),
                      .name = query.a.name + " against " + query.b.name,
                      .remark = (unexpected ? "! " : "") + found,
@@ -324,6 +345,7 @@ void query_list(Ui& ui, QueryInspector& queries) {
         ImGui::SetTooltip("%s%s", sentence(query, answer.contact).c_str(),
                           unexpected ? "\nThe scene expects the other answer" : "");
     });
+    if (count > 1) query_costs(ui, costs);
     if (count == 0)
         words(ui.style.quiet,
               ui.workspace.scene().agents.empty() ? "agents are asked, bare clips are not" : "needs two agents");
@@ -340,7 +362,7 @@ void scene_panel(Ui& ui, QueryInspector& queries) {
     agents(ui);
     clips(ui);
     // A run is asked for its conflicts.
-    if (!ui.workspace.crowd()) query_list(ui, queries);
+    if (!ui.workspace.crowd()) query_list(ui, queries, ui.session.costs);
 }
 
 void selection_panel(Ui& ui) {

@@ -251,6 +251,7 @@ void step_transport(Ui& ui) {
     icon_button(ui, "step.forward", true, false);
     flow(icon);
     icon_button(ui, "step.last", true, true);
+    text_button(ui, "into", "step.into");
     text_button(ui, "over", "step.over");
     text_button(ui, "out", "step.out");
     ImGui::AlignTextToFramePadding();
@@ -259,6 +260,7 @@ void step_transport(Ui& ui) {
     text_button(ui, "overlap", "step.next_overlap");
     text_button(ui, "avoidable", "step.next_avoidable");
     text_button(ui, "hit", "step.next_hit");
+    text_button(ui, "leaf", "step.next_leaf");
     ImGui::PopStyleVar(2);
 
     recording_note(ui, "steps");

@@ -247,6 +247,7 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
         fold_side(Unfolded::right, "fold.right", screen ? std::string(panels[2].name) : of_crowd ? "crowd" : "query");
     }
     ui.workspace.hovered = ui.hovered;
+    ui.workspace.hovered_event = ui.hovered_event;
     status_bar(ui, ui.session.queries, {io.DisplaySize.x, status});
     ImGui::PopStyleVar();
     ImGui::End();

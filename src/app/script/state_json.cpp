@@ -1,6 +1,7 @@
 #include <app/script/state_json.h>
 #include <base/text.h>
 #include <explain/query_sentence.h>
+#include <explain/reasons.h>
 #include <render/drawlist/font.h>
 #include <render/pictures/candidates.h>
 #include <scene/scene_json.h>
@@ -127,6 +128,31 @@ Json query_json(const Workspace& workspace, const QueryInspector& queries, const
               {"sentence", step_sentence(sides, recorded->trace, workspace.step())},
               {"events", events_json(workspace, queries, settings.shows_events)}};
     if (recorded->trace.stopped()) json["all_events"] = recorded->trace.events();
+    return json;
+}
+
+/// Which part of the query is looked at, and what is pointed out in it.
+Json look_json(const Workspace& workspace, const QueryInspector& queries) {
+    const std::shared_ptr<const QueryFindings> findings = queries.findings();
+    if (!findings || findings->recursion.pairs.empty()) return nullptr;
+    const QueryLook& look = workspace.look;
+    Json json{{"hovered_event", workspace.hovered_event < 0 ? Json(nullptr) : Json(workspace.hovered_event)},
+              {"ended", ended_words(findings->sides, findings->recursion, workspace.step())},
+              {"focus", {{"branch", nullptr}, {"time", nullptr}, {"tests", queries.counts_in_all().tests.all()}}},
+              {"zoom", nullptr},
+              {"reasons", nullptr}};
+    if (look.focus.branch) {
+        json["focus"]["branch"] = findings->recursion.pairs[static_cast<std::size_t>(*look.focus.branch)].last;
+    }
+    if (look.focus.time) json["focus"]["time"] = {look.focus.time->t0, look.focus.time->t1};
+    if (look.zoom) json["zoom"] = {look.zoom->first, look.zoom->end - 1};
+    if (const std::optional<PlaceReasons> found = queries.reasons()) {
+        Json steps = Json::array();
+        for (const int pair : found->pairs) {
+            steps.push_back(findings->recursion.pairs[static_cast<std::size_t>(pair)].last);
+        }
+        json["reasons"] = {{"of", found->of}, {"steps", std::move(steps)}};
+    }
     return json;
 }
 
@@ -286,6 +312,7 @@ Json state_json(const Session& session) {
     json["selection"] = selection_json(session.workspace, session.workspace.selection);
     json["hovered"] = selection_json(session.workspace, session.workspace.hovered);
     json["query"] = query_json(session.workspace, session.queries, session.settings);
+    json["look"] = look_json(session.workspace, session.queries);
     json["crowd"] = crowd_json(session.workspace, session.crowds);
     if (Json map = map_json(session.maps); !map.is_null()) json["map"] = std::move(map);
     json["excerpt"] = session.workspace.in_excerpt();

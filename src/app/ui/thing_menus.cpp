@@ -27,8 +27,8 @@ constexpr auto kPicture = std::to_array<std::string_view>(
      "file.export_picture", "file.copy_command"});
 constexpr auto kNode =
     std::to_array<std::string_view>({"view.frame", "go.parent", "go.child", "step.next_of_node", "edit.copy_figures"});
-constexpr auto kSample =
-    std::to_array<std::string_view>({"view.frame", "go.parent", "view.projection", "edit.copy_figures"});
+constexpr auto kSample = std::to_array<std::string_view>(
+    {"view.frame", "reasons.of_selection", "go.parent", "view.projection", "edit.copy_figures"});
 constexpr auto kPath = std::to_array<std::string_view>({"view.frame", "go.child", "edit.copy_figures"});
 constexpr auto kAgent = std::to_array<std::string_view>(
     {"query.add", "agent.rename", "agent.duplicate", "agent.remove"});  ///< not of a run
@@ -178,6 +178,7 @@ std::vector<MenuEntry> test_menu(const Workspace& workspace, const QueryInspecto
     for (const auto& [side, node] : {std::pair(&sides[0], test.a), std::pair(&sides[1], test.b)}) {
         menu.push_back({"go.node", side->name + ' ' + std::to_string(node), "Select " + node_name(*side, node)});
     }
+    append(menu, {{"focus.branch", std::to_string(event)}, {"focus.none"}});
     const auto break_when = [&](const std::string& where, const std::string& what) {
         menu.push_back({"breakpoint.add", where, "Break when " + what});
     };
@@ -193,8 +194,11 @@ std::vector<MenuEntry> test_menu(const Workspace& workspace, const QueryInspecto
     return menu;
 }
 
-std::vector<MenuEntry> time_menu(const Session&, double time) {
+std::vector<MenuEntry> time_menu(const Session& session, double time) {
     std::vector<MenuEntry> menu{{"time.at", short_double(time), formatted("Time cursor to %.3f s", time)}};
+    if (session.workspace.view().query) {
+        menu.push_back({"reasons.at", short_double(time), formatted("Reasons at %.3f s", time)});
+    }
     append(menu, entries_of(kTime));
     return menu;
 }

@@ -80,6 +80,7 @@ struct Ui {
         0;  ///< in so many seconds another frame is wanted, whatever happens; infinity: none. Panels lower it
 
     Selection hovered{};       ///< what is under the mouse in this frame, in any panel: the session's in the next
+    int hovered_event = -1;    ///< likewise, of the query in view
     double frame_seconds = 0;  ///< that the last frame took; 0: not to be shown, as it is never the same
 
     /// Names the last widget for scripts.

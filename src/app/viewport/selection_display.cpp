@@ -5,6 +5,8 @@
 #include <render/parts/highlights.h>
 #include <scene/arrangement.h>
 
+#include <utility>
+
 namespace mobbscope::app {
 
 namespace {
@@ -26,6 +28,19 @@ void add_highlight_of(DrawList& list, const Session& session, const Selection& w
     DrawnAgent drawn = drawn_agent_of(fitted, *who);
     drawn.placed = {fitted.tree(who->clip), shown_placement(fitted, session.workspace.view(), *who)};
     add_highlight(list, drawn, what.part(), role, scale);
+}
+
+/// The two nodes of the event that is under the mouse in another panel.
+void add_hovered_event(DrawList& list, const Session& session, float scale) {
+    const Workspace& workspace = session.workspace;
+    const RecordedQuery* query = workspace.recorded();
+    const int event = workspace.hovered_event;
+    if (!query || event < 0 || event >= query->trace.size() || workspace.hovered.on_path()) return;
+    const mobb::Trace::Event test = query->trace[event];
+    for (const auto& [side, node] : {std::pair(0, test.a), std::pair(1, test.b)}) {
+        const AgentRef path = agent_in_view(workspace.fitted(), workspace.view(), side);
+        add_highlight_of(list, session, {Selection::Kind::node, path, node}, Role::hover, scale);
+    }
 }
 
 void add_candidate(DrawList& list, const Session& session, float scale) {
@@ -56,6 +71,7 @@ void add_highlights(DrawList& list, const Session& session, float scale) {
     if (session.workspace.hovered != session.workspace.selection) {
         add_highlight_of(list, session, session.workspace.hovered, Role::hover, scale);
     }
+    add_hovered_event(list, session, scale);
     add_candidate(list, session, scale);
     add_other_of_conflict(list, session, scale);
 }

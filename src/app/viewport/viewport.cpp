@@ -387,6 +387,22 @@ void Viewport::name_trees(const Ui& ui, ImVec2 corner) const {
 
 // --- the mouse
 
+namespace {
+
+/// The last event up to the present one that tested a node of the query in view; -1: none.
+int event_of_node(const Workspace& workspace, const Selection& node) {
+    if (!workspace.recorded() || node.kind != Selection::Kind::node) return -1;
+    const auto side = index_in_view(workspace.fitted(), workspace.view(), node.path);
+    const mobb::Trace& trace = workspace.recorded()->trace;
+    for (int event = side ? workspace.step() : -1; event >= 0; --event) {
+        const mobb::Trace::Event test = trace[event];
+        if ((*side == 0 ? test.a : test.b) == node.index) return event;
+    }
+    return -1;
+}
+
+}  // namespace
+
 void Viewport::move_camera(Ui& ui, const Camera& camera) {
     // The camera stands in a scene whose time is drawn so high.
     const std::optional<double> height = list_->moment ? std::nullopt : std::optional<double>(list_->space.time_height);
@@ -558,6 +574,7 @@ void Viewport::hover(Ui& ui, glm::vec2 pixel) {
     const ObjectId& id = hits.front().id;
     place_ = hits.front().place;
     ui.hovered = selection_of(ui.workspace, id);
+    ui.hovered_event = event_of_node(ui.workspace, ui.hovered);
 }
 
 /// The first click takes what is in front, one more at the same place what lies behind it; on nothing, nothing.

@@ -85,7 +85,7 @@ class SpaceTimePicture final : public Picture {
     void ask(KeptPaths& kept) {
         recorded_ = &kept.recorded(view_);
         const mobb::Trace& trace = recorded_->trace;
-        progress_ = progress_at(trace, event_of(view_.step, trace), view_.past);
+        progress_ = progress_at(trace, event_of(view_.step, trace, fitted_, *view_.query), view_.past);
         if (view_.proof)
             progress_->avoidable = avoidable_overlap(agents_[0].placed, agents_[1].placed, progress_->event);
         const bool last_step = progress_->step + 1 == trace.size();

@@ -1,0 +1,42 @@
+/// What the queries of the scene cost, in all and by node.
+#pragma once
+
+#include <app/document/workspace.h>
+#include <app/session/jobs.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mobbscope::app {
+
+class CostInspector {
+  public:
+    CostInspector(Workspace& workspace, Jobs& jobs) : workspace_(workspace), jobs_(jobs) {}
+
+    enum class Of { query, scene };
+    Of branches_of = Of::query;  ///< whose branches are listed
+    enum class Order { number, tests };
+    Order order = Order::number;  ///< of the list of queries
+
+    /// Null until they were counted.
+    const SceneCosts* costs() const;
+    /// Counts them, in the background where that takes long; at once if they are known. A worst query that was asked
+    /// for is shown then.
+    void count(std::function<void()> then = {});
+    /// Of the node that was asked for last; null: of none.
+    const Sandwich* sandwich() const;
+    void show_sandwich(TreeNode node);
+
+    /// The queries in the order of their list.
+    std::vector<int> listed() const;
+
+  private:
+    Workspace& workspace_;
+    Jobs& jobs_;
+};
+
+/// "walk 2.1": a node of a clip's tree.
+std::string tree_node_name(const Workspace& workspace, TreeNode node);
+
+}  // namespace mobbscope::app
