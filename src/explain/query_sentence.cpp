@@ -103,7 +103,7 @@ std::string short_outcome(std::span<const DrawnAgent> sides, const mobb::Trace::
         case mobb::Outcome::disjoint_in_time:
             return "apart in time";
         case mobb::Outcome::separated:
-            return separating_axis(sides, event) + ' ' + with_unit(event.gap, "m");
+            return separating_axis_words(sides, event) + ' ' + with_unit(event.gap, "m");
         case mobb::Outcome::overlap:
             return event.test == mobb::TestKind::time ? "share time" : "overlap";
         case mobb::Outcome::hit:

@@ -154,6 +154,18 @@ TEST(Debugger, TheListIsSortedByItsHeadings) {
     EXPECT_EQ(all_messages(w.session), "The list of events begins here\n");
 }
 
+TEST(Debugger, ARowUnderTheMouseIsItsEventEverywhere) {
+    DebuggerWindow w;
+    w.key("R");
+    w.window.shell().feed(MouseMove{w.at("events.row.2").center()});
+    w.window.settle();
+    EXPECT_EQ(w.session.workspace.hovered_event, 2);
+    // A breakpoint changes no event: the focus stays.
+    run_command(w.session, "focus.branch", "0");
+    run_command(w.session, "breakpoint.add", "outcome = overlap");
+    EXPECT_EQ(w.session.workspace.look.focus.branch, 0);
+}
+
 TEST(Debugger, TheRowOfThePresentStepIsSeen) {
     DebuggerWindow w;
     w.key("R");

@@ -24,8 +24,8 @@ struct LongTraceWindow {
     bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
 };
 
-constexpr std::array kNotes{"query.stopped.steps", "query.stopped.counters", "query.stopped.square",
-                            "timeline.stopped"};
+constexpr std::array kNotes{"query.stopped.steps",    "query.stopped.reasons", "query.stopped.branches",
+                            "query.stopped.counters", "query.stopped.square",  "timeline.stopped"};
 
 TEST(LongTrace, ThePictureAndThePanelsShareOneRecord) {
     LongTraceWindow w;
@@ -46,8 +46,11 @@ TEST(LongTrace, EveryPanelSaysWhereRecordingStopped) {
         record(w.session.workspace.fitted(), w.session.workspace.fitted().queries()[0], Search::trees, {.events = 9}));
     Workspace::Derived& derived = w.session.workspace.derived();
     derived.recorded.emplace(0, stopped);
-    derived.findings.reset();
-    w.session.workspace.change_view([](ViewState& view) { view.step = {Step::Unit::event, 4}; });
+    derived.forget_findings();
+    w.session.workspace.change_view([](ViewState& view) {
+        view.step = {Step::Unit::event, 4};
+        view.time = 0.5;
+    });
     w.window.settle();
     for (const char* note : kNotes) EXPECT_TRUE(w.has(note)) << note;
     EXPECT_EQ(recording_words(w.session.workspace.recorded()->trace),

@@ -105,15 +105,12 @@ std::optional<PlaceReasons> QueryInspector::reasons() const {
 }
 
 void QueryInspector::replace_recursion(const std::shared_ptr<const QueryFindings>& of, Recursion recursion) {
-    std::shared_ptr<const QueryFindings>& now = workspace_.derived().findings;
-    if (now != of) return;
+    Workspace::Derived& d = workspace_.derived();
+    if (d.findings != of) return;
     auto findings = std::make_shared<QueryFindings>(*of);
     findings->recursion = std::move(recursion);
-    now = std::move(findings);
-    Workspace::Derived& d = workspace_.derived();
-    d.focused.reset();
-    d.passing.clear();
-    d.break_steps.reset();
+    d.forget_findings();
+    d.findings = std::move(findings);
 }
 
 EventValues QueryInspector::events() const {

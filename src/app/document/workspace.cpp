@@ -55,11 +55,7 @@ const RecordedQuery* Workspace::recorded() const {
     if (!view().query) return nullptr;
     Derived& d = derived();
     if (!d.recorded || d.recorded->first != *view().query) {
-        d.findings.reset();
-        d.passing.clear();
-        d.break_steps.reset();
-        d.listed_events.reset();
-        d.focused.reset();
+        d.forget_findings();
         d.recorded.emplace(*view().query, fitted().recorded(static_cast<std::size_t>(*view().query)));
     }
     return d.recorded->second.get();

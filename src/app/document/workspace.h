@@ -188,6 +188,14 @@ class Workspace {
             std::optional<std::vector<BranchCost>> branches{};
         };
         std::optional<Focused> focused{};  ///< of `findings`
+        /// With all that follows from them.
+        void forget_findings() {
+            findings.reset();
+            passing.clear();
+            break_steps.reset();
+            listed_events.reset();
+            focused.reset();
+        }
         std::optional<SceneCosts> costs{};
         std::optional<Sandwich> sandwich{};
         std::map<std::size_t, Answer> answers{};

@@ -124,6 +124,7 @@ void costliest(Ui& ui, QueryInspector& queries, CostInspector& costs, const Quer
         of_scene(ui, costs);
     } else {
         of_query(ui, queries, findings);
+        recording_note(ui, "branches");
     }
 }
 

@@ -64,9 +64,11 @@ void reasons(Ui& ui, QueryInspector& queries, const QueryFindings& findings) {
     rows(ui, "##reasons", static_cast<int>(pairs.size()), kMostReasonRows, [&](int i) {
         pair_row(ui, queries, findings, pairs[static_cast<std::size_t>(i)], "reason." + std::to_string(i));
     });
-    if (!of_sample && findings.recursion.pairs[static_cast<std::size_t>(pairs.back())].has_children()) {
+    const bool stopped = ui.workspace.recorded()->trace.stopped();
+    if (!of_sample && !stopped && findings.recursion.pairs[static_cast<std::size_t>(pairs.back())].has_children()) {
         words(ui.style.quiet, "The search ended with a hit before it came to this moment.");
     }
+    recording_note(ui, "reasons");
     query_button(ui, "clear", "reasons.none");
 }
 
