@@ -92,7 +92,7 @@ class QueryPictures {
     MapPicture map;
 
   private:
-    void shift_icicle(Ui& ui, const EventRange& range, int events, float width, float most_scroll);
+    void shift_icicle(Ui& ui, const EventRange& range, int count, float width, float most_scroll);
 
     /// What cells were made for.
     struct Cut {

@@ -399,14 +399,14 @@ void QueryPictures::square(Ui& ui, QueryInspector& queries, const QueryFindings&
     }
 }
 
-void QueryPictures::shift_icicle(Ui& ui, const EventRange& range, int events, float width, float most_scroll) {
+void QueryPictures::shift_icicle(Ui& ui, const EventRange& range, int count, float width, float most_scroll) {
     const ImGuiIO& io = ImGui::GetIO();
     if (ImGui::IsItemActivated()) held_ = {range, scroll_};
     if (ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left)) {
         const ImVec2 by = ImGui::GetMouseDragDelta(ImGuiMouseButton_Left);
         const double first = held_.range.first - static_cast<double>(by.x / width) * held_.range.size();
-        const EventRange wanted = range_at(first, held_.range.size(), events);
-        if (wanted != range) set_zoom(ui, wanted, events);
+        const EventRange wanted = range_at(first, held_.range.size(), count);
+        if (wanted != range) set_zoom(ui, wanted, count);
         scroll_ = held_.scroll - by.y;
     }
     if (ImGui::IsItemHovered() && io.KeyShift) scroll_ -= io.MouseWheel * ui.px(30);
@@ -419,7 +419,7 @@ void QueryPictures::icicle(Ui& ui, QueryInspector& queries, ImVec2 size) {
     if (!findings || findings->recursion.pairs.empty() || width < 1) return;
     const Recursion& recursion = findings->recursion;
     const mobb::Trace& trace = ui.workspace.recorded()->trace;
-    const int events = trace.size();
+    const int count = trace.size();
     const int step = ui.workspace.step();
     const int present = recursion.pair_of[static_cast<std::size_t>(step)];
     if (size.y > 4 * ImGui::GetFontSize()) {
@@ -441,11 +441,11 @@ void QueryPictures::icicle(Ui& ui, QueryInspector& queries, ImVec2 size) {
     if (std::exchange(followed_, step) != step) {
         scroll_ = std::clamp(scroll_, static_cast<float>((depth + 1) * row) - size.y, static_cast<float>(depth * row));
         if (step < range.first || step >= range.end) {
-            set_zoom(ui, range_at(step - 0.5 * range.size(), range.size(), events), events);
+            set_zoom(ui, range_at(step - 0.5 * range.size(), range.size(), count), count);
         }
     }
-    shift_icicle(ui, range, events, size.x, most_scroll);
-    zoom_by_wheel(ui, range, events, corner.x, size.x);
+    shift_icicle(ui, range, count, size.x, most_scroll);
+    zoom_by_wheel(ui, range, count, corner.x, size.x);
     const ImVec2 at{corner.x, corner.y - std::floor(scroll_)};
     cell_menu(ui, queries, recursion, cells, at);
     const bool hovered = ImGui::IsItemHovered();
@@ -487,7 +487,7 @@ void QueryPictures::icicle(Ui& ui, QueryInspector& queries, ImVec2 size) {
         list.AddRectFilled({right - ui.px(3), top}, {right, top + size.y / whole * size.y}, ui.style.quiet, ui.px(1));
     }
     list.PopClipRect();
-    if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) set_zoom(ui, {0, events}, events);
+    if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) set_zoom(ui, {0, count}, count);
     if (!hovered || !under || held) return;
     const RecursionPair& pair = recursion.pairs[static_cast<std::size_t>(under->pair)];
     const int event = under->merged > 1 ? pair.last : tests.event_at(pair, {io.MousePos.x, io.MousePos.y - at.y});
