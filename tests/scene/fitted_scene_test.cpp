@@ -132,7 +132,7 @@ TEST(FittedScene, WhoeverAsksForAQuerysRecordGetsTheOneThatIsHeld) {
 }
 
 TEST(FittedScene, AnAnswerSaysWhereRecordingStopped) {
-    const FittedScene fitted(head_on(), {});
+    const FittedScene fitted(head_on(), {.leaf = 1});
     const SceneQuery query = fitted.queries()[0];
     const auto json = [&](const mobb::TraceBound& bound) {
         RecordedQuery recorded = record(fitted, query, Search::trees, bound);
