@@ -120,7 +120,8 @@ TEST(Proof, ItsRowsBarsAndKeysGoToItsLines) {
 
 TEST(Proof, ItsIntervalsInTheRecursionSquareAreClicked) {
     ProofWindow w;
-    for (const char* section : {"steps", "this test", "in time", "along each axis", "tests", "the proof"})
+    for (const char* section :
+         {"steps", "this test", "reasons", "in time", "along each axis", "costliest branches", "tests", "the proof"})
         if (w.has("section." + std::string(section))) w.click(w.at("section." + std::string(section)));
     ASSERT_TRUE(w.has("query.square"));
     const Rect square = w.window.shell().marks().all().at("query.square");

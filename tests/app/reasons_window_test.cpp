@@ -27,7 +27,7 @@ struct PassingWorld {
     Session session{false};
     HeadlessWindow window;
 
-    explicit PassingWorld(PictureSize size = {1280, 1900})
+    explicit PassingWorld(PictureSize size = {1280, 2800})
         : window(GlContext::open(Backend::automatic), session, size, 1) {
         folder.write("scene.json", R"({
             "clips": {"walk": {"source": "walk.csv"}},
@@ -185,7 +185,7 @@ TEST(ReasonsWindow, StripAndIcicleZoomByTheWheelAroundTheMouse) {
     // A step outside is brought in.
     w.run("run step.last");
     EXPECT_EQ(w.session.workspace.look.zoom->end, events);
-    w.run("key Z");
+    w.run("key Shift+Home");
     EXPECT_FALSE(w.session.workspace.look.zoom);
     w.run("run recursion.zoom 3:20\nexpect /look/zoom [3, 20]\nscroll query.icicle -30");
     EXPECT_FALSE(w.session.workspace.look.zoom) << "out to the whole";

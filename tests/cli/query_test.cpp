@@ -65,7 +65,9 @@ TEST(Query, WhereTellsOnlyWhatPasses) {
     const json whole = results({"query", file, "--json", "--trace"})[0]["trace"];
     const json passing = results({"query", file, "--json", "--where", "outcome = separated and gap < 0.5"})[0]["trace"];
     std::size_t wanted = 0;
-    for (const json& event : whole) wanted += event["outcome"] == "separated" && event["gap"] < 0.5 ? 1 : 0;
+    for (const json& event : whole) {
+        if (event["outcome"] == "separated" && event["gap"] < 0.5) ++wanted;
+    }
     EXPECT_GT(wanted, 0u);
     EXPECT_EQ(passing.size(), wanted);
     const json judged = results({"query", file, "--json", "--where", "avoidable"})[0];

@@ -49,6 +49,8 @@ void reasons(Ui& ui, QueryInspector& queries, const QueryFindings& findings);
 void costliest(Ui& ui, QueryInspector& queries, CostInspector& costs, const QueryFindings& findings);
 /// The pairs of samples that were measured.
 void measured_pairs(Ui& ui, const QueryFindings& findings);
+/// The pairs from the root to the present one, each a button, in what room the line has; those in the middle give way.
+void way_to_pair(Ui& ui, const QueryFindings& findings);
 /// The scene's breakpoints, each with how often it holds here, and a field for another one.
 void break_when(Ui& ui, QueryInspector& queries);
 /// The scene's bookmarks, with the notes on them.
@@ -85,7 +87,7 @@ class QueryPictures {
     /// The events of the trace as a strip, the present one marked; click and drag set the step. Nothing without a query
     /// in the view.
     void strip(Ui& ui, QueryInspector& queries, float width, float height);
-    /// The way to the present pair, and the recursion, depth downwards: a click steps to a pair's last test, or to the
+    /// The recursion, depth downwards: a click steps to a pair's last test, or to the
     /// test that it is on. The wheel zooms it and the strip, a drag shifts it. Nothing without a query in the view.
     void icicle(Ui& ui, QueryInspector& queries, ImVec2 size);
 

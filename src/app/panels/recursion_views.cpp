@@ -243,46 +243,6 @@ void draw_label(Ui& ui, const QueryFindings& findings, const RecursionPair& pair
     }
 }
 
-/// The pairs from the root to this one, each a button; those in the middle give way.
-void way_to(Ui& ui, const QueryFindings& findings, int pair, float width) {
-    std::vector<int> chain;
-    for (int at = pair; at >= 0; at = findings.recursion.pairs[static_cast<std::size_t>(at)].parent)
-        chain.push_back(at);
-    std::ranges::reverse(chain);
-    ImGui::PushFont(ui.style.caption);
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(2), 0});
-    ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32_BLACK_TRANS);
-    const auto label = [&](int at) {
-        const RecursionPair& of = findings.recursion.pairs[static_cast<std::size_t>(at)];
-        return node_name(findings.sides[0], of.a) + " / " + node_name(findings.sides[1], of.b);
-    };
-    const float between = button_width(">");
-    const auto room_of = [&](int at) { return button_width(label(at).c_str()) + between; };
-    float room = width - room_of(chain.front()) - between;
-    std::size_t from = chain.size();
-    while (from > 1 && room_of(chain[from - 1]) <= room) room -= room_of(chain[--from]);
-    const auto crumb = [&](std::size_t i) {
-        if (i > 0) {
-            ImGui::SameLine(0, 0);
-            text_line(ui.style.quiet, i == from && from > 1 ? " \u2026 " : " \u203A ");
-            ImGui::SameLine(0, 0);
-        }
-        const RecursionPair& of = findings.recursion.pairs[static_cast<std::size_t>(chain[i])];
-        ImGui::PushStyleColor(ImGuiCol_Text, i + 1 == chain.size() ? ui.style.text : ui.style.quiet);
-        const std::string mark = "crumb." + std::to_string(i);
-        ImGui::PushID(static_cast<int>(i));
-        if (small_button(ui, label(chain[i]).c_str(), mark)) ui.invoke("step.to", std::to_string(of.last));
-        ImGui::PopID();
-        ImGui::PopStyleColor();
-        if (ImGui::IsItemHovered()) ui.hovered_event = of.last;
-    };
-    crumb(0);
-    for (std::size_t i = from; i < chain.size(); ++i) crumb(i);
-    ImGui::PopStyleColor();
-    ImGui::PopStyleVar();
-    ImGui::PopFont();
-}
-
 /// How much of the strip's height an event takes: what says more stands taller.
 constexpr std::array<float, kEventMarks> kHeights{0.14f, 0.3f, 0.55f, 0.7f, 0.7f, 0.85f, 1.0f};
 
@@ -315,6 +275,46 @@ std::string tooltip(const QueryFindings& findings, const mobb::Trace& trace, con
 }
 
 }  // namespace
+
+void way_to_pair(Ui& ui, const QueryFindings& findings) {
+    const int pair = findings.recursion.pair_of[static_cast<std::size_t>(ui.workspace.step())];
+    std::vector<int> chain;
+    for (int at = pair; at >= 0; at = findings.recursion.pairs[static_cast<std::size_t>(at)].parent)
+        chain.push_back(at);
+    std::ranges::reverse(chain);
+    ImGui::PushFont(ui.style.caption);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(2), ui.px(1)});
+    ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32_BLACK_TRANS);
+    const auto label = [&](int at) {
+        const RecursionPair& of = findings.recursion.pairs[static_cast<std::size_t>(at)];
+        return node_name(findings.sides[0], of.a) + " / " + node_name(findings.sides[1], of.b);
+    };
+    const float between = button_width(">");
+    const auto room_of = [&](int at) { return button_width(label(at).c_str()) + between; };
+    float room = ImGui::GetContentRegionAvail().x - room_of(chain.front()) - between;
+    std::size_t from = chain.size();
+    while (from > 1 && room_of(chain[from - 1]) <= room) room -= room_of(chain[--from]);
+    const auto crumb = [&](std::size_t i) {
+        if (i > 0) {
+            ImGui::SameLine(0, 0);
+            text_line(ui.style.quiet, i == from && from > 1 ? " \u2026 " : " \u203A ");
+            ImGui::SameLine(0, 0);
+        }
+        const RecursionPair& of = findings.recursion.pairs[static_cast<std::size_t>(chain[i])];
+        ImGui::PushStyleColor(ImGuiCol_Text, i + 1 == chain.size() ? ui.style.text : ui.style.quiet);
+        const std::string mark = "crumb." + std::to_string(i);
+        ImGui::PushID(static_cast<int>(i));
+        if (small_button(ui, label(chain[i]).c_str(), mark)) ui.invoke("step.to", std::to_string(of.last));
+        ImGui::PopID();
+        ImGui::PopStyleColor();
+        if (ImGui::IsItemHovered()) ui.hovered_event = of.last;
+    };
+    crumb(0);
+    for (std::size_t i = from; i < chain.size(); ++i) crumb(i);
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar();
+    ImGui::PopFont();
+}
 
 void QueryPictures::square(Ui& ui, QueryInspector& queries, const QueryFindings& findings) {
     const Recursion& recursion = findings.recursion;
@@ -422,11 +422,6 @@ void QueryPictures::icicle(Ui& ui, QueryInspector& queries, ImVec2 size) {
     const int count = trace.size();
     const int step = ui.workspace.step();
     const int present = recursion.pair_of[static_cast<std::size_t>(step)];
-    if (size.y > 4 * ImGui::GetFontSize()) {
-        const float top = ImGui::GetCursorPosY();
-        way_to(ui, *findings, present, size.x);
-        size.y -= ImGui::GetCursorPosY() - top;
-    }
     const EventRange range = shown_range(ui.workspace);
     const ShownEvents shown{range, &queries.in_focus()};
     const int row = icicle_row(size.y, recursion.depth, ui.style.scale);

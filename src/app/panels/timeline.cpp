@@ -228,11 +228,14 @@ void timeline(Ui& ui, Playback& playback, QueryInspector& queries, QueryPictures
     if (steps) {
         step_row(ui, queries, pictures);
         event_tabs(ui);
-        const ImVec2 room = ImGui::GetContentRegionAvail();
+        const std::shared_ptr<const QueryFindings> findings = queries.findings();
         if (shows_event_list(ui, queries)) {
             pictures.events.draw(ui, queries);
-        } else if (room.y > ui.px(24)) {
-            pictures.icicle(ui, queries, room);
+        } else if (!findings->recursion.pairs.empty()) {
+            ImGui::SameLine(0, ui.px(18));
+            way_to_pair(ui, *findings);
+            const ImVec2 room = ImGui::GetContentRegionAvail();
+            if (room.y > ui.px(24)) pictures.icicle(ui, queries, room);
         }
     }
     ImGui::PopID();
