@@ -32,7 +32,7 @@ struct DebuggerWindow {
     testing::TestDesktop desktop;
     HeadlessWindow window;
 
-    DebuggerWindow() : window(GlContext::open(Backend::automatic), session, {1440, 2800}, 1) {
+    DebuggerWindow() : window(GlContext::open(Backend::automatic), session, {1440, 3400}, 1) {
         session.desktop = &desktop;
         session.files.open({scene});
         run_command(session, "query.select", "0");

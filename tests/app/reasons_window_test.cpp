@@ -81,12 +81,13 @@ TEST(ReasonsWindow, AMomentListsTheTestsThatDecidedAboutIt) {
 
 TEST(ReasonsWindow, APointOfTheMapAndASampleDoSoToo) {
     PassingWorld w;
-    const Rect square = w.mark("query.square");
+    Rect square = w.mark("query.square");
     w.run("click " + w.at(square.min.x + 0.75 * square.size().x, square.min.y + 0.85 * square.size().y));
     ASSERT_TRUE(w.session.workspace.look.point);
     EXPECT_NEAR(w.session.workspace.look.point->time_a, 1.5, 0.05);
     EXPECT_NEAR(w.session.workspace.look.point->time_b, 0.3, 0.05);
     EXPECT_EQ(w.step(), w.reasons().back()) << "the smallest pair there";
+    square = w.mark("query.square");  // the list of reasons above it has grown
     w.run("click " + w.at(square.min.x + 0.25 * square.size().x, square.min.y + 0.75 * square.size().y));
     EXPECT_FALSE(w.session.workspace.look.point) << "on the diagonal it is one moment";
     EXPECT_NEAR(w.session.workspace.view().time.value_or(0), 0.5, 0.02);
@@ -104,8 +105,11 @@ TEST(ReasonsWindow, APointOfTheMapAndASampleDoSoToo) {
     EXPECT_FALSE(w.session.workspace.look.sample) << "a moment was asked last";
 
     // A sample of the list of measured pairs.
-    w.run("run step.next_leaf");
-    while (w.trace()[w.step()].pairs.empty()) w.run("run step.next_leaf");
+    const auto& events = w.trace();
+    int measured = 0;
+    while (measured < events.size() && events[measured].pairs.empty()) ++measured;
+    ASSERT_LT(measured, events.size());
+    w.run("run step.to " + std::to_string(measured));
     const int sample = w.trace()[w.step()].pairs.front().i;
     w.run("click sample.a." + std::to_string(sample));
     ASSERT_TRUE(w.session.workspace.look.sample);
@@ -193,7 +197,8 @@ TEST(ReasonsWindow, StripAndIcicleZoomByTheWheelAroundTheMouse) {
 
 TEST(ReasonsWindow, ASpanIsItsPairAndBelowItsTests) {
     PassingWorld w;
-    w.run("run recursion.zoom 0:15");
+    w.session.settings.bottom_height = 300;
+    w.run("run recursion.zoom 0:15\nframes 2");
     const Rect icicle = w.mark("query.icicle");
     const int row = icicle_row(icicle.size().y, w.recursion().depth, 1);
     const double each = icicle.size().x / 16.0;

@@ -374,9 +374,12 @@ void QueryPictures::square(Ui& ui, QueryInspector& queries, const QueryFindings&
     axis_labels(ui, findings, square);
     ImGui::SetCursorScreenPos({at.x, square.max.y + label});
     ImGui::Dummy({0, 0});
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const double time_a = square.x.value(mouse.x);
     if (hovered && line) {
         ImGui::SetTooltip("%s", tile_words(findings.sides, findings.proof, *line).c_str());
-        if (clicked) ui.invoke("proof.line", std::to_string(*line));
+        // The time cursor selects the line.
+        if (clicked) ui.invoke("reasons.at", formatted("%.17g", time_a));
         return;
     }
     if (!hovered || !under) return;
@@ -388,8 +391,6 @@ void QueryPictures::square(Ui& ui, QueryInspector& queries, const QueryFindings&
                       more.c_str());
     if (!clicked) return;
     ui.invoke("step.to", std::to_string(pair.last));
-    const ImVec2 mouse = ImGui::GetIO().MousePos;
-    const double time_a = square.x.value(mouse.x);
     const double time_b = square.y.value(mouse.y);
     // On the diagonal both are one moment.
     if (std::abs(square.y.pixel(time_a) - mouse.y) < ui.px(5)) {

@@ -312,7 +312,7 @@ Json state_json(const Session& session) {
     json["selection"] = selection_json(session.workspace, session.workspace.selection);
     json["hovered"] = selection_json(session.workspace, session.workspace.hovered);
     json["query"] = query_json(session.workspace, session.queries, session.settings);
-    json["look"] = look_json(session.workspace, session.queries);
+    if (Json look = look_json(session.workspace, session.queries); !look.is_null()) json["look"] = std::move(look);
     json["crowd"] = crowd_json(session.workspace, session.crowds);
     if (Json map = map_json(session.maps); !map.is_null()) json["map"] = std::move(map);
     json["excerpt"] = session.workspace.in_excerpt();
