@@ -138,12 +138,12 @@ TEST_F(RenderViewTest, StepsAreFoundByWhatTheyAre) {
     };
     EXPECT_EQ(rgba("0", "depth:0"), rgba("0", "0"));
     EXPECT_EQ(rgba("0", "overlap"), rgba("0", "overlap:1"));
-    EXPECT_NE(rgba("0", "leaf:1"), rgba("0", "leaf:2"));
-    const std::string view = folder.write("view.json", R"({"query": 0, "step": "leaf:2"})");
-    EXPECT_EQ(picture({kCrossing, "--view-state", view}).rgba, rgba("0", "leaf:2"));
+    EXPECT_NE(rgba("0", "avoidable:1"), rgba("0", "avoidable:2"));
+    const std::string view = folder.write("view.json", R"({"query": 0, "step": "avoidable:2"})");
+    EXPECT_EQ(picture({kCrossing, "--view-state", view}).rgba, rgba("0", "avoidable:2"));
     const std::string out = folder.path() / "o.png";
-    expect_refused(render_small({kCrossing, "--query", "0", "--step", "leaf:9999", "-o", out}), 2,
-                   "there is no step leaf:9999: the query has only ");
+    expect_refused(render_small({kCrossing, "--query", "0", "--step", "avoidable:9999", "-o", out}), 2,
+                   "there is no step avoidable:9999: the query has only ");
     expect_refused(render_small({kCrossing, "--query", "0", "--step", "leaf:0", "-o", out}), 2, "is no step");
 }
 
