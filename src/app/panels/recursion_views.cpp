@@ -194,6 +194,8 @@ class IcicleTests {
                 float least)
         : trace_(trace), recursion_(recursion), left_(left), each_(each), first_(first), row_(row), least_(least) {}
 
+    /// How much of a pair's span its tests take.
+    float height_of(const RecursionPair& pair) const { return are_shown(pair) ? height() : 0; }
     float x(int event) const { return left_ + each_ * static_cast<float>(event - first_); }
     void draw(ImDrawList& list, const Style& style, const RecursionPair& pair, ImVec2 max, float strength) const {
         if (!are_shown(pair)) return;
@@ -464,7 +466,7 @@ void QueryPictures::icicle(Ui& ui, QueryInspector& queries, ImVec2 size) {
         }
         if (cell.merged > 1) return;
         tests.draw(list, ui.style, pair, max, past ? 1 : kIcicleAhead);
-        draw_label(ui, *findings, pair, min, max, past);
+        draw_label(ui, *findings, pair, min, {max.x, max.y - tests.height_of(pair)}, past);
     };
     const PairCell* under = draw_cells(recursion, cells, at, step, draw);
     const auto outline = [&](int of, ImU32 color) {
