@@ -44,7 +44,8 @@ TEST(StepLink, AFileOfThatNameWins) {
     std::filesystem::copy_file(kLinkedScene, name);
     std::filesystem::copy_file(kLinkedScene, folder.path() / "scene.json");
     const Result run = run_program({"info", name});
-    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.status, 2) << "it is read as it is, and its name does not end as that of a scene";
+    EXPECT_NE(run.err.find("scene.json#q0@4: looks like JSON"), std::string::npos) << run.err;
 }
 
 TEST(StepLink, BadNumbersAreRefusedInOneLine) {
