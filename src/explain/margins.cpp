@@ -18,24 +18,11 @@ constexpr double kInset = 1e-12;  // metres that corners of a region stay within
 
 double least_gap(const Certificate& certificate) { return std::ranges::min(certificate.tiles, {}, &Tile::gap).gap; }
 
-/// The part of a convex polygon where u . d >= -gap.
-std::vector<glm::dvec2> cut(const std::vector<glm::dvec2>& polygon, glm::dvec2 u, double gap) {
-    std::vector<glm::dvec2> out;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const glm::dvec2 from = polygon[i], to = polygon[(i + 1) % polygon.size()];
-        const double at_from = glm::dot(u, from) + gap, at_to = glm::dot(u, to) + gap;
-        if (at_from >= 0) out.push_back(from);
-        if ((at_from > 0 && at_to < 0) || (at_from < 0 && at_to > 0))
-            out.push_back(from + at_from / (at_from - at_to) * (to - from));
-    }
-    return out;
-}
-
 std::vector<glm::dvec2> free_region(const Certificate& certificate) {
     if (least_gap(certificate) <= kInset) return {};
     constexpr double kFar = kFarthestShift;
     std::vector<glm::dvec2> out{{-kFar, -kFar}, {kFar, -kFar}, {kFar, kFar}, {-kFar, kFar}};
-    for (const Tile& tile : certificate.tiles) out = cut(out, tile.direction, tile.gap - kInset);
+    for (const Tile& tile : certificate.tiles) out = cut_off(out, -tile.direction, tile.gap - kInset);
     return out;
 }
 
@@ -154,6 +141,17 @@ std::optional<Margins> margins_of(const mobb::PlacedClip& a, const mobb::PlacedC
 bool is_free(const Certificate& certificate, glm::dvec2 shift) {
     return std::ranges::all_of(certificate.tiles,
                                [&](const Tile& tile) { return glm::dot(tile.direction, shift) > -tile.gap; });
+}
+
+std::vector<glm::dvec2> cut_off(const std::vector<glm::dvec2>& polygon, glm::dvec2 u, double most) {
+    std::vector<glm::dvec2> out;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec2 from = polygon[i], to = polygon[(i + 1) % polygon.size()];
+        const double a = glm::dot(u, from) - most, b = glm::dot(u, to) - most;
+        if (a <= 0) out.push_back(from);
+        if ((a < 0 && b > 0) || (a > 0 && b < 0)) out.push_back(from + a / (a - b) * (to - from));
+    }
+    return out;
 }
 
 }  // namespace mobbscope

@@ -30,4 +30,7 @@ std::optional<Margins> margins_of(const mobb::PlacedClip& a, const mobb::PlacedC
 /// Whether that shift of B lies in the certified region by the tiles themselves, however far it is.
 bool is_free(const Certificate& certificate, glm::dvec2 shift);
 
+/// The part of a convex polygon where dot(u, p) <= most, metres.
+std::vector<glm::dvec2> cut_off(const std::vector<glm::dvec2>& polygon, glm::dvec2 u, double most);
+
 }  // namespace mobbscope

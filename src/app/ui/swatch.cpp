@@ -26,7 +26,8 @@ void hatch(ImDrawList& list, ImVec2 min, ImVec2 max, ImU32 color, float spacing,
 
 /// Level lines inside a rectangle.
 void stripes(ImDrawList& list, ImVec2 min, ImVec2 max, ImU32 color, float spacing, float width) {
-    const auto count = static_cast<int>(std::lround((max.y - min.y) / spacing));
+    // One at the very end is left out, whichever way that is rounded.
+    const auto count = static_cast<int>(std::ceil((max.y - min.y) / spacing - 0.51f));
     for (int i = 0; i < count; ++i) {
         const float y = min.y + (static_cast<float>(i) + 0.5f) * spacing;
         list.AddLine({min.x, y}, {max.x, y}, color, width);

@@ -50,18 +50,6 @@ WallGap add_gap(DrawList& list, const ProofLine& line, Rgba color, float scale) 
     return {wall_point(list.space, line, line.nearest, line.nearest_along), line.gap};
 }
 
-/// The part of a convex polygon where dot(u, p) <= most.
-std::vector<glm::dvec2> cut_off(const std::vector<glm::dvec2>& polygon, glm::dvec2 u, double most) {
-    std::vector<glm::dvec2> out;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const glm::dvec2 from = polygon[i], to = polygon[(i + 1) % polygon.size()];
-        const double a = glm::dot(u, from) - most, b = glm::dot(u, to) - most;
-        if (a <= 0) out.push_back(from);
-        if ((a < 0 && b > 0) || (a > 0 && b < 0)) out.push_back(from + a / (a - b) * (to - from));
-    }
-    return out;
-}
-
 /// Where a line along `u`, at `at` across it, runs in a convex polygon.
 std::optional<mobb::Interval> chord(const std::vector<glm::dvec2>& polygon, glm::dvec2 u, double at) {
     const glm::dvec2 across(-u.y, u.x);

@@ -25,7 +25,7 @@ reached kinds.txt
 click kinds.txt tree.kind.umobb 0 0
 reached kind.txt
 to kind.txt tree.leaf 0 0
-xdotool click --repeat 2 --delay 100 1 sleep 0.5 type 6
+xdotool click --repeat 2 --delay 100 1 sleep 0.5 key ctrl+a type 6
 xdotool key Return
 reached leaf.txt
 
