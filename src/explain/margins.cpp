@@ -138,9 +138,10 @@ std::optional<Margins> margins_of(const mobb::PlacedClip& a, const mobb::PlacedC
     return out;
 }
 
-bool is_free(const Certificate& certificate, glm::dvec2 shift) {
-    return std::ranges::all_of(certificate.tiles,
-                               [&](const Tile& tile) { return glm::dot(tile.direction, shift) > -tile.gap; });
+double room_left(const Certificate& certificate, glm::dvec2 shift) {
+    double out = std::numeric_limits<double>::infinity();
+    for (const Tile& tile : certificate.tiles) out = std::min(out, tile.gap + glm::dot(tile.direction, shift));
+    return out;
 }
 
 std::vector<glm::dvec2> cut_off(const std::vector<glm::dvec2>& polygon, glm::dvec2 u, double most) {

@@ -27,8 +27,8 @@ struct Margins {
 /// Requires a certificate of a miss (no contact) with at least one tile; none otherwise.
 std::optional<Margins> margins_of(const mobb::PlacedClip& a, const mobb::PlacedClip& b, const Certificate& certificate);
 
-/// Whether that shift of B lies in the certified region by the tiles themselves, however far it is.
-bool is_free(const Certificate& certificate, glm::dvec2 shift);
+/// Metres that a shift of B leaves to the edge of the free region; 0 or less outside.
+double room_left(const Certificate& certificate, glm::dvec2 shift);
 
 /// The part of a convex polygon where dot(u, p) <= most, metres.
 std::vector<glm::dvec2> cut_off(const std::vector<glm::dvec2>& polygon, glm::dvec2 u, double most);

@@ -114,12 +114,6 @@ QueryProof proof_of(const FittedScene& fitted, const SceneQuery& query, const Re
     return out;
 }
 
-double room_left(const Certificate& certificate, glm::dvec2 shift) {
-    double out = std::numeric_limits<double>::infinity();
-    for (const Tile& tile : certificate.tiles) out = std::min(out, tile.gap + glm::dot(tile.direction, shift));
-    return out;
-}
-
 std::string gap_words(double gap) { return gap < kWorthMetres ? "< 1 mm" : with_unit(gap, "m"); }
 
 std::string line_words(std::span<const DrawnAgent> sides, const Tile& tile) {

@@ -50,9 +50,6 @@ ProofLine proof_line_of(const mobb::PlacedClip& a, const mobb::PlacedClip& b, co
 QueryProof proof_of(const FittedScene& fitted, const SceneQuery& query, const RecordedQuery& recorded,
                     const Clearance& clearance);
 
-/// Metres that a shift of B leaves to the edge of the free region; 0 or less outside.
-double room_left(const Certificate& certificate, glm::dvec2 shift);
-
 /// "0.183 m", "< 1 mm": what lies free across a line.
 std::string gap_words(double gap);
 
