@@ -102,6 +102,12 @@ bool is_folded(const Settings& settings, const std::string& title, bool at_first
 
 bool section(Ui& ui, const std::string& title, const std::string& right, bool folded_at_first) {
     const std::string id = lower(title);
+    if (ui.session.keys.section == id) {
+        ui.session.keys.section.clear();
+        ui.session.settings.folded[id] = false;
+        ImGui::SetScrollHereY(0);
+        ui.want_frame_in(0);
+    }
     const bool open = !is_folded(ui.session.settings, id, folded_at_first);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     heading(ui, title.c_str(), right);
