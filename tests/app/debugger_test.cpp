@@ -377,10 +377,12 @@ TEST(Debugger, StepsOfOtherTreesAreNotVisited) {
     Session session(false);
     session.files.open({folder.scene});
     run_command(session, "query.select", "0");
-    run_command(session, "step.to", "4");
-    run_command(session, "step.to", "1");
+    for (const char* step : {"4", "1"}) {
+        session.workspace.close_group();
+        run_command(session, "step.to", step);
+    }
     run_command(session, "tree.kind", "umobb");
-    EXPECT_TRUE(session.workspace.visited.before.size() > 1);
+    ASSERT_GT(session.workspace.visited.before.size(), 1u);
     const SeenStep now = seen_step(session);
     run_command(session, "step.visited_back");
     EXPECT_EQ(seen_step(session), now);
