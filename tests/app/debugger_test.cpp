@@ -305,6 +305,21 @@ TEST(Debugger, ItsEditsRecordNothingAnew) {
     EXPECT_EQ(w.session.workspace.recorded()->trace.size(), events);
 }
 
+TEST(Debugger, TabFromTheNameOfABookmarkLeadsToItsNote) {
+    DebuggerWindow w;
+    w.key("Ctrl+B");
+    w.click("bookmark.name");
+    w.key("Ctrl+A");
+    w.type("here");
+    w.key("Tab");
+    w.type("A z x loose");
+    w.key("Enter");
+    const std::vector<Bookmark>& all = w.session.workspace.scene().debug.bookmarks;
+    ASSERT_EQ(all.size(), 1u);
+    EXPECT_EQ(all[0].name, "here");
+    EXPECT_EQ(all[0].note, "A z x loose");
+}
+
 /// What a person sees of a query.
 struct SeenStep {
     int query = 0, step = 0;

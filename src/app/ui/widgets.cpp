@@ -391,7 +391,7 @@ std::optional<std::string> text_edit(Ui& ui, const std::string& mark, const std:
     const bool own = input.typing && input.mark == mark;
     std::string shown = now;
     ImGui::InputText(("##" + mark).c_str(), own ? &input.text : &shown);
-    ui.mark(mark);
+    ui.mark(mark, OwnKeys::text);
     if (begins_input(input, mark)) input = {.mark = mark, .text = shown, .before = now, .waits = 0, .typing = true};
     if (!own || ImGui::IsItemActive()) return std::nullopt;
     const FieldInput done = std::exchange(input, {});
