@@ -16,6 +16,7 @@
 namespace mobbscope::cli {
 
 class Command;
+class Option;
 
 /// The fit options as given; an empty one leaves the scene's.
 struct FitArguments {

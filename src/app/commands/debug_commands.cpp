@@ -1,5 +1,6 @@
 #include <app/commands/arguments.h>
 #include <app/commands/command.h>
+#include <app/document/agents.h>
 #include <app/document/debug_texts.h>
 #include <base/text.h>
 #include <scene/scene_edits.h>
