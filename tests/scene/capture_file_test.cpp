@@ -195,17 +195,17 @@ int end_of(const std::function<void()>& work) {
 }
 
 /// Fills the stack.
-[[gnu::noinline]] int without_end(int n) {
+[[gnu::noinline]] int nested(int depth) {
     std::array<volatile int, 1000> filled;
-    filled[static_cast<std::size_t>(n % 1000)] = n;
-    return without_end(n + 1) + filled[static_cast<std::size_t>(n % 999)];
+    filled[static_cast<std::size_t>(depth % 1000)] = depth;
+    return depth == 0 ? 0 : nested(depth - 1) + filled[static_cast<std::size_t>(depth % 999)];
 }
 
 TEST(CrashCaptureFile, HoldsTheLastQueriesWhateverEndsTheProgram) {
     const std::vector<std::pair<int, std::function<void()>>> ends{
         {SIGABRT, [] { std::abort(); }},
         {SIGSEGV, [] { *const_cast<volatile int*>(static_cast<int*>(nullptr)) = 1; }},
-        {SIGSEGV, [] { without_end(0); }},
+        {SIGSEGV, [] { nested(1 << 30); }},
         {SIGFPE, [] { ::raise(SIGFPE); }},
         {SIGILL, [] { ::kill(::getpid(), SIGILL); }},
         {SIGBUS, [] { std::thread([] { ::raise(SIGBUS); }).join(); }},
