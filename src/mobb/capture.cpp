@@ -97,9 +97,11 @@ void add_clip(SceneText& out, const Clip& clip) {
     out.add("\n      ]\n    }");
 }
 
-void add_side(SceneText& out, const Placement& placement, int clip) {
-    out.add("{\"clip\": \"clip ", clip, "\", \"translate\": [", placement.translate.x, ", ", placement.translate.y,
-            "], \"rotate_deg\": ", placement.rotate_deg, ", \"start\": ", placement.start, "}");
+/// A side of a query as an agent, so that pictures show it where it was placed.
+void add_agent(SceneText& out, const char* name, int query, const Placement& placement, int clip) {
+    out.add("{\"name\": \"", name, query, "\", \"clip\": \"clip ", clip, "\", \"translate\": [", placement.translate.x,
+            ", ", placement.translate.y, "], \"rotate_deg\": ", placement.rotate_deg, ", \"start\": ", placement.start,
+            "}");
 }
 
 void add_expectation(SceneText& out, bool collides, const std::optional<Contact>& contact) {
@@ -163,17 +165,23 @@ bool write_scene(int descriptor, const Captures& captures) {
         add_clip(out, *clip_of(side));
         separator = ",";
     }
+    out.add("\n  },\n  \"agents\": [");
+    separator = "";
+    for (int i = 0; i < size; ++i) {
+        out.add(separator, "\n    ");
+        add_agent(out, "A", i, captures[i].a.placement, number_of(2 * i));
+        out.add(",\n    ");
+        add_agent(out, "B", i, captures[i].b.placement, number_of(2 * i + 1));
+        separator = ",";
+    }
     const FitOptions& fit = captures[size - 1].fit;
-    out.add("\n  },\n  \"fit\": {\"tree\": \"", name(fit.tree), "\", \"leaf\": ", fit.leaf,
+    out.add("\n  ],\n  \"fit\": {\"tree\": \"", name(fit.tree), "\", \"leaf\": ", fit.leaf,
             ", \"levels\": ", fit.levels, ", \"axes\": \"", name(fit.axes), "\", \"time_scale\": ", fit.time_scale,
             "},\n  \"queries\": [");
     separator = "";
     for (int i = 0; i < size; ++i) {
         const Capture& capture = captures[i];
-        out.add(separator, "\n    {\n      \"a\": ");
-        add_side(out, capture.a.placement, number_of(2 * i));
-        out.add(",\n      \"b\": ");
-        add_side(out, capture.b.placement, number_of(2 * i + 1));
+        out.add(separator, "\n    {\n      \"a\": \"A", i, "\",\n      \"b\": \"B", i, "\"");
         if (captures.is_answered(i) && capture.collides) add_expectation(out, *capture.collides, capture.contact);
         // A trace is of its own fit.
         if (capture.trace && capture.fit == fit) add_trace(out, *capture.trace);

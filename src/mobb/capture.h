@@ -2,9 +2,10 @@
 /// where its answer differs. One query at a time, or a ring of the last ones, also when the program crashes. POSIX
 /// only.
 ///
-/// A clip is written with its samples, held or linear. The fit of a file is one for all its queries, which changes no
-/// answer: that of the last query's A. A chain is captured as its `flattened` clip, the fastest query (PlacedBlocks) as
-/// its clip and placement: neither keeps the angle at which it was placed, so you give it.
+/// A clip is written with its samples, held or linear; the two sides of query 3 are called A3 and B3. The fit of a file
+/// is one for all its queries, which changes no answer: that of the last query's A. A chain is captured as its
+/// `flattened` clip, the fastest query (PlacedBlocks) as its clip and placement: neither keeps the angle at which it
+/// was placed, so you give it.
 #pragma once
 
 #include <mobb/query.h>
@@ -64,7 +65,7 @@ inline void write_capture(const std::filesystem::path& file, const Capture& capt
 /// allocates nothing. A clip lives until its last query has left the ring, and may be freed by the push that ends it.
 class CaptureRing {
   public:
-    /// Throws std::invalid_argument unless size >= 1. Takes 320 bytes for each.
+    /// Throws std::invalid_argument unless size >= 1. Takes 192 bytes for each.
     explicit CaptureRing(int size);
     CaptureRing(const CaptureRing&) = delete;
     CaptureRing& operator=(const CaptureRing&) = delete;

@@ -121,9 +121,9 @@ TEST(CaptureRing, LeavesOutTheQueryThatASignalInterrupts) {
     ring.push({{ends, {}}, {ends, {.translate = {100, 0}}}, {}, false, {}, {}});
     const_cast<ClipPtr&>(ends).reset();
     for (int i = 1; i <= 2; ++i) ring.push(apart(i));
-    EXPECT_EQ(count_of(dumped(ring, folder), "\"a\":"), 3);
+    EXPECT_EQ(count_of(dumped(ring, folder), "\"expect\":"), 3);
     ring.push(apart(3));
-    EXPECT_EQ(count_of(in_between, "\"a\":"), 2);
+    EXPECT_EQ(count_of(in_between, "\"expect\":"), 2);
     EXPECT_EQ(count_of(in_between, "\"translate\": [100, 0]"), 0);
     EXPECT_EQ(count_of(in_between, "\"translate\": [1, 0]"), 1);
     EXPECT_EQ(count_of(in_between, "\"translate\": [2, 0]"), 1);
