@@ -4,15 +4,16 @@
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
+#include <cli/query_comparisons.h>
 #include <explain/avoidable.h>
 #include <explain/certificate_file.h>
 #include <explain/event_values.h>
 #include <explain/proof_words.h>
 #include <explain/query_sentence.h>
 #include <scene/answer.h>
+#include <scene/fit_text.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -27,9 +28,11 @@ namespace {
 
 struct QueryCommandArguments : FittedArguments {
     Details details;
-    bool proof = false;                 ///< in words
-    std::filesystem::path certificate;  ///< to be written; empty: none
-    std::optional<std::string> where;   ///< filter of the trace's events
+    bool proof = false;                  ///< in words
+    std::filesystem::path certificate;   ///< to be written; empty: none
+    std::optional<std::string> where;    ///< filter of the trace's events
+    bool check = false;                  ///< against what the file expects and has stored
+    std::optional<std::string> compare;  ///< another fit, as text
 };
 
 void print_event(std::ostream& out, int step, const SceneQuery& query, const mobb::Trace::Event& event,
@@ -39,22 +42,8 @@ void print_event(std::ostream& out, int step, const SceneQuery& query, const mob
     out << std::string(8 - std::min<std::size_t>(number.size(), 7), ' ') << number << "  "
         << std::string(2 * static_cast<std::size_t>(event.depth), ' ') << event.a << " x " << event.b << "  "
         << mobb::name(event.test) << ": ";
-    // In the order of the outcomes.
-    constexpr std::array kWords{"apart in time", "separated", "overlap", "hit", "no hit"};
-    static_assert(kWords.size() == static_cast<std::size_t>(mobb::Outcome::no_hit) + 1);
-    out << kWords[static_cast<std::size_t>(event.outcome)];
+    out << plain_outcome(event, brief);
     if (avoidable) out << ", avoidable: " << avoidable_words(*avoidable, cleaned(query.a.name), cleaned(query.b.name));
-    if (event.outcome == mobb::Outcome::separated) {
-        out << " along axis " << event.axis << " by " << brief(event.gap) << " m";
-    }
-    if (event.test == mobb::TestKind::samples) {
-        out << " (" << counted(event.pairs.size(), "pair", "pairs") << " measured";
-        if (event.outcome == mobb::Outcome::hit) {
-            const mobb::MeasuredPair& pair = event.pairs.back();
-            out << ", samples " << pair.i << " and " << pair.j << " at " << brief(pair.distance) << " m";
-        }
-        out << ')';
-    }
     out << '\n';
 }
 
@@ -204,14 +193,29 @@ EventFilter parse_filter(const std::string& text) {
     }
 }
 
+/// The fit to compare with: what the text does not say is as in the fit of the scene.
+mobb::FitOptions other_fit(const std::string& text, const FittedScene& scene) {
+    try {
+        return parse_fit(text, scene.options());
+    } catch (const std::invalid_argument& error) {
+        throw UsageError(std::string("--compare: ") + error.what());
+    }
+}
+
 int run_query(QueryCommandArguments& arguments) {
     std::optional<EventFilter> where;
     if (arguments.where) where = parse_filter(*arguments.where);
     const FittedScene scene = fitted(load(arguments.file, arguments.import_options), arguments.fit);
     check_asks(scene, arguments.file);
     if (!arguments.certificate.empty()) check_output(arguments.certificate);
-    if (where && arguments.fit.brute)
-        throw UsageError("--where filters the tests of trees, and brute makes none; choose another --tree");
+    for (const auto& [given, option] :
+         {std::pair(where.has_value(), "--where filters"), std::pair(arguments.check, "--check compares"),
+          std::pair(arguments.compare.has_value(), "--compare compares")}) {
+        if (given && arguments.fit.brute)
+            throw UsageError(std::string(option) + " the tests of trees, and brute makes none; choose another --tree");
+    }
+    if (arguments.check) return check_queries(scene, arguments.file, arguments.json);
+    if (arguments.compare) return compare_queries(scene, other_fit(*arguments.compare, scene), arguments.json);
     arguments.details.trace |= where.has_value();
     arguments.details.search = arguments.fit.brute ? Search::direct : Search::trees;
     const std::vector<std::string> complaints = answer_all(scene, arguments, where);
@@ -221,14 +225,29 @@ int run_query(QueryCommandArguments& arguments) {
 
 void add_query_options(Command& command, QueryCommandArguments& arguments) {
     const Option json = add_fitted_options(command, arguments, "Answers as JSON", Brute::allowed);
-    command.add_flag("--trace", arguments.details.trace, "Every test that was made");
-    command.add_flag("--proof", arguments.proof, "Also say how few lines prove an answer, and how far it may be pushed")
-        .excludes(json);
-    command.add_option("--where", arguments.where,
-                       "Only the tests that pass a filter, such as 'gap < 0.05 and level(a) >= 3'", "EXPR");
-    add_parsed(command, "--certificate", arguments.certificate, parse_file_name,
-               "Also write proofs of the answers, which mobbscope verify checks", "OUT.json");
-    command.add_flag("--all-contacts", arguments.details.all_contacts, "All intervals of contact, not only the first");
+    const Option trace = command.add_flag("--trace", arguments.details.trace, "Every test that was made");
+    const Option proof = command.add_flag("--proof", arguments.proof,
+                                          "Also say how few lines prove an answer, and how far it may be pushed");
+    Option(proof).excludes(json);
+    const Option where =
+        command.add_option("--where", arguments.where,
+                           "Only the tests that pass a filter, such as 'gap < 0.05 and level(a) >= 3'", "EXPR");
+    const Option certificate =
+        add_parsed(command, "--certificate", arguments.certificate, parse_file_name,
+                   "Also write proofs of the answers, which mobbscope verify checks", "OUT.json");
+    const Option contacts = command.add_flag("--all-contacts", arguments.details.all_contacts,
+                                             "All intervals of contact, not only the first");
+    Option check = command.add_flag("--check", arguments.check,
+                                    "Compare expected answers and stored traces with fresh ones; status 1 if one "
+                                    "disagrees");
+    Option compare =
+        command.add_option("--compare", arguments.compare,
+                           "Compare with another fit, such as 'umobb,leaf=20': who decided earlier", "FIT");
+    compare.excludes(check);
+    for (const Option& other : {trace, proof, where, certificate, contacts}) {
+        check.excludes(other);
+        compare.excludes(other);
+    }
 }
 
 }  // namespace

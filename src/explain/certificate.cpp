@@ -70,8 +70,8 @@ std::string why_no_contact(const mobb::PlacedClip& a, const mobb::PlacedClip& b,
 
 }  // namespace
 
-std::vector<TraversalEnd> traversal_ends(const mobb::PlacedTree& a, const mobb::PlacedTree& b,
-                                         const mobb::Trace& trace) {
+std::vector<TraversalEnd> deciding_events(const mobb::PlacedTree& a, const mobb::PlacedTree& b,
+                                          const mobb::Trace& trace) {
     std::vector<TraversalEnd> out;
     const mobb::PlacedClip &clip_a = a.placed_clip(), &clip_b = b.placed_clip();
     for (int step = 0; step < trace.size(); ++step) {
@@ -81,9 +81,21 @@ std::vector<TraversalEnd> traversal_ends(const mobb::PlacedTree& a, const mobb::
             out.push_back({std::max(a.begin(of_a), b.begin(of_b)), std::min(a.end(of_a), b.end(of_b)), true, step});
         } else if (!event.pairs.empty()) {
             const mobb::MeasuredPair first = event.pairs.front(), last = event.pairs.back();
-            if (out.empty() || out.back().is_boxes)
-                out.push_back({std::max(clip_a.time(first.i), clip_b.time(first.j)), 0, false, step});
-            out.back().t1 = std::min(clip_a.time(last.i + 1), clip_b.time(last.j + 1));
+            out.push_back({std::max(clip_a.time(first.i), clip_b.time(first.j)),
+                           std::min(clip_a.time(last.i + 1), clip_b.time(last.j + 1)), false, step});
+        }
+    }
+    return out;
+}
+
+std::vector<TraversalEnd> traversal_ends(const mobb::PlacedTree& a, const mobb::PlacedTree& b,
+                                         const mobb::Trace& trace) {
+    std::vector<TraversalEnd> out;
+    for (const TraversalEnd& end : deciding_events(a, b, trace)) {
+        if (out.empty() || out.back().is_boxes || end.is_boxes) {
+            out.push_back(end);
+        } else {
+            out.back().t1 = end.t1;
         }
     }
     return out;

@@ -29,8 +29,12 @@ struct TraversalEnd {
     int step = 0;  ///< of its first test
 };
 
-/// The traversal's own proof, in order of time. Of a miss the ends partition the common time; of a hit that before its
-/// contact. Pairs that are apart in time prove nothing and are not in it.
+/// Each event of a traversal that went no deeper, in order of time. Of a miss they partition the common time; of a hit
+/// that before its contact. Pairs that are apart in time decide nothing.
+std::vector<TraversalEnd> deciding_events(const mobb::PlacedTree& a, const mobb::PlacedTree& b,
+                                          const mobb::Trace& trace);
+
+/// The traversal's own proof: the same with events that measured samples one after the other as one run.
 std::vector<TraversalEnd> traversal_ends(const mobb::PlacedTree& a, const mobb::PlacedTree& b,
                                          const mobb::Trace& trace);
 

@@ -7,6 +7,7 @@
 #include <mobb/query.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -96,6 +97,23 @@ std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::E
                avoidable_words(*avoidable, node_name(sides[0], event.a), node_name(sides[1], event.b));
     }
     return std::string(shape.meets) + ", " + what_next(sides, event);
+}
+
+std::string plain_outcome(const mobb::Trace::Event& event, std::string (*number)(double)) {
+    // In the order of the outcomes.
+    constexpr std::array kWords{"apart in time", "separated", "overlap", "hit", "no hit"};
+    static_assert(kWords.size() == static_cast<std::size_t>(mobb::Outcome::no_hit) + 1);
+    std::string out = kWords[static_cast<std::size_t>(event.outcome)];
+    if (event.outcome == mobb::Outcome::separated)
+        out += " along axis " + std::to_string(event.axis) + " by " + number(event.gap) + " m";
+    if (event.test != mobb::TestKind::samples) return out;
+    out += " (" + counted(event.pairs.size(), "pair", "pairs") + " measured";
+    if (event.outcome == mobb::Outcome::hit && !event.pairs.empty()) {
+        const mobb::MeasuredPair& pair = event.pairs.back();
+        out += ", samples " + std::to_string(pair.i) + " and " + std::to_string(pair.j) + " at " +
+               number(pair.distance) + " m";
+    }
+    return out + ')';
 }
 
 std::string short_outcome(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {

@@ -21,6 +21,10 @@ std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::E
 /// The same in few words, for lists: "along B's long axis 0.183 m", "overlap", "apart in time".
 std::string short_outcome(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event);
 
+/// The same without the trees: "separated along axis 1 by 0.183 m", "hit (3 pairs measured, samples 4 and 5 at 0.3 m)".
+/// `number`: how numbers are written.
+std::string plain_outcome(const mobb::Trace::Event& event, std::string (*number)(double));
+
 /// "a line keeps the disks 0.310 m apart; the box of A 2.1 is to blame"
 /// `a`, `b`: what the nodes are called.
 std::string avoidable_words(const AvoidableOverlap& overlap, const std::string& a, const std::string& b);

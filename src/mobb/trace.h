@@ -60,7 +60,7 @@ class Trace {
     /// How many events there were: more than size() if recording stopped before the end.
     std::int64_t events() const { return size() + left_out_; }
     bool stopped() const { return left_out_ > 0; }
-    void leave_out() { ++left_out_; }  ///< a further event that is not recorded
+    void leave_out(std::int64_t events = 1) { left_out_ += events; }  ///< further ones that are not recorded
 
     /// Gives back memory that further events would have taken.
     void shrink_to_fit();

@@ -114,13 +114,25 @@ std::size_t FittedScene::bytes_beyond(std::span<const std::shared_ptr<const Name
     return bytes;
 }
 
+namespace {
+
+RecordedQuery taken_from(mobb::TraceRecorder& recorder, const std::optional<mobb::Contact>& contact) {
+    const mobb::TestCounts tests = recorder.tests();
+    return {contact, tests, recorder.take()};
+}
+
+}  // namespace
+
 RecordedQuery record(const FittedScene& fitted, const SceneQuery& query, Search search, const mobb::TraceBound& bound) {
     mobb::TraceRecorder recorder(bound);
-    RecordedQuery out;
-    out.contact = ask(fitted, query, search, recorder);
-    out.tests = recorder.tests();
-    out.trace = recorder.take();
-    return out;
+    const std::optional<mobb::Contact> contact = ask(fitted, query, search, recorder);
+    return taken_from(recorder, contact);
+}
+
+RecordedQuery record(const mobb::PlacedTree& a, const mobb::PlacedTree& b) {
+    mobb::TraceRecorder recorder;
+    const std::optional<mobb::Contact> contact = mobb::query(a, b, recorder);
+    return taken_from(recorder, contact);
 }
 
 }  // namespace mobbscope

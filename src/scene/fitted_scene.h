@@ -128,5 +128,7 @@ std::optional<mobb::Contact> ask(const FittedScene& fitted, const SceneQuery& qu
 /// Runs a query of the scene with the recorder.
 RecordedQuery record(const FittedScene& fitted, const SceneQuery& query, Search search = Search::trees,
                      const mobb::TraceBound& bound = {});
+/// The same of two trees.
+RecordedQuery record(const mobb::PlacedTree& a, const mobb::PlacedTree& b);
 
 }  // namespace mobbscope

@@ -134,18 +134,6 @@ std::vector<mobb::MeasuredPair> read_pairs(const JsonPlace& place, int samples_a
     return pairs;
 }
 
-void write_event(JsonWriter& out, int step, const mobb::Trace::Event& event, bool avoidable) {
-    const bool separated = event.outcome == mobb::Outcome::separated;
-    out.begin_object(Layout::row);
-    out.members("step", step, "parent", event.parent, "depth", event.depth, "a", event.a, "b", event.b);
-    out.members("test", mobb::name(event.test), "outcome", mobb::name(event.outcome));
-    out.member("axis", separated ? std::optional(event.axis) : std::nullopt);
-    out.member("gap", separated ? std::optional(event.gap) : std::nullopt);
-    out.list("pairs", event.pairs, [&](const mobb::MeasuredPair& pair) { out.tuple(pair.i, pair.j, pair.distance); });
-    if (avoidable) out.member("avoidable", true);
-    out.end_object();
-}
-
 }  // namespace
 
 std::optional<mobb::TreeKind> find_tree_kind(std::string_view name) {
@@ -209,17 +197,30 @@ std::optional<mobb::Contact> read_contact(const JsonPlace& place, int samples_a,
                          place.require("distance").number(0, kAnyLength), place.require("radii").number(0, kAnyLength)};
 }
 
+void write_event(JsonWriter& out, const mobb::Trace& trace, int step, bool avoidable) {
+    const mobb::Trace::Event event = trace[step];
+    const bool separated = event.outcome == mobb::Outcome::separated;
+    out.begin_object(Layout::row);
+    out.members("step", step, "parent", event.parent, "depth", event.depth, "a", event.a, "b", event.b);
+    out.members("test", mobb::name(event.test), "outcome", mobb::name(event.outcome));
+    out.member("axis", separated ? std::optional(event.axis) : std::nullopt);
+    out.member("gap", separated ? std::optional(event.gap) : std::nullopt);
+    out.list("pairs", event.pairs, [&](const mobb::MeasuredPair& pair) { out.tuple(pair.i, pair.j, pair.distance); });
+    if (avoidable) out.member("avoidable", true);
+    out.end_object();
+}
+
 void write_trace(JsonWriter& out, const mobb::Trace& trace, std::span<const int> avoidable) {
     out.begin_array();
     for (int step = 0; step < trace.size(); ++step)
-        write_event(out, step, trace[step], std::ranges::binary_search(avoidable, step));
+        write_event(out, trace, step, std::ranges::binary_search(avoidable, step));
     out.end_array();
 }
 
 void write_events(JsonWriter& out, const mobb::Trace& trace, std::span<const int> steps,
                   std::span<const int> avoidable) {
     out.begin_array();
-    for (const int step : steps) write_event(out, step, trace[step], std::ranges::binary_search(avoidable, step));
+    for (const int step : steps) write_event(out, trace, step, std::ranges::binary_search(avoidable, step));
     out.end_array();
 }
 

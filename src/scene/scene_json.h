@@ -38,6 +38,8 @@ std::optional<mobb::Contact> read_contact(const JsonPlace& place, int samples_a,
 /// One event a line. `axis` and `gap` are null where nothing is separated, `pairs` is empty where none is measured.
 /// `avoidable`: events that are marked so, in order.
 void write_trace(JsonWriter& out, const mobb::Trace& trace, std::span<const int> avoidable = {});
+/// One of them, an object.
+void write_event(JsonWriter& out, const mobb::Trace& trace, int step, bool avoidable = false);
 /// The events of these steps alone.
 void write_events(JsonWriter& out, const mobb::Trace& trace, std::span<const int> steps,
                   std::span<const int> avoidable);

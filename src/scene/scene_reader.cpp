@@ -403,7 +403,7 @@ class SceneReader {
     }
 
     SceneQuery read_query(const JsonPlace& place) {
-        place.allow_only({"a", "b", "expect", "trace"});
+        place.allow_only({"a", "b", "expect", "trace", "events"});
         SceneQuery query;
         query.a = read_placed_agent(place.require("a"));
         query.b = read_placed_agent(place.require("b"));
@@ -411,9 +411,24 @@ class SceneReader {
         const int samples_b = clip_of(query.b).count();
         if (const auto expect = place.find("expect")) query.expect = read_expectation(*expect, samples_a, samples_b);
         if (const auto trace = place.find("trace")) {
-            query.trace = std::make_shared<mobb::Trace>(read_trace(*trace, samples_a, samples_b));
+            query.trace = read_stored_trace(place, *trace, samples_a, samples_b);
+        } else if (const auto events = place.find("events")) {
+            events->fail("it counts the events of a trace; give the trace, or remove this");
         }
         return query;
+    }
+
+    /// Of a recording that stopped, `events` says how many there were.
+    static std::shared_ptr<const mobb::Trace> read_stored_trace(const JsonPlace& query, const JsonPlace& place,
+                                                                int samples_a, int samples_b) {
+        mobb::Trace trace = read_trace(place, samples_a, samples_b);
+        if (const auto events = query.find("events")) {
+            constexpr double kMost = 9007199254740992;  // beyond, doubles are not all whole numbers
+            const double count = events->number(trace.size(), kMost);
+            if (count != std::floor(count)) events->fail("must be a whole number");
+            trace.leave_out(static_cast<std::int64_t>(count) - trace.size());
+        }
+        return std::make_shared<const mobb::Trace>(std::move(trace));
     }
 
     PlacedAgent read_placed_agent(const JsonPlace& place) const {

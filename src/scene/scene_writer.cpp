@@ -141,6 +141,7 @@ void write_query(JsonWriter& out, const Scene& scene, const SceneQuery& query) {
     if (query.trace) {
         out.key("trace");
         write_trace(out, *query.trace);
+        if (query.trace->stopped()) out.member("events", query.trace->events());
     }
     out.end_object();
 }

@@ -50,6 +50,10 @@ struct CommandWorld {
         session.settings.last.files = {folder.file("walk.csv"), folder.file("stand.csv")};
         session.files.open({folder.scene});
         EXPECT_EQ(all_messages(session), "");
+        // A query with the first event of its trace alone.
+        folder.write("stored.json", R"({"clips": {"walk": {"source": "walk.csv"}},
+            "queries": [{"a": {"clip": "walk"}, "b": {"clip": "walk", "translate": [1, -1], "rotate_deg": 90},
+            "trace": [{"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "time", "outcome": "overlap"}]}]})");
         std::filesystem::create_directory(folder.file("1"));
         folder.write("1/scene.unsaved", "a copy that cannot be read");
         session.recovery.keep_in(folder.scene.parent_path());
@@ -920,6 +924,30 @@ std::vector<Case> cases() {
          }});
     add({"reasons.none", "", {kFirstQuery, {"reasons.at", "0.5"}}, [](CommandWorld& w) {
              EXPECT_FALSE(w.session.queries.reasons());
+         }});
+    in_query("compare.with", "umobb,leaf=3", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.queries.comparison()->trees[0]->options().leaf, 3);
+        EXPECT_NE(testing::refusal(w.session, "compare.with", "oak"), "");
+        EXPECT_NE(testing::refusal(w.session, "compare.with", "stored"), "") << "no trace is stored";
+    });
+    const std::pair<std::string, std::string> umobb{"compare.with", "umobb"};
+    add({"compare.leaf", "7", {kFirstQuery, umobb}, [](CommandWorld& w) {
+             EXPECT_EQ(w.session.workspace.compare_with->fit->leaf, 7);
+         }});
+    add({"compare.at", "0.5", {kFirstQuery, umobb}, [](CommandWorld& w) {
+             EXPECT_EQ(w.view().time, 0.5);
+             const TraversalComparison& both = w.session.queries.comparison()->traversals;
+             EXPECT_EQ(w.session.workspace.step(), both.decision(*both.at(0.5), 0).step);
+         }});
+    add({"compare.difference",
+         "",
+         {{"file.open", "@stored.json"}, kFirstQuery, {"compare.with", "stored"}},
+         [](CommandWorld& w) {
+             EXPECT_FALSE(w.session.queries.stored_check().agrees());
+             EXPECT_EQ(w.session.workspace.step(), 1);
+         }});
+    add({"compare.none", "", {kFirstQuery, umobb}, [](CommandWorld& w) {
+             EXPECT_FALSE(w.session.workspace.compare_with);
          }});
     in_query("focus.branch", "", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.look.focus.branch, 0); });
     in_query("focus.time", "0.1:0.2", [](CommandWorld& w) {

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -282,6 +283,133 @@ TEST(Query, AnAnswerThatIsNotTheExpectedOneIsStatusOne) {
     expectation["contact"] = contact;
     expectation["contact"]["distance"] = contact["distance"].get<double>() + 1e-6;
     EXPECT_EQ(run_program({"query", expecting(folder, expectation.dump())}).status, 1);
+}
+
+/// collision.json with its answer and its trace, after a change of the query: a capture.
+std::string capture(const TempFolder& folder, const std::function<void(json&)>& change) {
+    const json found = results({"query", kQueryScenes + "collision.json", "--json", "--trace"})[0];
+    json scene = json::parse(slurp(kQueryScenes + "collision.json"));
+    json& query = scene["queries"][0];
+    query["expect"] = {{"collides", true}, {"contact", found["contact"]}};
+    query["trace"] = found["trace"];
+    change(query);
+    for (json& clip : scene["clips"]) clip["source"] = kQueryScenes + clip["source"].get<std::string>();
+    return folder.write("capture.json", scene.dump());
+}
+
+TEST(QueryCheck, ACaptureAgreesWithItself) {
+    const TempFolder folder;
+    const std::string file = capture(folder, [](json&) {});
+    const Result run = run_program({"query", file, "--check"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_NE(run.out.find("agree with the stored trace.\n"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("Compared 1 answer and 1 trace ("), std::string::npos) << run.out;
+    EXPECT_TRUE(run.out.ends_with(" of 1 query: all agree.\n")) << run.out;
+    const json checked = json::parse(run_program({"query", file, "--check", "--json"}).out);
+    EXPECT_EQ(checked["agrees"], true);
+    EXPECT_EQ(checked["checks"][0]["trace"]["compared"], checked["compared"]["events"]);
+    EXPECT_TRUE(checked["checks"][0]["trace"]["difference"].is_null());
+    EXPECT_TRUE(checked["checks"][0]["disagreement"].is_null());
+    EXPECT_NE(run_program({"query", kQueryScenes + "crossing.json", "--check"}).out.find("Nothing was compared"),
+              std::string::npos);
+}
+
+TEST(QueryCheck, EveryChangeOfATraceIsFound) {
+    const auto event_with = [](json& query, const char* key, const json& value) -> json& {
+        for (json& event : query["trace"]) {
+            if (event[key] == value) return event;
+        }
+        ADD_FAILURE() << "no event has " << key << ' ' << value;
+        return query["trace"][0];
+    };
+    struct Change {
+        const char* what;
+        std::function<void(json&)> change;
+    };
+    const std::vector<Change> changes{
+        {"the stored trace ends there", [](json& query) { query["trace"].erase(query["trace"].size() - 1); }},
+        {"now the trace ends there",
+         [](json& query) {
+             json event = query["trace"].back();
+             event["step"] = query["trace"].size();
+             query["trace"].push_back(event);
+         }},
+        {" in gap: ",
+         [&](json& query) {
+             json& event = event_with(query, "outcome", "separated");
+             event["gap"] = event["gap"].get<double>() + 1e-6;
+         }},
+        {" in axis: ",
+         [&](json& query) {
+             json& event = event_with(query, "outcome", "separated");
+             event["axis"] = event["axis"] == 0 ? 1 : 0;
+         }},
+        {" in outcome: ", [&](json& query) { event_with(query, "outcome", "hit")["outcome"] = "no_hit"; }},
+        {" in pairs: ", [&](json& query) { event_with(query, "outcome", "hit")["pairs"].erase(0); }},
+        {"expected no collision",
+         [](json& query) {
+             query["expect"] = {{"collides", false}};
+         }},
+        {"but the stored trace is of",
+         [](json& query) {
+             query["trace"].erase(query["trace"].size() - 1);
+             query["events"] = 1000;
+         }},
+    };
+    for (const auto& [what, change] : changes) {
+        const TempFolder folder;
+        const std::string file = capture(folder, change);
+        const Result run = run_program({"query", file, "--check"});
+        EXPECT_EQ(run.status, 1) << what;
+        EXPECT_TRUE(is_one_line(run.err)) << run.err;
+        EXPECT_NE(run.err.find("query 0: "), std::string::npos) << run.err;
+        EXPECT_NE(run.err.find(what), std::string::npos) << run.err;
+        EXPECT_NE(run.out.find("1 query disagrees."), std::string::npos) << run.out;
+        const Result as_json = run_program({"query", file, "--check", "--json"});
+        EXPECT_EQ(as_json.status, 1);
+        EXPECT_EQ(json::parse(as_json.out)["agrees"], false);
+    }
+}
+
+TEST(QueryCheck, ARecordingThatStoppedIsComparedUpToThere) {
+    const TempFolder folder;
+    const std::string file = capture(folder, [](json& query) {
+        query["events"] = query["trace"].size();
+        query["trace"].erase(query["trace"].size() - 1);
+    });
+    const Result run = run_program({"query", file, "--check"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_NE(run.out.find("of the stored trace recording stopped at event"), std::string::npos) << run.out;
+}
+
+TEST(QueryCompare, LaysTwoFitsSideBySide) {
+    const std::string file = kQueryScenes + "crossing.json";
+    const Result run = run_program({"query", file, "--compare", "umobb,leaf=3"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    for (const char* words : {"A and B never collide.", "difference", "decided earlier for", "step "})
+        EXPECT_NE(run.out.find(words), std::string::npos) << run.out;
+    const json found = json::parse(run_program({"query", file, "--compare", "umobb", "--json"}).out)["comparisons"][0];
+    EXPECT_EQ(found["sides"][1]["fit"]["tree"], "umobb");
+    ASSERT_FALSE(found["times"].empty());
+    for (std::size_t i = 1; i < found["times"].size(); ++i)
+        EXPECT_EQ(found["times"][i]["t0"], found["times"][i - 1]["t1"]);
+    const json same =
+        json::parse(run_program({"query", file, "--compare", "tree=mobb", "--json"}).out)["comparisons"][0];
+    for (const auto& [test, difference] : same["difference"].items()) EXPECT_EQ(difference, 0) << test;
+    for (const json& time : same["times"]) {
+        EXPECT_EQ(time["earlier"], 0);
+        EXPECT_EQ(time["sides"][0], time["sides"][1]);
+    }
+    for (const std::vector<std::string>& wrong :
+         std::vector<std::vector<std::string>>{{"--compare", "mob"},
+                                               {"--compare", "leaf=0"},
+                                               {"--compare", "mobb", "--check"},
+                                               {"--check", "--trace"},
+                                               {"--check", "--tree", "brute"}}) {
+        std::vector<std::string> all{"query", file};
+        all.insert(all.end(), wrong.begin(), wrong.end());
+        EXPECT_EQ(run_program(all).status, 2) << wrong.back();
+    }
 }
 
 TEST(Query, PlacementsInAQueryAreUsed) {

@@ -250,6 +250,14 @@ TEST(SceneErrors, TracesAreChecked) {
     for (const auto& [events, message] : cases) {
         EXPECT_NE(trace(events).find(message), std::string::npos) << events << " gave " << trace(events);
     }
+    const auto counted = [&](const std::string& keys) {
+        return scene_refusal(with(R"("queries": [{"a": "A", "b": "B", )" + keys + "}]"));
+    };
+    EXPECT_NE(counted(R"("events": 3)").find("give the trace"), std::string::npos);
+    for (const char* wrong : {"0", "1.5", "-1", "1e17", "\"2\""}) {
+        const std::string said = counted(R"("trace": [)" + first + R"(], "events": )" + wrong);
+        EXPECT_NE(said.find("/queries/0/events"), std::string::npos) << wrong << " gave " << said;
+    }
 }
 
 TEST(SceneErrors, AnErrorInsideASourceNamesBothFilesAndBothPlaces) {

@@ -101,6 +101,19 @@ void expect_same(const mobb::Trace& a, const mobb::Trace& b) {
     }
 }
 
+TEST(SceneRoundTrip, ATraceWhoseRecordingStoppedSaysHowManyEventsThereWere) {
+    std::mt19937_64 random(8);
+    Scene scene = capture(random_scene(random));
+    mobb::Trace stopped = *scene.queries[0].trace;
+    stopped.leave_out(12);
+    scene.queries[0].trace = std::make_shared<const mobb::Trace>(stopped);
+    const std::string text = to_json(scene);
+    const Scene read = parse_scene(text, "s.json", "");
+    EXPECT_EQ(read.queries[0].trace->events(), stopped.size() + 12);
+    EXPECT_FALSE(read.queries[1].trace->stopped());
+    EXPECT_EQ(to_json(read), text);
+}
+
 TEST(SceneRoundTrip, CapturesComeBackBitForBit) {
     std::mt19937_64 random(7);
     for (int round = 0; round < 20; ++round) {

@@ -85,6 +85,41 @@ const std::vector<BranchCost>& QueryInspector::branches() const {
     return *now.branches;
 }
 
+std::shared_ptr<const FitComparison> QueryInspector::comparison() const {
+    const std::shared_ptr<const QueryFindings> found = findings();
+    const auto& with = workspace_.compare_with;
+    if (!found || !with || !with->fit) return nullptr;
+    std::shared_ptr<const FitComparison>& kept = workspace_.derived().compared;
+    if (kept && kept->trees[0]->options() == *with->fit) return kept;
+    const mobb::PlacedTree &a = found->sides[0].placed, &b = found->sides[1].placed;
+    const auto fit = [&](const mobb::PlacedTree& side) {
+        return std::make_shared<const mobb::Tree>(side.tree().shared_clip(), *with->fit);
+    };
+    const auto of_a = fit(a);
+    const auto of_b = &a.tree().clip() == &b.tree().clip() ? of_a : fit(b);
+    kept = std::make_shared<const FitComparison>(compare_fits(a, b, *workspace_.recorded(), {of_a, of_b}));
+    return kept;
+}
+
+std::shared_ptr<const mobb::Trace> QueryInspector::stored_trace() const {
+    const std::optional<int>& query = workspace_.view().query;
+    return query ? workspace_.fitted().queries()[static_cast<std::size_t>(*query)].trace : nullptr;
+}
+
+const TraceCheck& QueryInspector::stored_check() const {
+    std::optional<TraceCheck>& kept = workspace_.derived().stored_check;
+    if (!kept) kept = check_trace(*stored_trace(), workspace_.recorded()->trace);
+    return *kept;
+}
+
+std::optional<double> QueryInspector::compared_moment() const {
+    if (const auto& time = workspace_.view().time) return time;
+    const Recursion& recursion = findings()->recursion;
+    if (recursion.pairs.empty()) return std::nullopt;
+    const RecursionPair& pair = recursion.pair_at(workspace_.step());
+    return 0.5 * (std::max(pair.time_a.t0, pair.time_b.t0) + std::min(pair.time_a.t1, pair.time_b.t1));
+}
+
 std::optional<PlaceReasons> QueryInspector::reasons() const {
     const std::shared_ptr<const QueryFindings> found = findings();
     if (!found) return std::nullopt;

@@ -35,6 +35,14 @@ class QueryInspector {
     FocusCounts counts_in_all() const;
     /// The costliest of the focus (costliest_branches), some hundred. Requires findings() with events.
     const std::vector<BranchCost>& branches() const;
+    /// The query in view under its fit and the one that it is to be compared with; null if it is not to be.
+    std::shared_ptr<const FitComparison> comparison() const;
+    /// The trace that the scene has of the query in view; null: none.
+    std::shared_ptr<const mobb::Trace> stored_trace() const;
+    /// What that and the present trace have in common. Requires stored_trace().
+    const TraceCheck& stored_check() const;
+    /// The moment that both sides of a comparison are looked at: the time cursor, or else that of the present step.
+    std::optional<double> compared_moment() const;
     /// Of what is asked about (QueryLook), else of the time cursor's moment; none: nothing is, or no query is in view.
     std::optional<PlaceReasons> reasons() const;
     /// The same findings with another recursion, if these are still those of the query in view.

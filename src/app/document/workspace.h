@@ -16,6 +16,7 @@
 #include <explain/event_table.h>
 #include <explain/focus_window.h>
 #include <explain/query_findings.h>
+#include <explain/trace_comparison.h>
 #include <mobb/level_figures.h>
 #include <render/drawlist/camera.h>
 #include <render/drawlist/draw_list.h>
@@ -97,6 +98,11 @@ class Workspace {
     std::string filter;                   ///< lists show what has this text in its name; empty: all
     std::set<std::string> folded_groups;  ///< of clips, by title
     EventList events;
+    /// What queries are compared with: another fit, or where that is none the stored trace.
+    struct CompareWith {
+        std::optional<mobb::FitOptions> fit;
+    };
+    std::optional<CompareWith> compare_with;
     VisitedSteps visited;
 
     /// Of which size the pictures are that cameras stand for; none: nothing was drawn since the scene was opened.
@@ -187,9 +193,13 @@ class Workspace {
             std::optional<FocusCounts> in_all{};
             std::optional<std::vector<BranchCost>> branches{};
         };
-        std::optional<Focused> focused{};  ///< of `findings`
+        std::optional<Focused> focused{};                 ///< of `findings`
+        std::shared_ptr<const FitComparison> compared{};  ///< of `recorded` with another fit
+        std::optional<TraceCheck> stored_check{};         ///< ... with the stored trace
         /// With all that follows from them.
         void forget_findings() {
+            compared.reset();
+            stored_check.reset();
             findings.reset();
             passing.clear();
             break_steps.reset();

@@ -133,6 +133,7 @@ void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures) {
         measured_pairs(ui, *findings);
         costliest(ui, queries, ui.session.costs, *findings);
         query_counters(ui, queries, *findings);
+        pictures.compare(ui, queries, *findings);
         break_when(ui, queries);
         bookmarks(ui);
         if (section(ui, "RECURSION: TIME OF A BY TIME OF B")) {

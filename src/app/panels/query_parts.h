@@ -8,8 +8,10 @@
 #include <app/ui/ui.h>
 #include <app/ui/widgets.h>
 #include <explain/query_findings.h>
+#include <explain/trace_comparison.h>
 #include <render/query/map_colors.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -56,6 +58,13 @@ void break_when(Ui& ui, QueryInspector& queries);
 /// The scene's bookmarks, with the notes on them.
 void bookmarks(Ui& ui);
 
+/// Decisions of a traversal that stand on one pixel, as the deepest of them.
+struct DecisionCell {
+    float x0 = 0, x1 = 0;  ///< pixels from the left
+    int depth = 0;
+    EventMark mark{};
+};
+
 /// The map of placements, with what it was last drawn from.
 class MapPicture {
   public:
@@ -91,9 +100,13 @@ class QueryPictures {
     /// test that it is on. The wheel zooms it and the strip, a drag shifts it. Nothing without a query in the view.
     void icicle(Ui& ui, QueryInspector& queries, ImVec2 size);
 
+    /// The query under another fit, or its stored trace, beside the present one.
+    void compare(Ui& ui, QueryInspector& queries, const QueryFindings& findings);
+
     MapPicture map;
 
   private:
+    void compare_strips(Ui& ui, QueryInspector& queries, const std::shared_ptr<const FitComparison>& other);
     void shift_icicle(Ui& ui, const EventRange& range, int count, float width, float most_scroll);
 
     /// What cells were made for.
@@ -123,6 +136,12 @@ class QueryPictures {
     Kept<PairCell> square_, icicle_;
     Kept<ClearanceColumn> clearance_;
     Kept<StripCell> strip_;
+    struct {
+        std::shared_ptr<const FitComparison> of;
+        int width = 0;
+        std::array<std::vector<DecisionCell>, 2> sides;
+        int depth = 0;  ///< of the deepest
+    } compared_;
     float scroll_ = 0;   ///< of the icicle, pixels
     int followed_ = -1;  ///< the step that was brought into strip and icicle last
     struct {

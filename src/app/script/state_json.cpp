@@ -4,6 +4,7 @@
 #include <explain/reasons.h>
 #include <render/drawlist/font.h>
 #include <render/pictures/candidates.h>
+#include <scene/fit_text.h>
 #include <scene/scene_json.h>
 #include <scene/view_options.h>
 
@@ -105,6 +106,20 @@ Json events_json(const Workspace& workspace, const QueryInspector& queries, bool
             {"breaks", queries.break_steps().size()}};
 }
 
+/// What the query is compared with, and where the two sides part.
+Json compare_json(const Workspace::CompareWith& with, const Workspace& workspace, const QueryInspector& queries) {
+    if (const auto other = queries.comparison()) {
+        return {{"with", fit_text(*with.fit, workspace.fitted().options())},
+                {"times", other->traversals.times.size()},
+                {"tests", other->recorded.tests.all()}};
+    }
+    if (!queries.stored_trace()) return {{"with", "stored"}, {"agrees", nullptr}};
+    const TraceCheck& check = queries.stored_check();
+    return {{"with", "stored"},
+            {"agrees", check.agrees()},
+            {"difference", check.difference ? Json(check.difference->step) : Json(nullptr)}};
+}
+
 Json query_json(const Workspace& workspace, const QueryInspector& queries, const Settings& settings) {
     const RecordedQuery* recorded = workspace.recorded();
     if (!recorded) return nullptr;
@@ -127,6 +142,7 @@ Json query_json(const Workspace& workspace, const QueryInspector& queries, const
               {"proof", proof_json(workspace, queries.findings()->proof)},
               {"sentence", step_sentence(sides, recorded->trace, workspace.step())},
               {"events", events_json(workspace, queries, settings.shows_events)}};
+    if (const auto& with = workspace.compare_with) json["compare"] = compare_json(*with, workspace, queries);
     if (recorded->trace.stopped()) json["all_events"] = recorded->trace.events();
     return json;
 }

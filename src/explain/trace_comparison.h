@@ -1,0 +1,102 @@
+/// Two records of one query side by side: event by event, or moment by moment where their trees differ.
+#pragma once
+
+#include <explain/certificate.h>
+#include <mobb/trace.h>
+#include <scene/fitted_scene.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope {
+
+// ---- a stored trace and a fresh one: event by event
+
+/// The first event that differs.
+struct TraceDifference {
+    int step = 0;
+    /// Which of its members differ, as files call them; empty: one of the two has no such event.
+    std::vector<std::string_view> members;
+};
+
+struct TraceCheck {
+    int compared = 0;  ///< events that agree, from the first on
+    std::optional<TraceDifference> difference;
+    std::int64_t stored_events = 0, present_events = 0;  ///< recorded or not
+    double rounding = 0;  ///< metres: the largest difference of gaps and distances that counts as none
+
+    bool agrees() const { return !difference && stored_events == present_events; }
+};
+
+/// How far gaps and distances may differ and still agree, times the number if that is over 1: programs of other
+/// compilers and machines round otherwise, far below this.
+inline constexpr double kTraceAgreement = 1e-9;
+
+TraceCheck check_trace(const mobb::Trace& stored, const mobb::Trace& present);
+
+/// "54 events agree with the stored trace", or the first difference with both sides.
+std::string check_words(const TraceCheck& check, const mobb::Trace& stored, const mobb::Trace& present);
+
+// ---- two traversals: by time
+
+/// What a traversal found out at one of its ends (TraversalEnd), and what it had cost so far.
+struct Decision : TraversalEnd {
+    int depth = 0;
+    double gap = 0;          ///< metres, between boxes; 0 of samples
+    std::int64_t tests = 0;  ///< of boxes and pairs of samples, up to and with it
+};
+
+/// The decisions of a traversal about the time that both are there, up to a contact: each begins where the one before
+/// it ends. They end early where recording stopped.
+std::vector<Decision> decisions_of(const mobb::PlacedTree& a, const mobb::PlacedTree& b, const RecordedQuery& recorded);
+
+/// A time with one decision on either side.
+struct ComparedTime {
+    double t0 = 0, t1 = 0;                  ///< global seconds
+    std::array<std::size_t, 2> decision{};  ///< of either side
+    /// How many tests fewer the first side had made when it decided; below 0: the second was earlier.
+    std::int64_t earlier = 0;
+};
+
+struct TraversalComparison {
+    std::array<std::vector<Decision>, 2> decisions;
+    /// In order; like either side's decisions they tile the time that both sides tell of.
+    std::vector<ComparedTime> times;
+
+    /// What holds at a time; none: nothing was to be decided about it.
+    const ComparedTime* at(double time) const;
+    const Decision& decision(const ComparedTime& time, std::size_t side) const {
+        return decisions[side][time.decision[side]];
+    }
+};
+
+/// Of two traversals of the same query.
+TraversalComparison compared(std::vector<Decision> first, std::vector<Decision> second);
+
+/// A query under two fits: the first is that of a scene, this is the second and what came of both.
+struct FitComparison {
+    std::array<std::shared_ptr<const mobb::Tree>, 2> trees;  ///< of A and B; none is null
+    std::array<mobb::PlacedTree, 2> placed;                  ///< where A and B stand
+    RecordedQuery recorded;
+    TraversalComparison traversals;
+    std::array<std::string, 2> names;  ///< what tells the fits apart: "MOBB", "UMOBB"
+};
+
+/// `recorded`: the record of the query of a and b; `trees`: others over the same clips.
+FitComparison compare_fits(const mobb::PlacedTree& a, const mobb::PlacedTree& b, const RecordedQuery& recorded,
+                           std::array<std::shared_ptr<const mobb::Tree>, 2> trees);
+
+/// "step 14, depth 3: boxes 0.183 m apart, after 23 tests"
+std::string decision_words(const Decision& decision);
+/// "MOBB was earlier by 12 tests"; `names`: of both sides.
+std::string earlier_words(std::int64_t earlier, const std::array<std::string, 2>& names);
+/// "UMOBB was the earlier over 2.10 of 4.97 s, MOBB over 1.50 s"
+std::string comparison_words(const TraversalComparison& comparison, const std::array<std::string, 2>& names);
+
+}  // namespace mobbscope

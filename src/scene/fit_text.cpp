@@ -1,0 +1,104 @@
+#include <base/text.h>
+#include <scene/fit_text.h>
+#include <scene/scene_json.h>
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr std::array<std::string_view, 5> kFitKeys{"tree", "leaf", "levels", "axes", "time_scale"};
+
+[[noreturn]] void refuse_fit(std::string_view key, std::string_view value, const std::string& give) {
+    throw std::invalid_argument(std::string(key) + " cannot be " + in_quotes(value) + ": give " + give);
+}
+
+int whole_number(std::string_view key, std::string_view value, int least) {
+    const auto number = parse_int(value);
+    if (!number || *number < least) refuse_fit(key, value, "a whole number from " + std::to_string(least));
+    return *number;
+}
+
+void set_option(mobb::FitOptions& fit, std::string_view key, std::string_view value) {
+    if (key == "tree") {
+        const auto tree = find_tree_kind(value);
+        if (!tree) refuse_fit(key, value, "one of " + listed(mobb::tree_kind_names()));
+        fit.tree = *tree;
+    } else if (key == "leaf") {
+        fit.leaf = whole_number(key, value, 1);
+    } else if (key == "levels") {
+        fit.levels = whole_number(key, value, 0);
+    } else if (key == "axes") {
+        const auto axes = mobb::axes_from_name(value);
+        if (!axes) refuse_fit(key, value, "one of " + listed(mobb::axes_names()));
+        fit.axes = *axes;
+    } else if (key == "time_scale") {
+        fit.time_scale = parse_number_within(value, 1 / mobb::kMaxTimeScale, mobb::kMaxTimeScale);
+    } else {
+        throw std::invalid_argument("a fit has no option " + in_quotes(key) + "; it has " + listed(kFitKeys));
+    }
+}
+
+/// Options beside the tree, as text, that are not as in `base`.
+std::vector<std::pair<std::string_view, std::string>> others(const mobb::FitOptions& fit,
+                                                             const mobb::FitOptions& base) {
+    std::vector<std::pair<std::string_view, std::string>> out;
+    if (fit.leaf != base.leaf) out.emplace_back("leaf", std::to_string(fit.leaf));
+    if (fit.levels != base.levels) out.emplace_back("levels", std::to_string(fit.levels));
+    if (fit.axes != base.axes) out.emplace_back("axes", mobb::name(fit.axes));
+    if (fit.time_scale != base.time_scale) out.emplace_back("time_scale", short_double(fit.time_scale));
+    return out;
+}
+
+}  // namespace
+
+mobb::FitOptions parse_fit(std::string_view text, mobb::FitOptions base) {
+    while (true) {
+        const std::size_t comma = text.find(',');
+        const std::string_view part = trimmed(text.substr(0, comma));
+        const std::size_t equals = part.find('=');
+        if (equals == std::string_view::npos) {
+            set_option(base, "tree", part);
+        } else {
+            set_option(base, trimmed(part.substr(0, equals)), trimmed(part.substr(equals + 1)));
+        }
+        if (comma == std::string_view::npos) return base;
+        text.remove_prefix(comma + 1);
+    }
+}
+
+std::string fit_text(const mobb::FitOptions& fit, const mobb::FitOptions& base) {
+    std::string out(mobb::name(fit.tree));
+    for (const auto& [key, value] : others(fit, base)) {
+        out += ',';
+        out += key;
+        out += '=';
+        out += value;
+    }
+    return out;
+}
+
+std::string fit_words(const mobb::FitOptions& fit, const mobb::FitOptions& base) {
+    std::string out(mobb::info(fit.tree).label);
+    for (const auto& [key, value] : others(fit, base)) {
+        out += ", ";
+        out += key == "time_scale" ? "time scale" : key;
+        out += ' ';
+        out += value;
+    }
+    return out;
+}
+
+std::array<std::string, 2> names_of_two(const mobb::FitOptions& first, const mobb::FitOptions& second) {
+    std::string one = fit_words(first, second), other = fit_words(second, first);
+    if (one == other) other += " again";
+    return {std::move(one), std::move(other)};
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,25 @@
+/// The options of a fit as a line of text: "umobb,leaf=20".
+#pragma once
+
+#include <mobb/tree.h>
+
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace mobbscope {
+
+/// `base` with what the text sets: KEY=VALUE with the keys of a scene's fit, separated by commas; a value alone is the
+/// tree. Throws std::invalid_argument, saying what is allowed.
+mobb::FitOptions parse_fit(std::string_view text, mobb::FitOptions base);
+
+/// What parse_fit reads: the tree, and what else is not as in `base`.
+std::string fit_text(const mobb::FitOptions& fit, const mobb::FitOptions& base);
+
+/// For people, likewise: "UMOBB, leaf 20".
+std::string fit_words(const mobb::FitOptions& fit, const mobb::FitOptions& base);
+
+/// Two fits that are compared: what tells them apart, or "MOBB" and "MOBB again".
+std::array<std::string, 2> names_of_two(const mobb::FitOptions& first, const mobb::FitOptions& second);
+
+}  // namespace mobbscope

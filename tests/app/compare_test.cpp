@@ -1,0 +1,108 @@
+// The query in view beside itself in the window: under another fit, and as its stored trace.
+#include <app/script/script.h>
+#include <app/window/headless_window.h>
+#include <render/gl/gl_context.h>
+#include <scene/scene_json.h>
+
+#include "app/crossing_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <sstream>
+#include <string>
+
+namespace mobbscope::app {
+namespace {
+
+struct CompareWorld {
+    testing::CrossingFolder folder;
+    Session session{false};
+    HeadlessWindow window;
+
+    CompareWorld() : window(GlContext::open(Backend::automatic), session, {1280, 2800}, 1) {
+        open(R"({"clips": {"walk": {"source": "walk.csv"}},
+            "agents": [{"name": "A", "clip": "walk"},
+                       {"name": "B", "clip": "walk", "translate": [2, 0.82], "rotate_deg": 180}],
+            "fit": {"leaf": 4}})");
+        run("run query.select 0\nrun step.first\nframes 3");
+    }
+    void open(const std::string& scene) {
+        session.files.open({folder.write("compared.json", scene)});
+        window.settle();
+    }
+    void run(const std::string& script) {
+        std::ostringstream out;
+        Script::parse(script, "test").run(session, window, out);
+    }
+    bool has(const std::string& name) { return window.shell().marks().all().contains(name); }
+    const Rect& mark(const std::string& name) { return window.shell().marks().all().at(name); }
+    const FitComparison& other() const { return *session.queries.comparison(); }
+};
+
+TEST(CompareWindow, AClickOnTheStripsGoesToTheDecisionOfThatMoment) {
+    CompareWorld w;
+    EXPECT_FALSE(w.has("compare.strips"));
+    w.run("click compare.with\nframes 2\nclick compare.with.umobb\nframes 3");
+    ASSERT_TRUE(w.session.workspace.compare_with);
+    ASSERT_TRUE(w.has("compare.strips"));
+    EXPECT_EQ(w.other().names, (std::array<std::string, 2>{"MOBB", "UMOBB"}));
+    for (const double share : {0.2, 0.5, 0.8}) {
+        const Rect strips = w.mark("compare.strips");
+        w.run("click " + std::to_string(strips.min.x + share * strips.size().x) + ' ' +
+              std::to_string(strips.center().y) + "\nframes 3");
+        const TraversalComparison& both = w.other().traversals;
+        const double t0 = both.times.front().t0, t1 = both.times.back().t1;
+        ASSERT_TRUE(w.session.workspace.view().time);
+        const double time = *w.session.workspace.view().time;
+        EXPECT_NEAR(time, t0 + share * (t1 - t0), 0.01 * (t1 - t0));
+        EXPECT_EQ(w.session.workspace.step(), both.decision(*both.at(time), 0).step);
+        EXPECT_TRUE(w.has("compare.now"));
+    }
+    w.run("run compare.leaf 2\nframes 3");
+    EXPECT_EQ(w.other().names, (std::array<std::string, 2>{"MOBB, leaf 4", "UMOBB, leaf 2"}));
+    w.run("run compare.none\nframes 3");
+    EXPECT_FALSE(w.has("compare.strips"));
+    EXPECT_TRUE(w.has("section.compare"));
+}
+
+TEST(CompareWindow, TheComparisonFollowsTheFitInView) {
+    CompareWorld w;
+    w.run("run compare.with umobb\nframes 3");
+    const std::size_t before = w.other().traversals.times.size();
+    w.run("run tree.kind umobb\nframes 3");
+    EXPECT_EQ(w.other().names[1], "UMOBB again");
+    for (const ComparedTime& time : w.other().traversals.times) EXPECT_EQ(time.earlier, 0);
+    w.run("run tree.kind mobb\nframes 3");
+    EXPECT_EQ(w.other().traversals.times.size(), before);
+}
+
+TEST(CompareWindow, AStoredTraceIsComparedEventByEvent) {
+    CompareWorld w;
+    Scene scene = w.session.workspace.scene();
+    const SceneQuery asked = w.session.workspace.fitted().queries()[0];
+    const mobb::Trace& now = w.session.workspace.recorded()->trace;
+    mobb::Trace stored;
+    int changed = -1;
+    for (int step = 0; step < now.size(); ++step) {
+        mobb::Trace::Event event = now[step];
+        if (changed < 0 && event.outcome == mobb::Outcome::separated) {
+            event.gap += 0.25;
+            changed = step;
+        }
+        stored.push(event);
+    }
+    ASSERT_GE(changed, 0);
+    scene.queries = {{asked.a, asked.b, {}, std::make_shared<const mobb::Trace>(now)},
+                     {asked.a, asked.b, {}, std::make_shared<const mobb::Trace>(stored)}};
+    w.open(to_json(scene));
+    w.run("run query.select 0\nrun compare.with stored\nframes 3\nexpect /query/compare/agrees true");
+    EXPECT_FALSE(w.has("query.difference")) << "there is none to go to";
+    w.run("run query.select 1\nframes 3\nexpect /query/compare/agrees false");
+    w.run("expect /query/compare/difference " + std::to_string(changed));
+    w.run("run step.last\nframes 2\nclick query.difference\nframes 2");
+    EXPECT_EQ(w.session.workspace.step(), changed);
+}
+
+}  // namespace
+}  // namespace mobbscope::app
