@@ -41,6 +41,7 @@ class SceneText {
             text.remove_prefix(part);
         }
     }
+    void add(std::int64_t number) { add_digits(number); }
     void add(int number) { add_digits(number); }
     void add(bool boolean) { add(std::string_view(boolean ? "true" : "false")); }
     /// As few digits as give the number back. A JSON reader takes "-0" for the integer 0 and loses the sign.
@@ -139,6 +140,7 @@ void add_trace(SceneText& out, const Trace& trace) {
         add_event(out, step, trace[step]);
     }
     out.add("\n      ]");
+    if (trace.stopped()) out.add(",\n      \"events\": ", trace.events());
 }
 
 /// Writes a scene of captures, at least one: they have size(), operator[], and is_answered(i). False, and errno says
@@ -263,7 +265,6 @@ void check(const Capture& capture) {
         if (!std::isfinite(contact->time) || !is_length(contact->distance) || !is_length(contact->radii))
             refuse("the contact of a captured query needs numbers of seconds and metres");
     }
-    if (capture.trace && capture.trace->stopped()) refuse("the trace of a captured query stopped before its end");
 }
 
 void write_captures(const std::filesystem::path& file, std::span<const Capture> captures) {

@@ -46,8 +46,8 @@ struct Capture {
 /// The query of two placed trees, with its answer. The fit is a's.
 Capture capture(const PlacedTree& a, const PlacedTree& b, const std::optional<Contact>& answer);
 
-/// Throws std::invalid_argument if a clip is missing, a placement or the fit is not valid, a contact is not one of the
-/// clips' or comes without a collision, or the trace stopped before its end.
+/// Throws std::invalid_argument if a clip is missing, a placement or the fit is not valid, or a contact is not one
+/// of the clips' or comes without a collision.
 void check(const Capture& capture);
 
 /// Writes a scene file whole or not at all: what was there stays until the new one is on the disk. A trace whose fit is

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <mobb/capture.h>
 #include <mobb/random_motion.h>
-#include <mobb/trace.h>
 #include <support/temp_folder.h>
 
 #include <fcntl.h>
@@ -139,8 +138,7 @@ TEST(CaptureRing, IsReadByOtherThreads) {
         for (int i = 0; !ends; ++i) {
             const ClipPtr clip = walk_of(1 + i % 7);
             const Tree tree(clip, {});
-            const double metres = clip->count();
-            ring.query(PlacedTree(still, {}), PlacedTree(tree, {.translate = {metres, 0}}));
+            ring.query(PlacedTree(still, {}), PlacedTree(tree, {.translate = {0.9 * clip->count(), 0}}));
         }
     });
     const TempFolder folder;
@@ -148,7 +146,7 @@ TEST(CaptureRing, IsReadByOtherThreads) {
     while (read < 2000) {
         for (const Capture& capture : ring.captures()) {
             ++read;
-            EXPECT_EQ(capture.b.placement.translate.x, capture.b.clip->count());
+            EXPECT_EQ(capture.b.placement.translate.x, 0.9 * capture.b.clip->count());
             if (!capture.collides) continue;
             EXPECT_EQ(*capture.collides, capture.b.clip->count() < 2);
             EXPECT_EQ(capture.contact.has_value(), *capture.collides);
@@ -189,11 +187,6 @@ TEST(Capture, RefusesWhatNoFileCanHold) {
     refuses([](Capture& c) { c.contact->b_sample = 1; });
     refuses([](Capture& c) { c.contact->time = kNone; });
     refuses([](Capture& c) { c.contact->distance = -1; });
-    refuses([](Capture& c) {
-        Trace trace;
-        trace.leave_out();
-        c.trace = std::make_shared<const Trace>(std::move(trace));
-    });
 }
 
 TEST(Capture, IsWrittenWholeOrNotAtAll) {

@@ -47,7 +47,7 @@ bool same_trace(const mobb::Trace& a, const mobb::Trace& b) {
     const auto same_pair = [](const mobb::MeasuredPair& p, const mobb::MeasuredPair& q) {
         return p.i == q.i && p.j == q.j && p.distance == q.distance;
     };
-    bool same = a.size() == b.size();
+    bool same = a.size() == b.size() && a.events() == b.events();
     for (int step = 0; same && step < a.size(); ++step) {
         const auto p = a[step], q = b[step];
         same = p.parent == q.parent && p.depth == q.depth && p.a == q.a && p.b == q.b && p.test == q.test &&
@@ -130,6 +130,21 @@ TEST(CaptureFile, GivesBackAChainAsItsFlattenedClip) {
     }
     EXPECT_GT(hits, 10);
     EXPECT_LT(hits, 90);
+}
+
+TEST(CaptureFile, SaysWhereATraceStopped) {
+    const TempFolder folder;
+    const auto file = folder.path() / "query.json";
+    mobb::test::Random random(39);
+    const mobb::Tree tree(mobb::test::random_clip(random, 100), {.leaf = 1});
+    mobb::TraceRecorder recorder({.events = 2});
+    const auto answer = mobb::query(placed(tree, {}), placed(tree, {.translate = {0.3, 0}}), recorder);
+    mobb::Capture capture = mobb::capture(placed(tree, {}), placed(tree, {.translate = {0.3, 0}}), answer);
+    capture.trace = std::make_shared<const mobb::Trace>(recorder.take());
+    mobb::write_capture(file, capture);
+    const Scene scene = load_scene(file);
+    ASSERT_EQ(capture.trace->size(), 2);
+    EXPECT_TRUE(same_trace(*scene.queries.front().trace, *capture.trace));
 }
 
 TEST(CaptureFile, KeepsEveryBitOfANumber) {
@@ -267,17 +282,18 @@ TEST(CrashCaptureFile, HoldsTheQueryThatCrashed) {
     EXPECT_EQ(end_of([&] {
                   CaptureRing ring(4);
                   const CrashCapture crash(ring, file);
-                  Crowd crowd;
-                  crowd.ask(ring, 10);
-                  // A clip that somebody wrote over: the query looks where there is nothing.
-                  const auto tree = std::make_unique<mobb::Tree>(crowd.trees.front());
-                  const mobb::PlacedTree bad(*tree, {});
-                  auto& nodes = const_cast<mobb::Node&>(tree->node(0));
-                  nodes.second_child = 1 << 30;
-                  nodes.count = crowd.trees.front().clip().count();
-                  ring.query(bad, bad);
+                  Crowd().ask(ring, 10);
+                  // The time goes into long queries: side by side, never touching, measured sample by sample.
+                  const mobb::Tree tree(
+                      std::make_shared<const mobb::Clip>(0.1, std::vector<mobb::Disk>(20'000, {0, 0, 0.5})),
+                      {.levels = 1});
+                  const mobb::PlacedTree a(tree, {}), b(tree, {.translate = {0.8, 0.8}, .rotate_deg = 30});
+                  ::signal(SIGVTALRM, [](int) { std::abort(); });
+                  const itimerval soon{{0, 0}, {0, 50'000}};
+                  ::setitimer(ITIMER_VIRTUAL, &soon, nullptr);
+                  for (;;) ring.query(a, b);
               }),
-              SIGSEGV);
+              SIGABRT);
     ASSERT_TRUE(std::filesystem::exists(file));
     const Scene scene = load_scene(file);
     ASSERT_EQ(scene.queries.size(), 4u);
