@@ -1,4 +1,5 @@
 /// A fixed set of queries for callgrind to count; see bench/instructions.
+#include <mobb/capture.h>
 #include <mobb/query.h>
 
 #include <cstdio>
@@ -12,15 +13,23 @@
 #ifndef MOBBSCOPE_OBSERVER
 #define MOBBSCOPE_OBSERVER NoObserver
 #endif
+// Who asks, in place of query(): NoCaptureRing or CaptureRing.
+#ifdef MOBBSCOPE_RING
+#define MOBBSCOPE_ASK(a, b) ring.query(a, b)
+#else
+#define MOBBSCOPE_RING NoCaptureRing
+#define MOBBSCOPE_ASK(a, b) query(a, b, observer)
+#endif
 
 using namespace mobb;
 
 /// Counted: callgrind collects inside this function only.
-extern "C" [[gnu::noinline]] int counted_queries(const std::vector<PlacedTree>& trees) {
+extern "C" [[gnu::noinline]] int counted_queries(const std::vector<PlacedTree>& trees,
+                                                 [[maybe_unused]] MOBBSCOPE_RING& ring) {
     int hits = 0;
-    MOBBSCOPE_OBSERVER observer;
+    [[maybe_unused]] MOBBSCOPE_OBSERVER observer;
     for (std::size_t i = 0; i + 1 < trees.size(); i += 2) {
-        hits += query(trees[i], trees[i + 1], observer).has_value();
+        hits += MOBBSCOPE_ASK(trees[i], trees[i + 1]).has_value();
     }
     return hits;
 }
@@ -52,5 +61,6 @@ int main(int argc, char** argv) {
             placed.emplace_back(tree, bench::somewhere(random, tree.clip().duration()));
         }
     }
-    std::printf("%d hits\n", counted_queries(placed));
+    MOBBSCOPE_RING ring(64);
+    std::printf("%d hits\n", counted_queries(placed, ring));
 }

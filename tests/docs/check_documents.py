@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """check_documents.py SOURCE: no link in a document is broken, README stays short, docs/README.md lists all documents in
-README's order, C++ and CMake in documents are what tests/install/consumer compiles, and few commands are left unrun."""
+README's order, C++ and CMake in documents are what tests/install compiles, and few commands are left unrun."""
 
 import re
 import sys

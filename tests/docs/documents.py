@@ -63,7 +63,7 @@ class Document:
 def all_documents(source):
     """README, docs and the READMEs beside the code, in order."""
     paths = [source / "README.md", *sorted((source / "docs").rglob("*.md")), source / "src/README.md",
-             source / "third_party/README.md", source / "assets/figures/README.md"]
+             source / "examples/README.md", source / "third_party/README.md", source / "assets/figures/README.md"]
     return [Document(path) for path in paths]
 
 
