@@ -5,6 +5,7 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <explain/avoidable.h>
+#include <explain/body_words.h>
 #include <explain/certificate_file.h>
 #include <explain/event_values.h>
 #include <explain/proof_words.h>
@@ -30,6 +31,8 @@ struct QueryCommandArguments : FittedArguments {
     bool proof = false;                 ///< in words
     std::filesystem::path certificate;  ///< to be written; empty: none
     std::optional<std::string> where;   ///< filter of the trace's events
+    bool bodies = false;                ///< whether their bones touch
+    double bone_radius = kBoneRadius;
 };
 
 void print_event(std::ostream& out, int step, const SceneQuery& query, const mobb::Trace::Event& event,
@@ -71,6 +74,54 @@ Proven prove(const FittedScene& fitted, const SceneQuery& query) {
     Proven out{traversal_ends(a, b, recorded.trace), certify(a, b, recorded), {}};
     out.margins = margins_of(a.placed_clip(), b.placed_clip(), out.proof);
     return out;
+}
+
+/// Calls `tell` with the bodies of a query and the distances of their bones, or with why there are none.
+template <class Tell, class TellWhy>
+void measure_bodies(const FittedScene& fitted, const SceneQuery& query, double bone_radius, const Tell& tell,
+                    const TellWhy& tell_why) {
+    if (const std::string why = why_no_bodies(fitted.scene(), query); !why.empty()) return tell_why(why);
+    const auto skeleton = [&](const PlacedAgent& who) -> const Skeleton& {
+        return *fitted.scene().clips[static_cast<std::size_t>(who.clip)].skeleton;
+    };
+    const mobb::PlacedTree a = fitted.placed(query.a), b = fitted.placed(query.b);
+    const PlacedBody body_a(a.placed_clip(), skeleton(query.a)), body_b(b.placed_clip(), skeleton(query.b));
+    const Clearance clearance = clearance_over_time(a.placed_clip(), b.placed_clip());
+    tell(body_a, body_b, body_distances(body_a, body_b, clearance, bone_radius));
+}
+
+void print_bodies(std::ostream& out, const FittedScene& fitted, const SceneQuery& query, double bone_radius) {
+    measure_bodies(
+        fitted, query, bone_radius,
+        [&](const PlacedBody& a, const PlacedBody& b, const BodyDistances& distances) {
+            for (const std::string& sentence :
+                 body_sentences(a, cleaned(query.a.name), b, cleaned(query.b.name), distances))
+                out << "   " << cleaned(sentence) << '\n';
+        },
+        [&](const std::string& why) { out << "   No bodies: " << cleaned(why) << ".\n"; });
+}
+
+void write_bodies_of(JsonWriter& json, const FittedScene& fitted, const SceneQuery& query, double bone_radius) {
+    json.key("bodies");
+    measure_bodies(
+        fitted, query, bone_radius,
+        [&](const PlacedBody& a, const PlacedBody& b, const BodyDistances& distances) {
+            write_bodies(json, a, b, distances);
+        },
+        [&](const std::string& why) {
+            json.null();
+            json.member("no_bodies", why);
+        });
+}
+
+/// There must be somebody with a body.
+void check_bodies(const FittedScene& fitted, const std::filesystem::path& file) {
+    std::string why;
+    for (std::size_t index = 0; index < fitted.queries().size(); ++index) {
+        why = why_no_bodies(fitted.scene(), fitted.queries()[index]);
+        if (why.empty()) return;
+    }
+    throw InputError(file.string(), "", "no query is of two bodies: " + why);
 }
 
 /// A sentence, the proof, the counts, and what else was asked for.
@@ -175,9 +226,13 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
         std::optional<Proven> proven;
         if (arguments.proof || !arguments.certificate.empty()) proven = prove(fitted, query);
         if (arguments.json) {
+            json.begin_object();
             write_answer(json, index, query, found);
+            if (arguments.bodies) write_bodies_of(json, fitted, query, arguments.bone_radius);
+            json.end_object();
         } else {
             print_answer(std::cout, index, query, found, avoidable, arguments.proof ? proven : std::nullopt);
+            if (arguments.bodies) print_bodies(std::cout, fitted, query, arguments.bone_radius);
         }
         if (!arguments.certificate.empty()) proofs.push_back({static_cast<int>(index), proven->proof});
         if (const auto complaint = disagreement(query, found)) {
@@ -209,6 +264,7 @@ int run_query(QueryCommandArguments& arguments) {
     if (arguments.where) where = parse_filter(*arguments.where);
     const FittedScene scene = fitted(load(arguments.file, arguments.import_options), arguments.fit);
     check_asks(scene, arguments.file);
+    if (arguments.bodies) check_bodies(scene, arguments.file);
     if (!arguments.certificate.empty()) check_output(arguments.certificate);
     if (where && arguments.fit.brute)
         throw UsageError("--where filters the tests of trees, and brute makes none; choose another --tree");
@@ -228,6 +284,12 @@ void add_query_options(Command& command, QueryCommandArguments& arguments) {
                        "Only the tests that pass a filter, such as 'gap < 0.05 and level(a) >= 3'", "EXPR");
     add_parsed(command, "--certificate", arguments.certificate, parse_file_name,
                "Also write proofs of the answers, which mobbscope verify checks", "OUT.json");
+    const Option bodies =
+        command.add_flag("--bodies", arguments.bodies,
+                         "Also say which bones touch, if any, of clips with skeletons; with --json at every moment");
+    add_parsed(command, "--bone-radius", arguments.bone_radius, number_within(0, kMostBoneRadius),
+               "Metres of the capsule around each bone (0.05)", "M")
+        .needs(bodies);
     command.add_flag("--all-contacts", arguments.details.all_contacts, "All intervals of contact, not only the first");
 }
 
