@@ -27,7 +27,7 @@ glm::dvec3 nearest_point(const Segment& segment, glm::dvec3 to) {
     return point_at(segment, squared > 0 ? glm::dot(to - segment.from, along) / squared : 0);
 }
 
-Segment between(const Segment& first, const Segment& last, double s) {
+Segment segment_at(const Segment& first, const Segment& last, double s) {
     return {point_at({first.from, last.from}, s), point_at({first.to, last.to}, s)};
 }
 
@@ -35,7 +35,7 @@ Segment between(const Segment& first, const Segment& last, double s) {
 struct BonePair {
     const Segment &a0, &a1, &b0, &b1;
 
-    SegmentDistance at(double s) const { return distance_of(between(a0, a1, s), between(b0, b1, s)); }
+    SegmentDistance at(double s) const { return distance_of(segment_at(a0, a1, s), segment_at(b0, b1, s)); }
 
     /// The distance changes by no more than this from s = 0 to 1: any two points of the bones do not move faster
     /// against each other than some two ends.
@@ -203,7 +203,7 @@ std::vector<Segment> PlacedBody::place(int sample, double time) const {
             out.push_back(now);
             continue;
         }
-        out.push_back(between(now, {place_at(sample + 1, bone.from), place_at(sample + 1, bone.to)}, s));
+        out.push_back(segment_at(now, {place_at(sample + 1, bone.from), place_at(sample + 1, bone.to)}, s));
     }
     return out;
 }

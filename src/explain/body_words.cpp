@@ -13,8 +13,8 @@ std::string times_words(const std::vector<mobb::Interval>& intervals) {
     constexpr std::size_t kMostTold = 3;
     std::string out;
     for (std::size_t i = 0; i < intervals.size() && i < kMostTold; ++i) {
-        out += formatted("%s%s to %s", i == 0 ? "" : ", ", to_thousandth(intervals[i].t0).c_str(),
-                         with_unit(intervals[i].t1, "s").c_str());
+        out += formatted("%s%s to %s s", i == 0 ? "" : ", ", to_thousandth(intervals[i].t0).c_str(),
+                         to_thousandth(intervals[i].t1).c_str());
     }
     if (intervals.size() > kMostTold) out += formatted(" and %zu times more", intervals.size() - kMostTold);
     return out;
