@@ -6,6 +6,7 @@
 #include <cli/program.h>
 #include <cli/query_comparisons.h>
 #include <explain/avoidable.h>
+#include <explain/body_words.h>
 #include <explain/certificate_file.h>
 #include <explain/event_values.h>
 #include <explain/proof_words.h>
@@ -29,10 +30,12 @@ namespace {
 
 struct QueryCommandArguments : FittedArguments {
     Details details;
-    bool proof = false;                  ///< in words
-    std::filesystem::path certificate;   ///< to be written; empty: none
-    std::optional<std::string> where;    ///< filter of the trace's events
-    bool check = false;                  ///< against what the file expects and has stored
+    bool proof = false;                 ///< in words
+    std::filesystem::path certificate;  ///< to be written; empty: none
+    std::optional<std::string> where;   ///< filter of the trace's events
+    bool check = false;                 ///< against what the file expects and has stored
+    bool bodies = false;                ///< whether their bones touch
+    double bone_radius = kBoneRadius;
     std::optional<std::string> compare;  ///< another fit, as text
 };
 
@@ -61,6 +64,54 @@ Proven prove(const FittedScene& fitted, const SceneQuery& query) {
     Proven out{traversal_ends(a, b, recorded.trace), certify(a, b, recorded), {}};
     out.margins = margins_of(a.placed_clip(), b.placed_clip(), out.proof);
     return out;
+}
+
+/// Calls `tell` with the bodies of a query and the distances of their bones, or with why there are none.
+template <class Tell, class TellWhy>
+void measure_bodies(const FittedScene& fitted, const SceneQuery& query, double bone_radius, const Tell& tell,
+                    const TellWhy& tell_why) {
+    if (const std::string why = why_no_bodies(fitted.scene(), query); !why.empty()) return tell_why(why);
+    const auto skeleton = [&](const PlacedAgent& who) -> const Skeleton& {
+        return *fitted.scene().clips[static_cast<std::size_t>(who.clip)].skeleton;
+    };
+    const mobb::PlacedTree a = fitted.placed(query.a), b = fitted.placed(query.b);
+    const PlacedBody body_a(a.placed_clip(), skeleton(query.a)), body_b(b.placed_clip(), skeleton(query.b));
+    const Clearance clearance = clearance_over_time(a.placed_clip(), b.placed_clip());
+    tell(body_a, body_b, body_distances(body_a, body_b, clearance, bone_radius));
+}
+
+void print_bodies(std::ostream& out, const FittedScene& fitted, const SceneQuery& query, double bone_radius) {
+    measure_bodies(
+        fitted, query, bone_radius,
+        [&](const PlacedBody& a, const PlacedBody& b, const BodyDistances& distances) {
+            for (const std::string& sentence :
+                 body_sentences(a, cleaned(query.a.name), b, cleaned(query.b.name), distances))
+                out << "   " << cleaned(sentence) << '\n';
+        },
+        [&](const std::string& why) { out << "   No bodies: " << cleaned(why) << ".\n"; });
+}
+
+void write_bodies_of(JsonWriter& json, const FittedScene& fitted, const SceneQuery& query, double bone_radius) {
+    json.key("bodies");
+    measure_bodies(
+        fitted, query, bone_radius,
+        [&](const PlacedBody& a, const PlacedBody& b, const BodyDistances& distances) {
+            write_bodies(json, a, b, distances);
+        },
+        [&](const std::string& why) {
+            json.null();
+            json.member("no_bodies", why);
+        });
+}
+
+/// There must be somebody with a body.
+void check_bodies(const FittedScene& fitted, const std::filesystem::path& file) {
+    std::string why;
+    for (std::size_t index = 0; index < fitted.queries().size(); ++index) {
+        why = why_no_bodies(fitted.scene(), fitted.queries()[index]);
+        if (why.empty()) return;
+    }
+    throw InputError(file.string(), "", "no query is of two bodies: " + why);
 }
 
 /// A sentence, the proof, the counts, and what else was asked for.
@@ -165,9 +216,13 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
         std::optional<Proven> proven;
         if (arguments.proof || !arguments.certificate.empty()) proven = prove(fitted, query);
         if (arguments.json) {
+            json.begin_object();
             write_answer(json, index, query, found);
+            if (arguments.bodies) write_bodies_of(json, fitted, query, arguments.bone_radius);
+            json.end_object();
         } else {
             print_answer(std::cout, index, query, found, avoidable, arguments.proof ? proven : std::nullopt);
+            if (arguments.bodies) print_bodies(std::cout, fitted, query, arguments.bone_radius);
         }
         if (!arguments.certificate.empty()) proofs.push_back({static_cast<int>(index), proven->proof});
         if (const auto complaint = disagreement(query, found)) {
@@ -211,6 +266,7 @@ int run_query(QueryCommandArguments& arguments) {
     if (arguments.where) where = parse_filter(*arguments.where);
     const FittedScene scene = fitted(load(arguments.file, arguments.import_options), arguments.fit);
     check_asks(scene, arguments.file);
+    if (arguments.bodies) check_bodies(scene, arguments.file);
     if (!arguments.certificate.empty()) check_output(arguments.certificate);
     for (const auto& [given, option] :
          {std::pair(where.has_value(), "--where filters"), std::pair(arguments.check, "--check compares"),
@@ -241,6 +297,12 @@ void add_query_options(Command& command, QueryCommandArguments& arguments) {
                    "Also write proofs of the answers, which mobbscope verify checks", "OUT.json");
     const Option contacts = command.add_flag("--all-contacts", arguments.details.all_contacts,
                                              "All intervals of contact, not only the first");
+    const Option bodies =
+        command.add_flag("--bodies", arguments.bodies,
+                         "Also say which bones touch, if any, of clips with skeletons; with --json at every moment");
+    add_parsed(command, "--bone-radius", arguments.bone_radius, number_within(0, kMostBoneRadius),
+               "Metres of the capsule around each bone (0.05)", "M")
+        .needs(bodies);
     Option check = command.add_flag("--check", arguments.check,
                                     "Compare expected answers and stored traces with fresh ones; status 1 if one "
                                     "disagrees");
@@ -248,7 +310,7 @@ void add_query_options(Command& command, QueryCommandArguments& arguments) {
         command.add_option("--compare", arguments.compare,
                            "Compare with another fit, such as 'umobb,leaf=20': who decided earlier", "FIT");
     compare.excludes(check);
-    for (const Option& other : {trace, proof, where, certificate, contacts}) {
+    for (const Option& other : {trace, proof, where, certificate, contacts, bodies}) {
         check.excludes(other);
         compare.excludes(other);
     }

@@ -48,7 +48,6 @@ Answer answer(const FittedScene& fitted, const SceneQuery& query, const Details&
 }
 
 void write_answer(JsonWriter& out, std::size_t index, const SceneQuery& query, const Answer& answer) {
-    out.begin_object();
     out.member("query", index);
     out.member("a", query.a.name);
     out.member("b", query.b.name);
@@ -70,7 +69,6 @@ void write_answer(JsonWriter& out, std::size_t index, const SceneQuery& query, c
         answer.steps ? write_events(out, *answer.trace, *answer.steps, avoidable)
                      : write_trace(out, *answer.trace, avoidable);
     }
-    out.end_object();
 }
 
 std::string sentence(const SceneQuery& query, const std::optional<mobb::Contact>& contact) {

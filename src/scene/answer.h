@@ -29,7 +29,7 @@ struct Answer {
 
 Answer answer(const FittedScene& fitted, const SceneQuery& query, const Details& details);
 
-/// One element of `results` in the output of `query --json`.
+/// The members of one element of `results` in the output of `query --json`.
 void write_answer(JsonWriter& out, std::size_t index, const SceneQuery& query, const Answer& answer);
 
 /// The answer in words: who collides when and where, or that they never do.

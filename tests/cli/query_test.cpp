@@ -2,6 +2,7 @@
 
 #include <explain/avoidable.h>
 #include <scene/fitted_scene.h>
+#include <support/bvh_text.h>
 #include <support/json_keys.h>
 #include <support/temp_folder.h>
 
@@ -434,6 +435,55 @@ TEST(Query, PlacementsInAQueryAreUsed) {
     EXPECT_EQ(found[3]["collides"], false) << "7 m away";
     EXPECT_EQ(found[4]["collides"], true) << "turned onto the origin";
     EXPECT_EQ(found[4]["contact"]["distance"], 0);
+}
+
+TEST(Query, BodiesAreOfClipsWithSkeletons) {
+    const TempFolder folder;
+    folder.write("walker.bvh", testing::replaced(testing::kWalker, "0 0 90 0", "0 0 0 0"));
+    // Arms in parallel, 0.3 m apart; and one who is a disk alone.
+    const std::string file = folder.write("s.json", R"({"clips": {"walk": {"source": "walker.bvh", "unit": "cm"},
+        "disk": {"dt": 0.1, "samples": [[0,0,1]]}},
+        "agents": [{"name": "A", "clip": "walk"}, {"name": "B", "clip": "walk", "translate": [0.3, 0]},
+                   {"name": "C", "clip": "disk"}]})");
+    const json found = results({"query", file, "--json", "--bodies"});
+    EXPECT_EQ(found[0]["collides"], true);
+    const json& bodies = found[0]["bodies"];
+    EXPECT_EQ(keys(bodies),
+              (std::set<std::string>{"bone_radius", "intervals", "collides", "first", "nearest", "samples"}));
+    EXPECT_EQ(bodies["bone_radius"], 0.05);
+    EXPECT_EQ(bodies["collides"], false);
+    EXPECT_TRUE(bodies["first"].is_null());
+    EXPECT_EQ(bodies["intervals"], json::array({json::array({0, bodies["samples"].back()["t1"]})}));
+    EXPECT_NEAR(bodies["nearest"]["distance"].get<double>(), 0.2, 1e-6);
+    EXPECT_EQ(keys(bodies["nearest"]), (std::set<std::string>{"time", "distance", "a_bone", "b_bone"}));
+    EXPECT_EQ(bodies["samples"].size(), 4u);
+    EXPECT_EQ(keys(bodies["samples"][0]),
+              (std::set<std::string>{"t0", "t1", "a_sample", "b_sample", "time", "distance", "a_bone", "b_bone"}));
+    for (const json& joint : bodies["samples"][0]["a_bone"])
+        EXPECT_TRUE((std::set<std::string>{"Hips", "Left Arm", "the end of Left Arm", "Foot"}).contains(joint));
+    EXPECT_TRUE(found[1]["bodies"].is_null());
+    EXPECT_EQ(found[1]["no_bodies"], "the clip 'disk' has no skeleton: its samples are disks alone");
+
+    const json thick = results({"query", file, "--json", "--bodies", "--bone-radius", "0.2"});
+    EXPECT_EQ(thick[0]["bodies"]["collides"], true);
+    EXPECT_NEAR(thick[0]["bodies"]["first"]["distance"].get<double>(), -0.1, 1e-6);
+    const Result words = run_program({"query", file, "--bodies"});
+    EXPECT_NE(words.out.find("Bodies do not touch; nearest are "), std::string::npos) << words.out;
+    EXPECT_NE(words.out.find(" of B, 0.200 m at 0"), std::string::npos) << words.out;
+    EXPECT_NE(words.out.find("No bodies: the clip 'disk' has no skeleton"), std::string::npos);
+    EXPECT_FALSE(results({"query", file, "--json"})[0].contains("bodies"));
+}
+
+TEST(Query, BodiesNeedASkeleton) {
+    const TempFolder folder;
+    const std::string file = folder.write("s.json", R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1]]}},
+        "queries": [{"a": {"clip": "c"}, "b": {"clip": "c"}}]})");
+    const Result refused = run_program({"query", file, "--bodies"});
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_TRUE(is_one_line(refused.err));
+    EXPECT_NE(refused.err.find("no query is of two bodies: the clip 'c' has no skeleton"), std::string::npos);
+    EXPECT_EQ(run_program({"query", file, "--bone-radius", "0.1"}).status, 2);
+    EXPECT_EQ(run_program({"query", file, "--bodies", "--bone-radius", "-1"}).status, 2);
 }
 
 TEST(Query, RealPathsGiveTheDirectSearchsAnswer) {

@@ -142,7 +142,9 @@ TEST(FittedScene, AnAnswerSaysWhereRecordingStopped) {
         answer.trace = std::move(recorded.trace);
         std::ostringstream text;
         JsonWriter out(text);
+        out.begin_object();
         write_answer(out, 0, query, answer);
+        out.end_object();
         return nlohmann::json::parse(text.str());
     };
     const auto whole = json({});

@@ -4,6 +4,7 @@
 #include <app/ui/swatch.h>
 #include <app/ui/widgets.h>
 #include <base/text.h>
+#include <explain/bodies.h>
 #include <explain/query_sentence.h>
 #include <render/text/labels.h>
 
@@ -41,6 +42,9 @@ void draw_curve(ImDrawList& list, const Style& style, const Chart& chart, const 
     list.AddPolyline(curve.data(), static_cast<int>(curve.size()), style.text, 0, 1.5f * style.scale);
 }
 
+/// Of the distance of bones.
+ImU32 bones_color(const Style& style) { return mark_color(style, EventMark::overlap); }
+
 /// Text that stays inside the chart, on a ground that keeps it readable over the curve.
 void text_at(ImDrawList& list, const Style& style, const Chart& chart, ImVec2 at, ImU32 color,
              const std::string& text) {
@@ -75,11 +79,69 @@ void height_lines(Ui& ui, const Chart& chart) {
     }
 }
 
+/// The least distance of bones in each step, and when they were measured at all.
+void draw_bodies(Ui& ui, const Chart& chart, const BodyDistances& bodies) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImU32 color = bones_color(ui.style);
+    const auto x_of = [&](double t) { return std::clamp(chart.x.pixel(t), chart.min.x, chart.max.x); };
+    for (const BodyStep& step : bodies.steps) {
+        const float from = x_of(step.t0), to = std::max(x_of(step.t1), from + 1),
+                    y = chart.y.pixel(step.nearest.distance);
+        if (step.nearest.distance < 0)
+            list.AddRectFilled({from, chart.y.pixel(0)}, {to, y}, mark_color(ui.style, EventMark::hit, 0.6f));
+        list.AddLine({from, y}, {to, y}, color, ui.px(2));
+    }
+}
+
+/// The times in which bones were measured, behind the curves.
+void draw_measured_times(Ui& ui, const Chart& chart, const BodyDistances& bodies) {
+    for (const mobb::Interval& interval : bodies.intervals) {
+        const float from = std::clamp(chart.x.pixel(interval.t0), chart.min.x, chart.max.x);
+        const float to = std::clamp(chart.x.pixel(interval.t1), from + 1, chart.max.x + 1);
+        ImGui::GetWindowDrawList()->AddRectFilled({from, chart.min.y}, {to, chart.max.y},
+                                                  to_im(with_alpha(ui.style.palette.text, 0.08f)));
+    }
+}
+
+/// What the curves are.
+void chart_legend(Ui& ui, double bone_radius) {
+    const float line = ImGui::GetTextLineHeight();
+    ImGui::PushFont(ui.style.caption);
+    const auto entry = [&](ImU32 color, float thick, const std::string& text) {
+        flow(ui.px(22) + ImGui::CalcTextSize(text.c_str()).x);
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const float y = at.y + 0.5f * line;
+        ImGui::GetWindowDrawList()->AddLine({at.x, y}, {at.x + ui.px(14), y}, color, ui.px(thick));
+        ImGui::Dummy({ui.px(14), line});
+        ImGui::SameLine(0, ui.px(5));
+        text_line(ui.style.quiet, text);
+    };
+    ImGui::Dummy({0, 0});
+    entry(ui.style.text, 1.5f, "disks");
+    entry(bones_color(ui.style), 2, "nearest bones");
+    entry(to_im(with_alpha(ui.style.palette.text, 0.2f)), 9,
+          "disks grown by the bones' " + with_unit(bone_radius, "m") + " overlap");
+    ImGui::PopFont();
+    ui.mark_only("query.clearance_legend");
+}
+
 /// The piece that holds at a time; null if none does.
 const ClearancePiece* piece_at(const Clearance& clearance, double t) {
     const auto at = std::partition_point(clearance.pieces.begin(), clearance.pieces.end(),
                                          [&](const ClearancePiece& p) { return p.t1 <= t; });
     return at != clearance.pieces.end() && at->t0 <= t ? &*at : nullptr;
+}
+
+/// Likewise of bones.
+const BodyStep* step_at(const BodyDistances& bodies, double t) {
+    const auto at = std::partition_point(bodies.steps.begin(), bodies.steps.end(),
+                                         [&](const BodyStep& step) { return step.t1 <= t; });
+    return at != bodies.steps.end() && at->t0 <= t ? &*at : nullptr;
+}
+
+std::string bones_line(const QueryFindings& findings, const NearestBones& bones) {
+    return "\nbones: " + signed_metres(bones.distance) + " m, " + bone_words(*findings.sides[0].skeleton, bones.a) +
+           " and " + bone_words(*findings.sides[1].skeleton, bones.b);
 }
 
 }  // namespace
@@ -108,20 +170,29 @@ void QueryPictures::clearance(Ui& ui, QueryInspector& queries, const QueryFindin
     Chart chart{at, {right, at.y + height - label}, time, {time.t0, time.t1, at.x, right}};
     const std::vector<ClearanceColumn>& columns = clearance_.of(
         queries.findings(), {width, 0}, [&] { return columns_of(clearance, chart.time.t0, chart.time.t1, width); });
-    double most = 0;
+    const BodyDistances* measured = bodies.of(queries.findings());
+    double most = 0, low = std::min(0.0, least.clearance);
     for (const ClearanceColumn& column : columns) {
         if (column.any) most = std::max(most, column.most);
     }
-    const double range = std::max(most - std::min(0.0, least.clearance), 1e-3);
-    chart.y = {std::min(0.0, least.clearance) - 0.12 * range, most + 0.08 * range, chart.max.y, chart.min.y};
+    if (measured) {
+        for (const BodyStep& step : measured->steps) {
+            most = std::max(most, step.nearest.distance);
+            low = std::min(low, step.nearest.distance);
+        }
+    }
+    const double range = std::max(most - low, 1e-3);
+    chart.y = {low - 0.12 * range, most + 0.08 * range, chart.max.y, chart.min.y};
 
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(chart.min, chart.max, ui.style.raised);
+    if (measured) draw_measured_times(ui, chart, *measured);
     const float zero = chart.y.pixel(0);
     dashed_line(list, {chart.min.x, zero}, {chart.max.x, zero}, mark_color(ui.style, EventMark::hit), ui.style.scale,
                 ui.px(3));
     height_lines(ui, chart);
     draw_curve(list, ui.style, chart, columns);
+    if (measured) draw_bodies(ui, chart, *measured);
     text_at(list, ui.style, chart, {chart.min.x + ui.px(3), zero - label}, mark_text(ui.style, EventMark::hit),
             "contact");
     least_mark(list, ui.style, chart, least);
@@ -135,12 +206,15 @@ void QueryPictures::clearance(Ui& ui, QueryInspector& queries, const QueryFindin
         list.AddLine({chart.x.pixel(*now), chart.min.y}, {chart.x.pixel(*now), chart.max.y}, ui.style.accent,
                      ui.px(1.5f));
     }
+    if (measured) chart_legend(ui, measured->bone_radius);
     if (!hovered && !active) return;
     const double t = std::clamp(chart.x.value(ImGui::GetIO().MousePos.x), chart.time.t0, chart.time.t1);
     if (const ClearancePiece* piece = piece_at(clearance, t)) {
-        ImGui::SetTooltip("%s: %s m\nsample %d of %s, sample %d of %s", with_unit(t, "s").c_str(),
+        const BodyStep* step = measured ? step_at(*measured, t) : nullptr;
+        ImGui::SetTooltip("%s: %s m\nsample %d of %s, sample %d of %s%s", with_unit(t, "s").c_str(),
                           signed_metres(clearance_at(*piece, t)).c_str(), piece->a_sample,
-                          findings.sides[0].label.c_str(), piece->b_sample, findings.sides[1].label.c_str());
+                          findings.sides[0].label.c_str(), piece->b_sample, findings.sides[1].label.c_str(),
+                          step ? bones_line(findings, step->nearest).c_str() : "");
     } else {
         ImGui::SetTooltip("%s: only one of them is there", with_unit(t, "s").c_str());
     }

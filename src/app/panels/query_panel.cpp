@@ -122,7 +122,7 @@ void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures) {
     const std::shared_ptr<const QueryFindings> findings = queries.findings();
     if (!findings) return no_query(ui);
     query_header(ui);
-    query_answer(ui, queries, *findings);
+    query_answer(ui, queries, *findings, pictures.bodies);
     proof_section(ui, *findings);
     if (!findings->recursion.pairs.empty()) {
         focus_line(ui, *findings);
@@ -146,7 +146,7 @@ void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures) {
     if (section(ui, "CLEARANCE OVER TIME")) pictures.clearance(ui, queries, *findings, ui.px(110));
 }
 
-void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings) {
+void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings, QueryBodies& bodies) {
     const bool collide = findings.clearance.contact.has_value();
     const EventMark mark = collide ? EventMark::hit : EventMark::separated;
     framed(ui, mark_color(ui.style, mark, 0.10f), mark_color(ui.style, mark), [&] {
@@ -163,6 +163,7 @@ void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings
         contact_rows(ui, findings, *contact);
         query_button(ui, "Go to contact", "go.contact");
     }
+    bodies.show(ui, queries.findings());
     expectation(ui, queries);
 }
 

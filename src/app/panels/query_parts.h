@@ -7,6 +7,7 @@
 #include <app/panels/recursion_picture.h>
 #include <app/ui/ui.h>
 #include <app/ui/widgets.h>
+#include <explain/bodies.h>
 #include <explain/query_findings.h>
 #include <explain/trace_comparison.h>
 #include <render/query/map_colors.h>
@@ -23,7 +24,8 @@ namespace mobbscope::app {
 void query_button(Ui& ui, const char* label, const char* command);
 
 // These need a query in the view and its findings.
-void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings);
+class QueryBodies;
+void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings, QueryBodies& bodies);
 /// The lines of the proof as rows, and what the trees found instead. Nothing without lines.
 void proof_section(Ui& ui, const QueryFindings& findings);
 /// The line that the time cursor is in; none: it is in none.
@@ -85,10 +87,29 @@ class MapPicture {
     std::vector<PixelLine> hatch_;
 };
 
+/// How near the bones of the query in view come to each other.
+class QueryBodies {
+  public:
+    /// Found at the first call, or once measured where that takes long; null: not yet, or there are no skeletons.
+    const BodyDistances* of(const std::shared_ptr<const QueryFindings>& findings);
+    /// Whether bodies touch, in sentences, and a button to that moment.
+    void show(Ui& ui, const std::shared_ptr<const QueryFindings>& findings);
+
+  private:
+    void measure(Ui& ui);
+
+    struct Known {
+        std::shared_ptr<const QueryFindings> of;
+        std::optional<BodyDistances> distances;
+    };
+    std::shared_ptr<Known> known_;  ///< shared with the job that measures
+};
+
 /// The pictures of a trace, each with the cells that it was last drawn from: most frames draw the same ones.
 class QueryPictures {
   public:
     EventTable events;
+    QueryBodies bodies;
     /// Called above the pictures of a panel that scrolls: what the mouse is on below stays there when what stands above
     /// grows, so that a click may be the first of two.
     void stay();

@@ -1,3 +1,4 @@
+#include <explain/bodies.h>
 #include <explain/query_sentence.h>
 #include <import/skeleton/disk_sampler.h>
 #include <import/skeleton/motion.h>
@@ -79,17 +80,10 @@ void find_pairs(Moment& moment) {
     if (!moment.overlaps.empty()) moment.nearest.reset();
 }
 
-/// The tip of a bone has no name of its own.
-std::string joint_words(std::span<const Joint> joints, int index) {
-    const Joint& joint = joints[static_cast<std::size_t>(index)];
-    if (!joint.name.empty() || joint.parent < 0) return joint.name;
-    return "the end of " + joints[static_cast<std::size_t>(joint.parent)].name;
-}
-
 std::string radius(const DrawnAgent& agent, const Body& body) {
     std::string text = "radius " + with_unit(body.disk.r, "m");
     if (!sets_radius(body)) return text;
-    return text + ": as far as " + joint_words(agent.skeleton->joints, body.farthest->joint) + " reaches";
+    return text + ": as far as " + joint_words(*agent.skeleton, body.farthest->joint) + " reaches";
 }
 
 constexpr std::size_t kMostPairs = 3;
@@ -169,6 +163,12 @@ Moment moment_of(std::span<const DrawnAgent> agents, std::span<const double> hei
     return out;
 }
 
+std::optional<NearestBones> bones_then(std::span<const DrawnAgent> agents, const Moment& moment) {
+    if (agents.size() != 2 || moment.bodies.size() != 2 || !agents[0].skeleton || !agents[1].skeleton) return {};
+    const PlacedBody a(agents[0].clip(), *agents[0].skeleton), b(agents[1].clip(), *agents[1].skeleton);
+    return nearest_bones(a, moment.bodies[0].sample, b, moment.bodies[1].sample, moment.time, kBoneRadius);
+}
+
 Caption moment_caption(const Palette& palette, std::span<const DrawnAgent> agents, const Moment& moment,
                        std::size_t people) {
     Caption out;
@@ -217,7 +217,12 @@ Caption moment_caption(const Palette& palette, std::span<const DrawnAgent> agent
         }
         out.mark = palette.separated;
     }
-    if (count == 2) {
+    if (moment.bones) {
+        const NearestBones& bones = *moment.bones;
+        add_detail((bones.distance < 0 ? "bones overlap by " : "nearest bones ") +
+                   with_unit(std::abs(bones.distance), "m") + ": " + bone_words(*agents[0].skeleton, bones.a) +
+                   " and " + bone_words(*agents[1].skeleton, bones.b));
+    } else if (count == 2) {
         add_detail("radii " + with_unit(moment.bodies[0].disk.r, "m") + " and " +
                    with_unit(moment.bodies[1].disk.r, "m"));
     }
@@ -229,7 +234,7 @@ Caption moment_caption(const Palette& palette, std::span<const DrawnAgent> agent
 }
 
 std::vector<LegendEntry> moment_legend(const DrawList& list, std::span<const DrawnAgent> agents,
-                                       std::span<const DrawnAgent> paths, const ViewState& view) {
+                                       std::span<const DrawnAgent> paths, const ViewState& view, bool bones) {
     const Palette& palette = list.palette;
     std::vector<LegendEntry> out;
     // A crowd's colours only keep neighbours apart.
@@ -244,7 +249,12 @@ std::vector<LegendEntry> moment_legend(const DrawList& list, std::span<const Dra
     };
     if (view.disks && agents.size() > 1 && !in_grid) line(palette.hit, 3, "overlap");
     if (view.disks && !in_grid && has_waiting(paths)) line(palette.quiet_text, 1.3f, "waits (inner ring)");
-    if (view.disks && may_show_radii(agents)) line(palette.text, 1.4f, "radius, to the farthest joint");
+    if (bones) {
+        line(palette.quiet_text, 5, ("bones, " + with_unit(kBoneRadius, "m") + " around each").c_str());
+        line(palette.separated, 5, "nearest bones");
+    } else if (view.disks && may_show_radii(agents)) {
+        line(palette.text, 1.4f, "radius, to the farthest joint");
+    }
     const bool is_run = !agents.empty() && agents.front().run_agent >= 0;
     if (view.floor && !(is_run && agents.size() > kMostWithWays)) {
         line(palette.quiet_text, 2.6f, "way so far");

@@ -1,6 +1,7 @@
 /// Who is on the floor at one moment, in numbers: what the picture of it draws and says.
 #pragma once
 
+#include <explain/bodies.h>
 #include <render/layout/caption.h>
 #include <render/layout/legend.h>
 #include <scene/drawn_agent.h>
@@ -46,10 +47,15 @@ struct Moment {
     std::vector<Body> bodies;
     std::vector<BodyPair> overlaps;   ///< all pairs whose samples collide (mobb/predicate.h)
     std::optional<BodyPair> nearest;  ///< if no pair overlaps: the one with the least clearance
+    /// Of a query of two with skeletons that are there: their bones as capsules of kBoneRadius.
+    std::optional<NearestBones> bones{};
 };
 
 /// `heights`: of the agents' cylinders, one for each.
 Moment moment_of(std::span<const DrawnAgent> agents, std::span<const double> heights, double time);
+
+/// Moment::bones of two agents; none if one of them is not there or has no skeleton.
+std::optional<NearestBones> bones_then(std::span<const DrawnAgent> agents, const Moment& moment);
 
 /// How tall the agents' cylinders are, metres: a little more than the highest joint of the whole clip, so that they
 /// keep their height while people walk.
@@ -63,8 +69,8 @@ Caption moment_caption(const Palette& palette, std::span<const DrawnAgent> agent
 bool may_show_radii(std::span<const DrawnAgent> agents);
 
 /// What the picture's colours and lines stand for, whenever it is: the legend stays while time runs. `paths`: of the
-/// agents. Needs the projection.
+/// agents. `bones`: whether these are capsules at any time. Needs the projection.
 std::vector<LegendEntry> moment_legend(const DrawList& list, std::span<const DrawnAgent> agents,
-                                       std::span<const DrawnAgent> paths, const ViewState& view);
+                                       std::span<const DrawnAgent> paths, const ViewState& view, bool bones);
 
 }  // namespace mobbscope

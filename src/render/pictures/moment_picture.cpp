@@ -121,6 +121,7 @@ class MomentPicture final : public Picture {
         view_.time_axis = false;
         const double time = crowd_ ? run_time(fitted_.scene(), view) : view.time.value_or(beginning(agents_));
         moment_ = moment_of(agents_, heights_, time);
+        if (view_.query) moment_.bones = bones_then(agents_, moment_);
         // Of a run each person stands there with several plays.
         count_ = crowd_ ? crowd_->agents.size() : agents_.size();
         list_.moment = moment_.time;
@@ -146,6 +147,11 @@ class MomentPicture final : public Picture {
   private:
     std::span<const DrawnAgent> persons() const { return std::span(agents_).first(count_); }
 
+    /// Of a query whose two sides have skeletons, whenever it is.
+    bool has_bones() const {
+        return view_.query && std::ranges::all_of(agents_, [](const DrawnAgent& agent) { return agent.skeleton; });
+    }
+
     OverlayContents words() override {
         OverlayContents out;
         out.caption = moment_caption(list_.palette, agents_, moment_, count_);
@@ -156,7 +162,7 @@ class MomentPicture final : public Picture {
             out.legend = candidate_legend(list_.palette, choice_->choice);
         }
         if (proof_ && proof_->at(moment_.time)) out.legend.push_back(proof_entry(list_.palette));
-        const std::vector<LegendEntry> who = moment_legend(list_, persons(), agents_, view_);
+        const std::vector<LegendEntry> who = moment_legend(list_, persons(), agents_, view_, has_bones());
         out.legend.insert(out.legend.end(), who.begin(), who.end());
         return out;
     }
@@ -191,8 +197,9 @@ class MomentPicture final : public Picture {
             const Body& b = moment_.bodies[static_cast<std::size_t>(moment_.nearest->b)];
             if (!is_hidden(a) && !is_hidden(b)) add(add_clearance(list_, a, b, metrics_));
         }
+        if (moment_.bones && shown_count(agents_) == 2) add(add_nearest_bones(list_, agents_, moment_, metrics_));
         // Where two overlap, that is what the picture is about.
-        if (view_.disks && may_show_radii(persons()) && moment_.overlaps.empty()) {
+        if (view_.disks && may_show_radii(persons()) && moment_.overlaps.empty() && !moment_.bones) {
             for (const Body& body : moment_.bodies) {
                 if (!sets_radius(body) || is_hidden(body)) continue;
                 const auto length = add_radius(list_, agents_[static_cast<std::size_t>(body.agent)], body, metrics_);

@@ -1,5 +1,5 @@
+#include <explain/bodies.h>
 #include <explain/query_sentence.h>
-#include <import/skeleton/disk_sampler.h>
 #include <import/skeleton/motion.h>
 #include <render/drawlist/pen.h>
 #include <render/layout/annotations.h>
@@ -14,6 +14,9 @@
 #include <cctype>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace mobbscope {
 
@@ -157,32 +160,42 @@ void add_facing_ring(const DrawList& list, Pen& pen, glm::vec3 middle, float rad
              {color, width, kSolid, 0.35f, 0.25f * width});
 }
 
-/// Each bone as a line in a dark or light rim, so that limbs that cross are told apart; the farthest first.
-void add_skeleton(const DrawList& list, Pen& pen, const Figure& f, float scale) {
-    const Skeleton& skeleton = *f.agent.skeleton;
-    const std::vector<bool> in_body = subtree(skeleton.joints, skeleton.root);
-    std::vector<glm::vec3> places;
-    for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
-        const glm::dvec3 p = joint_place(*f.agent.skeleton, f.agent.clip(), f.body.sample, static_cast<int>(i));
-        places.push_back(list.space.point(p.x, p.y, p.z));
-    }
+float capsule_width(float pixels, float scale) {
+    return std::max(2 * static_cast<float>(kBoneRadius) * pixels, 1.1f * scale);
+}
+
+/// A capsule as it is seen from the side.
+void add_capsule(const DrawList& list, Pen& pen, glm::vec3 from, glm::vec3 to, Rgba color, float pixels, float width) {
+    const LineStyle style{color, width, kSolid, 0.35f};
+    pen.line(from, to, style);
+    if (width < 4) return;
+    // Its round ends.
+    for (const glm::vec3 end : {from, to})
+        add_facing_ring(list, pen, end, 0.25f * width / pixels, pixels, color, 0.5f * width);
+}
+
+/// Each bone as a line in a dark or light rim, so that limbs that cross are told apart; the farthest first. With
+/// `capsules` as wide as these.
+void add_skeleton(const DrawList& list, Pen& pen, const Figure& f, double time, bool capsules, float scale) {
+    const PlacedBody body(f.agent.clip(), *f.agent.skeleton);
     struct Bone {
         glm::vec3 from, to;
         float depth = 0;
     };
     std::vector<Bone> bones;
     const float shortest = 0.8f / std::max(f.pixels, 1e-3f);
-    std::optional<std::size_t> head;
+    std::optional<glm::vec3> head;
+    const std::vector<Segment> places = body.place(f.body.sample, time);
     for (std::size_t i = 0; i < places.size(); ++i) {
-        if (!in_body[i]) continue;
-        if (!head && is_head(skeleton.joints[i].name)) head = i;
-        if (static_cast<int>(i) == skeleton.root) continue;
-        const Bone bone{places[static_cast<std::size_t>(skeleton.joints[i].parent)], places[i], 0};
-        if (glm::length(bone.to - bone.from) > shortest) bones.push_back(bone);
+        const auto& [from, to] = places[i];
+        const Bone bone{list.space.point(from.x, from.y, from.z), list.space.point(to.x, to.y, to.z), 0};
+        const auto joint = static_cast<std::size_t>(body.bones()[i].to);
+        if (!head && is_head(body.skeleton().joints[joint].name)) head = bone.to;
+        if (capsules || glm::length(bone.to - bone.from) > shortest) bones.push_back(bone);
     }
     for (Bone& bone : bones) bone.depth = list.projection.depth(0.5f * (bone.from + bone.to));
     std::stable_sort(bones.begin(), bones.end(), [](const Bone& a, const Bone& b) { return a.depth > b.depth; });
-    const float width = bone_width(f, scale);
+    const float width = capsules ? capsule_width(f.pixels, scale) : bone_width(f, scale);
     const Rgba color = mix_colors(line_color_of(f.agent, list.palette), f.agent.color, 0.25f);
     const Rgba rim = with_alpha(list.palette.background, 0.8f);
     const float around = width > 2.2f * scale ? 2 * scale : 0;
@@ -190,13 +203,19 @@ void add_skeleton(const DrawList& list, Pen& pen, const Figure& f, float scale) 
         // Not at its ends, where it meets others.
         const glm::vec3 inset = 0.2f * (bone.to - bone.from);
         if (around > 0) pen.line(bone.from + inset, bone.to - inset, {rim, width + around});
-        pen.line(bone.from, bone.to, {color, width, kSolid, 0.35f, 0.3f * width});
+        if (capsules) {
+            add_capsule(list, pen, bone.from, bone.to, color, f.pixels, width);
+        } else {
+            pen.line(bone.from, bone.to, {color, width, kSolid, 0.35f, 0.3f * width});
+        }
     }
-    if (!head) return;
-    add_facing_ring(list, pen, places[*head], kHead, f.pixels, color, 0.8f * width);
+    // It has no bone of its own.
+    if (!head || capsules) return;
+    add_facing_ring(list, pen, *head, kHead, f.pixels, color, 0.8f * width);
 }
 
-void add_figure(DrawList& list, const Figure& f, BodyParts parts, int rank, bool plain, float scale) {
+void add_figure(DrawList& list, const Figure& f, const Moment& moment, BodyParts parts, int rank, bool plain,
+                float scale) {
     Pen pen = pen_of(list, rank);
     const float thin = 1.1f * scale;
     const float width = f.body.overlaps ? 2.6f * scale : 1.3f * scale;
@@ -217,7 +236,7 @@ void add_figure(DrawList& list, const Figure& f, BodyParts parts, int rank, bool
         add_level_ring(pen, f.foot + floor * up, kWaitingRing * f.radius, f.pieces, {f.line, thin, kSolid, 0.35f});
     }
     if (parts.walls) add_glass(list, f);
-    if (f.agent.skeleton) add_skeleton(list, pen, f, scale);
+    if (f.agent.skeleton) add_skeleton(list, pen, f, moment.time, moment.bones.has_value(), scale);
     if (!parts.walls) return;
     add_outline(list, pen, f, thin);
     add_level_ring(pen, f.foot + f.height * up, f.radius, f.pieces, {f.line, 1.3f * scale});
@@ -255,14 +274,13 @@ void add_overlap(DrawList& list, const Figure& a, const Figure& b, bool plain, s
     }
 }
 
-std::vector<LabelRequest> length_label(const DrawList& list, glm::vec3 from, glm::vec3 to, double length, Rgba color,
+/// A number beside a place; none where that is not seen.
+std::vector<LabelRequest> number_label(const DrawList& list, glm::vec3 place, const std::string& text, Rgba color,
                                        float text_size) {
-    const auto anchor = list.projection.project(0.5f * (from + to));
-    const auto ends = std::pair(list.projection.project(from), list.projection.project(to));
-    // A way too short to be seen needs no number beside it.
-    if (!anchor || !ends.first || !ends.second || glm::length(*ends.second - *ends.first) < 1.5f * text_size) return {};
+    const auto anchor = list.projection.project(place);
+    if (!anchor) return {};
     LabelRequest label;
-    label.text = with_unit(length, "m");
+    label.text = text;
     label.role = TextRole::note;
     label.face = FontFace::mono;
     label.size = text_size;
@@ -273,6 +291,14 @@ std::vector<LabelRequest> length_label(const DrawList& list, glm::vec3 from, glm
     label.distance = 3 * text_size;
     label.pill = true;
     return {label};
+}
+
+std::vector<LabelRequest> length_label(const DrawList& list, glm::vec3 from, glm::vec3 to, double length, Rgba color,
+                                       float text_size) {
+    const auto ends = std::pair(list.projection.project(from), list.projection.project(to));
+    // A way too short to be seen needs no number beside it.
+    if (!ends.first || !ends.second || glm::length(*ends.second - *ends.first) < 1.5f * text_size) return {};
+    return number_label(list, 0.5f * (from + to), with_unit(length, "m"), color, text_size);
 }
 
 }  // namespace
@@ -294,7 +320,7 @@ void add_bodies(DrawList& list, std::span<const DrawnAgent> agents, const Moment
     });
     const bool plain = are_plain(figures, scale);
     int rank = 0;
-    for (const Figure* f : far_first) add_figure(list, *f, parts, rank++, plain, scale);
+    for (const Figure* f : far_first) add_figure(list, *f, moment, parts, rank++, plain, scale);
     if (!parts.disks) return;
     std::int64_t index = 0;
     for (const BodyPair& pair : moment.overlaps) {
@@ -338,6 +364,32 @@ std::vector<LabelRequest> add_clearance(DrawList& list, const Body& a, const Bod
     const glm::vec3 end = list.space.point(near_b.x, near_b.y, 0) + up;
     pen_of(list, (1 << 20) + 2).line(begin, end, {list.palette.separated, 2 * metrics.scale, kSolid, 0.35f});
     return length_label(list, begin, end, distance - a.disk.r - b.disk.r, list.palette.separated, metrics.text);
+}
+
+std::vector<LabelRequest> add_nearest_bones(DrawList& list, std::span<const DrawnAgent> agents, const Moment& moment,
+                                            const Metrics& metrics) {
+    const NearestBones& bones = *moment.bones;
+    const bool overlap = bones.distance < 0;
+    const Rgba color = overlap ? list.palette.hit : list.palette.separated;
+    Pen pen = pen_of(list, (1 << 20) + 3);
+    const auto drawn = [&](const glm::dvec3& p) { return list.space.point(p.x, p.y, p.z); };
+    const auto add_bone = [&](std::size_t side, SkeletonBone bone) {
+        const DrawnAgent& agent = agents[side];
+        const PlacedBody body(agent.clip(), *agent.skeleton);
+        const auto index = std::ranges::find(body.bones(), bone) - body.bones().begin();
+        const Segment place = body.place(moment.bodies[side].sample, moment.time)[static_cast<std::size_t>(index)];
+        const float pixels = list.projection.pixels_per_metre(drawn(place.from));
+        if (pixels <= 0) return;
+        add_capsule(list, pen, drawn(place.from), drawn(place.to), color, pixels, capsule_width(pixels, metrics.scale));
+    };
+    add_bone(0, bones.a);
+    add_bone(1, bones.b);
+    const glm::vec3 from = drawn(bones.a_point), to = drawn(bones.b_point);
+    const float dot = 2 * metrics.scale;
+    for (const glm::vec3 end : {from, to}) pen.line(end, end, {list.palette.text, 2 * dot, kSolid, 1, dot});
+    pen.line(from, to, {list.palette.text, 1.5f * metrics.scale, kSolid, 1});
+    return number_label(list, 0.5f * (from + to), with_unit(std::abs(bones.distance), "m") + (overlap ? " deep" : ""),
+                        color, metrics.text);
 }
 
 void add_body_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAgent> agents, const Moment& moment,

@@ -1,4 +1,5 @@
-/// People at one moment: each a skeleton in its cylinder of glass, or a plain cylinder where it is small.
+/// People at one moment: each a skeleton, or its capsules, in its cylinder of glass, or a plain cylinder where it is
+/// small.
 #pragma once
 
 #include <render/drawlist/draw_list.h>
@@ -26,6 +27,10 @@ std::vector<LabelRequest> add_radius(DrawList& list, const DrawnAgent& agent, co
 
 /// The shortest way on the floor between two disks, with its length to stand beside it.
 std::vector<LabelRequest> add_clearance(DrawList& list, const Body& a, const Body& b, const Metrics& metrics);
+
+/// The two nearest bones, and the way between them with its length to stand beside it. Requires Moment::bones.
+std::vector<LabelRequest> add_nearest_bones(DrawList& list, std::span<const DrawnAgent> agents, const Moment& moment,
+                                            const Metrics& metrics);
 
 /// Names above the cylinders.
 void add_body_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAgent> agents, const Moment& moment,
