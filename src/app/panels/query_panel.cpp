@@ -139,6 +139,7 @@ void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures) {
         if (!compares) pictures.compare(ui, queries, *findings);
         break_when(ui, queries);
         bookmarks(ui);
+        pictures.stay();
         if (section(ui, "RECURSION: TIME OF A BY TIME OF B")) {
             pictures.square(ui, queries, *findings);
             recording_note(ui, "square");
