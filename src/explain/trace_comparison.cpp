@@ -42,7 +42,7 @@ std::vector<std::string_view> members_that_differ(const mobb::Trace::Event& stor
     return out;
 }
 
-bool has(const TraceDifference& difference, std::string_view member) {
+bool differs_in(const TraceDifference& difference, std::string_view member) {
     return std::ranges::find(difference.members, member) != difference.members.end();
 }
 
@@ -57,7 +57,7 @@ std::string pair_words(std::span<const mobb::MeasuredPair> pairs, std::size_t in
 std::string side_words(const mobb::Trace& trace, const TraceDifference& difference) {
     const mobb::Trace::Event event = trace[difference.step];
     std::string out;
-    if (has(difference, "parent") || has(difference, "depth")) {
+    if (differs_in(difference, "parent") || differs_in(difference, "depth")) {
         out = "called by step " + std::to_string(event.parent) + " at depth " + std::to_string(event.depth) + ", ";
     }
     out += std::to_string(event.a) + " x " + std::to_string(event.b) + ' ' + std::string(mobb::name(event.test)) +
@@ -132,7 +132,7 @@ std::string check_words(const TraceCheck& check, const mobb::Trace& stored, cons
     }
     out += " in " + listed(difference.members) + ": stored " + side_words(stored, difference) + "; now " +
            side_words(present, difference);
-    if (has(difference, "pairs")) out += first_pair_words(stored[difference.step], present[difference.step]);
+    if (differs_in(difference, "pairs")) out += first_pair_words(stored[difference.step], present[difference.step]);
     return out;
 }
 

@@ -944,10 +944,10 @@ std::vector<Case> cases() {
     add({"compare.leaf", "7", {kFirstQuery, umobb}, [](CommandWorld& w) {
              EXPECT_EQ(w.session.workspace.compare_with->fit->leaf, 7);
          }});
-    add({"compare.at", "0.5", {kFirstQuery, umobb}, [](CommandWorld& w) {
-             EXPECT_EQ(w.view().time, 0.5);
+    add({"compare.at", "0.2", {kFirstQuery, umobb}, [](CommandWorld& w) {
+             EXPECT_EQ(w.view().time, 0.2);
              const TraversalComparison& both = w.session.queries.comparison()->traversals;
-             EXPECT_EQ(w.session.workspace.step(), both.decision(*both.at(0.5), 0).step);
+             EXPECT_EQ(w.session.workspace.step(), both.decision(*both.at(0.2), 0).step);
          }});
     add({"compare.difference",
          "",

@@ -12,6 +12,7 @@
 #include <cctype>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::app {
@@ -213,9 +214,11 @@ void QueryPictures::compare_strips(Ui& ui, QueryInspector& queries, const std::s
 }
 
 void QueryPictures::compare(Ui& ui, QueryInspector& queries, const QueryFindings& findings) {
+    const auto& with = ui.workspace.compare_with;
+    // It may stand far below, and come from the palette.
+    if (!std::exchange(compares_, with.has_value()) && with) ImGui::SetScrollHereY(0);
     if (!section(ui, "COMPARE")) return;
     choose_what(ui, queries);
-    const auto& with = ui.workspace.compare_with;
     if (!with) return;
     const std::shared_ptr<const FitComparison> other = queries.comparison();
     if (!other) return compared_stored(ui, queries);
