@@ -34,9 +34,12 @@ struct CheckedQuery {
     std::optional<std::string> disagrees;  ///< with the expected answer
     std::optional<TraceCheck> trace;       ///< none: none is stored
 
-    std::optional<std::string> complaint() const {
-        if (disagrees || !trace || trace->agrees()) return disagrees;
-        return check_words(*trace, *query.trace, *answer.trace);
+    /// Of a wrong answer also whether the traces agree: if they do, the fault is not in the query.
+    std::vector<std::string> complaints() const {
+        std::vector<std::string> out;
+        if (disagrees) out.push_back(*disagrees);
+        if (trace && (disagrees || !trace->agrees())) out.push_back(check_words(*trace, *query.trace, *answer.trace));
+        return out;
     }
 };
 
@@ -78,7 +81,8 @@ void write_check(JsonWriter& json, std::size_t index, const CheckedQuery& checke
         }
         json.end_object();
     }
-    json.member("disagreement", checked.complaint());
+    const std::vector<std::string> complaints = checked.complaints();
+    json.member("disagreement", complaints.empty() ? std::nullopt : std::optional(complaints.front()));
     json.end_object();
 }
 
@@ -181,14 +185,13 @@ int check_queries(const FittedScene& fitted, const std::filesystem::path& file, 
             ++totals.traces;
             totals.events += checked.trace->compared;
         }
-        const std::optional<std::string> complaint = checked.complaint();
-        if (complaint) {
-            ++totals.failed;
-            complaints.push_back("query " + std::to_string(index) + ": " + *complaint);
-        }
+        const std::vector<std::string> found = checked.complaints();
+        if (!found.empty()) ++totals.failed;
+        for (const std::string& complaint : found)
+            complaints.emplace_back("query " + std::to_string(index) + ": ").append(complaint);
         if (json) {
             write_check(out, index, checked);
-        } else if (!complaint) {
+        } else if (found.empty()) {
             std::cout << index << ": " << (query.expect ? "as expected, " : "")
                       << sentence(query, checked.answer.contact) << '\n';
             if (checked.trace)
