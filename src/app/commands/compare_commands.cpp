@@ -80,7 +80,7 @@ std::vector<Command> compare_commands() {
     const Condition with_tests{has_tests, why_no_tests};
     const Condition with_fits{
         [](const Workspace& workspace) { return has_tests(workspace) && compares_fits(workspace); },
-        [] { return std::string_view("nothing is compared: Compare with"); }};
+        [] { return std::string_view("it is compared with no fit"); }};
     const std::vector<Command> rows{
         Command("compare.with", "Compare with",
                 "Lays the query beside itself under other trees, or beside the trace of it that the scene has stored.",
@@ -106,7 +106,8 @@ std::vector<Command> compare_commands() {
         Command("compare.difference", "Compare: go to the first difference",
                 "Goes to the first step that differs from the stored trace.", go_to_difference,
                 {.enabled = {differs_from_stored,
-                             [](const QueryInspector& queries) -> std::string_view {
+                             [](const Workspace& workspace, const QueryInspector& queries) -> std::string_view {
+                                 if (!has_tests(workspace)) return why_no_tests(workspace);
                                  return queries.stored_trace() ? "the stored trace agrees" : "no trace is stored";
                              }}}),
         Command("compare.none", "Compare with nothing", "Shows the query alone again.",

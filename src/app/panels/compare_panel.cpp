@@ -12,6 +12,7 @@
 #include <cctype>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::app {
@@ -51,23 +52,36 @@ void choose_what(Ui& ui, QueryInspector& queries) {
     if (leaf) ui.invoke("compare.leaf", formatted("%.0f", *leaf));
 }
 
+/// For the heads of columns: the kinds of trees, or what else differs.
+std::array<std::string, 2> short_names(const std::array<std::string, 2>& names) {
+    const auto part = [&](std::size_t side, bool kind) {
+        const std::size_t comma = names[side].find(", ");
+        if (comma == std::string::npos) return names[side];
+        return kind ? names[side].substr(0, comma) : names[side].substr(comma + 2);
+    };
+    const bool by_kind = part(0, true) != part(1, true);
+    return {part(0, by_kind), part(1, by_kind)};
+}
+
 /// Tests of both sides and how many more the second made.
 void compared_counters(Ui& ui, const std::array<std::string, 2>& names, const mobb::TestCounts& first,
                        const mobb::TestCounts& second) {
     const float left = ImGui::GetCursorPosX(), room = ImGui::GetContentRegionAvail().x;
-    const auto line = [&](const std::string& label, const std::array<std::string, 3>& cells, ImU32 color) {
+    const auto line = [&](const std::string& label, const std::array<std::string, 3>& cells, ImU32 color,
+                          ImFont* font) {
         constexpr std::array kRight{0.6f, 0.8f, 1.0f};
         text_line(ui.style.quiet, label);
+        ImGui::PushFont(font);
         for (std::size_t i = 0; i < cells.size(); ++i) {
             const std::string text = fitted_text(cells[i], 0.2f * room - ui.px(4));
             ImGui::SameLine(left + kRight[i] * room - ImGui::CalcTextSize(text.c_str()).x);
             text_line(color, text);
             tell_whole(ui, text, cells[i]);
         }
+        ImGui::PopFont();
     };
-    ImGui::PushFont(ui.style.caption);
-    line("", {names[0], names[1], "more"}, ui.style.quiet);
-    ImGui::PopFont();
+    const std::array<std::string, 2> heads = short_names(names);
+    line("", {heads[0], heads[1], "more"}, ui.style.quiet, ui.style.caption);
     for (const mobb::TestKind test : mobb::kTestKinds) {
         const std::int64_t one = first[test], other = second[test];
         if (one == 0 && other == 0) continue;
@@ -76,7 +90,7 @@ void compared_counters(Ui& ui, const std::array<std::string, 2>& names, const mo
                                                                     : std::string(info(test.box()).title) + " tests";
         line(label,
              {std::to_string(one), std::to_string(other), (other > one ? "+" : "") + std::to_string(other - one)},
-             ui.style.text);
+             ui.style.text, ui.style.mono);
     }
     ui.mark_only("compare.counters");
 }
@@ -200,9 +214,11 @@ void QueryPictures::compare_strips(Ui& ui, QueryInspector& queries, const std::s
 }
 
 void QueryPictures::compare(Ui& ui, QueryInspector& queries, const QueryFindings& findings) {
+    const auto& with = ui.workspace.compare_with;
+    // It may stand far below, and come from the palette.
+    if (!std::exchange(compares_, with.has_value()) && with) ImGui::SetScrollHereY(0);
     if (!section(ui, "COMPARE")) return;
     choose_what(ui, queries);
-    const auto& with = ui.workspace.compare_with;
     if (!with) return;
     const std::shared_ptr<const FitComparison> other = queries.comparison();
     if (!other) return compared_stored(ui, queries);

@@ -125,6 +125,9 @@ void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures) {
     query_answer(ui, queries, *findings);
     proof_section(ui, *findings);
     if (!findings->recursion.pairs.empty()) {
+        // Above what grows and shrinks with the step: its strips stay below the mouse that clicks in them.
+        const bool compares = ui.workspace.compare_with.has_value();
+        if (compares) pictures.compare(ui, queries, *findings);
         focus_line(ui, *findings);
         step_transport(ui);
         current_test(ui, *findings);
@@ -133,9 +136,10 @@ void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures) {
         measured_pairs(ui, *findings);
         costliest(ui, queries, ui.session.costs, *findings);
         query_counters(ui, queries, *findings);
-        pictures.compare(ui, queries, *findings);
+        if (!compares) pictures.compare(ui, queries, *findings);
         break_when(ui, queries);
         bookmarks(ui);
+        pictures.stay();
         if (section(ui, "RECURSION: TIME OF A BY TIME OF B")) {
             pictures.square(ui, queries, *findings);
             recording_note(ui, "square");
