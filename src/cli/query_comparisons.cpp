@@ -35,11 +35,13 @@ struct CheckedQuery {
     std::optional<TraceCheck> trace;       ///< none: none is stored
 
     /// Of a wrong answer also whether the traces agree: if they do, the fault is not in the query.
-    std::vector<std::string> complaints() const {
-        std::vector<std::string> out;
-        if (disagrees) out.push_back(*disagrees);
-        if (trace && (disagrees || !trace->agrees())) out.push_back(check_words(*trace, *query.trace, *answer.trace));
-        return out;
+    std::optional<std::string> complaint() const {
+        if (!trace || (!disagrees && trace->agrees())) return disagrees;
+        const std::string traces = check_words(*trace, *query.trace, *answer.trace);
+        if (!disagrees) return traces;
+        std::string out = *disagrees;
+        if (out.ends_with('.')) out.pop_back();
+        return out.append("; ").append(traces);
     }
 };
 
@@ -81,8 +83,7 @@ void write_check(JsonWriter& json, std::size_t index, const CheckedQuery& checke
         }
         json.end_object();
     }
-    const std::vector<std::string> complaints = checked.complaints();
-    json.member("disagreement", complaints.empty() ? std::nullopt : std::optional(complaints.front()));
+    json.member("disagreement", checked.complaint());
     json.end_object();
 }
 
@@ -185,13 +186,14 @@ int check_queries(const FittedScene& fitted, const std::filesystem::path& file, 
             ++totals.traces;
             totals.events += checked.trace->compared;
         }
-        const std::vector<std::string> found = checked.complaints();
-        if (!found.empty()) ++totals.failed;
-        for (const std::string& complaint : found)
-            complaints.emplace_back("query " + std::to_string(index) + ": ").append(complaint);
+        const std::optional<std::string> complaint = checked.complaint();
+        if (complaint) {
+            ++totals.failed;
+            complaints.push_back("query " + std::to_string(index) + ": " + *complaint);
+        }
         if (json) {
             write_check(out, index, checked);
-        } else if (found.empty()) {
+        } else if (!complaint) {
             std::cout << index << ": " << (query.expect ? "as expected, " : "")
                       << sentence(query, checked.answer.contact) << '\n';
             if (checked.trace)
