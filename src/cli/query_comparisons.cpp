@@ -34,9 +34,14 @@ struct CheckedQuery {
     std::optional<std::string> disagrees;  ///< with the expected answer
     std::optional<TraceCheck> trace;       ///< none: none is stored
 
+    /// Of a wrong answer also whether the traces agree: if they do, the fault is not in the query.
     std::optional<std::string> complaint() const {
-        if (disagrees || !trace || trace->agrees()) return disagrees;
-        return check_words(*trace, *query.trace, *answer.trace);
+        if (!trace || (!disagrees && trace->agrees())) return disagrees;
+        const std::string traces = check_words(*trace, *query.trace, *answer.trace);
+        if (!disagrees) return traces;
+        std::string out = *disagrees;
+        if (out.ends_with('.')) out.pop_back();
+        return out.append("; ").append(traces);
     }
 };
 

@@ -352,7 +352,7 @@ TEST(QueryCheck, EveryChangeOfATraceIsFound) {
          }},
         {" in outcome: ", [&](json& query) { event_with(query, "outcome", "hit")["outcome"] = "no_hit"; }},
         {" in pairs: ", [&](json& query) { event_with(query, "outcome", "hit")["pairs"].erase(0); }},
-        {"expected no collision",
+        {"events agree with the stored trace",
          [](json& query) {
              query["expect"] = {{"collides", false}};
          }},

@@ -35,7 +35,7 @@ using mobb::CaptureRing;
 using mobb::CrashCapture;
 using testing::TempFolder;
 
-bool same_samples(const mobb::Clip& a, const mobb::Clip& b) {
+bool same_numbers(const mobb::Clip& a, const mobb::Clip& b) {
     const auto same = [](double x, double y) { return x == y && std::signbit(x) == std::signbit(y); };
     return same(a.dt(), b.dt()) && a.motion() == b.motion() &&
            std::ranges::equal(a.samples(), b.samples(), [&](const mobb::Disk& p, const mobb::Disk& q) {
@@ -67,8 +67,8 @@ void expect_same_again(const std::filesystem::path& file, const mobb::Capture& c
     const auto clip_of = [&](const PlacedAgent& who) -> const mobb::Clip& {
         return *scene.clips[static_cast<std::size_t>(who.clip)].clip;
     };
-    EXPECT_TRUE(same_samples(clip_of(query.a), *captured.a.clip));
-    EXPECT_TRUE(same_samples(clip_of(query.b), *captured.b.clip));
+    EXPECT_TRUE(same_numbers(clip_of(query.a), *captured.a.clip));
+    EXPECT_TRUE(same_numbers(clip_of(query.b), *captured.b.clip));
     EXPECT_EQ(query.a.placement, captured.a.placement);
     EXPECT_EQ(query.b.placement, captured.b.placement);
     EXPECT_EQ(scene.fit, captured.fit);
