@@ -91,6 +91,10 @@ void add_ways(DrawList& list, std::span<const DrawnAgent> agents, const Moment& 
             shown = samples_around(agent.clip(), moment.time, kWaySeconds);
         if (shown.count <= 0) continue;
         const Rgba ahead = with_alpha(agent.color, list.palette.dark ? 0.4f : 0.5f);
+        if (agent.outlined) {
+            add_floor_trace(list, agent, shown, 0, ahead, scale);
+            continue;
+        }
         // What somebody in a run played before is way so far.
         if (!sample[i] && agent.run_agent >= 0 && agent.begin() < moment.time) {
             add_floor_trace(list, agent, shown, 0, with_alpha(agent.color, 0.9f), 2.6f * scale);
