@@ -15,7 +15,7 @@ constexpr std::size_t kMostToldOf = 6;  // conflicts of a bar
 /// The conflicts that begin in one bar, the deepest first.
 using Bin = std::vector<int>;
 
-std::string words_of(const std::vector<SceneConflict>& found, const Bin& bin) {
+std::string told_of(const std::vector<SceneConflict>& found, const Bin& bin) {
     std::string text;
     for (std::size_t i = 0; i < std::min(bin.size(), kMostToldOf); ++i)
         text += sentence(found[static_cast<std::size_t>(bin[i])]) + '\n';
@@ -69,7 +69,7 @@ void conflict_bars(Ui& ui, const CrowdInspector& crowds, const ChartAxis& time, 
     for (const std::size_t i : {under, under > 0 ? under - 1 : under, std::min(under + 1, bins.size() - 1)}) {
         if (bins[i].empty()) continue;
         ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
-        ImGui::SetTooltip("%s", words_of(found, bins[i]).c_str());
+        ImGui::SetTooltip("%s", told_of(found, bins[i]).c_str());
         if (clicked) ui.invoke("conflicts.go", std::to_string(next_in(bins[i], ui.workspace.conflict)));
         return;
     }
