@@ -93,14 +93,18 @@ void conflicts(Ui& ui, CrowdInspector& crowds) {
                      .fitted = [&](float room) {
                          return fitted_pair(conflict.a.name, " and ", conflict.b.name, room, names);
                      }})) {
-            ui.invoke("conflicts.go", std::to_string(i));
+            const bool twice = ImGui::IsMouseReleased(0) && ImGui::GetIO().MouseClickedLastCount[0] == 2;
+            if (twice && has_choice) {
+                ui.invoke("conflicts.choice");
+            } else {
+                ui.invoke("conflicts.go", std::to_string(i));
+            }
         }
         context_menu(ui, [&] { return conflict_menu(i); });
         if (!ImGui::IsItemHovered()) return;
         ImGui::SetTooltip("%s%s%s", sentence(conflict).c_str(),
                           unexplained ? ".\n! No play was forced: an answer was wrong, or the run was edited" : "",
                           has_choice ? ".\nDouble-click goes to the choice that made it" : "");
-        if (has_choice && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) ui.invoke("conflicts.choice");
     });
     if (!ui.workspace.view().foreground.empty()) {
         command_button(ui, "back to all", "agent.all_in_full", "conflicts.back");
