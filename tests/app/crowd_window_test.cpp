@@ -299,7 +299,7 @@ TEST(CrowdWindow, ASampleIsFramedWhileSomebodyElseIsFollowed) {
 }
 
 /// How many names stand in the picture that agents have.
-std::set<std::string> names_in(const CrowdWindow& w) {
+std::set<std::string> names_in(CrowdWindow& w) {
     std::set<std::string> out;
     for (const TextRun& run : w.window.shell().shown()->texts)
         if (run.role == TextRole::name) out.insert(run.text);
@@ -307,7 +307,7 @@ std::set<std::string> names_in(const CrowdWindow& w) {
 }
 
 /// Whose disks are drawn, by index into CrowdRun::agents.
-std::set<int> drawn_whole(const CrowdWindow& w) {
+std::set<int> drawn_whole(CrowdWindow& w) {
     std::set<int> out;
     const std::vector<DrawnAgent> agents = drawn_agents(w.session.workspace.fitted(), w.session.workspace.view());
     for (const DiskInstance& disk : w.window.shell().shown()->disks)

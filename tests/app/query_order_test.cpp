@@ -33,7 +33,7 @@ struct QueryOrderWindow {
         session.files.open({folder.write("row.json", standing_row())});
         window.settle();
     }
-    float height_of(int query) const { return window.shell().marks().all().at("query." + std::to_string(query)).min.y; }
+    float height_of(int query) { return window.shell().marks().all().at("query." + std::to_string(query)).min.y; }
     void click(const std::string& mark) {
         window.shell().feed(MouseMove{window.shell().marks().all().at(mark).center()});
         for (const bool down : {true, false}) window.shell().feed(MouseButton{0, down});

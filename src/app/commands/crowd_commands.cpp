@@ -189,7 +189,8 @@ void to_conflict(Session& session, int index) {
         view.time = before;
     });
     frame_box(session.views, workspace, box_of_meeting(workspace, conflict.begin()));
-    select_agent_named(workspace, conflict_place(workspace, conflict).followed.name);
+    // A selection would stand out among the two, and of all afterwards.
+    workspace.select({});
 }
 
 bool has_choice_behind(const Workspace& workspace, const CrowdInspector& crowds) {

@@ -16,6 +16,7 @@ namespace mobbscope::app {
 namespace {
 
 constexpr int kMostCrowdRows = 9;
+constexpr int kMostSpecialRows = 5;
 
 std::string at_time(double time) { return formatted("%.2f s", time); }
 
@@ -24,11 +25,13 @@ void following(Ui& ui) {
     const std::string& followed = ui.workspace.view().follow;
     const std::string who = current_agent(ui.workspace);
     if (who.empty()) {
-        words(ui.style.quiet, "Click somebody to follow them.");
+        ImGui::AlignTextToFramePadding();
+        text_line(ui.style.quiet, "Click somebody to follow them.");
         return;
     }
     if (!followed.empty()) {
-        words(ui.style.text, "Following " + followed);
+        ImGui::AlignTextToFramePadding();
+        text_line(ui.style.text, "Following " + followed);
         ImGui::SameLine();
         command_button(ui, "stop", "crowd.stop", "crowd.stop");
     }
@@ -106,10 +109,8 @@ void conflicts(Ui& ui, CrowdInspector& crowds) {
                           unexplained ? ".\n! No play was forced: an answer was wrong, or the run was edited" : "",
                           has_choice ? ".\nDouble-click goes to the choice that made it" : "");
     });
-    if (!ui.workspace.view().foreground.empty()) {
-        command_button(ui, "back to all", "agent.all_in_full", "conflicts.back");
-        flow(button_width("open as a scene"));
-    }
+    command_button(ui, "back to all", "agent.all_in_full", "conflicts.back");
+    flow(button_width("open as a scene"));
     ImGui::BeginDisabled(ui.workspace.conflict < 0);
     command_button(ui, "open as a scene", "conflicts.open", "conflicts.open");
     ImGui::EndDisabled();
@@ -140,7 +141,7 @@ void special_plays(Ui& ui, const CrowdInspector& crowds) {
     const Command& sort = command_named("crowd.sort_plays");
     text_line(ui.style.quiet, "by");
     for (const std::string& column : sort.choices(ui.session)) order_button(ui, crowds.play_order, sort, column);
-    rows(ui, "##special plays", static_cast<int>(all.size()), kMostCrowdRows, [&](int i) {
+    rows(ui, "##special plays", static_cast<int>(all.size()), kMostSpecialRows, [&](int i) {
         const SpecialPlay& play = all[static_cast<std::size_t>(i)];
         const Palette& palette = ui.style.palette;
         const bool is_forced = play.kind == PlayKind::forced;
@@ -172,10 +173,12 @@ void crowd_panel(Ui& ui, CrowdInspector& crowds) {
         }
         following(ui);
     }
-    if (ui.workspace.crowd()) last_choice(ui, crowds);
-    if (ui.workspace.crowd()) plays(ui);
+    // Lists of the whole crowd stay where they are while one goes from row to row.
     conflicts(ui, crowds);
-    if (ui.workspace.crowd()) special_plays(ui, crowds);
+    if (!ui.workspace.crowd()) return;
+    special_plays(ui, crowds);
+    last_choice(ui, crowds);
+    plays(ui);
 }
 
 }  // namespace mobbscope::app

@@ -305,10 +305,10 @@ void query_order(Ui& ui, const CostInspector& costs, std::size_t count) {
         return;
     }
     if (costs.lists_hits_first()) {
-        const QueryAnswers::Known known = ui.session.answers.known();
-        const bool all = known.asked == count;
-        words(ui.style.quiet, std::to_string(known.hits.size()) + " hit" +
-                                  (all ? "" : " of the " + std::to_string(known.asked) + " asked so far") +
+        const QueryAnswers::Known found = ui.session.answers.known();
+        const bool all = found.asked == count;
+        words(ui.style.quiet, std::to_string(found.hits.size()) + " hit" +
+                                  (all ? "" : " of the " + std::to_string(found.asked) + " asked so far") +
                                   ", listed first");
         ui.mark_only("queries.hits_known");
         if (small_button(ui, "in their order", "queries.number")) ui.invoke("query.sort", "number");
