@@ -446,7 +446,8 @@ TEST(CrowdWindow, AnExcerptBeginsAtTheTopOfItsPanels) {
     const float at_top = w.place("crowd.stop").y;
     scroll_down();
     ASSERT_LT(w.place("crowd.stop").y, at_top - 50);
-    w.click("conflicts.open");
+    run_command(w.session, "conflicts.open");
+    w.window.settle();
     ASSERT_TRUE(w.session.workspace.in_excerpt());
     const float answer = w.place("query.answer").y;
     EXPECT_GT(answer, 40);
@@ -456,7 +457,8 @@ TEST(CrowdWindow, AnExcerptBeginsAtTheTopOfItsPanels) {
     w.key("Backspace");
     ASSERT_FALSE(w.session.workspace.in_excerpt());
     EXPECT_LT(w.place("crowd.stop").y, at_top - 50) << "the crowd's panel is where it was left";
-    w.click("conflicts.open");
+    run_command(w.session, "conflicts.open");
+    w.window.settle();
     EXPECT_EQ(w.place("query.answer").y, answer) << "another excerpt";
 }
 

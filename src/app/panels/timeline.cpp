@@ -141,7 +141,10 @@ void time_row(Ui& ui, Playback& playback, QueryInspector& queries, bool tall) {
     // Of a narrow window the bars have a line of their own.
     flow(ui.px(kLeastBars) + clear + ui.px(8));
     const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x - clear - ui.px(8));
-    const float below = ui.px(24 + kConflictBars + 3);
+    const CrowdInspector& crowds = ui.session.crowds;
+    const bool has_conflicts = tall && crowds.conflicts() && !crowds.conflicts()->empty();
+    const float lane = has_conflicts ? ui.px(kConflictBars + 3) : 0;
+    const float below = ui.px(24) + lane;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const std::size_t lanes = ui.workspace.crowd() ? 1 : shown_paths(ui.workspace).size();
     const auto paths = static_cast<float>(lanes);
@@ -149,9 +152,6 @@ void time_row(Ui& ui, Playback& playback, QueryInspector& queries, bool tall) {
         std::clamp(paths * ui.px(kMostBar), clear, std::max(clear, ImGui::GetContentRegionAvail().y - below));
     const float height = tall ? most : clear;
     time_bars(ui, width, height);
-    const CrowdInspector& crowds = ui.session.crowds;
-    const bool has_conflicts = tall && crowds.conflicts() && !crowds.conflicts()->empty();
-    const float lane = has_conflicts ? ui.px(kConflictBars + 3) : 0;
     if (tall) ruler(ui, *ui.style.mono, time_axis(span, corner.x, width), corner.y + height + lane, " s");
     ImGui::SameLine();
     ImGui::BeginDisabled(!ui.workspace.view().time || ui.workspace.crowd());
