@@ -375,16 +375,52 @@ std::vector<SceneConflict> conflicts_in(const FittedScene& fitted, const Progres
     return out;
 }
 
-bool made_by_a(const CrowdRun& run, const SceneConflict& conflict) {
-    const auto play_of = [&run](const PlacedAgent& who, int play) -> const Play& {
-        return run.agents[static_cast<std::size_t>(who.agent)].plays[static_cast<std::size_t>(play)];
+std::optional<glm::dvec3> place_of(const Scene& scene, const SceneConflict& conflict) {
+    const double time = conflict.begin();
+    const auto disk_of = [&](const PlacedAgent& who, const mobb::ClipPtr& joint) -> std::optional<mobb::Disk> {
+        const SceneClip& clip = scene.clips[static_cast<std::size_t>(who.clip)];
+        const mobb::PlacedClip placed(joint ? *joint : *clip.clip, who.placement);
+        const int sample = mobb::first_ending_after(placed, 0, placed.count(), time);
+        if (sample >= placed.count()) return std::nullopt;
+        return mobb::swept(placed, sample).at(time);
     };
+    const auto a = disk_of(conflict.a, conflict.a_joint);
+    const auto b = disk_of(conflict.b, conflict.b_joint);
+    if (!a || !b) return std::nullopt;
+    const double share = a->r + b->r > 0 ? a->r / (a->r + b->r) : 0.5;
+    return glm::dvec3(a->x + share * (b->x - a->x), a->y + share * (b->y - a->y), time);
+}
+
+std::string sentence(const SceneConflict& conflict) {
+    const auto& worst = conflict.facts.worst();
+    std::string text =
+        conflict.a.name + " and " + conflict.b.name +
+        formatted(": %.3f m deep, from %.2f to %.2f s", -conflict.facts.deepest.least_clearance, worst.t0, worst.t1);
+    const std::size_t others = conflict.facts.intervals.size() - 1;
+    if (others > 0) text += "; they meet " + (others == 1 ? "once" : counted(others, "time", "times")) + " more";
+    return text;
+}
+
+namespace {
+
+const Play& play_of(const CrowdRun& run, const PlacedAgent& who, int play) {
+    return run.agents[static_cast<std::size_t>(who.agent)].plays[static_cast<std::size_t>(play)];
+}
+
+}  // namespace
+
+bool made_by_a(const CrowdRun& run, const SceneConflict& conflict) {
     // Choices of one time are made in the order of agents.
     const auto blame = [](const Play& play, int agent) {
         return std::tuple(play.kind == PlayKind::forced, play.chosen_at, agent);
     };
-    const auto a = blame(play_of(conflict.a, conflict.a_play), conflict.a.agent);
-    return a > blame(play_of(conflict.b, conflict.b_play), conflict.b.agent);
+    const auto a = blame(play_of(run, conflict.a, conflict.a_play), conflict.a.agent);
+    return a > blame(play_of(run, conflict.b, conflict.b_play), conflict.b.agent);
+}
+
+bool was_forced(const CrowdRun& run, const SceneConflict& conflict) {
+    return play_of(run, conflict.a, conflict.a_play).kind == PlayKind::forced ||
+           play_of(run, conflict.b, conflict.b_play).kind == PlayKind::forced;
 }
 
 }  // namespace mobbscope

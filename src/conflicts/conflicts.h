@@ -6,6 +6,8 @@
 #include <scene/crowd_run.h>
 #include <scene/fitted_scene.h>
 
+#include <glm/vec3.hpp>
+
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -105,6 +107,12 @@ struct SceneConflict {
     double begin() const { return facts.worst().t0; }  ///< of that contact, global seconds
 };
 
+/// Where the two touch first in that contact: x, y, and when; none if one of them is not there. `scene`: of the
+/// conflict.
+std::optional<glm::dvec3> place_of(const Scene& scene, const SceneConflict& conflict);
+/// "17 and 42: 0.123 m deep, from 13.40 to 13.80 s; they meet once more".
+std::string sentence(const SceneConflict& conflict);
+
 /// The most that are kept at once, some 600 bytes each.
 inline constexpr std::size_t kMostSceneConflicts = 1'000'000;
 
@@ -115,5 +123,9 @@ std::vector<SceneConflict> conflicts_in(const FittedScene& fitted, const Progres
 /// Whether `a` made the conflict of a run, or else `b`: whose play was forced, of two such plays the one that was
 /// chosen last, when the other was committed to its own.
 bool made_by_a(const CrowdRun& run, const SceneConflict& conflict);
+
+/// Whether one of the two plays of a run was forced: no other may collide, so else an answer was wrong, or the run was
+/// edited.
+bool was_forced(const CrowdRun& run, const SceneConflict& conflict);
 
 }  // namespace mobbscope

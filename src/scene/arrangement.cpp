@@ -83,8 +83,13 @@ const std::string& name_in_view(const Scene& scene, const PlacedAgent& who) {
     return run_agent < 0 ? who.name : scene.crowd->agents[static_cast<std::size_t>(run_agent)].name;
 }
 
+bool names_agents(const ViewState& view) {
+    return std::ranges::any_of(view_options(),
+                               [&](const ViewOption& option) { return option.names && !(view.*option.names).empty(); });
+}
+
 void check_names(const Scene& scene, const ViewState& view) {
-    if (view.hidden.empty() && view.pinned.empty()) return;
+    if (!names_agents(view)) return;
     const std::vector<std::string> all = names_in_view(scene);
     const std::unordered_set<std::string_view> known(all.begin(), all.end());
     for (const ViewOption& option : view_options()) {
@@ -98,11 +103,12 @@ void check_names(const Scene& scene, const ViewState& view) {
 }
 
 void drop_unknown_names(const Scene& scene, ViewState& view) {
-    if (view.hidden.empty() && view.pinned.empty()) return;
+    if (!names_agents(view)) return;
     const std::vector<std::string> all = names_in_view(scene);
     const std::unordered_set<std::string_view> known(all.begin(), all.end());
-    for (std::vector<std::string>* names : {&view.hidden, &view.pinned}) {
-        std::erase_if(*names, [&](const std::string& name) { return !known.contains(name); });
+    for (const ViewOption& option : view_options()) {
+        if (!option.names) continue;
+        std::erase_if(view.*option.names, [&](const std::string& name) { return !known.contains(name); });
     }
 }
 

@@ -34,7 +34,9 @@ std::vector<std::string> names_in_view(const Scene& scene);
 /// The one of an agent; of a run of who plays it.
 const std::string& name_in_view(const Scene& scene, const PlacedAgent& who);
 
-/// Throws ViewMismatch, with the nearest name, if the view's `hidden` or `pinned` names nobody of the scene.
+/// Whether a list of names of the view is not empty.
+bool names_agents(const ViewState& view);
+/// Throws ViewMismatch, with the nearest name, if such a list names nobody of the scene.
 void check_names(const Scene& scene, const ViewState& view);
 /// Takes such names out of the view.
 void drop_unknown_names(const Scene& scene, ViewState& view);

@@ -95,12 +95,16 @@ std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState&
     const Scene& scene = fitted.scene();
     const std::unordered_set<std::string_view> hidden(view.hidden.begin(), view.hidden.end());
     const std::unordered_set<std::string_view> pinned(view.pinned.begin(), view.pinned.end());
+    const std::unordered_set<std::string_view> foreground(view.foreground.begin(), view.foreground.end());
     const auto mark = [&](DrawnAgent& agent, const PlacedAgent& who) {
         // What a query places itself is no agent, unless clips are all there is.
         if (who.agent < 0 && !scene.agents.empty()) return;
         const std::string& name = name_in_view(scene, who);
         agent.hidden = hidden.contains(name);
         agent.pinned = pinned.contains(name);
+        if (view.query || foreground.empty()) return;
+        agent.named = foreground.contains(name);
+        agent.outlined = !agent.named && !agent.pinned;
     };
     if (!view.query) {
         const std::vector<PlacedAgent>& all = fitted.placed_agents();

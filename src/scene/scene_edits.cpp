@@ -2,6 +2,8 @@
 #include <base/text.h>
 #include <scene/scene_edits.h>
 
+#include <scene/view_options.h>
+
 #include <algorithm>
 #include <charconv>
 #include <functional>
@@ -168,8 +170,9 @@ void place_agent(Scene& scene, int agent, const mobb::Placement& placement) {
 }
 
 void rename_in_view(ViewState& view, const std::string& before, const std::string& name) {
-    std::ranges::replace(view.hidden, before, name);
-    std::ranges::replace(view.pinned, before, name);
+    for (const ViewOption& option : view_options()) {
+        if (option.names) std::ranges::replace(view.*option.names, before, name);
+    }
     if (view.follow == before) view.follow = name;
 }
 

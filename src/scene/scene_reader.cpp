@@ -463,7 +463,7 @@ class SceneReader {
     }
 
     void check_viewed_names(const JsonPlace& view) const {
-        if (scene_.view.hidden.empty() && scene_.view.pinned.empty()) return;
+        if (!names_agents(scene_.view)) return;
         NameTable known;
         for (const std::string& name : names_in_view(scene_)) known.add(name);
         for (const ViewOption& option : view_options()) {

@@ -327,6 +327,11 @@ std::vector<ViewOption> all_view_options() {
             {.key = "pinned",
              .what = "Agents that stay when another is shown alone, and keep their colour where others dim; or none",
              .option = "--pin"}),
+        name_list<&ViewState::foreground>(
+            {.key = "foreground",
+             .what = "Agents that are drawn whole and named, not with a query: of all others that are not pinned an "
+                     "outline is left; or none",
+             .option = "--foreground"}),
         choice<&ViewState::arrange, arrange_from_name>(
             {.key = "arrange",
              .what = "Where agents or clips are drawn, not of a run or a query: none (where they are) or grid (apart, "

@@ -7,7 +7,7 @@
 ///                 "target": [0, 0, 1], "distance": 12, "shift": [0, 0.1]},
 ///      "levels": "1:3", "query": 0, "step": "40%", "past": "ancestors",
 ///      "projection": {"participant": 0, "node": 0, "sample": 3}, "time": 1.5, "time_height": 2,
-///      "hidden": ["B"], "pinned": [], "arrange": "none", "color_by": "agent", "theme": "dark",
+///      "hidden": ["B"], "pinned": [], "foreground": [], "arrange": "none", "color_by": "agent", "theme": "dark",
 ///      "disks": true, "boxes": true, "floor": true, "time_axis": true, "labels": true, "legend": true,
 ///      "inset": true}
 ///

@@ -117,6 +117,8 @@ struct ViewState {
     // Agents by name; of a run its people, of a scene without agents its clips.
     std::vector<std::string> hidden;  ///< not in the picture; what is asked of them is answered as ever
     std::vector<std::string> pinned;  ///< stay in the picture when another one is shown alone, and keep their colour
+    /// Drawn whole and named; of all others that are not pinned an outline is left. Empty: all are drawn alike.
+    std::vector<std::string> foreground;
     Arrange arrange = Arrange::none;  ///< not of a run, nor of a query: these show where agents are
     bool candidates = true;  ///< of a run's followed agent: the moves of its last choice, and what became of each
     double time_height = 0;  ///< metres drawn per second; 0: chosen so that the scene is about as tall as wide

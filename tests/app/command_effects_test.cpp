@@ -443,6 +443,22 @@ std::vector<Case> cases() {
     add({"agent.pin", "", {kSelectB}, [](CommandWorld& w) {
              EXPECT_EQ(w.view().pinned, std::vector<std::string>{"B"});
          }});
+    look("agents.foreground", "C", [](CommandWorld& w) {
+        EXPECT_EQ(w.view().foreground, std::vector<std::string>{"C"});
+        run_command(w.session, "file.save");
+        run_command(w.session, "agents.foreground", "A");
+        run_command(w.session, "file.copy_command");
+        EXPECT_NE(w.desktop.text.find(" --foreground A C"), std::string::npos) << w.desktop.text;
+    });
+    add({"agent.foreground", "", {kSelectB}, [](CommandWorld& w) {
+             EXPECT_EQ(w.view().foreground, std::vector<std::string>{"B"});
+             run_command(w.session, "agent.foreground");
+             EXPECT_TRUE(w.view().foreground.empty());
+         }});
+    add({"agent.all_in_full", "", {{"agents.foreground", "A"}, {"view.top", ""}}, [](CommandWorld& w) {
+             EXPECT_TRUE(w.view().foreground.empty());
+             EXPECT_NE(w.view().camera.preset, CameraPreset::top) << "seen from where it was before";
+         }});
     look("agents.hide", "clip:walk", [](CommandWorld& w) { EXPECT_EQ(w.view().hidden.size(), 3u); });
     look("agents.solo", "A", [](CommandWorld& w) {
         EXPECT_EQ(w.view().hidden, (std::vector<std::string>{"B", "C"}));

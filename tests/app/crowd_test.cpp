@@ -1,6 +1,7 @@
 // A run in the session: its time, following, choices, conflicts, and two of it opened as a scene.
 #include <app/commands/command.h>
 #include <app/document/agents.h>
+#include <app/document/shown_agents.h>
 #include <base/error.h>
 #include <base/file.h>
 #include <conflicts/conflicts.h>
@@ -17,6 +18,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -268,6 +270,10 @@ TEST_F(CrowdTest, AConflictIsSeenWhereItWasForced) {
         EXPECT_GE(found.facts.deepest.least_clearance, before) << "the deepest first";
         before = found.facts.deepest.least_clearance;
         run("conflicts.go", std::to_string(i));
+        EXPECT_EQ(session.workspace.view().foreground, (AgentNames{found.a.name, found.b.name}));
+        EXPECT_DOUBLE_EQ(*session.workspace.view().time, std::max(found.begin() - 0.5, 0.0));
+        EXPECT_EQ(session.workspace.view().follow, "");
+        run("conflicts.choice");
         ASSERT_TRUE(session.crowds.choice());
         EXPECT_EQ(session.crowds.choice()->choice.kind, PlayKind::forced);
         const bool of_a = session.crowds.choice()->agent == found.a.agent;
@@ -276,7 +282,7 @@ TEST_F(CrowdTest, AConflictIsSeenWhereItWasForced) {
         EXPECT_LE(*session.workspace.view().time, found.begin());
     }
     run("conflicts.go", "0");
-    EXPECT_EQ(current_agent(session.workspace), session.workspace.view().follow);
+    EXPECT_EQ(current_agent(session.workspace), "") << "nobody stands out among the two";
     run("conflicts.open");
     ASSERT_TRUE(session.workspace.in_excerpt());
     ASSERT_TRUE(session.workspace.recorded()->contact);

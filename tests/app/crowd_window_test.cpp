@@ -1,12 +1,14 @@
 // A run in the window, by keys and clicks: who is followed stays in the picture, and buttons do what they say.
 #include <app/commands/command.h>
 #include <app/document/agents.h>
+#include <app/document/shown_agents.h>
 #include <app/window/headless_window.h>
 #include <render/gl/gl_context.h>
 #include <render/image/png.h>
 #include <render/layout/follow.h>
 #include <render/pictures/build_draw_list.h>
 #include <scene/crowd_scene.h>
+#include <scene/drawn_agent.h>
 #include <support/temp_folder.h>
 
 #include "app/crowded_run.h"
@@ -273,6 +275,7 @@ TEST(CrowdWindow, CandidatesAndConflictsThatAreLookedAtArePointedOut) {
     run_command(w.session, "conflicts.find");
     while (w.session.jobs.job()) w.session.poll();
     run_command(w.session, "conflicts.go", "0");
+    run_command(w.session, "conflicts.choice");
     w.window.settle();
     ASSERT_GE(w.session.workspace.conflict, 0);
     EXPECT_TRUE(roles().contains(HighlightLine::Role::conflict));
@@ -293,6 +296,89 @@ TEST(CrowdWindow, ASampleIsFramedWhileSomebodyElseIsFollowed) {
     ASSERT_TRUE(pixel);
     const glm::vec2 middle(0.5f * static_cast<float>(shown.size.width), 0.5f * static_cast<float>(shown.size.height));
     EXPECT_LT(glm::length(*pixel - middle), 0.2f * middle.x);
+}
+
+/// How many names stand in the picture that agents have.
+std::set<std::string> names_in(CrowdWindow& w) {
+    std::set<std::string> out;
+    for (const TextRun& run : w.window.shell().shown()->texts)
+        if (run.role == TextRole::name) out.insert(run.text);
+    return out;
+}
+
+/// Whose disks are drawn, by index into CrowdRun::agents.
+std::set<int> drawn_whole(CrowdWindow& w) {
+    std::set<int> out;
+    const std::vector<DrawnAgent> agents = drawn_agents(w.session.workspace.fitted(), w.session.workspace.view());
+    for (const DiskInstance& disk : w.window.shell().shown()->disks)
+        out.insert(agents[static_cast<std::size_t>(disk.id.agent)].run_agent);
+    return out;
+}
+
+/// A click shows the two alone, named, in the picture, before they touch; Escape shows all from where they were seen.
+TEST_P(CrowdWindowTest, AClickOnAConflictShowsTheTwoAlone) {
+    w.click("conflicts.find");
+    const std::vector<SceneConflict>* found = w.session.crowds.conflicts();
+    ASSERT_TRUE(found && !found->empty());
+    const Camera before = w.camera();
+    const SceneConflict& conflict = found->front();
+    w.click("conflict.0");
+    EXPECT_EQ(w.session.workspace.view().foreground, (AgentNames{conflict.a.name, conflict.b.name}));
+    EXPECT_LT(*w.session.workspace.view().time, conflict.begin());
+    EXPECT_EQ(names_in(w), (std::set<std::string>{conflict.a.name, conflict.b.name}));
+    EXPECT_EQ(drawn_whole(w), (std::set<int>{conflict.a.agent, conflict.b.agent}));
+    for (const int agent : {conflict.a.agent, conflict.b.agent}) {
+        const glm::vec2 at = w.seen_at(static_cast<std::size_t>(agent));
+        EXPECT_LT(std::max(std::abs(at.x), std::abs(at.y)), 0.9f) << agent;
+    }
+    w.change_view("two alone");
+    w.key("Escape");
+    EXPECT_TRUE(w.session.workspace.view().foreground.empty());
+    EXPECT_EQ(w.camera(), before);
+    EXPECT_GT(drawn_whole(w).size(), 2u);
+}
+
+/// The mark in the picture and the bar below it do the same as the row.
+TEST_P(CrowdWindowTest, AConflictIsOpenedByItsMarkAndItsBar) {
+    w.click("conflicts.find");
+    ASSERT_TRUE(w.session.crowds.conflicts());
+    const SceneConflict conflict = w.session.crowds.conflicts()->front();
+    run_command(w.session, "time.at", std::to_string(conflict.begin()));
+    w.window.settle();
+    w.click("picture.conflict.0");
+    EXPECT_EQ(w.session.workspace.conflict, 0);
+    EXPECT_EQ(w.session.workspace.view().foreground, (AgentNames{conflict.a.name, conflict.b.name}));
+    w.click("conflicts.back");
+    EXPECT_TRUE(w.session.workspace.view().foreground.empty());
+    w.session.workspace.conflict = -1;
+    w.window.settle();
+    w.click("timeline.conflict.0");
+    ASSERT_GE(w.session.workspace.conflict, 0);
+    const double width = 12.0 / 100;  // seconds of the bar
+    const double begin =
+        (*w.session.crowds.conflicts())[static_cast<std::size_t>(w.session.workspace.conflict)].begin();
+    EXPECT_NEAR(begin, conflict.begin(), width) << "the deepest of the bar";
+}
+
+TEST(CrowdWindow, ForcedAndTurnedPlaysAreListedForAll) {
+    CrowdWindow w;
+    const std::vector<SpecialPlay> by_time = w.session.crowds.special_plays();
+    ASSERT_GT(by_time.size(), 1u);
+    EXPECT_TRUE(std::ranges::is_sorted(by_time, {}, &SpecialPlay::time));
+    std::size_t expected = 0;
+    for (const CrowdAgent& agent : w.session.workspace.crowd()->agents)
+        expected += static_cast<std::size_t>(
+            std::ranges::count_if(agent.plays, [](const Play& play) { return play.kind != PlayKind::chosen; }));
+    EXPECT_EQ(by_time.size(), expected);
+    w.click("special.1");
+    const SpecialPlay second = by_time[1];
+    EXPECT_EQ(w.session.workspace.view().follow, w.name(static_cast<std::size_t>(second.agent)));
+    ASSERT_TRUE(w.session.crowds.choice());
+    EXPECT_EQ(w.session.crowds.choice()->play, second.play) << "the choice of that play";
+    w.click("special.kind");
+    EXPECT_EQ(w.session.crowds.special_plays().front().kind, PlayKind::forced);
+    w.click("special.kind");
+    EXPECT_EQ(w.session.crowds.special_plays().back().kind, PlayKind::forced) << "the other way round";
 }
 
 TEST(CrowdWindow, ADoubleClickOnAConflictShowsTheForcedChoice) {
@@ -360,7 +446,8 @@ TEST(CrowdWindow, AnExcerptBeginsAtTheTopOfItsPanels) {
     const float at_top = w.place("crowd.stop").y;
     scroll_down();
     ASSERT_LT(w.place("crowd.stop").y, at_top - 50);
-    w.click("conflicts.open");
+    run_command(w.session, "conflicts.open");
+    w.window.settle();
     ASSERT_TRUE(w.session.workspace.in_excerpt());
     const float answer = w.place("query.answer").y;
     EXPECT_GT(answer, 40);
@@ -370,7 +457,8 @@ TEST(CrowdWindow, AnExcerptBeginsAtTheTopOfItsPanels) {
     w.key("Backspace");
     ASSERT_FALSE(w.session.workspace.in_excerpt());
     EXPECT_LT(w.place("crowd.stop").y, at_top - 50) << "the crowd's panel is where it was left";
-    w.click("conflicts.open");
+    run_command(w.session, "conflicts.open");
+    w.window.settle();
     EXPECT_EQ(w.place("query.answer").y, answer) << "another excerpt";
 }
 

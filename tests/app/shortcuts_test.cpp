@@ -41,6 +41,7 @@ const std::vector<Steps> kSituations{
     {{"view.zoom", "3"}},
     {{"time.at", "0.5"}},
     {{"agents.hide", "A"}},
+    {{"agents.foreground", "A"}},
     {{"view.split", ""}},
     {{"window.scale", "2"}},
     {{"go.agent", "A"}, {"agent.move", "3 3"}},

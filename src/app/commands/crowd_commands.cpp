@@ -2,11 +2,15 @@
 #include <app/commands/camera_commands.h>
 #include <app/commands/command.h>
 #include <app/document/agents.h>
+#include <app/document/shown_agents.h>
 #include <base/text.h>
+#include <mobb/traversal.h>
 #include <render/layout/follow.h>
+#include <render/layout/framing.h>
 #include <render/pictures/candidates.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
+#include <scene/drawn_agent.h>
 #include <scene/motion_graph.h>
 
 #include <algorithm>
@@ -18,7 +22,9 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr double kNear = 2.5;  // metres around two that meet
+constexpr double kNear = 2.5;           // metres around two that meet
+constexpr double kAroundMeeting = 0.5;  // ... around both
+constexpr double kAfterTouch = 0.5;     // seconds of their ways that are framed
 
 // --- following
 
@@ -56,6 +62,23 @@ void to_play(Workspace& workspace, Playback& playback, const std::string& text) 
     const CrowdAgent& agent = *followed(workspace);
     const int play = whole_number_in(text, "the play", 0, static_cast<int>(agent.plays.size()) - 1);
     to_time(playback, workspace, agent.plays[static_cast<std::size_t>(play)].placement.start);
+}
+
+constexpr std::array<std::string_view, 3> kPlayColumns{"time", "agent", "kind"};
+
+void sort_special_plays(CrowdInspector& crowds, const std::string& text) {
+    const auto by = choice_named<SpecialPlayList::Column>(kPlayColumns, text, "the column");
+    crowds.play_order.descending = crowds.play_order.by == by && !crowds.play_order.descending;
+    crowds.play_order.by = by;
+}
+
+void to_special_play(Session& session, const std::string& text) {
+    const std::vector<SpecialPlay>& all = session.crowds.special_plays();
+    const int index = whole_number_in(text, "the play", 0, static_cast<int>(all.size()) - 1);
+    const SpecialPlay& of = all[static_cast<std::size_t>(index)];
+    const CrowdAgent& agent = session.workspace.crowd()->agents[static_cast<std::size_t>(of.agent)];
+    to_time(session.playback, session.workspace, agent.plays[static_cast<std::size_t>(of.play)].chosen_at);
+    follow_agent(session.workspace, session.views, agent.name, kAroundFollowed);
 }
 
 /// The choice after or before the present time; none if there is none.
@@ -132,15 +155,52 @@ bool can_find(const Workspace& workspace, const Jobs& jobs) {
 }
 bool has_conflicts(const CrowdInspector& crowds) { return crowds.conflicts() && !crowds.conflicts()->empty(); }
 
+/// What two in the foreground cover from now until so long after they touch, as box_of has it.
+Bounds box_of_meeting(const Workspace& workspace, double touch) {
+    const double from = *workspace.view().time;
+    Bounds bounds;
+    for (const DrawnAgent& agent : drawn_agents(workspace.fitted(), workspace.view())) {
+        if (!agent.named) continue;
+        const mobb::PlacedClip& clip = agent.clip();
+        const int first = mobb::first_ending_after(clip, 0, clip.count(), from);
+        const int last = mobb::first_ending_after(clip, 0, clip.count(), touch + kAfterTouch);
+        add_samples(bounds, clip, {first, std::min(last + 1, clip.count()) - first});
+    }
+    bounds.min -= glm::dvec3(kAroundMeeting, kAroundMeeting, 0);
+    bounds.max += glm::dvec3(kAroundMeeting, kAroundMeeting, 0);
+    if (workspace.view().show == Show::moment) {
+        bounds.min.z = 0;
+        bounds.max.z = kStanding;
+    }
+    return bounds;
+}
+
+/// The two alone, framed, just before they touch.
 void to_conflict(Session& session, int index) {
-    const ConflictPlace place =
-        conflict_place(session.workspace, (*session.crowds.conflicts())[static_cast<std::size_t>(index)]);
+    const SceneConflict& conflict = (*session.crowds.conflicts())[static_cast<std::size_t>(index)];
+    Workspace& workspace = session.workspace;
     session.playback.stop();
-    session.workspace.conflict = index;
-    session.workspace.change_view([&](ViewState& view) {
+    workspace.conflict = index;
+    const double before = time_before(workspace, conflict);
+    show_in_foreground(workspace, {conflict.a.name, conflict.b.name}, [&](ViewState& view) {
         view.query.reset();
-        view.time = place.time;
+        view.follow.clear();
+        view.arrange = Arrange::none;
+        view.time = before;
     });
+    frame_box(session.views, workspace, box_of_meeting(workspace, conflict.begin()));
+    // A selection would stand out among the two, and of all afterwards.
+    workspace.select({});
+}
+
+bool has_choice_behind(const Workspace& workspace, const CrowdInspector& crowds) {
+    return workspace.crowd() && workspace.conflict >= 0 && crowds.conflicts();
+}
+
+void to_choice_behind(Session& session) {
+    const ConflictPlace place = conflict_place(
+        session.workspace, (*session.crowds.conflicts())[static_cast<std::size_t>(session.workspace.conflict)]);
+    to_time(session.playback, session.workspace, place.time);
     follow_agent(session.workspace, session.views, place.followed.name, kNear);
 }
 
@@ -198,6 +258,25 @@ std::vector<Command> crowd_commands() {
                 {.shortcut = "N", .enabled = has_choice<1>}),
         Command("crowd.previous_choice", "Previous choice", "Goes to the time at which the agent chose before.",
                 to_choice<-1>, {.shortcut = "Shift+N", .enabled = has_choice<-1>}),
+        Command("crowd.special_play", "To a forced or turned play",
+                "Follows who was forced or turned, when that was chosen: by its number from 0 in the list.",
+                to_special_play,
+                {.menu = kNoMenu,
+                 .argument = "N",
+                 .enabled =
+                     [](const Workspace& workspace, const CrowdInspector& crowds) {
+                         return workspace.crowd() && !crowds.special_plays().empty();
+                     }}),
+        Command("crowd.sort_plays", "Sort forced and turned plays by",
+                "Lists the forced and turned plays of a run by a column; by the same one again the other way round.",
+                sort_special_plays,
+                {.argument = "COLUMN",
+                 .enabled = &Workspace::crowd,
+                 .choices = [] { return std::vector<std::string>(kPlayColumns.begin(), kPlayColumns.end()); },
+                 .chosen =
+                     [](const CrowdInspector& crowds, const std::string& column) {
+                         return column == kPlayColumns[static_cast<std::size_t>(crowds.play_order.by)];
+                     }}),
         Command("crowd.play", "To a play", "Goes to the time at which the agent's play begins, by its number from 0.",
                 to_play, {.menu = kNoMenu, .argument = "N", .enabled = followed}),
         Command("crowd.candidate", "Point out a candidate",
@@ -236,13 +315,16 @@ std::vector<Command> crowd_commands() {
                 "Looks for all pairs of people who collide, through the trees, and lists the deepest overlap first.",
                 &CrowdInspector::find_conflicts, {.enabled = can_find}),
         Command("conflicts.next", "Next conflict",
-                "Goes to just before the next two of the list collide; in a run to the choice that was forced.",
-                next_conflict<1>, {.shortcut = "Shift+PageDown", .repeats = true, .enabled = has_next_conflict<1>}),
-        Command("conflicts.previous", "Previous conflict", "Goes to just before the two of the conflict before.",
-                next_conflict<-1>, {.shortcut = "Shift+PageUp", .repeats = true, .enabled = has_next_conflict<-1>}),
+                "Shows the next two of the list that collide, alone, just before they do.", next_conflict<1>,
+                {.shortcut = "Shift+PageDown", .repeats = true, .enabled = has_next_conflict<1>}),
+        Command("conflicts.previous", "Previous conflict", "Shows the two of the conflict before.", next_conflict<-1>,
+                {.shortcut = "Shift+PageUp", .repeats = true, .enabled = has_next_conflict<-1>}),
         Command("conflicts.go", "To a conflict",
-                "Goes to just before a conflict, by its number from 0; in a run to the choice that was forced.",
-                go_conflict, {.menu = kNoMenu, .argument = "N", .enabled = has_conflicts}),
+                "Shows the two of a conflict, by its number from 0, alone, just before they collide.", go_conflict,
+                {.menu = kNoMenu, .argument = "N", .enabled = has_conflicts}),
+        Command("conflicts.choice", "To the choice behind the conflict",
+                "Follows who made the conflict of a run that was gone to, at the last choice before it.",
+                to_choice_behind, {.enabled = has_choice_behind}),
         Command("conflicts.open", "Open the conflict as a scene",
                 "Opens the two of a conflict as a scene with the query between them.", open_conflict,
                 {.argument = "[N]", .enabled = has_conflicts}),

@@ -1,6 +1,7 @@
 #include <app/commands/arguments.h>
 #include <app/commands/command.h>
 #include <app/document/agents.h>
+#include <app/document/shown_agents.h>
 #include <render/parts/node_boxes.h>
 
 #include <algorithm>
@@ -124,7 +125,8 @@ void move_focus(Keys& keys) {
 /// One thing after the other, what lies in front first.
 void put_away(Notifications& notifications, Workspace& workspace) {
     if (notifications.has_up()) return notifications.put_away();
-    workspace.select({});
+    if (workspace.selection.kind != Selection::Kind::none) return workspace.select({});
+    show_in_full(workspace);
 }
 
 void go_clip(Workspace& workspace, const std::string& name) {
@@ -188,12 +190,14 @@ std::vector<Command> go_commands() {
                 "does.",
                 move_focus<FocusMove::menu_of_this>,
                 {.shortcut = "Shift+F10 Menu", .enabled = always, .where = Where::everywhere}),
-        Command("go.none", "Select nothing", "Puts messages away; else selects nothing. The query in view stays.",
+        Command("go.none", "Select nothing",
+                "Puts messages away; else selects nothing; else draws everybody in full. The query in view stays.",
                 put_away,
                 {.shortcut = "Escape",
                  .enabled =
                      [](const Workspace& workspace, const Notifications& notifications) {
-                         return workspace.selection.kind != Selection::Kind::none || notifications.has_up();
+                         return workspace.selection.kind != Selection::Kind::none || notifications.has_up() ||
+                                !workspace.view().foreground.empty();
                      }}),
     };
     return in_menu("Go", rows);

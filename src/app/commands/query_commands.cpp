@@ -37,10 +37,27 @@ void leave(Workspace& workspace) {
     workspace.change_view([](ViewState& view) { view.query.reset(); });
 }
 
-void next(QueryInspector& queries, Workspace& workspace) { queries.show(workspace.view().query.value_or(-1) + 1); }
+/// The query `by` rows on in the list; from none the first, or the last.
+template <int by>
+std::optional<int> query_beside(const Workspace& workspace, const CostInspector& costs) {
+    const std::vector<int> listed = costs.listed();
+    const auto count = static_cast<int>(listed.size());
+    int place = by > 0 ? -1 : count;
+    if (const auto now = workspace.view().query)
+        place = static_cast<int>(std::ranges::find(listed, *now) - listed.begin());
+    place += by;
+    if (place < 0 || place >= count) return std::nullopt;
+    return listed[static_cast<std::size_t>(place)];
+}
 
-void previous(QueryInspector& queries, Workspace& workspace) {
-    queries.show(workspace.view().query.value_or(query_total(workspace)) - 1);
+template <int by>
+bool has_query_beside(const Workspace& workspace, const CostInspector& costs) {
+    return query_beside<by>(workspace, costs).has_value();
+}
+
+template <int by>
+void show_beside(QueryInspector& queries, Workspace& workspace, const CostInspector& costs) {
+    queries.show(*query_beside<by>(workspace, costs));
 }
 
 // --- what is asked
@@ -180,7 +197,7 @@ void judge_all(Session& session) {
 
 // --- what they cost
 
-constexpr std::array<std::string_view, 2> kQueryOrders{"number", "tests"};
+constexpr std::array<std::string_view, 3> kQueryOrders{"hits", "number", "tests"};
 
 void sort_queries(CostInspector& costs, const std::string& text) {
     costs.order = choice_named<CostInspector::Order>(kQueryOrders, text, "the order");
@@ -198,21 +215,12 @@ std::vector<Command> query_commands() {
     const std::vector<Command> rows{
         Command("query.select", "Show query", "Shows a query, by its number from 0, with its answer.", select,
                 {.menu = kNoMenu, .argument = "N", .enabled = has_queries}),
-        Command("query.next", "Next query", "Shows the next query with its answer.", next,
-                {.shortcut = "PageDown",
-                 .repeats = true,
-                 .enabled =
-                     [](const Workspace& workspace) {
-                         return workspace.view().query.value_or(-1) + 1 < query_total(workspace);
-                     }}),
-        Command("query.previous", "Previous query", "Shows the previous query with its answer.", previous,
-                {.shortcut = "PageUp",
-                 .repeats = true,
-                 .enabled =
-                     [](const Workspace& workspace) {
-                         return workspace.view().query.value_or(query_total(workspace)) > 0;
-                     }}),
-        Command("query.sort", "Sort queries by", "Lists queries in their order, or the costliest first.", sort_queries,
+        Command("query.next", "Next query", "Shows the next query of the list with its answer.", show_beside<1>,
+                {.shortcut = "PageDown", .repeats = true, .enabled = has_query_beside<1>}),
+        Command("query.previous", "Previous query", "Shows the previous query of the list with its answer.",
+                show_beside<-1>, {.shortcut = "PageUp", .repeats = true, .enabled = has_query_beside<-1>}),
+        Command("query.sort", "Sort queries by",
+                "Lists those that hit first, all in their order, or the costliest first.", sort_queries,
                 {.argument = "ORDER",
                  .enabled = {has_queries, why_no_query},
                  .choices =

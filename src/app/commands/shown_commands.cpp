@@ -84,12 +84,22 @@ std::vector<Command> shown_commands() {
                 {.shortcut = "Shift+V",
                  .enabled = {[](const Workspace& workspace) { return !workspace.view().hidden.empty(); },
                              [] { return std::string_view("nobody is hidden"); }}}),
+        of_selected("agent.foreground", "In the foreground", "",
+                    "Draws the selected agent, or the selected clip's, whole and named beside those in the foreground, "
+                    "and leaves an outline of all others; once more takes it back.",
+                    toggle_foreground, are_in_foreground),
+        Command("agent.all_in_full", "Everybody in full",
+                "Ends the foreground: draws everybody, seen from where they were seen before.", show_in_full,
+                {.enabled = [](const Workspace& workspace) { return !workspace.view().foreground.empty(); }}),
         arrange_command(),
         of_named("agents.hide", "Hide by name", "Hides an agent, or all of a clip or a group of clips, or shows them.",
                  toggle_hidden),
         of_named("agents.solo", "Show alone by name",
                  "Shows an agent, or all of a clip or a group of clips, with those that are pinned alone.",
                  toggle_isolated),
+        of_named("agents.foreground", "In the foreground by name",
+                 "Draws an agent, or all of a clip or a group of clips, whole and named, and outlines of all others.",
+                 toggle_foreground),
         of_named("agents.pin", "Pin by name", "Pins an agent, or all of a clip or a group of clips.", toggle_pinned),
     };
     return in_menu("View/Agents", rows);

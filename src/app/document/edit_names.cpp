@@ -52,6 +52,10 @@ std::string words_of_names(const ViewOption& option, const ViewState& from, cons
     // Showing one alone also brings others back.
     const std::vector<std::string>& whom = added.empty() ? gone : added;
     const std::string who = whom.size() == 1 ? whom.front() : counted(whom.size(), "agent", "agents");
+    if (option.names == &ViewState::foreground) {
+        if (to.foreground.empty()) return "everybody in full again";
+        return added.empty() ? who + " no longer in the foreground" : "bringing " + who + " into the foreground";
+    }
     if (!added.empty()) return (hides ? "hiding " : "pinning ") + who;
     return hides ? "showing " + who + " again" : "no longer pinning " + who;
 }

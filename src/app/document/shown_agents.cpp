@@ -20,9 +20,8 @@ bool all_in(const AgentNames& who, const AgentNames& names) {
     return !who.empty() && std::ranges::all_of(who, [&](const std::string& name) { return known.contains(name); });
 }
 
-/// Puts them into a list of the view, in the scene's order, or takes them out if all are in it.
-void toggle_in(Workspace& workspace, AgentNames ViewState::*list, const AgentNames& who) {
-    const AgentNames& before = workspace.view().*list;
+/// A list of the view with them, in the scene's order, or without them if all are in it.
+AgentNames toggled(const Workspace& workspace, const AgentNames& before, const AgentNames& who) {
     const bool out = all_in(who, before);
     const NameSet had = set_of(before);
     const NameSet meant = set_of(who);
@@ -30,6 +29,11 @@ void toggle_in(Workspace& workspace, AgentNames ViewState::*list, const AgentNam
     for (const std::string& name : all_agents(workspace)) {
         if (meant.contains(name) ? !out : had.contains(name)) after.push_back(name);
     }
+    return after;
+}
+
+void toggle_in(Workspace& workspace, AgentNames ViewState::*list, const AgentNames& who) {
+    const AgentNames after = toggled(workspace, workspace.view().*list, who);
     workspace.change_view([&](ViewState& view) { view.*list = after; });
 }
 
@@ -128,6 +132,37 @@ void toggle_isolated(Workspace& workspace, const AgentNames& who) {
         workspace.isolation = Isolation{next, remembers ? workspace.isolation->before : workspace.view().hidden};
     }
     workspace.change_view([&](ViewState& view) { view.hidden = next; });
+}
+
+bool are_in_foreground(const Workspace& workspace, const AgentNames& who) {
+    return all_in(who, workspace.view().foreground);
+}
+
+void toggle_foreground(Workspace& workspace, const AgentNames& who) {
+    show_in_foreground(workspace, toggled(workspace, workspace.view().foreground, who), [](ViewState&) {});
+}
+
+void show_in_foreground(Workspace& workspace, const AgentNames& who, const std::function<void(ViewState&)>& change) {
+    const ViewState& before = workspace.view();
+    const bool remembers = workspace.overview && workspace.overview->foreground == before.foreground;
+    if (!remembers) workspace.overview = Overview{{}, before.camera, before.time_height, before.follow};
+    workspace.overview->foreground = who;
+    workspace.change_view([&](ViewState& view) {
+        view.foreground = who;
+        change(view);
+    });
+}
+
+void show_in_full(Workspace& workspace) {
+    const bool remembers = workspace.overview && workspace.overview->foreground == workspace.view().foreground;
+    workspace.change_view([&](ViewState& view) {
+        view.foreground.clear();
+        if (!remembers) return;
+        view.camera = workspace.overview->camera;
+        view.time_height = workspace.overview->time_height;
+        view.follow = workspace.overview->follow;
+    });
+    workspace.overview.reset();
 }
 
 void show_all(Workspace& workspace) {

@@ -4,6 +4,7 @@
 #include <app/document/workspace.h>
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -41,5 +42,14 @@ void toggle_hidden(Workspace& workspace, const AgentNames& who);
 void toggle_isolated(Workspace& workspace, const AgentNames& who);
 void toggle_pinned(Workspace& workspace, const AgentNames& who);
 void show_all(Workspace& workspace);
+
+/// Whether all of them are in the foreground; false for none.
+bool are_in_foreground(const Workspace& workspace, const AgentNames& who);
+/// Brings them there beside who is there, or lets them go if all of them are.
+void toggle_foreground(Workspace& workspace, const AgentNames& who);
+/// They alone, from a view of their own: `change` makes it.
+void show_in_foreground(Workspace& workspace, const AgentNames& who, const std::function<void(ViewState&)>& change);
+/// All in full again, seen from where they were before.
+void show_in_full(Workspace& workspace);
 
 }  // namespace mobbscope::app

@@ -51,6 +51,14 @@ struct Isolation {
     std::vector<std::string> hidden, before;
 };
 
+/// From where all were seen before some came into the foreground, and who these are.
+struct Overview {
+    std::vector<std::string> foreground;
+    Camera camera;
+    double time_height = 0;
+    std::string follow;
+};
+
 /// A run at the time of a view; kept until that changes.
 struct ShownRun {
     std::shared_ptr<const FittedScene> of;
@@ -95,6 +103,7 @@ class Workspace {
     QueryLook look;
 
     std::optional<Isolation> isolation;   ///< since agents were shown alone
+    std::optional<Overview> overview;     ///< since agents came into the foreground
     std::string filter;                   ///< lists show what has this text in its name; empty: all
     std::set<std::string> folded_groups;  ///< of clips, by title
     EventList events;

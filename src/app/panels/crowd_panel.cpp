@@ -4,15 +4,19 @@
 #include <app/ui/thing_menus.h>
 #include <app/ui/widgets.h>
 #include <base/text.h>
+#include <render/pictures/candidates.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 #include <scene/motion_graph.h>
+
+#include <algorithm>
 
 namespace mobbscope::app {
 
 namespace {
 
 constexpr int kMostCrowdRows = 9;
+constexpr int kMostSpecialRows = 5;
 
 std::string at_time(double time) { return formatted("%.2f s", time); }
 
@@ -21,11 +25,13 @@ void following(Ui& ui) {
     const std::string& followed = ui.workspace.view().follow;
     const std::string who = current_agent(ui.workspace);
     if (who.empty()) {
-        words(ui.style.quiet, "Click somebody to follow them.");
+        ImGui::AlignTextToFramePadding();
+        text_line(ui.style.quiet, "Click somebody to follow them.");
         return;
     }
     if (!followed.empty()) {
-        words(ui.style.text, "Following " + followed);
+        ImGui::AlignTextToFramePadding();
+        text_line(ui.style.text, "Following " + followed);
         ImGui::SameLine();
         command_button(ui, "stop", "crowd.stop", "crowd.stop");
     }
@@ -64,17 +70,6 @@ void plays(Ui& ui) {
     });
 }
 
-/// When and how deep two overlap, and what a double click does.
-std::string conflict_words(const Workspace& workspace, const SceneConflict& conflict) {
-    const auto& worst = conflict.facts.worst();
-    std::string text =
-        formatted("%.3f m deep, from %.2f to %.2f s", -conflict.facts.deepest.least_clearance, worst.t0, worst.t1);
-    if (const std::size_t others = conflict.facts.intervals.size() - 1; others > 0)
-        text += "; they meet " + (others == 1 ? "once" : counted(others, "time", "times")) + " more";
-    return text + ".\nDouble-click goes to " +
-           (workspace.crowd() ? "the forced choice that made it" : "just before it");
-}
-
 void conflicts(Ui& ui, CrowdInspector& crowds) {
     const std::vector<SceneConflict>* found = crowds.conflicts();
     if (!section(ui, "CONFLICTS", found ? std::to_string(found->size()) : "")) return;
@@ -90,26 +85,81 @@ void conflicts(Ui& ui, CrowdInspector& crowds) {
     const NameList names = names_of_agents(ui.workspace.fitted());
     rows(ui, "##conflicts", static_cast<int>(found->size()), kMostCrowdRows, [&](int i) {
         const SceneConflict& conflict = (*found)[static_cast<std::size_t>(i)];
+        const bool has_choice = ui.workspace.crowd() != nullptr;
+        const bool unexplained = has_choice && !was_forced(*ui.workspace.crowd(), conflict);
         if (row(ui, {.mark = "conflict." + std::to_string(i),
                      .name = conflict.a.name + " and " + conflict.b.name,
-                     .remark = formatted("%.2f s  %.2f m", conflict.begin(), -conflict.facts.deepest.least_clearance),
+                     .remark = (unexplained ? "! " : "") +
+                               formatted("%.2f s  %.2f m", conflict.begin(), -conflict.facts.deepest.least_clearance),
                      .selected = ui.workspace.conflict == i,
                      .remark_color = to_im(readable(ui.style.palette.hit, ui.style.palette)),
                      .fitted = [&](float room) {
                          return fitted_pair(conflict.a.name, " and ", conflict.b.name, room, names);
                      }})) {
-            ui.workspace.conflict = i;
+            const bool twice = ImGui::IsMouseReleased(0) && ImGui::GetIO().MouseClickedLastCount[0] == 2;
+            if (twice && has_choice) {
+                ui.invoke("conflicts.choice");
+            } else {
+                ui.invoke("conflicts.go", std::to_string(i));
+            }
         }
         context_menu(ui, [&] { return conflict_menu(i); });
         if (!ImGui::IsItemHovered()) return;
-        ImGui::SetTooltip("%s", conflict_words(ui.workspace, conflict).c_str());
-        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) ui.invoke("conflicts.go", std::to_string(i));
+        ImGui::SetTooltip("%s%s%s", sentence(conflict).c_str(),
+                          unexplained ? ".\n! No play was forced: an answer was wrong, or the run was edited" : "",
+                          has_choice ? ".\nDouble-click goes to the choice that made it" : "");
     });
+    command_button(ui, "back to all", "agent.all_in_full", "conflicts.back");
+    flow(button_width("open as a scene"));
     ImGui::BeginDisabled(ui.workspace.conflict < 0);
     command_button(ui, "open as a scene", "conflicts.open", "conflicts.open");
     ImGui::EndDisabled();
     flow(button_width("next"));
     command_button(ui, "next", "conflicts.next", "conflicts.next");
+    if (!ui.workspace.crowd()) return;
+    flow(button_width("its choice"));
+    command_button(ui, "its choice", "conflicts.choice", "conflicts.choice");
+}
+
+/// A small button that sorts the list by a column.
+void order_button(Ui& ui, const SpecialPlayList& order, const Command& sort, const std::string& column) {
+    const bool on = sort.chosen(ui.session, column);
+    const std::string label = column + (!on ? "" : order.descending ? " \u2193" : " \u2191");
+    flow(button_width(label.c_str()));
+    ImGui::PushStyleColor(ImGuiCol_Text, on ? ui.style.text : ui.style.quiet);
+    if (small_button(ui, label.c_str(), "special." + column)) ui.invoke("crowd.sort_plays", column);
+    ImGui::PopStyleColor();
+}
+
+/// Of everybody what was forced or turned, with what was not free.
+void special_plays(Ui& ui, const CrowdInspector& crowds) {
+    const std::vector<SpecialPlay>& all = crowds.special_plays();
+    const auto forced = static_cast<std::size_t>(std::ranges::count(all, PlayKind::forced, &SpecialPlay::kind));
+    const std::string counts = std::to_string(forced) + " forced, " + std::to_string(all.size() - forced) + " turned";
+    if (!section(ui, "FORCED AND TURNED", counts)) return;
+    if (all.empty()) return words(ui.style.quiet, "Everybody always had a free move straight on.");
+    const Command& sort = command_named("crowd.sort_plays");
+    text_line(ui.style.quiet, "by");
+    for (const std::string& column : sort.choices(ui.session)) order_button(ui, crowds.play_order, sort, column);
+    rows(ui, "##special plays", static_cast<int>(all.size()), kMostSpecialRows, [&](int i) {
+        const SpecialPlay& play = all[static_cast<std::size_t>(i)];
+        const Palette& palette = ui.style.palette;
+        const bool is_forced = play.kind == PlayKind::forced;
+        const CrowdAgent& agent = ui.workspace.crowd()->agents[static_cast<std::size_t>(play.agent)];
+        const double now = run_time(ui.workspace.scene(), ui.workspace.view());
+        const std::string why = cleaned(agent.name) + ": " + crowds.why(play, outcome_counts);
+        if (row(ui, {.mark = "special." + std::to_string(i),
+                     .name = why,
+                     .remark = (is_forced ? "forced  " : "turned  ") + at_time(play.time),
+                     .selected = ui.workspace.view().follow == agent.name && last_chosen(agent, now) == play.play,
+                     .remark_color = to_im(readable(is_forced ? palette.hit : palette.overlap, palette)),
+                     .fitted = [&](float room) { return fitted_text(why, room); }})) {
+            ui.invoke("crowd.special_play", std::to_string(i));
+        }
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("%s\nchosen at %.2f s", why.c_str(),
+                              agent.plays[static_cast<std::size_t>(play.play)].chosen_at);
+    });
 }
 
 }  // namespace
@@ -123,9 +173,12 @@ void crowd_panel(Ui& ui, CrowdInspector& crowds) {
         }
         following(ui);
     }
-    if (ui.workspace.crowd()) last_choice(ui, crowds);
-    if (ui.workspace.crowd()) plays(ui);
+    // Lists of the whole crowd stay where they are while one goes from row to row.
     conflicts(ui, crowds);
+    if (!ui.workspace.crowd()) return;
+    special_plays(ui, crowds);
+    last_choice(ui, crowds);
+    plays(ui);
 }
 
 }  // namespace mobbscope::app

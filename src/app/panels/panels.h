@@ -3,6 +3,7 @@
 
 #include <app/panels/query_parts.h>
 #include <app/ui/ui.h>
+#include <app/ui/widgets.h>
 #include <app/viewport/viewport.h>
 
 #include <span>
@@ -27,6 +28,8 @@ struct MapLayout {
 MapLayout map_layout(const Ui& ui, ImVec2 room);
 void map_panel(Ui& ui, MapInspector& maps, MapPicture& picture, const MapLayout& layout);
 void crowd_panel(Ui& ui, CrowdInspector& crowds);  ///< who is followed, its last choice, its plays, and who collides
+/// When conflicts begin, as bars of so many in a place (corner and size, pixels).
+void conflict_bars(Ui& ui, const CrowdInspector& crowds, const ChartAxis& time, ImVec2 corner, ImVec2 size);
 void last_choice(Ui& ui, CrowdInspector& crowds);  ///< of who is followed in a run, with its candidates
 void selection_panel(Ui& ui);                      ///< all numbers of what is selected
 void timeline(Ui& ui, Playback& playback, QueryInspector& queries,

@@ -166,9 +166,10 @@ class QueryPictures {
         std::array<std::vector<DecisionCell>, 2> sides;
         int depth = 0;  ///< of the deepest
     } compared_;
-    float top_ = 0;      ///< where stay() was called last, pixels
-    float scroll_ = 0;   ///< of the icicle, pixels
-    int followed_ = -1;  ///< the step that was brought into strip and icicle last
+    bool compares_ = false;  ///< something was compared in the last frame
+    float top_ = 0;          ///< where stay() was called last, pixels
+    float scroll_ = 0;       ///< of the icicle, pixels
+    int followed_ = -1;      ///< the step that was brought into strip and icicle last
     struct {
         EventRange range;
         float scroll = 0;

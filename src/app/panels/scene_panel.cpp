@@ -293,8 +293,8 @@ void clips(Ui& ui) {
     }
 }
 
-/// The queries by their tests, and how these are spread; the order is chosen here.
-void query_costs(Ui& ui, const CostInspector& costs) {
+/// How many hit, as far as it is known, or how the tests are spread; the order is chosen here.
+void query_order(Ui& ui, const CostInspector& costs, std::size_t count) {
     const SceneCosts* known = costs.costs();
     if (costs.order == CostInspector::Order::tests && known) {
         const auto at = [&](double share) { return std::to_string(tests_at(*known, share)); };
@@ -303,6 +303,19 @@ void query_costs(Ui& ui, const CostInspector& costs) {
         flow(button_width("show the costliest"));
         if (small_button(ui, "show the costliest", "queries.worst")) ui.invoke("query.worst");
         return;
+    }
+    if (costs.lists_hits_first()) {
+        const QueryAnswers::Known found = ui.session.answers.known();
+        const bool all = found.asked == count;
+        words(ui.style.quiet, std::to_string(found.hits.size()) + " hit" +
+                                  (all ? "" : " of the " + std::to_string(found.asked) + " asked so far") +
+                                  ", listed first");
+        ui.mark_only("queries.hits_known");
+        if (small_button(ui, "in their order", "queries.number")) ui.invoke("query.sort", "number");
+        flow(button_width("sort by tests"));
+    } else if (count > std::size_t{kFewQueries}) {
+        if (small_button(ui, "hits first", "queries.hits")) ui.invoke("query.sort", "hits");
+        flow(button_width("sort by tests"));
     }
     if (small_button(ui, "sort by tests", "queries.tests", "The costliest first, and how the tests are spread")) {
         ui.invoke("query.sort", "tests");
@@ -314,6 +327,7 @@ void query_list(Ui& ui, QueryInspector& queries, const CostInspector& costs) {
     const bool all_pairs = ui.workspace.scene().queries.empty() && count > 1;
     if (!section(ui, "QUERIES", (all_pairs ? "all pairs, " : "") + std::to_string(count))) return;
     const NameList names = names_of_agents(ui.workspace.fitted());
+    if (costs.lists_hits_first()) ui.session.answers.update();
     const std::vector<int> listed = costs.listed();
     const bool by_tests = costs.order == CostInspector::Order::tests && costs.costs();
     rows(ui, "##queries", count, kMostSceneRows, [&](int place) {
@@ -345,7 +359,7 @@ void query_list(Ui& ui, QueryInspector& queries, const CostInspector& costs) {
         ImGui::SetTooltip("%s%s", sentence(query, answer.contact).c_str(),
                           unexpected ? "\nThe scene expects the other answer" : "");
     });
-    if (count > 1) query_costs(ui, costs);
+    if (count > 1) query_order(ui, costs, static_cast<std::size_t>(count));
     if (count == 0)
         words(ui.style.quiet,
               ui.workspace.scene().agents.empty() ? "agents are asked, bare clips are not" : "needs two agents");

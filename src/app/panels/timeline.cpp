@@ -18,10 +18,11 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr float kLeastBars = 60;   // width, pixels at scale 1
-constexpr float kMostBar = 26;     // height of a path's bar, pixels at scale 1
-constexpr float kProofBar = 7;     // height of the lines of a proof, pixels at scale 1
-constexpr float kLeastStrip = 60;  // of the strip of steps, which else has a line of its own
+constexpr float kLeastBars = 60;     // width, pixels at scale 1
+constexpr float kMostBar = 26;       // height of a path's bar, pixels at scale 1
+constexpr float kConflictBars = 14;  // height, pixels at scale 1
+constexpr float kProofBar = 7;       // height of the lines of a proof, pixels at scale 1
+constexpr float kLeastStrip = 60;    // of the strip of steps, which else has a line of its own
 
 /// An empty span has some length too.
 ChartAxis time_axis(const mobb::Interval& span, float left, float width) {
@@ -140,7 +141,10 @@ void time_row(Ui& ui, Playback& playback, QueryInspector& queries, bool tall) {
     // Of a narrow window the bars have a line of their own.
     flow(ui.px(kLeastBars) + clear + ui.px(8));
     const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x - clear - ui.px(8));
-    const float below = ui.px(24);
+    const CrowdInspector& crowds = ui.session.crowds;
+    const bool has_conflicts = tall && crowds.conflicts() && !crowds.conflicts()->empty();
+    const float lane = has_conflicts ? ui.px(kConflictBars + 3) : 0;
+    const float below = ui.px(24) + lane;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const std::size_t lanes = ui.workspace.crowd() ? 1 : shown_paths(ui.workspace).size();
     const auto paths = static_cast<float>(lanes);
@@ -148,13 +152,17 @@ void time_row(Ui& ui, Playback& playback, QueryInspector& queries, bool tall) {
         std::clamp(paths * ui.px(kMostBar), clear, std::max(clear, ImGui::GetContentRegionAvail().y - below));
     const float height = tall ? most : clear;
     time_bars(ui, width, height);
-    if (tall) ruler(ui, *ui.style.mono, time_axis(span, corner.x, width), corner.y + height, " s");
+    if (tall) ruler(ui, *ui.style.mono, time_axis(span, corner.x, width), corner.y + height + lane, " s");
     ImGui::SameLine();
     ImGui::BeginDisabled(!ui.workspace.view().time || ui.workspace.crowd());
     if (ImGui::Button("\u00D7", {clear, clear})) ui.invoke("time.clear");
     ImGui::EndDisabled();
     ui.mark("timeline.clear");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Hide the time cursor");
+    if (has_conflicts) {
+        conflict_bars(ui, crowds, time_axis(span, corner.x, width), {corner.x, corner.y + height + ui.px(3)},
+                      {width, ui.px(kConflictBars)});
+    }
     const auto findings = queries.findings();
     if (!findings || findings->proof.lines.empty()) return;
     proof_bars(ui, *findings, time_axis(span, corner.x, width), {corner.x, corner.y + height + ui.px(3)},

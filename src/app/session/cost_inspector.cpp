@@ -70,10 +70,18 @@ void CostInspector::show_sandwich(TreeNode node) {
     });
 }
 
+bool CostInspector::lists_hits_first() const {
+    return order == Order::hits && workspace_.fitted().queries().size() > std::size_t{kFewQueries};
+}
+
 std::vector<int> CostInspector::listed() const {
     if (order == Order::tests && costs()) return costs()->by_tests;
     std::vector<int> out(workspace_.fitted().queries().size());
     std::iota(out.begin(), out.end(), 0);
+    if (!lists_hits_first()) return out;
+    const QueryAnswers::Known known = answers_.known();
+    const auto is_hit = [&](int query) { return std::ranges::binary_search(known.hits, query); };
+    std::ranges::stable_partition(out, is_hit);
     return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include <app/document/workspace.h>
 #include <app/session/jobs.h>
+#include <app/session/query_answers.h>
 
 #include <functional>
 #include <memory>
@@ -11,14 +12,18 @@
 
 namespace mobbscope::app {
 
+/// A list of no more queries needs no scrolling.
+inline constexpr int kFewQueries = 9;
+
 class CostInspector {
   public:
-    CostInspector(Workspace& workspace, Jobs& jobs) : workspace_(workspace), jobs_(jobs) {}
+    CostInspector(Workspace& workspace, Jobs& jobs, QueryAnswers& answers)
+        : workspace_(workspace), jobs_(jobs), answers_(answers) {}
 
     enum class Of { query, scene };
     Of branches_of = Of::query;  ///< whose branches are listed
-    enum class Order { number, tests };
-    Order order = Order::number;  ///< of the list of queries
+    enum class Order { hits, number, tests };
+    Order order = Order::hits;  ///< of the list of queries
 
     /// Null until they were counted.
     const SceneCosts* costs() const;
@@ -29,6 +34,8 @@ class CostInspector {
     const Sandwich* sandwich() const;
     void show_sandwich(TreeNode node);
 
+    /// Whether those that hit are listed first: not of a few, which are seen all at once.
+    bool lists_hits_first() const;
     /// The queries in the order of their list.
     std::vector<int> listed() const;
 
@@ -37,6 +44,7 @@ class CostInspector {
 
     Workspace& workspace_;
     Jobs& jobs_;
+    QueryAnswers& answers_;
     std::function<void()> then_;  ///< of the count that is under way
 };
 

@@ -4,6 +4,7 @@
 #include <scene/crowd_scene.h>
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace mobbscope::app {
@@ -66,8 +67,58 @@ std::string CrowdInspector::conflict_summary() const {
     return conflict_count(conflicts()->size(), people_in(workspace_), seconds);
 }
 
+const std::vector<SpecialPlay>& CrowdInspector::special_plays() const {
+    const bool is_new = listed_.of != workspace_.document().fitted;
+    if (!is_new && listed_.by == play_order.by && listed_.descending == play_order.descending) return listed_.plays;
+    if (is_new) {
+        listed_.plays.clear();
+        listed_.reasons.clear();
+        const CrowdRun& run = *workspace_.crowd();
+        for (int agent = 0; agent < static_cast<int>(run.agents.size()); ++agent) {
+            const std::vector<Play>& plays = run.agents[static_cast<std::size_t>(agent)].plays;
+            for (int i = 0; i < static_cast<int>(plays.size()); ++i) {
+                const Play& play = plays[static_cast<std::size_t>(i)];
+                if (play.kind != PlayKind::chosen) listed_.plays.push_back({agent, i, play.placement.start, play.kind});
+            }
+        }
+    }
+    listed_.of = workspace_.document().fitted;
+    listed_.by = play_order.by;
+    listed_.descending = play_order.descending;
+    const auto before = [&](const SpecialPlay& a, const SpecialPlay& b) {
+        const auto by_time = [](const SpecialPlay& of) { return std::tuple(of.time, of.agent, of.play); };
+        switch (listed_.by) {
+            case SpecialPlayList::Column::time:
+                break;
+            case SpecialPlayList::Column::agent:
+                return std::tuple(a.agent, a.play) < std::tuple(b.agent, b.play);
+            case SpecialPlayList::Column::kind:
+                // Forced plays matter more.
+                if (a.kind != b.kind) return a.kind > b.kind;
+        }
+        return by_time(a) < by_time(b);
+    };
+    std::ranges::sort(listed_.plays,
+                      [&](const auto& a, const auto& b) { return listed_.descending ? before(b, a) : before(a, b); });
+    return listed_.plays;
+}
+
+const std::string& CrowdInspector::why(const SpecialPlay& play, const WordsOfChoice& words) const {
+    const auto [at, is_new] = listed_.reasons.try_emplace({play.agent, play.play});
+    if (is_new) {
+        Workspace::Derived& d = workspace_.derived();
+        if (!d.moves) d.moves = std::make_unique<MoveSet>(*workspace_.document().fitted);
+        at->second = words(workspace_.scene(), choice_of(*d.moves, *workspace_.crowd(), play.agent, play.play));
+    }
+    return at->second;
+}
+
+double time_before(const Workspace& workspace, const SceneConflict& conflict) {
+    return std::max(conflict.begin() - kBefore, time_span(workspace).t0);
+}
+
 ConflictPlace conflict_place(const Workspace& workspace, const SceneConflict& conflict) {
-    const double before = std::max(conflict.begin() - kBefore, time_span(workspace).t0);
+    const double before = time_before(workspace, conflict);
     if (!workspace.crowd()) return {conflict.a, conflict.b, before};
     const bool by_a = made_by_a(*workspace.crowd(), conflict);
     ConflictPlace out{by_a ? conflict.a : conflict.b, by_a ? conflict.b : conflict.a, before};

@@ -44,6 +44,7 @@ void Edits::rename_agent(int agent, const std::string& name) {
         std::ranges::replace(workspace_.isolation->hidden, before, name);
         std::ranges::replace(workspace_.isolation->before, before, name);
     }
+    if (workspace_.overview) std::ranges::replace(workspace_.overview->foreground, before, name);
     std::map<StepKey, QuerySteps> steps;
     for (const auto& [key, looked_at] : next.steps) {
         auto [a, b, same] = key.first;

@@ -49,6 +49,7 @@ void Session::end_work() {
     recovery.end_work();
     dialogs.preview.end();
     maps.end_work();
+    answers.end_work();
     for (const auto& each : screens) each->end_work();
 }
 

@@ -8,6 +8,7 @@
 #include <app/session/excerpts.h>
 #include <app/session/files.h>
 #include <app/session/map_inspector.h>
+#include <app/session/query_answers.h>
 #include <app/session/recovery.h>
 
 #include <any>
@@ -84,7 +85,8 @@ class Session {
     Imports imports{workspace, jobs, edits, dialogs, notifications};
     CrowdInspector crowds{workspace, jobs, notifications};
     MapInspector maps{workspace, notifications, options, desktop};
-    CostInspector costs{workspace, jobs};
+    QueryAnswers answers{workspace, options, desktop};
+    CostInspector costs{workspace, jobs, answers};
     Excerpts excerpts{workspace, jobs, playback, crowds, counts};
     Files files{{workspace, jobs, edits, imports, dialogs, notifications, playback, settings, settings_file, counts,
                  options, screen}};
@@ -96,8 +98,8 @@ class Session {
     template <class AnySession>
     static auto parts(AnySession& s) {
         return std::tie(s.options, s.settings, s.workspace, s.views, s.queries, s.notifications, s.queue, s.keys,
-                        s.dialogs, s.jobs, s.playback, s.edits, s.imports, s.crowds, s.maps, s.costs, s.excerpts,
-                        s.files, s.recovery);
+                        s.dialogs, s.jobs, s.playback, s.edits, s.imports, s.crowds, s.maps, s.answers, s.costs,
+                        s.excerpts, s.files, s.recovery);
     }
 
     /// The screen of a type, which add_screen was given.

@@ -133,6 +133,9 @@ std::vector<MenuEntry> shown_menu(const Workspace& workspace, const ListedAgents
     return {{"agents.hide", listed.text, are_hidden(workspace, listed.who) ? "Show" : "Hide", like("agent.hide")},
             {"agents.solo", listed.text,
              are_isolated(workspace, listed.who) ? "Show what was there before" : "Show alone", like("agent.solo")},
+            {"agents.foreground", listed.text,
+             are_in_foreground(workspace, listed.who) ? "No longer in the foreground" : "In the foreground",
+             like("agent.foreground")},
             {"agents.pin", listed.text, are_pinned(workspace, listed.who) ? "Unpin" : "Pin", like("agent.pin")},
             {"agent.show_all"}};
 }
@@ -222,7 +225,7 @@ std::vector<MenuEntry> play_menu(int play) {
 
 std::vector<MenuEntry> conflict_menu(int conflict) {
     const std::string index = std::to_string(conflict);
-    return {{"conflicts.go", index, "Go to just before it"}, {"conflicts.open", index}};
+    return {{"conflicts.go", index, "Show the two alone"}, {"conflicts.open", index}};
 }
 
 }  // namespace mobbscope::app

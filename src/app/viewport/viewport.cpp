@@ -354,6 +354,7 @@ void Viewport::draw(Ui& ui, std::size_t place) {
         "##picture", room,
         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
     ui.mark_only(is_active(ui) ? "viewport" : "viewport." + std::to_string(place));
+    conflicts_ = is_active(ui) ? conflict_marks(ui, picture) : std::vector<ConflictMark>();
     mouse(ui, picture);
     update_highlights(ui);
     show(ui, corner);
@@ -433,7 +434,10 @@ void Viewport::mouse(Ui& ui, const ShownPicture& picture) {
         const auto held = over && list_ && is_active(ui) ? handles(ui, picture) : std::nullopt;
         const bool on_overlay = over && list_ && overlay_at(*list_, pixel);
         lit_ = held ? handle_at(ui, held->places, ImGui::GetIO().MousePos) : Handle::none;
-        if (over && list_ && is_active(ui) && lit_ == Handle::none && !on_overlay) {
+        const bool free = over && list_ && is_active(ui) && lit_ == Handle::none && !on_overlay;
+        const ConflictMark* mark = free ? mark_at(ui, conflicts_, ImGui::GetIO().MousePos) : nullptr;
+        lit_conflict_ = mark ? mark->conflict : -1;
+        if (free && !mark) {
             hover(ui, pixel);
         } else {
             place_.reset();
@@ -502,6 +506,9 @@ void Viewport::press(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) {
     } else if (on_overlay) {
         drag_ = Drag::none;
         if (on_overlay->command) ui.invoke(on_overlay->command);
+    } else if (const ConflictMark* mark = mark_at(ui, conflicts_, io.MousePos); mark && is_active(ui)) {
+        drag_ = Drag::none;
+        ui.invoke("conflicts.go", std::to_string(mark->conflict));
     }
 }
 
@@ -697,12 +704,18 @@ void Viewport::decorate(Ui& ui, const ShownPicture& picture) {
         mark("handle.turn", held->places.turn);
         mark("handle.shift", held->places.shift);
     }
+    draw_conflict_marks(ui, conflicts_, lit_conflict_);
     ImGui::GetWindowDrawList()->PopClipRect();
     // The picture has no padding, what is said of it has.
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(9), ui.px(7)});
     if (held && lit_ != Handle::none) {
         ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
         handle_tooltip(ui, held->who.placement);
+    } else if (lit_conflict_ >= 0) {
+        ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+        const auto& found = *ui.session.crowds.conflicts();
+        ImGui::SetTooltip("%s\nClick shows the two alone",
+                          sentence(found[static_cast<std::size_t>(lit_conflict_)]).c_str());
     } else if (drag_ == Drag::none && ImGui::IsItemHovered()) {
         tooltip(ui);
     }

@@ -5,6 +5,7 @@
 #include <app/document/views.h>
 #include <app/ui/ui.h>
 #include <app/viewport/agent_handles.h>
+#include <app/viewport/conflict_marks.h>
 #include <app/viewport/flight.h>
 #include <render/drawlist/draw_list.h>
 #include <render/pictures/kept_paths.h>
@@ -13,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace mobbscope::app {
 
@@ -104,8 +106,10 @@ class Viewport {
 
     Drag drag_ = Drag::none;
     HandleDrag handle_drag_;
-    std::optional<DragPromise> promise_;  ///< of the answer when that drag began; none: nothing is promised
-    Handle lit_ = Handle::none;           ///< under the mouse or held
+    std::optional<DragPromise> promise_;   ///< of the answer when that drag began; none: nothing is promised
+    Handle lit_ = Handle::none;            ///< under the mouse or held
+    std::vector<ConflictMark> conflicts_;  ///< marked in the picture
+    int lit_conflict_ = -1;                ///< whose mark is under the mouse
     glm::vec2 pressed_at_{0};
     glm::vec2 last_{0};
     bool moved_ = false;         ///< since the button went down: no click

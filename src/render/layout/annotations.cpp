@@ -167,8 +167,42 @@ void add_cell_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAg
 
 bool names_fit(std::size_t agents) { return agents <= kMostNames; }
 
+bool all_are_named(std::span<const DrawnAgent> agents) {
+    return agents.size() > 1 && names_fit(shown_count(agents)) && std::ranges::none_of(agents, &DrawnAgent::outlined);
+}
+
+std::optional<LabelRequest> plate_at(const DrawList& list, const DrawnAgent& agent, const mobb::Disk& disk,
+                                     double height, const Rgba& border, const Metrics& metrics) {
+    const auto anchor = list.projection.project(list.space.point(disk.x, disk.y, height));
+    if (!anchor) return std::nullopt;
+    LabelRequest label;
+    label.text = agent.label;
+    label.role = TextRole::name;
+    label.size = metrics.text;
+    label.color = readable(agent.color, list.palette);
+    label.border = border;
+    label.anchor = *anchor;
+    label.directions = {{0, -1}, {-1, -1}, {1, -1}, {-1, 0}, {1, 0}};
+    label.distance = 1.8f * metrics.text;
+    label.pill = true;
+    return label;
+}
+
+std::vector<LabelRequest> names_at(const DrawList& list, std::span<DrawnAgent> agents, double time,
+                                   const Metrics& metrics) {
+    std::vector<LabelRequest> out;
+    for (DrawnAgent& agent : agents) {
+        const std::optional<int> sample = agent.named && !agent.hidden ? sample_at(agent, time) : std::nullopt;
+        if (!sample) continue;
+        const mobb::Disk disk = mobb::swept(agent.clip(), *sample).at(time);
+        if (auto plate = plate_at(list, agent, disk, time, agent.color, metrics)) out.push_back(*std::move(plate));
+        agent.named = false;
+    }
+    return out;
+}
+
 void add_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAgent> agents, const Metrics& metrics) {
-    const bool all = agents.size() > 1 && names_fit(shown_count(agents));
+    const bool all = all_are_named(agents);
     for (const DrawnAgent& agent : agents) {
         if (agent.hidden || !(all || agent.named)) continue;
         const mobb::Disk last = agent.clip().disk(agent.clip().count() - 1);

@@ -32,6 +32,9 @@ void add_notes(DrawList& list, LabelLayout& layout, std::span<const LabelRequest
 /// More names than this hide the scene and one another.
 bool names_fit(std::size_t agents);
 
+/// Whether they are few enough, and none is in the foreground alone.
+bool all_are_named(std::span<const DrawnAgent> agents);
+
 /// A name beside `top` (drawn space), the upper end of a path or body of that radius. None where that is not seen.
 std::optional<LabelRequest> name_label(const DrawList& list, const DrawnAgent& agent, glm::vec3 top, double radius,
                                        float text_size);
@@ -42,6 +45,14 @@ std::size_t shown_count(std::span<const DrawnAgent> agents);
 /// Under each cell of a grid the name of who is in it. `floor`: the time at which cells lie on the floor.
 void add_cell_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAgent> agents, double floor,
                     const Metrics& metrics);
+
+/// A name on a plate beside where somebody is, at that height (drawn space).
+std::optional<LabelRequest> plate_at(const DrawList& list, const DrawnAgent& agent, const mobb::Disk& disk,
+                                     double height, const Rgba& border, const Metrics& metrics);
+
+/// The plates of who is DrawnAgent::named, at a time in space-time; they need no other name then.
+std::vector<LabelRequest> names_at(const DrawList& list, std::span<DrawnAgent> agents, double time,
+                                   const Metrics& metrics);
 
 /// Names at the upper ends of paths, of many those of DrawnAgent::named; a single path is named by the legend.
 void add_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAgent> agents, const Metrics& metrics);

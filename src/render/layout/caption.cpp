@@ -60,7 +60,7 @@ std::string boxes_text(std::span<const DrawnAgent> agents, const LevelRange& lev
     double total = 0;
     int last = 0;
     for (const DrawnAgent& agent : agents) {
-        if (agent.hidden) continue;
+        if (!agent.is_whole()) continue;
         const mobb::Tree& tree = agent.placed.tree();
         last = std::max(last, last_shown_level(tree, levels));
         for (const int node : shown_nodes(tree, levels)) {
@@ -144,6 +144,14 @@ void mention_hidden(Caption& caption, std::span<const std::string> hidden, std::
     if (hidden.size() == 1) return mention(caption, hidden[0] + " is hidden");
     if (hidden.size() == 2) return mention(caption, hidden[0] + " and " + hidden[1] + " are hidden");
     mention(caption, std::to_string(hidden.size()) + " of " + std::to_string(all) + " are hidden");
+}
+
+void mention_foreground(Caption& caption, std::span<const std::string> foreground) {
+    if (foreground.empty()) return;
+    if (foreground.size() == 1) return mention(caption, foreground[0] + " is in the foreground");
+    if (foreground.size() == 2)
+        return mention(caption, foreground[0] + " and " + foreground[1] + " are in the foreground");
+    mention(caption, std::to_string(foreground.size()) + " are in the foreground");
 }
 
 CaptionLines caption_lines(const Caption& caption, float room, float scale, CaptionSize size) {

@@ -39,7 +39,8 @@ std::string at_time(double time);
 /// Says something in the detail, before all else.
 void mention(Caption& caption, const std::string& text);
 
-/// Says in the detail who is hidden: by name, or how many of all.
+/// Says in the detail who is in the foreground, by name, or how many; and likewise who of all is hidden.
+void mention_foreground(Caption& caption, std::span<const std::string> foreground);
 void mention_hidden(Caption& caption, std::span<const std::string> hidden, std::size_t all);
 
 /// Says in the detail that a time cursor is not drawn, as it lies outside what the paths take.

@@ -205,7 +205,7 @@ std::vector<LegendEntry> agent_entries(const DrawList& list, std::span<const Dra
             const bool own = agent.run_agent >= 0 ? path.run_agent == agent.run_agent : path.index == agent.index;
             return own && sight.path(path);
         });
-        if (seen && !agent.hidden) entries.push_back(dot_entry(agent.color, agent.label));
+        if (seen && agent.is_whole()) entries.push_back(dot_entry(agent.color, agent.label));
     }
     return entries;
 }

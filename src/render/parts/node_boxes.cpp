@@ -146,7 +146,7 @@ void add_level_boxes(DrawList& list, std::span<const DrawnAgent> agents, const L
                      float scale) {
     const int deepest = deepest_level(agents);
     for (const DrawnAgent& agent : agents) {
-        if (agent.hidden) continue;
+        if (!agent.is_whole()) continue;
         const mobb::Tree& tree = agent.placed.tree();
         const int last = last_shown_level(tree, levels);
         for (const int node : shown_nodes(tree, levels)) {

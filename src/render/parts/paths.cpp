@@ -15,6 +15,7 @@ namespace mobbscope {
 namespace {
 
 constexpr float kDimmedLines = 0.4f;  // of the text's colour
+constexpr float kOutline = 0.7f;      // opacity of what is left of who is not in the foreground
 constexpr float kEarly = 0.24f;  // towards the background at the beginning of a path, so that later disks stand out
 
 Rgba disk_color(const Palette& palette, const DrawnAgent& agent, const PathFocus& focus, int sample) {
@@ -60,6 +61,21 @@ void add_ring(DrawList& list, const DrawnAgent& agent, int sample, const RingPla
     const auto index = (static_cast<std::int64_t>(agent.index) << 40) + sample * ring.pieces;
     Pen(list, {DrawLayer::rings, ring.order, index})
         .path(ring.pieces, point, {.color = ring.color, .width = ring.width, .hidden = 1, .cap = 0.3f * ring.width});
+}
+
+/// The way of the centres of the samples that are drawn, in space-time.
+void add_centre_line(DrawList& list, const DrawnAgent& agent, const LineStyle& style) {
+    const mobb::PlacedClip& clip = agent.clip();
+    const mobb::SampleRange shown = agent.samples();
+    const float pixels = list.projection.pixels_per_metre(glm::vec3(0));
+    const auto centre = [&](int i) {
+        const mobb::Disk disk = clip.disk(std::min(i, clip.count() - 1));
+        return list.space.point(disk.x, disk.y, clip.time(i));
+    };
+    // Pieces shorter than a pixel are not seen as such.
+    const auto too_short = [&](glm::vec3 from, glm::vec3 to) { return glm::distance(from, to) * pixels < 1; };
+    Pen(list, {DrawLayer::surroundings, 2, order_index(agent, shown.first)})
+        .joined_path(shown.first, shown.end(), centre, too_short, style);
 }
 
 }  // namespace
@@ -110,14 +126,11 @@ void add_thin_path(DrawList& list, const DrawnAgent& agent, float width) {
     const float pixels = list.projection.pixels_per_metre(glm::vec3(0));
     // 0: the scene's middle lies behind the eye, which therefore is near.
     if (pixels <= 0 || static_cast<float>(widest) * pixels > 0.7f) return;
-    const auto centre = [&](int i) {
-        const mobb::Disk disk = clip.disk(std::min(i, clip.count() - 1));
-        return list.space.point(disk.x, disk.y, clip.time(i));
-    };
-    // Pieces shorter than a pixel are not seen as such.
-    const auto too_short = [&](glm::vec3 from, glm::vec3 to) { return glm::distance(from, to) * pixels < 1; };
-    Pen(list, {DrawLayer::surroundings, 2, order_index(agent, 0)})
-        .joined_path(0, clip.count(), centre, too_short, {agent.color, width});
+    add_centre_line(list, agent, {agent.color, width});
+}
+
+void add_path_outline(DrawList& list, const DrawnAgent& agent, float scale) {
+    add_centre_line(list, agent, {with_alpha(agent.color, kOutline), scale});
 }
 
 Rgba floor_trace_color(const DrawnAgent& agent, const Palette& palette) {
@@ -146,7 +159,8 @@ void add_floor_trace(DrawList& list, const DrawnAgent& agent, mobb::SampleRange 
 
 void add_cursor_ring(DrawList& list, const DrawnAgent& agent, int sample, double time, float scale, int pieces) {
     const RingPlace place = ring_place(agent.clip(), sample, time);
-    add_ring(list, agent, sample, place, {line_color_of(agent, list.palette), 1.6f * scale, 1.04f, 0, pieces});
+    add_ring(list, agent, sample, place,
+             {line_color_of(agent, list.palette), (agent.outlined ? 0.8f : 1.6f) * scale, 1.04f, 0, pieces});
 }
 
 void add_hit_ring(DrawList& list, const DrawnAgent& agent, int sample, double time, float scale) {

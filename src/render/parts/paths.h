@@ -47,6 +47,9 @@ std::size_t color_disks(std::vector<DiskInstance>& disks, std::size_t first, con
 /// The line of centres, where the disks are too small to be seen.
 void add_thin_path(DrawList& list, const DrawnAgent& agent, float width);
 
+/// The line of centres of who is not in the foreground.
+void add_path_outline(DrawList& list, const DrawnAgent& agent, float scale);
+
 /// How a path looks on the floor where nothing else is said of it.
 Rgba floor_trace_color(const DrawnAgent& agent, const Palette& palette);
 

@@ -2,6 +2,7 @@
 #include <explain/query_sentence.h>
 #include <mobb/traversal.h>
 #include <render/drawlist/pen.h>
+#include <render/layout/annotations.h>
 #include <render/layout/caption.h>
 #include <render/layout/legend.h>
 #include <render/parts/paths.h>
@@ -227,8 +228,7 @@ std::string candidate_sentence(const Scene& run, const Choice& choice, std::size
     return text;
 }
 
-std::string choice_sentence(const Scene& run, const FollowedChoice& followed) {
-    const Choice& choice = followed.choice;
+std::string outcome_counts(const Scene& run, const Choice& choice) {
     int free = 0;
     int in_the_way = 0;
     int no_way_on = 0;
@@ -248,21 +248,11 @@ std::string choice_sentence(const Scene& run, const FollowedChoice& followed) {
             rulers.insert(candidate.blocker->agent);
         }
     }
-    const std::string count = std::to_string(choice.candidates.size());
-    const bool one = choice.candidates.size() == 1;
-    std::string text = agent_name(run, followed.agent);
-    std::string between = ": ";
+    std::string text;
     const auto add = [&](int number, const std::string& outcome) {
-        text += between + std::to_string(number) + ' ' + outcome;
-        between = "; ";
+        text += (text.empty() ? "" : "; ") + std::to_string(number) + ' ' + outcome;
     };
-    if (choice.kind == PlayKind::forced) {
-        text += " was forced" + at_time(choice.time) + ", as " +
-                (one ? "its only move was not free" : "none of its " + count + " moves was free");
-    } else {
-        text += " chose among " + count + (one ? " move" : " moves") + at_time(choice.time);
-        add(free, "free");
-    }
+    if (choice.kind != PlayKind::forced) add(free, "free");
     if (ruled_out > 0) {
         std::string names;
         std::size_t named = 0;
@@ -277,6 +267,21 @@ std::string choice_sentence(const Scene& run, const FollowedChoice& followed) {
     if (no_way_on > 0) add(no_way_on, no_way_on == 1 ? "has no way on" : "have no way on");
     if (off_floor > 0) add(off_floor, off_floor == 1 ? "leaves the floor" : "leave the floor");
     return text;
+}
+
+std::string choice_sentence(const Scene& run, const FollowedChoice& followed) {
+    const Choice& choice = followed.choice;
+    const std::string count = std::to_string(choice.candidates.size());
+    const bool one = choice.candidates.size() == 1;
+    std::string text = agent_name(run, followed.agent);
+    if (choice.kind == PlayKind::forced) {
+        text += " was forced" + at_time(choice.time) + ", as " +
+                (one ? "its only move was not free" : "none of its " + count + " moves was free");
+    } else {
+        text += " chose among " + count + (one ? " move" : " moves") + at_time(choice.time);
+    }
+    const std::string counts = outcome_counts(run, choice);
+    return counts.empty() ? text : text + ": " + counts;
 }
 
 std::string edited_run_warning(const Scene& run, const FollowedChoice& followed) {
@@ -318,20 +323,9 @@ std::vector<LabelRequest> add_followed(DrawList& list, const DrawnAgent& followe
         const float width = at_scale_1 * metrics.scale;
         pen.path(kPieces, at, {.color = list.palette.accent, .width = width, .hidden = kThrough, .cap = 0.3f * width});
     }
-    const glm::vec3 top = list.space.point(disk.x, disk.y, list.moment ? height : time);
-    const auto anchor = list.projection.project(top);
-    if (!anchor) return {};
-    LabelRequest label;
-    label.text = followed.label;
-    label.role = TextRole::name;
-    label.size = metrics.text;
-    label.color = readable(followed.color, list.palette);
-    label.border = list.palette.accent;
-    label.anchor = *anchor;
-    label.directions = {{0, -1}, {-1, -1}, {1, -1}, {-1, 0}, {1, 0}};
-    label.distance = 1.8f * metrics.text;
-    label.pill = true;
-    return {label};
+    const auto plate = plate_at(list, followed, disk, list.moment ? height : time, list.palette.accent, metrics);
+    if (!plate) return {};
+    return {*plate};
 }
 
 std::vector<LabelRequest> add_followed(DrawList& list, std::span<const DrawnAgent> paths, int run_agent, double time,

@@ -31,6 +31,9 @@ std::vector<std::size_t> shown_candidates(const Choice& choice);
 /// "turn_left: meets 42 at 13.42 s", and why others are not taken.
 std::string candidate_sentence(const Scene& run, const Choice& choice, std::size_t candidate);
 
+/// "6 free; 15 ruled out by 42, 77; 3 leave the floor"; of a forced play none was free.
+std::string outcome_counts(const Scene& run, const Choice& choice);
+
 /// "17 chose among 24 moves at 12.87 s: 6 free; 15 ruled out by 42, 77; 3 leave the floor". Of a forced play "17 was
 /// forced at 12.87 s, as none of its 24 moves was free: 21 ruled out by 42; 3 leave the floor".
 std::string choice_sentence(const Scene& run, const FollowedChoice& followed);

@@ -59,7 +59,7 @@ std::vector<DrawnAgent> boxed(std::span<const DrawnAgent> paths, const ViewState
     std::vector<DrawnAgent> all;
     std::vector<DrawnAgent> own;
     for (const DrawnAgent& path : paths) {
-        if (path.samples().count == 0 || path.hidden) continue;
+        if (path.samples().count == 0 || !path.is_whole()) continue;
         if (boxes <= kMostCrowdBoxes) boxes += shown_nodes(path.placed.tree(), view.levels).size();
         all.push_back(path);
         if (path.run_agent == followed) own.push_back(path);
@@ -120,12 +120,21 @@ class CrowdPicture final : public Picture {
         }
         if (view_.time_axis) add_time_axis(list_, floor_extent_, metrics_.scale);
         add_time_cursor(list_, floor_extent_, time_, metrics_.scale);
-        if (view_.disks) add_rings_now();
+        if (view_.disks) {
+            add_rings_now();
+            for (const DrawnAgent& agent : agents_) {
+                if (agent.outlined && !agent.hidden) add_path_outline(list_, agent, metrics_.scale);
+            }
+        }
         std::vector<LabelRequest> notes;
         if (choice_) notes = add_candidates(list_, fitted_, *choice_, metrics_);
         if (followed_ >= 0) {
             const auto name = add_followed(list_, agents_, followed_, time_, 0, metrics_);
             notes.insert(notes.end(), name.begin(), name.end());
+        }
+        if (!view_.foreground.empty()) {
+            const auto names = names_at(list_, agents_, time_, metrics_);
+            notes.insert(notes.end(), names.begin(), names.end());
         }
         return notes;
     }

@@ -2,6 +2,8 @@
 #include <render/pictures/kept_paths.h>
 #include <scene/crowd_scene.h>
 
+#include <algorithm>
+
 namespace mobbscope {
 
 KeptPaths& KeptPaths::shown_in(const ViewState& view) {
@@ -66,23 +68,23 @@ void KeptPaths::add_places_of_all(const DrawList& list, std::span<const DrawnAge
 
 const ShownPoints& KeptPaths::add_disks_of(DrawList& list, std::span<const DrawnAgent> agents, const ViewState& view,
                                            const std::vector<PathFocus>& foci) {
-    const Shapes shapes{
-        view.query,  list.space.origin, list.space.time_height, fitted_->scene().crowd ? view.time_window : 0,
-        view.hidden, view.arrange};
+    Shapes shapes{view.query, list.space.origin, list.space.time_height, fitted_->scene().crowd ? view.time_window : 0,
+                  {},         view.arrange};
+    for (const DrawnAgent& agent : agents) shapes.whole.push_back(agent.is_whole());
     Colors colors{view.theme, foci, {}};
     for (const DrawnAgent& agent : agents) colors.agents.push_back(agent.color);
     if (shapes_ != shapes) {
         for (std::size_t i = 0; i < agents.size(); ++i) {
-            if (!agents[i].hidden) add_disks(list, agents[i], foci[i]);
+            if (agents[i].is_whole()) add_disks(list, agents[i], foci[i]);
         }
         disks_ = list.disks;
         points_ = ShownPoints(disks_);
-        if (disks_.empty() && shown_count(agents) == 0) add_places_of_all(list, agents);
+        if (disks_.empty() && std::ranges::none_of(agents, &DrawnAgent::is_whole)) add_places_of_all(list, agents);
         shapes_ = shapes;
     } else if (colors_ != colors) {
         std::size_t first = 0;
         for (std::size_t i = 0; i < agents.size(); ++i) {
-            if (!agents[i].hidden) first = color_disks(disks_.edit(), first, list.palette, agents[i], foci[i]);
+            if (agents[i].is_whole()) first = color_disks(disks_.edit(), first, list.palette, agents[i], foci[i]);
         }
         points_ = points_.of_like(disks_);
     }

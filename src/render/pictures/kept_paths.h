@@ -56,8 +56,8 @@ class KeptPaths {
         std::optional<int> query;
         glm::dvec3 origin{0};
         double time_height = 0;
-        double time_window = 0;  ///< of a run, whose window begins at the origin's time
-        std::vector<std::string> hidden;
+        double time_window = 0;   ///< of a run, whose window begins at the origin's time
+        std::vector<bool> whole;  ///< by agent
         Arrange arrange = Arrange::none;
         friend bool operator==(const Shapes&, const Shapes&) = default;
     };

@@ -91,6 +91,10 @@ void add_ways(DrawList& list, std::span<const DrawnAgent> agents, const Moment& 
             shown = samples_around(agent.clip(), moment.time, kWaySeconds);
         if (shown.count <= 0) continue;
         const Rgba ahead = with_alpha(agent.color, list.palette.dark ? 0.4f : 0.5f);
+        if (agent.outlined) {
+            add_floor_trace(list, agent, shown, 0, ahead, scale);
+            continue;
+        }
         // What somebody in a run played before is way so far.
         if (!sample[i] && agent.run_agent >= 0 && agent.begin() < moment.time) {
             add_floor_trace(list, agent, shown, 0, with_alpha(agent.color, 0.9f), 2.6f * scale);
@@ -111,6 +115,29 @@ void add_ways(DrawList& list, std::span<const DrawnAgent> agents, const Moment& 
     }
 }
 
+/// Only who is drawn whole, and how near the two are if they are two.
+Moment of_whole_ones(const Moment& moment, std::span<const DrawnAgent> agents) {
+    Moment out;
+    out.time = moment.time;
+    std::vector<int> index(moment.bodies.size(), -1);
+    for (std::size_t i = 0; i < moment.bodies.size(); ++i) {
+        if (!agents[static_cast<std::size_t>(moment.bodies[i].agent)].is_whole()) continue;
+        index[i] = static_cast<int>(out.bodies.size());
+        out.bodies.push_back(moment.bodies[i]);
+    }
+    for (const BodyPair& pair : moment.overlaps) {
+        const int a = index[static_cast<std::size_t>(pair.a)];
+        const int b = index[static_cast<std::size_t>(pair.b)];
+        if (a >= 0 && b >= 0) out.overlaps.push_back({a, b, pair.clearance});
+    }
+    if (out.bodies.size() == 2 && out.overlaps.empty()) {
+        const mobb::Disk& a = out.bodies[0].disk;
+        const mobb::Disk& b = out.bodies[1].disk;
+        out.nearest = BodyPair{0, 1, std::hypot(b.x - a.x, b.y - a.y) - a.r - b.r};
+    }
+    return out;
+}
+
 class MomentPicture final : public Picture {
   public:
     MomentPicture(KeptPaths& kept, const ViewState& view, const PictureOptions& options, const FollowedChoice* choice)
@@ -125,6 +152,8 @@ class MomentPicture final : public Picture {
         // Of a run each person stands there with several plays.
         count_ = crowd_ ? crowd_->agents.size() : agents_.size();
         list_.moment = moment_.time;
+        tells_all_ = view_.foreground.empty() || view_.query;
+        told_ = tells_all_ ? moment_ : of_whole_ones(moment_, agents_);
         bounds_ = moment_bounds(fitted_, agents_);
         const bool someone_is_there = !crowd_ && !moment_.bodies.empty();
         outside_ = (moment_.time < bounds_.min.z || moment_.time >= bounds_.max.z) && !someone_is_there;
@@ -154,7 +183,7 @@ class MomentPicture final : public Picture {
 
     OverlayContents words() override {
         OverlayContents out;
-        out.caption = moment_caption(list_.palette, agents_, moment_, count_);
+        out.caption = moment_caption(list_.palette, agents_, told_, tells_all_ ? count_ : told_.bodies.size());
         if (outside_) mention_cursor_outside(out.caption, moment_.time, bounds_.min.z, bounds_.max.z);
         if (choice_) {
             out.caption.detail = choice_sentence(fitted_.scene(), *choice_);
@@ -192,9 +221,9 @@ class MomentPicture final : public Picture {
             add(add_followed(list_, agents_, followed, moment_.time, heights_.front(), metrics_));
         }
         const auto is_hidden = [&](const Body& body) { return agents_[static_cast<std::size_t>(body.agent)].hidden; };
-        if (moment_.nearest && view_.disks && names_fit(count_)) {
-            const Body& a = moment_.bodies[static_cast<std::size_t>(moment_.nearest->a)];
-            const Body& b = moment_.bodies[static_cast<std::size_t>(moment_.nearest->b)];
+        if (told_.nearest && view_.disks && (!tells_all_ || names_fit(count_))) {
+            const Body& a = told_.bodies[static_cast<std::size_t>(told_.nearest->a)];
+            const Body& b = told_.bodies[static_cast<std::size_t>(told_.nearest->b)];
             if (!is_hidden(a) && !is_hidden(b)) add(add_clearance(list_, a, b, metrics_));
         }
         if (moment_.bones && shown_count(agents_) == 2) add(add_nearest_bones(list_, agents_, moment_, metrics_));
@@ -219,6 +248,8 @@ class MomentPicture final : public Picture {
     const QueryProof* proof_ = nullptr;  ///< of the view's query, if it is shown
     std::vector<double> heights_;
     Moment moment_;
+    bool tells_all_ = true;  ///< the words are about all, not about the foreground alone
+    Moment told_;            ///< what they are about
     std::size_t count_ = 0;  ///< people
     Bounds bounds_;
     bool outside_ = false;  ///< nobody is there yet, or any more

@@ -33,11 +33,25 @@ Picture::Picture(const FittedScene& fitted, const ViewState& view, const Picture
     dim_all_but_pointed_out();
 }
 
-/// Of so many that they are not told apart by name, the followed and the selected one stand out: the rest dims.
+/// The rest dims where some are in the foreground. Where so many are there that they are not told apart by name, the
+/// followed and the selected one stand out.
 void Picture::dim_all_but_pointed_out() {
     // The two of a query are told apart as they are.
     if (view_.query) return;
     const Scene& scene = fitted_.scene();
+    const auto dim = [&](DrawnAgent& agent) {
+        agent.dimmed = true;
+        agent.color = mix_colors(list_.palette.background, agent.color, kDimmed);
+    };
+    if (!view_.foreground.empty()) {
+        const bool rings_followed = scene.crowd || !names_fit(agents_.size());
+        for (DrawnAgent& agent : agents_) {
+            if (agent.outlined) dim(agent);
+            // The followed one is named beside its rings.
+            if (rings_followed && name_in_view(scene, agent) == view_.follow) agent.named = false;
+        }
+        return;
+    }
     // In a grid each has its name.
     const std::size_t all = names_in_view(scene).size();
     if (agents_.front().cell || names_fit(all - std::min(all, view_.hidden.size()))) return;
@@ -49,9 +63,7 @@ void Picture::dim_all_but_pointed_out() {
     for (DrawnAgent& agent : agents_) {
         // The followed one is named beside its rings.
         agent.named = points_at(agent) && name_in_view(scene, agent) != view_.follow;
-        if (points_at(agent) || agent.pinned) continue;
-        agent.dimmed = true;
-        agent.color = mix_colors(list_.palette.background, agent.color, kDimmed);
+        if (!points_at(agent) && !agent.pinned) dim(agent);
     }
 }
 
@@ -63,6 +75,7 @@ void Picture::mention_view(Caption& caption) const {
         const std::string& name = view_.query ? agent.label : name_in_view(scene, agent);
         if (agent.hidden && std::ranges::find(hidden, name) == hidden.end()) hidden.push_back(name);
     }
+    if (!view_.query) mention_foreground(caption, view_.foreground);
     mention_hidden(caption, hidden, view_.query ? agents_.size() : names_in_view(scene).size());
     if (is_in_grid(scene, view_)) mention(caption, "in a grid, not where they are");
 }

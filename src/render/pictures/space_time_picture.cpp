@@ -44,7 +44,7 @@ void add_floor_and_axes(DrawList& list, std::span<const DrawnAgent> agents, cons
         if (!floor_on_edge(list.projection)) {
             const float height = list.space.point(0, 0, floor_extent.t0).z;
             for (const DrawnAgent& agent : agents) {
-                if (agent.hidden) continue;
+                if (!agent.is_whole()) continue;
                 add_floor_trace(list, agent, {0, agent.clip().count()}, height, floor_trace_color(agent, list.palette),
                                 1.6f * scale);
             }
@@ -73,6 +73,7 @@ class SpaceTimePicture final : public Picture {
         floor_extent_ = floor_extent_of(bounds.min, bounds.max);
         if (walls_) gaps_ = add_proof_walls(list_, *walls_, view_.time, metrics_.scale);
         points_ = framed_;
+        if (!view_.foreground.empty()) add_outlines_to(points_, bounds);
         for (const BoxInstance& box : list_.boxes) points_.add(box_corners(box));
         add_floor_points(points_, list_.space, floor_extent_, view_, emphasis_.cursor.has_value());
         if (!recorded_ || !view_.boundary) return;
@@ -81,6 +82,15 @@ class SpaceTimePicture final : public Picture {
     }
 
   private:
+    /// What is left of who is not in the foreground is not framed, but seen.
+    void add_outlines_to(ShownPoints& points, const Bounds& bounds) const {
+        for (const double x : {bounds.min.x, bounds.max.x}) {
+            for (const double y : {bounds.min.y, bounds.max.y}) {
+                for (const double t : {bounds.min.z, bounds.max.z}) points.add(list_.space.point(x, y, t));
+            }
+        }
+    }
+
     /// Finds out how far the search is, and whether the proof is shown.
     void ask(KeptPaths& kept) {
         recorded_ = &kept.recorded(view_);
@@ -125,7 +135,8 @@ class SpaceTimePicture final : public Picture {
         add_floor_and_axes(list_, agents_, floor_extent_, view_, metrics_.scale);
         if (view_.disks) {
             for (const DrawnAgent& agent : agents_) {
-                if (!agent.hidden) add_thin_path(list_, agent, 1.3f * metrics_.scale);
+                if (agent.is_whole()) add_thin_path(list_, agent, 1.3f * metrics_.scale);
+                if (agent.outlined && !agent.hidden) add_path_outline(list_, agent, metrics_.scale);
             }
         }
         if (test() && view_.time_axis && pair_outline(view_) == PairOutline::outcome) {
@@ -137,7 +148,7 @@ class SpaceTimePicture final : public Picture {
         }
         if (emphasis_.cursor) add_time_cursor(list_, floor_extent_, *emphasis_.cursor, metrics_.scale);
         add_rings(list_, agents_, emphasis_, metrics_.scale);
-        if (!recorded_) return followed_name();
+        if (!recorded_) return names_now();
         std::vector<LabelRequest> notes;
         if (walls_) notes = proof_notes();
         if (!test()) return notes;
@@ -156,14 +167,20 @@ class SpaceTimePicture final : public Picture {
         return notes;
     }
 
-    /// Of so many that the rest dims, the followed one is ringed: at the time cursor, else where its path begins.
-    std::vector<LabelRequest> followed_name() {
-        if (names_fit(agents_.size())) return {};
+    /// Beside where they are: of who is in the foreground, and of so many that the rest dims of the followed one, which
+    /// is ringed, at the time cursor, else where its path begins.
+    std::vector<LabelRequest> names_now() {
+        std::vector<LabelRequest> notes;
+        if (emphasis_.cursor && !view_.foreground.empty())
+            notes = names_at(list_, agents_, *emphasis_.cursor, metrics_);
+        if (names_fit(agents_.size())) return notes;
         for (const DrawnAgent& agent : agents_) {
             if (agent.name != view_.follow) continue;
-            return add_followed(list_, agent, emphasis_.cursor.value_or(agent.begin()), 0, metrics_);
+            const auto name = add_followed(list_, agent, emphasis_.cursor.value_or(agent.begin()), 0, metrics_);
+            notes.insert(notes.end(), name.begin(), name.end());
+            break;
         }
-        return {};
+        return notes;
     }
 
     void add_map(const Rect& within) override {

@@ -218,6 +218,10 @@ void add_figure(DrawList& list, const Figure& f, const Moment& moment, BodyParts
                 float scale) {
     Pen pen = pen_of(list, rank);
     const float thin = 1.1f * scale;
+    if (f.agent.outlined) {
+        if (parts.disks) add_level_ring(pen, f.foot, f.radius, f.pieces, {f.line, thin, kSolid, 0.35f});
+        return;
+    }
     const float width = f.body.overlaps ? 2.6f * scale : 1.3f * scale;
     const glm::vec3 up(0, 0, 1);
     if (plain) {
@@ -326,7 +330,7 @@ void add_bodies(DrawList& list, std::span<const DrawnAgent> agents, const Moment
     for (const BodyPair& pair : moment.overlaps) {
         const Figure& a = figures[static_cast<std::size_t>(pair.a)];
         const Figure& b = figures[static_cast<std::size_t>(pair.b)];
-        if (a.agent.hidden || b.agent.hidden) continue;
+        if (!a.agent.is_whole() || !b.agent.is_whole()) continue;
         add_overlap(list, a, b, plain, index++, scale);
     }
 }
@@ -398,7 +402,8 @@ void add_body_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAg
         return agents[static_cast<std::size_t>(body.agent)];
     };
     const auto shown = std::ranges::count_if(moment.bodies, [&](const Body& body) { return !agent_of(body).hidden; });
-    const bool all = agents.size() > 1 && names_fit(static_cast<std::size_t>(shown));
+    const bool all = agents.size() > 1 && names_fit(static_cast<std::size_t>(shown)) &&
+                     std::ranges::none_of(agents, &DrawnAgent::outlined);
     for (const Body& body : moment.bodies) {
         const DrawnAgent& agent = agent_of(body);
         if (agent.hidden || !(all || agent.named)) continue;
