@@ -163,7 +163,9 @@ std::optional<std::pair<double, double>> parse_range(std::string_view text) {
 
 std::string format_double(double value) {
     // A JSON reader takes "-0" for the integer 0 and loses the sign.
-    return value == 0 && std::signbit(value) ? "-0.0" : digits_of(value, std::chars_format::general, 17);
+    if (value == 0 && std::signbit(value)) return "-0.0";
+    const double size = std::abs(value);
+    return size >= 1e-5 && size < 1e15 ? digits_of(value, std::chars_format::fixed) : digits_of(value);
 }
 
 std::string short_double(double value) { return digits_of(value); }

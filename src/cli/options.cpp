@@ -263,10 +263,11 @@ Progress tell(const std::string& doing, const std::string& things) {
     };
 }
 
-Scene load(const std::filesystem::path& name, const ImportOptions& options, RadiusOf radius) {
-    const auto [file, link] = linked_file(name);
+Scene load(const std::filesystem::path& file, const ImportOptions& options, RadiusOf radius) {
+    if (quotes_step(file)) {
+        throw InputError(file, "no such file; only the window and render take a step behind a file's name");
+    }
     Scene scene = load_scene(file, options, tell("read", "clips"));
-    if (link) show_step(scene, *link);
     const auto has_source = [](const SceneClip& clip) { return clip.source.has_value(); };
     ImportOptions for_sources = options;
     if (radius == RadiusOf::every_clip && options.radius) {

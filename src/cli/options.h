@@ -16,6 +16,7 @@
 namespace mobbscope::cli {
 
 class Command;
+class Option;
 
 /// The fit options as given; an empty one leaves the scene's.
 struct FitArguments {
@@ -105,8 +106,7 @@ enum class RadiusOf { imported_clips, every_clip };
 /// Tells how far the work is: a person every 2 s, a script every 8 s.
 Progress tell(const std::string& doing, const std::string& things);
 
-/// load_scene, with its warnings on standard error; seen at the step that a link behind the file's name quotes. Throws
-/// InputError.
-Scene load(const std::filesystem::path& name, const ImportOptions& options, RadiusOf radius = RadiusOf::imported_clips);
+/// load_scene, with its warnings on standard error. Throws InputError.
+Scene load(const std::filesystem::path& file, const ImportOptions& options, RadiusOf radius = RadiusOf::imported_clips);
 
 }  // namespace mobbscope::cli

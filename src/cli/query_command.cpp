@@ -19,6 +19,7 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mobbscope::cli {
@@ -194,12 +195,15 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
     return complaints;
 }
 
-/// Says what is wrong in one line, behind the text with a caret.
+/// Says what is wrong in one line, behind the text with a caret and what could stand there.
 EventFilter parse_filter(const std::string& text) {
     try {
         return EventFilter(text);
     } catch (const FilterError& error) {
         std::cerr << with_caret(text, error) << '\n';
+        const std::vector<std::string_view> expected(error.expected().begin(), error.expected().end());
+        if (!expected.empty())
+            std::cerr << (expected.size() == 1 ? "expected " : "expected one of: ") << listed(expected) << '\n';
         throw UsageError(std::string("--where: ") + error.what());
     }
 }

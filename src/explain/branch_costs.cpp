@@ -10,6 +10,11 @@ namespace mobbscope {
 
 namespace {
 
+/// Of A and of B.
+using TreeNodes = std::array<TreeNode, 2>;
+
+bool has(const TreeNodes& nodes, TreeNode node) { return nodes[0] == node || nodes[1] == node; }
+
 /// A query of the scene, asked again.
 struct AskedAgain {
     RecordedQuery recorded;
@@ -19,6 +24,16 @@ struct AskedAgain {
 
     std::int64_t tests_of(int first, int end) const {
         return made_before[static_cast<std::size_t>(end)] - made_before[static_cast<std::size_t>(first)];
+    }
+    TreeNodes nodes_of(const RecursionPair& pair) const {
+        return {TreeNode{clips[0], pair.a}, TreeNode{clips[1], pair.b}};
+    }
+    /// Whether one of the pairs that led to this one is of the node.
+    bool is_below(const RecursionPair& pair, TreeNode node) const {
+        for (int up = pair.parent; up >= 0; up = recursion.pairs[static_cast<std::size_t>(up)].parent) {
+            if (has(nodes_of(recursion.pairs[static_cast<std::size_t>(up)]), node)) return true;
+        }
+        return false;
     }
 };
 
@@ -35,24 +50,17 @@ std::vector<std::int64_t> tests_made_before(const mobb::Trace& trace) {
 
 /// Calls `use` with each query of the scene.
 template <class Use>
-void for_each_query(const FittedScene& fitted, const CostProgress& told, const Use& use) {
+void for_each_query(const FittedScene& fitted, const CostProgress& told, const mobb::TraceBound& bound,
+                    const Use& use) {
     const std::size_t count = fitted.queries().size();
     for (std::size_t i = 0; i < count; ++i) {
         const SceneQuery query = fitted.queries()[i];
-        AskedAgain asked{record(fitted, query), {}, {query.a.clip, query.b.clip}, {}};
+        AskedAgain asked{record(fitted, query, Search::trees, bound), {}, {query.a.clip, query.b.clip}, {}};
         asked.recursion = recursion_of(asked.recorded.trace, fitted.placed(query.a), fitted.placed(query.b), 0);
         asked.made_before = tests_made_before(asked.recorded.trace);
         use(asked);
         if (told) told(i + 1, count);
     }
-}
-
-std::array<int, 2> nodes_of(const RecursionPair& pair) { return {pair.a, pair.b}; }
-
-/// Whether none of the pairs that led to this one is of the same node of that side.
-bool is_outermost(const Recursion& recursion, const RecursionPair& pair, std::size_t side) {
-    return pair.parent < 0 ||
-           nodes_of(recursion.pairs[static_cast<std::size_t>(pair.parent)])[side] != nodes_of(pair)[side];
 }
 
 /// Sums in order of what they come to.
@@ -90,21 +98,24 @@ std::vector<BranchCost> costliest_branches(const Recursion& recursion, const Foc
     return out;
 }
 
-SceneCosts scene_costs(const FittedScene& fitted, const CostProgress& told) {
+SceneCosts scene_costs(const FittedScene& fitted, const CostProgress& told, const mobb::TraceBound& bound) {
     SceneCosts out;
     std::map<TreeNode, NodeCost> nodes;
-    for_each_query(fitted, told, [&](const AskedAgain& asked) {
+    for_each_query(fitted, told, bound, [&](const AskedAgain& asked) {
         out.tests.push_back(asked.recorded.tests.all());
+        out.in_part += asked.recorded.trace.stopped() ? 1 : 0;
         for (const RecursionPair& pair : asked.recursion.pairs) {
             const std::int64_t own = asked.tests_of(pair.first, pair.last + 1);
             const std::int64_t all = asked.tests_of(pair.first, pair.end);
-            for (std::size_t side = 0; side < 2; ++side) {
-                const TreeNode at{asked.clips[side], nodes_of(pair)[side]};
+            const auto add = [&](TreeNode at) {
                 NodeCost& cost = nodes.try_emplace(at, NodeCost{at}).first->second;
                 cost.own += own;
                 cost.below -= own;
-                if (is_outermost(asked.recursion, pair, side)) cost.below += all;
-            }
+                if (!asked.is_below(pair, at)) cost.below += all;
+            };
+            const TreeNodes of = asked.nodes_of(pair);
+            add(of[0]);
+            if (of[1] != of[0]) add(of[1]);
         }
     });
     out.nodes = by_cost(nodes, [](const NodeCost& cost) { return cost.own + cost.below; });
@@ -122,20 +133,13 @@ std::int64_t tests_at(const SceneCosts& costs, double share) {
 }
 
 Sandwich sandwich_of(const FittedScene& fitted, TreeNode node, const CostProgress& told) {
-    using Nodes = std::array<TreeNode, 2>;
-    std::map<Nodes, Sandwich::Neighbour> above, below;
-    for_each_query(fitted, told, [&](const AskedAgain& asked) {
+    std::map<TreeNodes, Sandwich::Neighbour> above, below;
+    for_each_query(fitted, told, {}, [&](const AskedAgain& asked) {
         const std::vector<RecursionPair>& pairs = asked.recursion.pairs;
-        const auto tree_nodes = [&](const RecursionPair& pair) {
-            return Nodes{TreeNode{asked.clips[0], pair.a}, TreeNode{asked.clips[1], pair.b}};
-        };
-        const auto is_of = [&](const RecursionPair& pair) {
-            const Nodes nodes = tree_nodes(pair);
-            return nodes[0] == node || nodes[1] == node;
-        };
-        const auto add = [&](std::map<Nodes, Sandwich::Neighbour>& to, const RecursionPair& neighbour,
+        const auto is_of = [&](const RecursionPair& pair) { return has(asked.nodes_of(pair), node); };
+        const auto add = [&](std::map<TreeNodes, Sandwich::Neighbour>& to, const RecursionPair& neighbour,
                              const RecursionPair& pays) {
-            const Nodes nodes = tree_nodes(neighbour);
+            const TreeNodes nodes = asked.nodes_of(neighbour);
             to.try_emplace(nodes, Sandwich::Neighbour{nodes, 0}).first->second.tests +=
                 asked.tests_of(pays.first, pays.end);
         };

@@ -3,6 +3,7 @@
 
 #include <explain/focus_window.h>
 #include <explain/recursion.h>
+#include <mobb/trace.h>
 #include <scene/fitted_scene.h>
 
 #include <array>
@@ -29,7 +30,8 @@ struct TreeNode {
     friend auto operator<=>(const TreeNode&, const TreeNode&) = default;
 };
 
-/// What the tests of a node cost, over all queries of a scene, in tests as counters have them (of samples: pairs).
+/// What the tests of a node cost, over all queries of a scene, in tests as counters have them (of samples: pairs). Each
+/// test counts once, also where both sides play the clip.
 struct NodeCost {
     TreeNode at;
     std::int64_t own = 0;    ///< of the node itself
@@ -40,11 +42,12 @@ struct SceneCosts {
     std::vector<std::int64_t> tests;  ///< by query
     std::vector<NodeCost> nodes;      ///< that were tested; the costliest first, by own and below
     std::vector<int> by_tests;        ///< queries, the costliest first
+    int in_part = 0;                  ///< queries whose recording stopped: nodes have what was recorded of them
 };
 
 using CostProgress = std::function<void(std::size_t done, std::size_t all)>;
 /// Asks every query of the scene again. `told` is called after each.
-SceneCosts scene_costs(const FittedScene& fitted, const CostProgress& told = {});
+SceneCosts scene_costs(const FittedScene& fitted, const CostProgress& told = {}, const mobb::TraceBound& bound = {});
 
 /// The tests of the query that stands at a share (0..1) of all, in order: 0.5 is the median. Requires queries.
 std::int64_t tests_at(const SceneCosts& costs, double share);

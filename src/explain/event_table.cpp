@@ -38,7 +38,7 @@ std::string event_rows(const EventValues& values, std::span<const int> steps, ch
     };
     line(column_name);
     for (const int step : steps)
-        line([&](const EventColumn& column) { return values.text(column.field, column.side, step); });
+        line([&](const EventColumn& column) { return values.text(column.field, column.side, step, true); });
     return out;
 }
 

@@ -21,7 +21,8 @@ std::span<const EventColumn> event_columns();
 /// As a filter names it: "level(a)".
 std::string column_name(const EventColumn& column);
 
-/// The rows of these steps with a heading: as CSV (RFC 4180), or with columns apart by tabs.
+/// The rows of these steps with a heading: with commas between them, or tabs; numbers have all their
+/// digits.
 std::string event_rows(const EventValues& values, std::span<const int> steps, char separator);
 
 }  // namespace mobbscope

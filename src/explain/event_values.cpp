@@ -117,7 +117,7 @@ EventValues::Range EventValues::value(EventField field, int side, int step) cons
     return one(kNone);
 }
 
-std::string EventValues::text(EventField field, int side, int step) const {
+std::string EventValues::text(EventField field, int side, int step, bool exact) const {
     const EventFieldInfo& about = info(field);
     const Range range = value(field, side, step);
     if (std::isnan(range.least)) return "";
@@ -135,7 +135,8 @@ std::string EventValues::text(EventField field, int side, int step) const {
             break;
     }
     const auto number = [&](double value) {
-        return about.unit.empty() ? std::to_string(static_cast<std::int64_t>(value)) : formatted("%.3f", value);
+        if (about.unit.empty()) return std::to_string(static_cast<std::int64_t>(value));
+        return exact ? format_double(value) : formatted("%.3f", value);
     };
     return range.least == range.most ? number(range.least) : number(range.least) + ".." + number(range.most);
 }

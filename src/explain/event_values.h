@@ -6,6 +6,7 @@
 #include <mobb/trace.h>
 #include <scene/event_filter.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,8 @@ class EventValues {
     };
     Range value(EventField field, int side, int step) const;
 
-    /// As the list shows it: "0.183", "2.3", "overlap", "yes"; empty: none.
-    std::string text(EventField field, int side, int step) const;
+    /// As the list shows it: "0.183", "2.3", "overlap", "yes"; empty: none. `exact`: with all digits of a number.
+    std::string text(EventField field, int side, int step, bool exact = false) const;
 
     bool passes(const EventFilter& filter, int step) const;
 

@@ -31,6 +31,11 @@ std::vector<int> pairs_that_hold(const Recursion& recursion, const Holds& holds)
     return out;
 }
 
+/// Recording stopped within it.
+bool is_open(const Recursion& recursion, int pair) {
+    return recursion.stopped && pair_at(recursion, pair).end == static_cast<int>(recursion.pair_of.size());
+}
+
 bool holds(const mobb::Interval& node, double time, const mobb::Interval& root) {
     return node.t0 <= time && (time < node.t1 || (time == root.t1 && node.t1 == root.t1));
 }
@@ -65,6 +70,7 @@ std::vector<int> children_of(const Recursion& recursion, int pair) {
 std::string how_it_ended(const Recursion& recursion, int pair) {
     const std::vector<int> children = children_of(recursion, pair);
     if (children.empty()) return "";
+    if (is_open(recursion, pair)) return "recording stopped before it ended";
     const auto hit = std::ranges::find_if(children, [&](int child) { return pair_at(recursion, child).hit; });
     const std::string all = std::to_string(children.size());
     if (hit != children.end()) return "a hit in number " + std::to_string(hit - children.begin() + 1) + " of " + all;
@@ -80,7 +86,7 @@ std::vector<int> pairs_ended_at(const Recursion& recursion, int event) {
     std::vector<int> out;
     for (int pair = recursion.pair_of[static_cast<std::size_t>(event)]; pair >= 0;
          pair = pair_at(recursion, pair).parent) {
-        if (pair_at(recursion, pair).end != event + 1) break;
+        if (pair_at(recursion, pair).end != event + 1 || is_open(recursion, pair)) break;
         if (pair_at(recursion, pair).has_children()) out.push_back(pair);
     }
     return out;

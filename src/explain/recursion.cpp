@@ -7,6 +7,7 @@ namespace mobbscope {
 Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, const mobb::PlacedTree& b,
                        std::int64_t most_visits, const Progress& progress) {
     Recursion out;
+    out.stopped = trace.stopped();
     out.pair_of.resize(static_cast<std::size_t>(trace.size()));
     for (int step = 0; step < trace.size(); ++step) {
         const mobb::Trace::Event event = trace[step];

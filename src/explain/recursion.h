@@ -33,7 +33,8 @@ struct Recursion {
     std::vector<RecursionPair> pairs;  ///< in the order of their first tests: parents before children
     std::vector<int> pair_of;          ///< by event: index of its pair
     AvoidableOverlaps avoidable;
-    int depth = 0;  ///< number of levels; 0 for an empty trace
+    int depth = 0;         ///< number of levels; 0 for an empty trace
+    bool stopped = false;  ///< recording stopped before the end: pairs may be open still
 
     const RecursionPair& pair_at(int event) const {
         return pairs[static_cast<std::size_t>(pair_of[static_cast<std::size_t>(event)])];

@@ -1,6 +1,7 @@
 #include <base/text.h>
 #include <scene/debug_state.h>
 #include <scene/event_filter.h>
+#include <scene/scene_edits.h>
 #include <scene/step_link.h>
 
 #include <algorithm>
@@ -25,10 +26,11 @@ std::string read_where(const JsonPlace& place) {
 NamedFilter read_filter(const JsonPlace& place, const std::vector<NamedFilter>& others) {
     place.allow_only({"name", "where"});
     const JsonPlace name = place.require("name");
-    if (trimmed(name.string()).empty()) name.fail("a filter needs a name");
-    if (std::ranges::find(others, name.string(), &NamedFilter::name) != others.end())
-        name.fail("another filter is named " + in_quotes(name.string()) + "; rename one");
-    return {name.string(), read_where(place)};
+    NamedFilter out{std::string(trimmed(name.string())), read_where(place)};
+    if (out.name.empty()) name.fail("a filter needs a name");
+    if (std::ranges::find(others, out.name, &NamedFilter::name) != others.end())
+        name.fail("another filter is named " + in_quotes(out.name) + "; rename one");
+    return out;
 }
 
 Breakpoint read_breakpoint(const JsonPlace& place, const std::vector<Breakpoint>& others) {
@@ -47,7 +49,7 @@ Bookmark read_bookmark(const JsonPlace& place, std::size_t queries) {
     const JsonPlace query = place.require("query");
     out.query = query.integer(0, kMaxInt);
     if (static_cast<std::size_t>(out.query) >= queries)
-        query.fail("the scene has " + std::to_string(queries) + " queries, counted from 0");
+        query.fail("the scene has " + counted(queries, "query", "queries") + ", counted from 0");
     out.step = place.require("step").integer(0, kMaxInt);
     if (const auto note = place.find("note")) out.note = note->string();
     return out;
@@ -57,9 +59,10 @@ Bookmark read_bookmark(const JsonPlace& place, std::size_t queries) {
 
 std::vector<std::string> names_of_bookmarks(const DebugState& debug) {
     std::vector<std::string> out;
+    UnusedNames names;
     for (const Bookmark& bookmark : debug.bookmarks) {
-        const bool own = !bookmark.name.empty() && std::ranges::find(out, bookmark.name) == out.end();
-        out.push_back(own ? bookmark.name : to_string(StepLink{bookmark.query, bookmark.step}));
+        const std::string link = to_string(StepLink{bookmark.query, bookmark.step});
+        out.push_back(names.take(bookmark.name.empty() ? link : bookmark.name));
     }
     return out;
 }

@@ -42,7 +42,7 @@ struct DebugState {
     friend bool operator==(const DebugState&, const DebugState&) = default;
 };
 
-/// What bookmarks are chosen by: their names; where one has none, or that of one before, the step as it is quoted.
+/// What bookmarks are chosen by: their names, or the step as it is quoted; of several alike with a number behind.
 std::vector<std::string> names_of_bookmarks(const DebugState& debug);
 
 /// Of a scene with so many queries. Throws InputError.

@@ -141,19 +141,19 @@ struct Sign {
     Comparison comparison;
     std::string_view words;
 };
-/// Longer ones first. The last ones are other ways to write those before.
+/// Longer ones first. Of those that mean the same, the first has the words.
 constexpr std::array kSigns{Sign{"<=", Comparison::at_most, "at most"}, Sign{">=", Comparison::at_least, "at least"},
-                            Sign{"!=", Comparison::not_equal, "not"},   Sign{"=", Comparison::equal, ""},
-                            Sign{"<", Comparison::less, "below"},       Sign{">", Comparison::greater, "above"},
-                            Sign{"\u2264", Comparison::at_most, ""},    Sign{"\u2265", Comparison::at_least, ""},
-                            Sign{"\u2260", Comparison::not_equal, ""}};
-constexpr std::size_t kWrittenSigns = 6;
+                            Sign{"!=", Comparison::not_equal, "not"},   Sign{"==", Comparison::equal, ""},
+                            Sign{"=", Comparison::equal, ""},           Sign{"<", Comparison::less, "below"},
+                            Sign{">", Comparison::greater, "above"},    Sign{"\u2264", Comparison::at_most, ""},
+                            Sign{"\u2265", Comparison::at_least, ""},   Sign{"\u2260", Comparison::not_equal, ""}};
 
 bool begins_word(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 bool in_word(char c) { return begins_word(c) || std::isdigit(static_cast<unsigned char>(c)) != 0; }
 bool in_number(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.'; }
 
 constexpr int kMostNesting = 100;
+constexpr int kMostComparisons = 1000;
 
 class FilterParser {
   public:
@@ -243,6 +243,9 @@ class FilterParser {
     }
 
     Term comparison() {
+        // Each is one level deeper for whoever walks the tree.
+        if (++comparisons_ > kMostComparisons)
+            fail_expecting("it has too many parts: at most " + std::to_string(kMostComparisons), {});
         const std::string word = lower(peeked_word());
         std::vector<std::string> names;
         for (const EventFieldInfo& field : event_fields()) {
@@ -295,8 +298,6 @@ class FilterParser {
             if (equality && sign.comparison != Comparison::equal && sign.comparison != Comparison::not_equal)
                 fail_expecting("only = and != compare " + std::string(field.name), signs);
             pass(sign.text.size());
-            // As many write it.
-            if (sign.text == "=") take('=');
             return sign.comparison;
         }
         fail_expecting("a comparison is missing: =, !=" + std::string(equality ? "" : ", <, <=, > or >="), signs);
@@ -329,11 +330,40 @@ class FilterParser {
             }
         }
         const std::string_view number = text_.substr(begin, end - begin);
-        if (field.kind == FieldKind::node) return node(number, term);
+        refuse_comma(number);
+        if (field.kind == FieldKind::node) {
+            node(number, term);
+            unit(field);
+            return;
+        }
         const auto parsed = parse_double(number);
         if (!parsed) fail_expecting(number.empty() ? "a number is missing" : in_quotes(number) + " is no number", {});
+        const bool equality = term.comparison == Comparison::equal || term.comparison == Comparison::not_equal;
+        if (equality && field.unit.empty() && *parsed != std::floor(*parsed))
+            fail_expecting("the " + std::string(field.name) + " is a whole number", {});
         pass(number.size());
         term.value = *parsed * unit(field);
+    }
+
+    /// "0,5" for 0.5.
+    void refuse_comma(std::string_view number) {
+        const std::string_view behind = text_.substr(at_ + number.size());
+        if (number.empty() || number.find('.') != std::string_view::npos || !behind.starts_with(',')) return;
+        std::size_t digits = 0;
+        while (1 + digits < behind.size() && std::isdigit(static_cast<unsigned char>(behind[1 + digits])) != 0)
+            ++digits;
+        if (digits == 0) return;
+        at_ += number.size();
+        fail_expecting("write " + std::string(number) + '.' + std::string(behind.substr(1, digits)) + " with a point",
+                       {});
+    }
+
+    /// Whether a word behind a value goes on with the filter, well written or nearly.
+    static bool goes_on(const std::string& word) {
+        const std::vector<std::string> joins = joiners();
+        const auto begun = [&](const std::string& joiner) { return joiner.starts_with(word); };
+        return word == "not" || std::ranges::any_of(joins, begun) || !did_you_mean(word, joins).empty() ||
+               std::ranges::find(event_fields(), word, &EventFieldInfo::name) != event_fields().end();
     }
 
     void node(std::string_view number, Term& term) {
@@ -352,18 +382,19 @@ class FilterParser {
         pass(number.size());
     }
 
+    /// What the number is multiplied by.
     double unit(const EventFieldInfo& field) {
         const std::string word = lower(peeked_word());
         const auto known = std::ranges::find(kUnits, word, &Unit::name);
-        if (known == kUnits.end()) return 1;
-        if (known->of != field.unit) {
-            std::vector<std::string> units;
+        if (known == kUnits.end() && goes_on(word)) return 1;
+        if (known == kUnits.end() || known->of != field.unit) {
             std::vector<std::string_view> names;
             for (const Unit& unit : kUnits) {
                 if (unit.of == field.unit) names.push_back(unit.name);
             }
-            fail_expecting(names.empty() ? std::string(field.name) + " has no unit"
-                                         : std::string(field.name) + " is given in " + either(names),
+            const std::string what = "the " + std::string(field.name);
+            fail_expecting(names.empty() ? what + " has no unit"
+                                         : in_quotes(word) + " is no unit of " + what + ": " + either(names),
                            {names.begin(), names.end()});
         }
         pass(word.size());
@@ -373,6 +404,7 @@ class FilterParser {
     std::string_view text_;
     std::size_t at_ = 0;
     int nesting_ = 0;
+    int comparisons_ = 0;
     std::vector<Term> terms_;
 };
 

@@ -5,6 +5,8 @@
 ///     field      = name, or name(a) and name(b) of what each side has
 ///     comparison = "=" | "!=" | "<" | "<=" | ">" | ">="
 ///     value      = number with a unit (m, cm, mm, s, ms) or without, a word, or a node ("2.1", or its index)
+///
+/// It has at most 1000 comparisons. What is counted equals whole numbers alone.
 #pragma once
 
 #include <cstdint>

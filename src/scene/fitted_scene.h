@@ -105,6 +105,10 @@ class FittedScene {
     std::size_t in_use_ = 0;
 };
 
+/// Whether both have the same clips, agents and queries, with the same trees in use: whatever was found out about the
+/// queries of one holds of the other.
+bool ask_the_same(const FittedScene& a, const FittedScene& b);
+
 /// Through the trees, or by measuring every pair of samples.
 enum class Search { trees, direct };
 

@@ -72,12 +72,15 @@ class ImpliedQueries {
 
     void renumber(Scene& scene) const {
         if (!implied_) return;
-        renumber_queries(scene, [&](int query) -> std::optional<int> {
-            const auto pair = pairs_.find(query);
-            if (pair == pairs_.end()) return std::nullopt;
-            return static_cast<int>(query_of_pair(scene, static_cast<std::size_t>(pair->second.a),
-                                                  static_cast<std::size_t>(pair->second.b)));
-        });
+        renumber_queries(scene, [&](int query) { return query_now(scene, query, 0); });
+    }
+
+    /// The index of what was a query, in a scene where the agents follow so many others; none: it is asked no more.
+    std::optional<int> query_now(const Scene& scene, int query, int others) const {
+        const auto pair = pairs_.find(query);
+        if (pair == pairs_.end()) return std::nullopt;
+        return static_cast<int>(query_of_pair(scene, static_cast<std::size_t>(pair->second.a + others),
+                                              static_cast<std::size_t>(pair->second.b + others)));
     }
 
   private:
@@ -88,8 +91,9 @@ class ImpliedQueries {
     std::map<int, Pair> pairs_;  ///< by the index of the query before the change
 };
 
-/// Behind what the scene has. Bookmarks of pairs that are not asked one by one name no query that is kept.
-void merge_debug_state(Scene& scene, DebugState other, int first_query) {
+/// Behind what the scene has. `now` gives the other's queries their indices in the scene; bookmarks of those that the
+/// scene does not ask are left out.
+void merge_debug_state(Scene& scene, DebugState other, const std::function<std::optional<int>(int)>& now) {
     DebugState& debug = scene.debug;
     UnusedNames names(debug.filters);
     for (NamedFilter& filter : other.filters) {
@@ -101,9 +105,10 @@ void merge_debug_state(Scene& scene, DebugState other, int first_query) {
         if (std::ranges::find(debug.breakpoints, breakpoint.where, &Breakpoint::where) == debug.breakpoints.end())
             debug.breakpoints.push_back(std::move(breakpoint));
     }
-    if (scene.queries.empty()) return;
     for (Bookmark& bookmark : other.bookmarks) {
-        bookmark.query += first_query;
+        const std::optional<int> query = now(bookmark.query);
+        if (!query) continue;
+        bookmark.query = *query;
         debug.bookmarks.push_back(std::move(bookmark));
     }
 }
@@ -282,6 +287,8 @@ void merge(Scene& scene, Scene other) {
     const int first_clip = static_cast<int>(scene.clips.size());
     const int first_agent = static_cast<int>(scene.agents.size());
     const int first_query = static_cast<int>(scene.queries.size());
+    const bool other_is_implied = other.queries.empty();
+    const ImpliedQueries implied_in_other(other);
     UnusedNames clip_names(scene.clips);
     for (SceneClip& clip : other.clips) {
         clip.name = clip_names.take(clip.name);
@@ -303,7 +310,10 @@ void merge(Scene& scene, Scene other) {
         scene.queries.push_back(std::move(query));
     }
     implied.renumber(scene);
-    merge_debug_state(scene, std::move(other.debug), first_query);
+    merge_debug_state(scene, std::move(other.debug), [&](int query) -> std::optional<int> {
+        if (!other_is_implied) return first_query + query;
+        return scene.queries.empty() ? implied_in_other.query_now(scene, query, first_agent) : std::nullopt;
+    });
 }
 
 void move_to_file(Scene& scene, const std::filesystem::path& file) {

@@ -11,6 +11,7 @@
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
 #include <scene/scene_json.h>
+#include <scene/step_link.h>
 #include <scene/view_options.h>
 
 #include <array>
@@ -504,7 +505,8 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& ove
 }  // namespace
 
 bool is_scene_file(const std::filesystem::path& file) {
-    if (!is_standard_input(file)) return unpacked_extension(file) == ".json";
+    // A file may be called like a link to a step.
+    if (!is_standard_input(file)) return unpacked_extension(without_link(file)) == ".json";
     constexpr std::size_t kHead = 100;  // bytes
     const std::string begin = read_beginning(file, kHead);
     const std::size_t first = begin.find_first_not_of(" \t\r\n\xef\xbb\xbf");

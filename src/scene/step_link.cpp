@@ -4,6 +4,7 @@
 #include <scene/fitted_scene.h>
 #include <scene/step_link.h>
 
+#include <string_view>
 #include <system_error>
 
 namespace mobbscope {
@@ -18,6 +19,24 @@ std::optional<int> counted_from_0(std::string_view text) {
     return number && *number >= 0 ? number : std::nullopt;
 }
 
+/// Where "#q" stands in the last part of a name; npos: nowhere.
+std::size_t link_begin(const std::string& name) {
+    const std::size_t begin = name.rfind(kLinkSign);
+    return begin == std::string::npos || name.find('/', begin) != std::string::npos ? std::string::npos : begin;
+}
+
+/// None: it is not written so.
+std::optional<StepLink> link_behind(const std::string& name) {
+    const std::size_t begin = link_begin(name);
+    if (begin == std::string::npos) return std::nullopt;
+    const std::string_view numbers = std::string_view(name).substr(begin + kLinkSign.size());
+    const std::size_t at = numbers.find('@');
+    if (at == std::string_view::npos) return std::nullopt;
+    const std::optional<int> query = counted_from_0(numbers.substr(0, at));
+    const std::optional<int> step = counted_from_0(numbers.substr(at + 1));
+    return query && step ? std::optional(StepLink{*query, *step}) : std::nullopt;
+}
+
 [[noreturn]] void refuse_link(const Scene& scene, const StepLink& link, const std::string& why) {
     throw InputError(scene.file.string() + to_string(link), why);
 }
@@ -28,21 +47,24 @@ std::string to_string(const StepLink& link) {
     return std::string(kLinkSign) + std::to_string(link.query) + '@' + std::to_string(link.step);
 }
 
-LinkedFile linked_file(const std::filesystem::path& name) {
+bool quotes_step(const std::filesystem::path& name) {
     std::error_code ignored;
+    const std::size_t begin = link_begin(name.native());
+    return begin != std::string::npos && !std::filesystem::exists(name, ignored) &&
+           std::filesystem::is_regular_file(name.native().substr(0, begin), ignored);
+}
+
+LinkedFile linked_file(const std::filesystem::path& name) {
+    if (!quotes_step(name)) return {name};
+    const std::optional<StepLink> link = link_behind(name.native());
+    if (!link)
+        throw InputError(name, "a step is quoted by its query's number and its own, from 0: write it like #q3@412");
+    return {without_link(name), link};
+}
+
+std::filesystem::path without_link(const std::filesystem::path& name) {
     const std::string& text = name.native();
-    const std::size_t sign = text.rfind(kLinkSign);
-    if (sign == std::string::npos || std::filesystem::exists(name, ignored)) return {name};
-    const std::filesystem::path file = text.substr(0, sign);
-    if (!std::filesystem::exists(file, ignored)) return {name};
-    const std::string_view numbers = std::string_view(text).substr(sign + kLinkSign.size());
-    const std::size_t at = numbers.find('@');
-    if (at != std::string_view::npos) {
-        const std::optional<int> query = counted_from_0(numbers.substr(0, at));
-        const std::optional<int> step = counted_from_0(numbers.substr(at + 1));
-        if (query && step) return {file, StepLink{*query, *step}};
-    }
-    throw InputError(name, "a step is quoted by its query's number and its own, from 0: write it like #q3@412");
+    return link_behind(text) ? std::filesystem::path(text.substr(0, link_begin(text))) : name;
 }
 
 void show_step(Scene& scene, const StepLink& link) {

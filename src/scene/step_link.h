@@ -23,8 +23,14 @@ struct LinkedFile {
     std::optional<StepLink> link{};  ///< none: the file alone is meant
 };
 
-/// What a person has named. A file that is called so wins. Throws InputError for a link that is not written so.
+/// Whether "#q" stands behind the name of a file, whatever follows. A file that is called so wins.
+bool quotes_step(const std::filesystem::path& name);
+
+/// What a person has named. Throws InputError if it quotes a step that is not written so.
 LinkedFile linked_file(const std::filesystem::path& name);
+
+/// The name without the link behind it, whether there are such files or not.
+std::filesystem::path without_link(const std::filesystem::path& name);
 
 /// The scene is seen at that step. Throws InputError, naming its file, if it has no such query.
 void show_step(Scene& scene, const StepLink& link);

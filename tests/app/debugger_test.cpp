@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -304,50 +305,162 @@ TEST(Debugger, ItsEditsRecordNothingAnew) {
     EXPECT_EQ(w.session.workspace.recorded()->trace.size(), events);
 }
 
-/// Walking any way, and back and forward again, shows the same at every place.
+TEST(Debugger, TabFromTheNameOfABookmarkLeadsToItsNote) {
+    DebuggerWindow w;
+    w.key("Ctrl+B");
+    w.click("bookmark.name");
+    w.key("Ctrl+A");
+    w.type("here");
+    w.key("Tab");
+    w.type("A z x loose");
+    w.key("Enter");
+    const std::vector<Bookmark>& all = w.session.workspace.scene().debug.bookmarks;
+    ASSERT_EQ(all.size(), 1u);
+    EXPECT_EQ(all[0].name, "here");
+    EXPECT_EQ(all[0].note, "A z x loose");
+}
+
+/// What a person sees of a query.
+struct SeenStep {
+    int query = 0, step = 0;
+    ViewState view;  ///< without its step
+
+    friend bool operator==(const SeenStep&, const SeenStep&) = default;
+};
+
+SeenStep seen_step(Session& session) {
+    const Workspace& workspace = session.workspace;
+    SeenStep out{*workspace.view().query, workspace.step(), workspace.view()};
+    out.view.step = {};
+    return out;
+}
+
+/// Walking any way, and back and forward again, shows the same at every place. A run of single steps is one place.
 TEST(Debugger, TheWayBackShowsWhatWasVisited) {
-    CrossingFolder folder;
+    const CrossingFolder folder;
+    int merged = 0;
     for (int seed = 0; seed < 30; ++seed) {
         mobb::test::Random random(static_cast<std::uint64_t>(seed));
         Session session(false);
         session.files.open({folder.scene});
         run_command(session, "query.select", "0");
-        const auto shown = [&] { return std::pair(*session.workspace.view().query, session.workspace.step()); };
-        std::vector<std::pair<int, int>> visits{shown()};
-        for (int i = 0; i < 60; ++i) {
+        std::vector<SeenStep> visits{seen_step(session)};
+        int way = 0;  // of the run of single steps that the last visit is of
+        const std::vector<std::string> steps{"step.forward", "step.back",       "step.into",      "step.out",
+                                             "step.over",    "step.over_back",  "step.next_leaf", "step.previous_leaf",
+                                             "events.next",  "events.previous", "step.last",      "step.next_overlap"};
+        for (int i = 0; i < 80; ++i) {
             session.workspace.close_group();
-            const std::size_t before = session.workspace.visited.before.size();
-            switch (random.integer(0, 5)) {
-                case 0:
-                    run_command(session, "step.forward");
-                    break;
-                case 1:
-                    run_command(session, "step.back");
-                    break;
-                case 2:
-                    run_command(session, "query.select", std::to_string(random.integer(0, 2)));
-                    break;
-                default:
-                    run_command(session, "step.to",
-                                std::to_string(random.integer(0, session.workspace.recorded()->trace.size() - 1)));
+            const int choice = random.integer(0, static_cast<int>(steps.size()) + 1);
+            if (choice < static_cast<int>(steps.size())) {
+                const std::string& name = steps[static_cast<std::size_t>(choice)];
+                if (find_command(name)->enabled(session)) run_command(session, name);
+            } else if (choice == static_cast<int>(steps.size())) {
+                run_command(session, "query.select", std::to_string(random.integer(0, 2)));
+            } else {
+                const int last = session.workspace.recorded()->trace.size() - 1;
+                run_command(session, "step.to", std::to_string(random.integer(0, last)));
             }
-            // A further step of a run is no further visit.
-            if (session.workspace.visited.before.size() == before) visits.pop_back();
-            visits.push_back(shown());
+            const SeenStep now = seen_step(session);
+            if (now == visits.back()) continue;
+            const int by = now.query == visits.back().query ? now.step - visits.back().step : 0;
+            const bool single = std::abs(by) == 1;
+            if (single && by == way) {
+                visits.back() = now;
+                ++merged;
+            } else {
+                visits.push_back(now);
+            }
+            way = single ? by : 0;
         }
-        const auto back = [&] { run_command(session, "step.visited_back"); };
-        ASSERT_EQ(session.workspace.visited.before.size() + 1, visits.size());
         for (std::size_t i = visits.size() - 1; i > 0; --i) {
-            back();
-            ASSERT_EQ(shown(), visits[i - 1]) << "seed " << seed << ", visit " << i - 1;
+            run_command(session, "step.visited_back");
+            ASSERT_EQ(seen_step(session), visits[i - 1]) << "seed " << seed << ", visit " << i - 1;
         }
         EXPECT_FALSE(find_command("step.visited_back")->enabled(session));
         for (std::size_t i = 1; i < visits.size(); ++i) {
             run_command(session, "step.visited_forward");
-            ASSERT_EQ(shown(), visits[i]) << "seed " << seed << ", visit " << i;
+            ASSERT_EQ(seen_step(session), visits[i]) << "seed " << seed << ", visit " << i;
         }
         EXPECT_FALSE(find_command("step.visited_forward")->enabled(session));
     }
+    EXPECT_GT(merged, 20);
+}
+
+TEST(Debugger, StepsOfOtherTreesAreNotVisited) {
+    const CrossingFolder folder;
+    Session session(false);
+    session.files.open({folder.scene});
+    run_command(session, "query.select", "0");
+    for (const char* step : {"4", "1"}) {
+        session.workspace.close_group();
+        run_command(session, "step.to", step);
+    }
+    run_command(session, "tree.kind", "umobb");
+    ASSERT_GT(session.workspace.visited.before.size(), 1u);
+    const SeenStep now = seen_step(session);
+    run_command(session, "step.visited_back");
+    EXPECT_EQ(seen_step(session), now);
+    run_command(session, "tree.kind", "mobb");
+    run_command(session, "step.visited_back");
+    EXPECT_EQ(session.workspace.step(), 4);
+}
+
+TEST(Debugger, AnEditOfTheDebuggingStateKeepsHowTheQueryIsSeen) {
+    const CrossingFolder folder;
+    Session session(false);
+    session.files.open({folder.scene});
+    run_command(session, "query.select", "0");
+    run_command(session, "focus.branch", "0");
+    run_command(session, "recursion.zoom", "1:4");
+    const auto findings = session.queries.findings();
+    run_command(session, "breakpoint.here");
+    EXPECT_EQ(session.queries.break_steps().empty(), false);
+    run_command(session, "edit.undo");
+    EXPECT_TRUE(session.queries.break_steps().empty());
+    EXPECT_TRUE(session.workspace.look.focus.branch && session.workspace.look.zoom);
+    EXPECT_EQ(session.queries.findings(), findings) << "nothing is found out again";
+    const std::size_t edits = session.workspace.history.count();
+    run_command(session, "breakpoint.add", "outcome = hit");
+    run_command(session, "breakpoint.add", "outcome = hit");
+    EXPECT_EQ(session.workspace.history.place(), 1u) << "the same once more is no edit";
+    EXPECT_LE(session.workspace.history.count(), edits);
+}
+
+TEST(Debugger, HitsAreThoseInTheFocus) {
+    const CrossingFolder folder;
+    Session session(false);
+    session.files.open({folder.scene});
+    run_command(session, "query.select", "0");
+    const EventFilter all("step >= 0"), time("test = time");
+    const int events = session.workspace.recorded()->trace.size();
+    EXPECT_EQ(session.queries.hits(all), events);
+    EXPECT_EQ(session.queries.events_in_focus(), events);
+    const int times = session.queries.hits(time);
+    run_command(session, "focus.time", "0:0.05");
+    EXPECT_LT(session.queries.hits(all), events);
+    EXPECT_EQ(session.queries.hits(all), session.queries.events_in_focus());
+    EXPECT_LT(session.queries.hits(time), times);
+    run_command(session, "events.filter", "test = time");
+    EXPECT_EQ(session.queries.hits(time), std::ssize(*session.queries.listed_events()));
+}
+
+TEST(Debugger, ExcerptsShareFiltersAndBreakpointsWithTheWhole) {
+    const CrossingFolder folder;
+    Session session(false);
+    session.files.open({folder.scene});
+    run_command(session, "query.select", "0");
+    run_command(session, "breakpoint.add", "outcome = hit");
+    run_command(session, "query.capture");
+    ASSERT_TRUE(session.workspace.in_excerpt());
+    EXPECT_EQ(session.workspace.scene().debug.breakpoints.size(), 1u);
+    run_command(session, "breakpoint.add", "gap < 0.5");
+    run_command(session, "crowd.back");
+    ASSERT_FALSE(session.workspace.in_excerpt());
+    ASSERT_EQ(session.workspace.scene().debug.breakpoints.size(), 2u);
+    EXPECT_EQ(session.workspace.scene().debug.breakpoints[1].where, "gap < 0.5");
+    run_command(session, "edit.undo");
+    EXPECT_TRUE(session.workspace.in_excerpt());
 }
 
 }  // namespace

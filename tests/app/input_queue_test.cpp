@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cfloat>
 #include <vector>
 
 namespace mobbscope::app {
@@ -59,6 +60,16 @@ TEST_F(InputQueueTest, TheMouseArrivesBeforeItPresses) {
     EXPECT_EQ(io().MousePos.x, 30) << "it moved on before the press was seen";
     feed();
     EXPECT_EQ(io().MousePos.y, 60);
+}
+
+TEST_F(InputQueueTest, AButtonIsSeenWhereverTheMouseIs) {
+    queue.push(MouseMove{{10, 20}});
+    feed();
+    queue.push(MouseMove{{-FLT_MAX, -FLT_MAX}});
+    queue.push(MouseButton{0, true});
+    queue.push(MouseButton{0, false});
+    for (int i = 0; i < 3; ++i) feed();
+    EXPECT_TRUE(queue.empty()) << "it left the window, and nothing has told where it is";
 }
 
 TEST_F(InputQueueTest, ChordsCarryTheModifiersThatAreHeld) {

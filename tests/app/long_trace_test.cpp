@@ -1,4 +1,5 @@
 // Long traces in the window: recorded once, and where recording stopped is said.
+#include <app/script/script.h>
 #include <app/window/headless_window.h>
 #include <base/text.h>
 #include <explain/query_sentence.h>
@@ -7,6 +8,11 @@
 #include "app/crossing_folder.h"
 
 #include <gtest/gtest.h>
+
+#include <array>
+#include <memory>
+#include <sstream>
+#include <string>
 
 namespace mobbscope::app {
 namespace {
@@ -53,6 +59,9 @@ TEST(LongTrace, EveryPanelSaysWhereRecordingStopped) {
     });
     w.window.settle();
     for (const char* note : kNotes) EXPECT_TRUE(w.has(note)) << note;
+    std::ostringstream out;
+    Script::parse("run reasons.of_sample a 59", "test").run(w.session, w.window, out);
+    EXPECT_TRUE(w.has("query.stopped.reasons")) << "no test that came to it was recorded";
     EXPECT_EQ(recording_words(w.session.workspace.recorded()->trace),
               "recording stopped at event 9 of " + std::to_string(whole.trace.size()));
     EXPECT_EQ(stopped->tests, whole.tests) << "the answer is that of the whole query";

@@ -136,8 +136,8 @@ TEST(Menus, AClickOnTheRecursionGoesToTheTestThatItsTooltipTells) {
     w.run("run query.select 0\nrun step.first");
     const Recursion& recursion = w.session.queries.findings()->recursion;
     const Rect icicle = w.marks().at("query.icicle");
-    const int row = icicle_row(icicle.size().y, recursion.depth, 1);
     const ShownEvents all{{0, w.session.workspace.recorded()->trace.size()}};
+    const int row = icicle_row(icicle.size().y, recursion.depth, 1, 0);
     int inner = 0;
     for (const PairCell& cell : icicle_cells(recursion, all, static_cast<int>(icicle.size().x), row)) {
         const RecursionPair& pair = recursion.pairs[static_cast<std::size_t>(cell.pair)];

@@ -79,6 +79,21 @@ TEST(ReasonsWindow, AMomentListsTheTestsThatDecidedAboutIt) {
     EXPECT_EQ(w.reasons().front(), chain.front());
 }
 
+TEST(ReasonsWindow, WhatIsClickedStaysWhereItIs) {
+    PassingWorld w({1280, 900});
+    w.run("move query.answer\nscroll query.answer -300\nframes 3");
+    const Rect square = w.mark("query.square");
+    ASSERT_TRUE(square.min.y > 40 && square.max.y < 860) << square.min.y;
+    std::size_t rows = 0;
+    for (const double share : {0.85, 0.15, 0.5}) {
+        w.run("click " + w.at(square.min.x + 0.75 * square.size().x, square.min.y + share * square.size().y) +
+              "\nframes 2");
+        EXPECT_EQ(w.mark("query.square").min.y, square.min.y) << "although the lists above grow and shrink";
+        rows = std::max(rows, w.reasons().size());
+    }
+    EXPECT_GT(rows, 1u);
+}
+
 TEST(ReasonsWindow, APointOfTheMapAndASampleDoSoToo) {
     PassingWorld w;
     Rect square = w.mark("query.square");
@@ -164,8 +179,81 @@ TEST(ReasonsWindow, AllQueriesAreCountedAndTheWorstShown) {
     w.run("run branches.of_node walk 1.0");
     EXPECT_FALSE(w.session.costs.sandwich()->above.empty());
     EXPECT_TRUE(w.has("above.0"));
+    EXPECT_FALSE(w.has("query.stopped.all_queries"));
+    w.session.workspace.derived().costs->in_part = 2;
+    w.run("frames 2");
+    EXPECT_TRUE(w.has("query.stopped.all_queries")) << "sums are of what was recorded";
     w.run("run tree.leaf 8");
     EXPECT_FALSE(w.session.costs.costs()) << "other trees cost something else";
+}
+
+/// A session whose jobs are not waited for, over three agents of one clip; no job is under way.
+struct CountingWorld {
+    testing::CrossingFolder folder;
+    Session session{true};
+
+    CountingWorld() {
+        session.options.patience = {};
+        folder.write("scene.json", R"({
+            "clips": {"walk": {"source": "walk.csv"}},
+            "agents": [{"name": "A", "clip": "walk"},
+                       {"name": "B", "clip": "walk", "translate": [2, 0.82], "rotate_deg": 180},
+                       {"name": "C", "clip": "walk", "translate": [1, -1], "rotate_deg": 90}],
+            "fit": {"leaf": 4}})");
+        session.files.open({folder.scene});
+        wait();
+    }
+    void wait() {
+        while (session.jobs.job()) session.poll();
+    }
+};
+
+TEST(ReasonsWindow, ACountOutlivesABookmarkAndStartsAnewForOtherTrees) {
+    CountingWorld w;
+    CostInspector& costs = w.session.costs;
+    int shown = 0;
+    costs.count([&] { ++shown; });
+    costs.count();
+    EXPECT_EQ(w.session.jobs.count(), 1u) << "it is counted once";
+    w.session.workspace.edit_debug("bookmark", [](DebugState& debug) {
+        debug.bookmarks.push_back({"here", 0, 0, ""});
+    });
+    const auto told = w.session.counts.arrivals;
+    w.wait();
+    ASSERT_TRUE(costs.costs()) << "a bookmark costs nothing";
+    EXPECT_EQ(shown, 1);
+    EXPECT_EQ(w.session.counts.arrivals, told + 1);
+
+    const auto with_leaf = [&](int leaf) {
+        w.session.workspace.edit({"leaf", ""}, [&](Scene& scene) { scene.fit.leaf = leaf; });
+    };
+    with_leaf(8);
+    EXPECT_FALSE(costs.costs());
+    costs.branches_of = CostInspector::Of::scene;
+    costs.count();
+    with_leaf(16);
+    w.wait();
+    ASSERT_TRUE(costs.costs()) << "it is wanted still";
+    EXPECT_EQ(costs.costs()->tests, scene_costs(w.session.workspace.fitted()).tests);
+    with_leaf(4);
+    costs.count();
+    costs.branches_of = CostInspector::Of::query;
+    with_leaf(8);
+    w.wait();
+    EXPECT_FALSE(costs.costs()) << "nobody looks at it any more";
+}
+
+TEST(ReasonsWindow, TheSandwichThatWasAskedForLastIsShown) {
+    CountingWorld w;
+    w.session.costs.show_sandwich({0, 0});
+    w.session.costs.show_sandwich({0, 1});
+    EXPECT_EQ(w.session.jobs.count(), 1u);
+    w.wait();
+    ASSERT_TRUE(w.session.costs.sandwich());
+    EXPECT_EQ(w.session.costs.sandwich()->of, (TreeNode{0, 1}));
+    w.session.costs.show_sandwich({0, 0});
+    w.session.costs.show_sandwich({0, 1});
+    EXPECT_EQ(w.session.jobs.count(), 0u) << "it is known";
 }
 
 TEST(ReasonsWindow, StripAndIcicleZoomByTheWheelAroundTheMouse) {
@@ -200,8 +288,8 @@ TEST(ReasonsWindow, ASpanIsItsPairAndBelowItsTests) {
     w.session.settings.bottom_height = 300;
     w.run("run recursion.zoom 0:15\nframes 2");
     const Rect icicle = w.mark("query.icicle");
-    const int row = icicle_row(icicle.size().y, w.recursion().depth, 1);
     const double each = icicle.size().x / 16.0;
+    const int row = icicle_row(icicle.size().y, w.recursion().depth, 1, static_cast<float>(each));
     int tried = 0;
     for (const RecursionPair& pair : w.recursion().pairs) {
         if (pair.end > 16) continue;

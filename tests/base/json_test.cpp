@@ -150,7 +150,6 @@ TEST(Json, WriterMakesWhatAnIndependentParserReads) {
     out.end_object();
     const auto read = nlohmann::json::parse(text.str());
     EXPECT_EQ(read["tenth"], 0.1);
-    EXPECT_NE(text.str().find("0.10000000000000001"), std::string::npos);
     EXPECT_EQ(read["name"], "a\"\\\n\x01\xc3\xa9");
     EXPECT_TRUE(read["endless"].is_null());
     EXPECT_EQ(read["rows"][1]["inner"][0][0], 2);

@@ -41,7 +41,11 @@ TEST(Text, SeventeenDigitsGiveTheSameDoubleBack) {
         if (!std::isfinite(value) || std::abs(value) < 1e-300) continue;
         ASSERT_EQ(parse_double(format_double(value)), value) << format_double(value);
     }
-    EXPECT_EQ(format_double(0.1), "0.10000000000000001");
+    EXPECT_EQ(format_double(0.1), "0.1");
+    EXPECT_EQ(format_double(0.1 + 0.2), "0.30000000000000004");
+    EXPECT_EQ(format_double(100000), "100000");
+    EXPECT_EQ(format_double(0.00025), "0.00025");
+    EXPECT_EQ(format_double(1e-9), "1e-09");
     EXPECT_EQ(format_double(2), "2");
     EXPECT_TRUE(std::signbit(*parse_double(format_double(-0.0))));
 }

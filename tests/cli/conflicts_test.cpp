@@ -294,7 +294,7 @@ TEST(Trajectories, AsCsvTheyKeepTheirTimes) {
     ASSERT_EQ(run_program({"convert", file, "-o", csv}).status, 0);
     const std::string text = testing::slurp(csv);
     EXPECT_TRUE(text.starts_with("id,t,x,y,r\n1,0,0,0,0.2")) << text;
-    EXPECT_NE(text.find("\n2,1.5,3,0.29999999999999999,"), std::string::npos) << text;
+    EXPECT_NE(text.find("\n2,1.5,3,0.3,"), std::string::npos) << text;
     EXPECT_EQ(conflicts({csv})["conflicts"], conflicts({file})["conflicts"]);
 }
 

@@ -48,7 +48,7 @@ TEST(Convert, SeveralClipsToCsvHaveIds) {
     EXPECT_EQ(slurp(out),
               "id,t,x,y,r\n"
               "\"a, \"\"b\"\"\",0,1,2,0.25\n\"a, \"\"b\"\"\",0.5,4,-7,0.75\n\"a, \"\"b\"\"\",1,9,5,0.125\n"
-              "c,0,5,-3,1.5\nc,2,6,0.10000000000000001,2\n");
+              "c,0,5,-3,1.5\nc,2,6,0.1,2\n");
     const Scene read = load_scene(out);
     const Scene written = load_scene(scene);
     ASSERT_EQ(read.clips.size(), 2u);

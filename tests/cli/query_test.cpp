@@ -78,6 +78,11 @@ TEST(Query, WhereTellsOnlyWhatPasses) {
     EXPECT_EQ(wrong.status, 2);
     EXPECT_NE(wrong.err.find("gap < 0.05 and levle(a) > 2\n               ^\n"), std::string::npos) << wrong.err;
     EXPECT_NE(wrong.err.find("did you mean 'level'"), std::string::npos) << wrong.err;
+    const Result open = run_program({"query", file, "--where", "gap < 0.05 and"});
+    EXPECT_NE(open.err.find("^\nexpected one of: step, time, "), std::string::npos) << open.err;
+    EXPECT_NE(open.err.find("--where: a field is missing"), std::string::npos) << open.err;
+    const Result unclosed = run_program({"query", file, "--where", "leaf(a"});
+    EXPECT_NE(unclosed.err.find("^\nexpected )\n"), std::string::npos) << unclosed.err;
 }
 
 TEST(Query, EveryTreeAndTheDirectSearchGiveTheSameContacts) {

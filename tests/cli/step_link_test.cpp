@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -40,12 +41,56 @@ TEST(StepLink, IsDrawnByRender) {
 
 TEST(StepLink, AFileOfThatNameWins) {
     const TempFolder folder;
-    const std::string name = folder.path() / "scene.json#q0@4";
-    std::filesystem::copy_file(kLinkedScene, name);
-    std::filesystem::copy_file(kLinkedScene, folder.path() / "scene.json");
-    const Result run = run_program({"info", name});
-    EXPECT_EQ(run.status, 2) << "it is read as it is, and its name does not end as that of a scene";
-    EXPECT_NE(run.err.find("scene.json#q0@4: looks like JSON"), std::string::npos) << run.err;
+    folder.write("walk.csv", "t,x,y,r\n0,0,0,0.3\n1,1,0,0.3\n2,2,0,0.3\n");
+    const std::string scene = R"({"clips": {"NAME": {"source": "walk.csv"}},
+        "agents": [{"name": "NAME", "clip": "NAME"}, {"name": "B", "clip": "NAME", "translate": [0, 5]}]})";
+    const auto named = [&scene](const std::string& clip) {
+        return std::regex_replace(scene, std::regex("NAME"), clip);
+    };
+    folder.write("scene.json", named("other"));
+    const std::string name = folder.write("scene.json#q0@4", named("own"));
+    const Result info = run_program({"info", name});
+    EXPECT_EQ(info.status, 0) << info.err;
+    EXPECT_TRUE(info.out.starts_with("own (")) << info.out;
+    const Result window = opened(folder, name, "expect /scene/agents/0/name \"own\"\nexpect /modified false");
+    EXPECT_EQ(window.status, 0) << window.err;
+    const std::string drawn = folder.path() / "drawn.json";
+    const Result render = run_program({"render", name, "--draw-list", drawn});
+    EXPECT_EQ(render.status, 0) << render.err;
+    EXPECT_TRUE(std::filesystem::exists(drawn));
+}
+
+TEST(StepLink, IsForTheWindowAndRenderAlone) {
+    const TempFolder folder;
+    for (const std::string command : {"query", "fit"}) {
+        for (const std::string link : {"#q0@4", "#q0"}) {
+            const Result run = run_program({command, kLinkedScene + link});
+            EXPECT_EQ(run.status, 2) << command;
+            EXPECT_TRUE(is_one_line(run.err)) << run.err;
+            EXPECT_NE(run.err.find("no such file; only the window and render take a step behind a file's name"),
+                      std::string::npos)
+                << run.err;
+        }
+    }
+    const Result info = run_program({"info", kLinkedScene + "#q0@4"});
+    EXPECT_EQ(info.status, 2);
+    EXPECT_NE(info.err.find("#q0@4: no such file"), std::string::npos) << info.err;
+}
+
+TEST(StepLink, StandsBehindAFile) {
+    const TempFolder folder;
+    std::filesystem::create_directory(folder.path() / "sc");
+    folder.write("sc/walk.csv", "t,x,y,r\n0,0,0,0.3\n1,1,0,0.3\n");
+    folder.write("scene.json", "{}");
+    for (const std::string name : {"sc#quick/missing.json", "sc#q0@1", "scene.json#q0@1/missing.json"}) {
+        const std::string missing = folder.path() / name;
+        const Result render = run_program({"render", missing, "-o", folder.path() / "x.png"});
+        EXPECT_EQ(render.status, 2) << name;
+        EXPECT_NE(render.err.find("no such file"), std::string::npos) << render.err;
+        const Result window = opened(folder, missing, "expect /modified false");
+        EXPECT_EQ(window.status, 2) << name;
+        EXPECT_NE(window.err.find("is neither a command nor a file"), std::string::npos) << window.err;
+    }
 }
 
 TEST(StepLink, BadNumbersAreRefusedInOneLine) {

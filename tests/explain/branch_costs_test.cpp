@@ -4,8 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
 #include <map>
-#include <numeric>
+#include <set>
+#include <vector>
 
 #include "explain/random_query.h"
 
@@ -69,6 +73,42 @@ FittedScene crossing(Random& random) {
     return {scene, options};
 }
 
+using Nodes = std::array<TreeNode, 2>;
+
+bool is_of(const Nodes& nodes, TreeNode node) { return nodes[0] == node || nodes[1] == node; }
+
+/// Calls `use` with each event of each query, as its tests and the nodes on the way to it: its own first, the root's
+/// last.
+template <class Use>
+void for_each_test(const FittedScene& fitted, const Use& use) {
+    for (std::size_t i = 0; i < fitted.queries().size(); ++i) {
+        const SceneQuery query = fitted.queries()[i];
+        const RecordedQuery recorded = record(fitted, query);
+        const mobb::Trace& trace = recorded.trace;
+        for (int event = 0; event < trace.size(); ++event) {
+            std::vector<Nodes> way;
+            for (int at = event; at >= 0; at = trace[at].parent) {
+                way.push_back({TreeNode{query.a.clip, trace[at].a}, TreeNode{query.b.clip, trace[at].b}});
+            }
+            use(trace.counts(event + 1).all() - trace.counts(event).all(), way);
+        }
+    }
+}
+
+/// Test by test.
+std::map<TreeNode, NodeCost> node_costs(const FittedScene& fitted) {
+    std::map<TreeNode, NodeCost> out;
+    for_each_test(fitted, [&](std::int64_t tests, const std::vector<Nodes>& way) {
+        std::set<TreeNode> above;
+        for (const Nodes& nodes : way) above.insert(nodes.begin(), nodes.end());
+        for (const TreeNode& node : above) {
+            NodeCost& cost = out[node];
+            (is_of(way.front(), node) ? cost.own : cost.below) += tests;
+        }
+    });
+    return out;
+}
+
 TEST(BranchCosts, SumsPerNodeAreTheCounters) {
     Random random(366);
     std::int64_t tests = 0;
@@ -88,17 +128,18 @@ TEST(BranchCosts, SumsPerNodeAreTheCounters) {
             EXPECT_EQ(costs.tests[i], of_query);
             counted += of_query;
             roots[{query.a.clip, 0}] += of_query;
-            roots[{query.b.clip, 0}] += of_query;
+            if (query.b.clip != query.a.clip) roots[{query.b.clip, 0}] += of_query;
         }
-        std::int64_t own = 0;
+        const std::map<TreeNode, NodeCost> expected = node_costs(fitted);
+        ASSERT_EQ(costs.nodes.size(), expected.size());
         for (const NodeCost& cost : costs.nodes) {
-            own += cost.own;
-            EXPECT_GE(cost.below, 0);
+            EXPECT_EQ(cost.own, expected.at(cost.at).own);
+            EXPECT_EQ(cost.below, expected.at(cost.at).below);
             if (cost.at.node == 0) {
                 EXPECT_EQ(cost.own + cost.below, roots[cost.at]) << "all is below the roots";
             }
         }
-        EXPECT_EQ(own, 2 * counted) << "each test is of a node of A and one of B";
+        EXPECT_EQ(costs.in_part, 0);
         std::vector<std::int64_t> sorted = costs.tests;
         std::ranges::sort(sorted);
         EXPECT_EQ(tests_at(costs, 1), sorted.back());
@@ -110,31 +151,58 @@ TEST(BranchCosts, SumsPerNodeAreTheCounters) {
     EXPECT_GT(tests, 5000);
 }
 
+TEST(BranchCosts, QueriesRecordedInPartAreCounted) {
+    Random random(368);
+    const FittedScene fitted = crossing(random);
+    const SceneCosts whole = scene_costs(fitted);
+    std::vector<std::int64_t> events;
+    for (std::size_t i = 0; i < fitted.queries().size(); ++i) {
+        events.push_back(record(fitted, fitted.queries()[i]).trace.events());
+    }
+    const std::int64_t most = *std::ranges::max_element(events) - 1;
+    const SceneCosts part = scene_costs(fitted, {}, {.events = static_cast<int>(most)});
+    EXPECT_EQ(part.in_part, std::ranges::count_if(events, [&](std::int64_t of_query) { return of_query > most; }));
+    EXPECT_GT(part.in_part, 0);
+    EXPECT_EQ(part.tests, whole.tests) << "all tests of a query are known";
+    EXPECT_EQ(part.by_tests, whole.by_tests);
+}
+
 TEST(BranchCosts, ASandwichIsWhatCalledANodeAndWhatThatCalled) {
     Random random(367);
-    int above = 0;
-    int below = 0;
+    using Sums = std::map<Nodes, std::int64_t>;
+    const auto sums_of = [](const std::vector<Sandwich::Neighbour>& neighbours) {
+        EXPECT_TRUE(std::ranges::is_sorted(neighbours, std::greater<>(), &Sandwich::Neighbour::tests));
+        Sums out;
+        for (const Sandwich::Neighbour& neighbour : neighbours) out[neighbour.nodes] += neighbour.tests;
+        EXPECT_EQ(out.size(), neighbours.size()) << "each is listed once";
+        return out;
+    };
+    std::size_t above = 0;
+    std::size_t below = 0;
     for (int round = 0; round < 20; ++round) {
         const FittedScene fitted = crossing(random);
         const SceneCosts costs = scene_costs(fitted);
         for (const NodeCost& cost : costs.nodes) {
             if (random.chance(0.9)) continue;
+            Sums called, was_called;
+            for_each_test(fitted, [&](std::int64_t tests, const std::vector<Nodes>& way) {
+                for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+                    const bool callee = is_of(way[i], cost.at);
+                    const bool caller = is_of(way[i + 1], cost.at);
+                    if (callee && !caller) called[way[i + 1]] += tests;
+                    if (caller && !callee) was_called[way[i]] += tests;
+                }
+            });
             const Sandwich around = sandwich_of(fitted, cost.at);
             EXPECT_EQ(around.of, cost.at);
-            std::int64_t entered = 0;
-            for (const Sandwich::Neighbour& neighbour : around.above) entered += neighbour.tests;
-            std::int64_t left = 0;
-            for (const Sandwich::Neighbour& neighbour : around.below) left += neighbour.tests;
-            // Agents of one clip have the node on both sides at once: that is one visit, and two of its costs.
-            EXPECT_TRUE(cost.at.node == 0 || entered <= cost.own + cost.below);
-            EXPECT_LE(left, cost.below);
-            EXPECT_TRUE(std::ranges::is_sorted(around.above, std::greater<>(), &Sandwich::Neighbour::tests));
-            above += static_cast<int>(around.above.size());
-            below += static_cast<int>(around.below.size());
+            EXPECT_EQ(sums_of(around.above), called);
+            EXPECT_EQ(sums_of(around.below), was_called);
+            above += called.size();
+            below += was_called.size();
         }
     }
-    EXPECT_GT(above, 20);
-    EXPECT_GT(below, 20);
+    EXPECT_GT(above, 20u);
+    EXPECT_GT(below, 20u);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 // The values of events against the trace and the trees themselves.
+#include <base/text.h>
 #include <explain/clearance.h>
+#include <explain/event_table.h>
 #include <explain/event_values.h>
 
 #include <gtest/gtest.h>
@@ -7,6 +9,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "explain/random_query.h"
 
@@ -125,6 +130,41 @@ TEST(EventValues, SortsByEveryFieldBothWaysAndKeepsOrderOfEqualOnes) {
                 }
             }
         }
+    }
+}
+
+TEST(EventValues, RowsHaveTheValuesWithAllDigits) {
+    mobb::test::Random random(39);
+    for (int round = 0; round < 20; ++round) {
+        const Valued all(random);
+        std::vector<int> steps(static_cast<std::size_t>(all.asked.trace.size()));
+        std::iota(steps.rbegin(), steps.rend(), 0);
+        std::istringstream in(event_rows(all.values, steps, ','));
+        std::string line;
+        ASSERT_TRUE(std::getline(in, line));
+        EXPECT_EQ(
+            line,
+            "step,node(a),node(b),test,outcome,gap,clearance,tests_below,time,level(a),level(b),axis,pairs,depth");
+        for (const int step : steps) {
+            ASSERT_TRUE(std::getline(in, line));
+            std::vector<std::string> cells{""};
+            for (const char c : line) {
+                if (c == ',') {
+                    cells.emplace_back();
+                } else {
+                    cells.back().push_back(c);
+                }
+            }
+            ASSERT_EQ(cells.size(), event_columns().size()) << line;
+            const mobb::Trace::Event event = all.asked.trace[step];
+            EXPECT_EQ(cells[0], std::to_string(step));
+            EXPECT_EQ(cells[3], name(event.test));
+            EXPECT_EQ(cells[4], name(event.outcome));
+            EXPECT_EQ(cells[5], event.outcome == Outcome::separated ? format_double(event.gap) : "");
+            EXPECT_EQ(cells[9], std::to_string(all.asked.tree_a.level(event.a)));
+            EXPECT_EQ(cells[13], std::to_string(event.depth));
+        }
+        EXPECT_FALSE(std::getline(in, line));
     }
 }
 

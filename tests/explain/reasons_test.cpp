@@ -128,6 +128,32 @@ TEST(Reasons, APairSaysHowItEndedWithItsLastChild) {
     EXPECT_GT(hits, 20);
 }
 
+TEST(Reasons, PairsThatRecordingStoppedInHaveNotEnded) {
+    Random random(371);
+    int open = 0;
+    for (int round = 0; round < 60; ++round) {
+        const testing::RandomQuery asked = testing::random_query(random);
+        const mobb::PlacedTree a = asked.a(), b = asked.b();
+        const int kept = asked.trace.size() / 2;
+        if (kept < 4) continue;
+        mobb::TraceRecorder recorder({.events = kept});
+        static_cast<void>(mobb::query(a, b, recorder));
+        const mobb::Trace stopped = recorder.take();
+        ASSERT_EQ(stopped.size(), kept);
+        const Recursion recursion = recursion_of(stopped, a, b), whole = recursion_of(asked.trace, a, b);
+        EXPECT_TRUE(pairs_ended_at(recursion, kept - 1).empty());
+        for (int pair = 0; pair < static_cast<int>(recursion.pairs.size()); ++pair) {
+            const RecursionPair& of = recursion.pairs[static_cast<std::size_t>(pair)];
+            if (!of.has_children()) continue;
+            const bool is_open = of.end == kept;
+            EXPECT_EQ(how_it_ended(recursion, pair),
+                      is_open ? "recording stopped before it ended" : how_it_ended(whole, pair));
+            open += is_open ? 1 : 0;
+        }
+    }
+    EXPECT_GT(open, 20);
+}
+
 TEST(FocusWindow, CountsWhatIsInIt) {
     Random random(364);
     for (int round = 0; round < 100; ++round) {

@@ -94,6 +94,20 @@ TEST(ProofWalls, StandWhereTheLinesAre) {
     EXPECT_EQ(proof_in(testing::miss_scene()).lines.front().speed, 0);
 }
 
+TEST(ProofWalls, OfVeryManyTheTightestAreDrawn) {
+    const FittedScene fitted = chase();
+    QueryProof proof = proof_in(fitted);
+    proof.lines.assign(kMostWalls + 500, proof.lines.front());
+    for (std::size_t i = 0; i < proof.lines.size(); ++i) {
+        proof.lines[i].gap = static_cast<double>(proof.lines.size() - i);
+    }
+    proof.tightest = proof.lines.size() - 1;
+    DrawList list = build_draw_list(fitted, last_step(), kProofPicture);
+    const std::size_t before = walls_of(list).size();
+    add_proof_walls(list, proof, std::nullopt, 1);
+    EXPECT_EQ(walls_of(list).size() - before, kMostWalls);
+}
+
 TEST(ProofWalls, StandInPlaceOfTheLastTestOfAMiss) {
     const FittedScene miss = testing::miss_scene(), hit = testing::hit_scene();
     const auto tested = [](const DrawList& list) { return std::ranges::count_if(list.boxes, &BoxInstance::pickable); };

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 namespace mobbscope {
 namespace {
@@ -113,6 +114,26 @@ TEST(DebugState, OfTwoScenesIsPutTogether) {
     EXPECT_EQ(scene.debug.breakpoints[2].where, "step = 7");
     EXPECT_EQ(scene.debug.bookmarks.back().query, 4);
     EXPECT_EQ(parse_scene(to_json(scene), "s.json", "").debug, scene.debug);
+}
+
+TEST(DebugState, BookmarksOfTwoScenesKeepTheirPairs) {
+    const std::string listed = R"(, "queries": [{"a": "B", "b": "C"}, {"a": "A", "b": "B"}, {"a": "A", "b": "C"}])";
+    const auto merged = [&](const std::string& first, const std::string& second) {
+        Scene scene = debugged(kDebug, first);
+        merge(scene, debugged(kDebug, second));
+        EXPECT_EQ(parse_scene(to_json(scene), "s.json", "").debug, scene.debug);
+        return marks(scene);
+    };
+    EXPECT_EQ(merged("", ""), "first AB, last BC, first A 2B 2, last B 2C 2");
+    EXPECT_EQ(merged(listed, listed), "first BC, last AC, first B 2C 2, last A 2C 2");
+    EXPECT_EQ(merged("", listed), "first AB, last BC, first B 2C 2, last A 2C 2");
+    EXPECT_EQ(merged(listed, ""), "first BC, last AC") << "the other's pairs are not asked any more";
+}
+
+TEST(DebugState, BookmarksAreToldApart) {
+    const Scene scene = debugged(R"({"bookmarks": [{"query": 0, "step": 1}, {"query": 0, "step": 1},
+        {"name": "#q0@1", "query": 0, "step": 2}, {"name": "x", "query": 1, "step": 0}, {"name": "x", "query": 2, "step": 0}]})");
+    EXPECT_EQ(names_of_bookmarks(scene.debug), (std::vector<std::string>{"#q0@1", "#q0@1 2", "#q0@1 3", "x", "x 2"}));
 }
 
 }  // namespace

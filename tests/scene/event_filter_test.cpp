@@ -102,14 +102,28 @@ TEST(EventFilter, PointsAtWhatIsWrong) {
     EXPECT_EQ(filter_refusal("gapp < 1"), "'gapp' is no field (did you mean 'gap'?) at 0");
     EXPECT_EQ(filter_refusal("gap < "), "a number is missing at 6");
     EXPECT_EQ(filter_refusal("gap 0.5"), "a comparison is missing: =, !=, <, <=, > or >= at 4");
-    EXPECT_EQ(filter_refusal("gap < 0.5 s"), "gap is given in m, cm or mm at 10");
-    EXPECT_EQ(filter_refusal("step < 5 m"), "step has no unit at 9");
+    EXPECT_EQ(filter_refusal("gap < 0.5 s"), "'s' is no unit of the gap: m, cm or mm at 10");
+    EXPECT_EQ(filter_refusal("gap < 5 km"), "'km' is no unit of the gap: m, cm or mm at 8");
+    EXPECT_EQ(filter_refusal("gap < 5e"), "'e' is no unit of the gap: m, cm or mm at 7");
+    EXPECT_EQ(filter_refusal("time = 2 min and step > 3"), "'min' is no unit of the time: s or ms at 9");
+    EXPECT_EQ(filter_refusal("step < 5 m"), "the step has no unit at 9");
+    EXPECT_EQ(filter_refusal("level(a) > 2 x"), "the level has no unit at 13");
+    EXPECT_EQ(filter_refusal("node(a) = 2.1 m"), "the node has no unit at 14");
+    EXPECT_EQ(filter_refusal("gap < 0,5"), "write 0.5 with a point at 7");
+    EXPECT_EQ(filter_refusal("clearance > -0,25 m"), "write -0.25 with a point at 14");
+    EXPECT_EQ(filter_refusal("node(b) = 2,1"), "write 2.1 with a point at 11");
+    EXPECT_EQ(filter_refusal("gap < 5, step > 2"), "'and' or 'or' is missing at 7");
+    EXPECT_EQ(filter_refusal("step = = 3"), "a number is missing at 7");
+    EXPECT_EQ(filter_refusal("outcome === hit").substr(0, 17), "a word is missing");
     EXPECT_EQ(filter_refusal("level > 2"), "whose? Give level(a) or level(b) at 6");
     EXPECT_EQ(filter_refusal("level(c) > 2"), "a or b must stand here at 6");
     EXPECT_EQ(filter_refusal("outcome = overlapp"),
               "'overlapp' is not one of them: disjoint_in_time, separated, overlap, hit, no_hit at 10");
     EXPECT_EQ(filter_refusal("outcome < hit"), "only = and != compare outcome at 8");
     EXPECT_EQ(filter_refusal("gap < 1 gap > 2"), "'and' or 'or' is missing at 8");
+    EXPECT_EQ(filter_refusal("step = 1 not step = 2"), "'and' or 'or' is missing at 9");
+    EXPECT_EQ(filter_refusal("gap < 1 a"), "'and' or 'or' is missing at 8") << "it is begun";
+    EXPECT_EQ(filter_refusal("step = 1 adn step = 2"), "'and' or 'or' is missing at 9") << "it is meant";
     EXPECT_EQ(filter_refusal("(gap < 1"), "')' is missing at 8");
     EXPECT_EQ(filter_refusal("gap < 1.2.3"), "'1.2.3' is no number at 6");
     EXPECT_EQ(filter_refusal("gap < 1e999"), "'1e999' is no number at 6");
@@ -118,6 +132,36 @@ TEST(EventFilter, PointsAtWhatIsWrong) {
     EXPECT_EQ(filter_refusal("gap < 1 & pairs > 2"), "'and' or 'or' is missing at 8");
     EXPECT_EQ(filter_refusal(std::string(100'000, '(')).substr(0, 23), "it is nested too deep a");
     EXPECT_EQ(filter_refusal(std::string("gap\0< 1", 7)).empty(), false);
+}
+
+TEST(EventFilter, CountsAreWholeNumbers) {
+    for (const EventFieldInfo& field : event_fields()) {
+        if (field.kind != FieldKind::number && field.kind != FieldKind::range) continue;
+        const std::string name(field.name), whose = name + (field.of_side ? "(a)" : "");
+        for (const std::string sign : {" = ", " != "}) {
+            const std::string begin = whose + sign;
+            const std::string why = "the " + name + " is a whole number at " + std::to_string(begin.size());
+            EXPECT_EQ(filter_refusal(begin + "2.5"), field.unit.empty() ? why : "");
+            EXPECT_EQ(filter_refusal(begin + "2.0"), "");
+        }
+        EXPECT_EQ(filter_refusal(whose + " < 2.5"), "") << "it passes something";
+    }
+}
+
+TEST(EventFilter, HasAThousandPartsAtMost) {
+    const auto with_parts = [](int count) {
+        std::string text = "step = 1";
+        for (int i = 1; i < count; ++i) text += " or step = 2";
+        return text;
+    };
+    const EventFilter most(with_parts(1000));
+    EXPECT_FALSE(most.passes([](const EventFilter::Term&) { return false; }));
+    EXPECT_TRUE(most.words().ends_with("or the step is 2"));
+    const std::string why = "it has too many parts: at most 1000 at 12000";
+    EXPECT_EQ(filter_refusal(with_parts(1001)), why);
+    EXPECT_EQ(filter_refusal(with_parts(100'000)), why);
+    EXPECT_EQ(filter_refusal('(' + with_parts(600) + ") and (" + with_parts(600) + ')').substr(0, 21),
+              "it has too many parts");
 }
 
 TEST(EventFilter, PutsACaretUnderTheCharacter) {

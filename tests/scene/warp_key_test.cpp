@@ -107,7 +107,7 @@ TEST(WarpKey, WhatIsWrongIsSaidAtItsPlace) {
         return input_error([&] { parse_scene(text, "s.json", kAssets); });
     };
     const std::pair<std::pair<const char*, const char*>, const char*> cases[] = {
-        {{"\"seconds\": 0.29999999999999999", "\"seconds\": 0"}, "/clips/a/warp/seconds: must be over 0"},
+        {{"\"seconds\": 0.3", "\"seconds\": 0"}, "/clips/a/warp/seconds: must be over 0"},
         {{"\"begin\": [\"A\", 20]", "\"begin\": [\"C\", 20]"}, "/clips/a/warp/begin/0: there is no pose 'C'"},
         {{"\"begin\": [\"A\", 20]", "\"begin\": [\"A\"]"}, "/clips/a/warp/begin"},
         {{"\"begin\": [\"A\", 20], ", ""}, "begin"},

@@ -1,5 +1,6 @@
 #include <app/commands/arguments.h>
 #include <app/commands/command.h>
+#include <app/document/agents.h>
 #include <app/document/debug_texts.h>
 #include <base/text.h>
 #include <scene/scene_edits.h>
@@ -203,11 +204,12 @@ std::string present_pair(const QueryInspector& queries, const Workspace& workspa
     return pair_filter(queries, workspace.step());
 }
 
-void break_here(QueryInspector& queries, Workspace& workspace) {
+void break_here(QueryInspector& queries, Workspace& workspace, Notifications& notifications) {
     const std::string where = present_pair(queries, workspace);
     const std::vector<std::string> texts = breakpoint_texts(workspace);
-    std::ranges::find(texts, where) == texts.end() ? add_breakpoint(workspace, where)
-                                                   : remove_breakpoint(workspace, where);
+    const bool is_new = std::ranges::find(texts, where) == texts.end();
+    is_new ? add_breakpoint(workspace, where) : remove_breakpoint(workspace, where);
+    notifications.tell(MessageLevel::info, (is_new ? "Breaks when " : "No longer breaks when ") + where);
 }
 
 bool breaks_here(const QueryInspector& queries, const Workspace& workspace) {
@@ -259,14 +261,20 @@ Condition on_bookmark() {
 }
 
 /// Without a name it is called by what is tested.
-void add_bookmark(QueryInspector& queries, Workspace& workspace, const std::string& text) {
+void add_bookmark(Session& session, const std::string& text) {
+    QueryInspector& queries = session.queries;
+    Workspace& workspace = session.workspace;
     const int step = workspace.step();
+    if (const auto known = present_bookmark(workspace))
+        throw std::invalid_argument("this step is bookmarked already: " + bookmark_names(workspace)[*known]);
     UnusedNames names(debug_of(workspace).bookmarks);
     const std::string wanted = trimmed(text).empty() ? name_of_event(queries, step) : name_for(text, "a bookmark");
     const std::string name = names.take(wanted);
     workspace.edit_debug("bookmark " + name, [&](DebugState& debug) {
         debug.bookmarks.push_back({name, *workspace.view().query, step, ""});
     });
+    session.keys.section = "bookmarks";
+    session.notifications.tell(MessageLevel::info, "Bookmarked step " + std::to_string(step) + ": " + name);
 }
 
 void go_to_bookmark(QueryInspector& queries, Workspace& workspace, const std::string& name) {
@@ -284,6 +292,9 @@ void remove_bookmark(Workspace& workspace, const std::string& name) {
 void rename_bookmark(Workspace& workspace, const std::string& text) {
     const std::string name = name_for(text, "a bookmark");
     const std::size_t index = *present_bookmark(workspace);
+    const std::vector<std::string> names = bookmark_names(workspace);
+    if (names[index] != name && std::ranges::find(names, name) != names.end())
+        throw std::invalid_argument("another bookmark is named " + in_quotes(name));
     workspace.edit_debug("calling the bookmark " + name,
                          [&](DebugState& debug) { debug.bookmarks[index].name = name; });
 }

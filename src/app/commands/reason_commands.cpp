@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -36,6 +37,9 @@ void reasons_at(Workspace& workspace, const std::string& text) {
 
 void reasons_of_point(Workspace& workspace, const std::string& text) {
     const glm::dvec2 times = two_numbers(text, "the point");
+    for (const double time : {times.x, times.y}) {
+        if (std::abs(time) > mobb::kMaxTime) throw std::invalid_argument("the point lies beyond any time");
+    }
     workspace.look.sample.reset();
     workspace.look.point = QueryLook::Point{times.x, times.y};
 }
@@ -45,7 +49,8 @@ void ask_about_sample(Workspace& workspace, int side, int index) {
     workspace.look.sample = QueryLook::Sample{side, index};
 }
 
-void reasons_of_sample(Workspace& workspace, const std::string& text) {
+void reasons_of_sample(Workspace& workspace, Keys& keys, const std::string& text) {
+    keys.section = "reasons";
     const auto [side, index] = name_and_word(text, "the sample");
     if (side != "a" && side != "b")
         throw std::invalid_argument("the side cannot be " + in_quotes(std::string(side)) + ": give a or b");
@@ -97,8 +102,7 @@ int event_in(const Workspace& workspace, const std::string& text) {
 void focus_branch(Workspace& workspace, QueryInspector& queries, const std::string& text) {
     const int event = event_in(workspace, text);
     workspace.look.focus.branch = queries.findings()->recursion.pair_of[static_cast<std::size_t>(event)];
-    const RecursionPair& pair =
-        queries.findings()->recursion.pairs[static_cast<std::size_t>(*workspace.look.focus.branch)];
+    const RecursionPair& pair = queries.findings()->recursion.pair_at(event);
     workspace.look.zoom = EventRange{pair.first, pair.end};
 }
 
@@ -119,7 +123,8 @@ void zoom_steps(Workspace& workspace, const std::string& text) {
 
 constexpr std::array<std::string_view, 2> kBranchesOf{"query", "scene"};
 
-void branches_of(CostInspector& costs, const std::string& text) {
+void branches_of(CostInspector& costs, Keys& keys, const std::string& text) {
+    keys.section = "costliest branches";
     costs.branches_of = choice_named<CostInspector::Of>(kBranchesOf, text, "the branches");
     if (costs.branches_of == CostInspector::Of::scene) costs.count();
 }
@@ -153,8 +158,9 @@ std::vector<Command> reason_commands() {
                 "Lists the tests that ended the search for a sample of a side, a or b, by its number from 0.",
                 reasons_of_sample, {.menu = kNoMenu, .argument = "SIDE N", .enabled = in_query}),
         Command("reasons.of_selection", "Why here?", "Lists the tests that ended the search for the selected sample.",
-                [](Workspace& workspace) {
+                [](Workspace& workspace, Keys& keys) {
                     ask_about_sample(workspace, *side_of_sample(workspace), workspace.selection.index);
+                    keys.section = "reasons";
                 },
                 {.enabled = {[](const Workspace& workspace) { return side_of_sample(workspace).has_value(); },
                              [](const Workspace& workspace) -> std::string_view {

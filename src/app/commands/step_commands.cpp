@@ -26,10 +26,11 @@ void to_event(Workspace& workspace, int event) {
     workspace.change_view([&](ViewState& view) { view.step = {Step::Unit::event, static_cast<double>(event)}; });
 }
 
-/// Without a query in view its first one is shown instead, at this step.
+/// Without a query in view the first one is shown instead, where it was left; else at this step.
 bool entered(Workspace& workspace, QueryInspector& queries, Step step) {
     if (in_any_query(workspace)) return false;
-    queries.show(0, step);
+    const bool is_known = workspace.document().steps.contains(step_key(*workspace.document().fitted, 0));
+    queries.show(0, is_known ? std::nullopt : std::optional(step));
     return true;
 }
 
@@ -167,13 +168,15 @@ std::optional<int> event_after_pair(const Workspace& workspace, const QueryInspe
 }
 
 /// The last event of a pair that is not below the present one, as deep or less deep.
-std::optional<int> event_before_pair(const Workspace& workspace) {
-    const mobb::Trace& trace = workspace.recorded()->trace;
-    const int depth = trace[workspace.step()].depth;
-    for (int event = workspace.step() - 1; event >= 0; --event) {
-        if (trace[event].depth <= depth) return event;
-    }
-    return std::nullopt;
+std::optional<int> event_before_pair(const Workspace& workspace, const QueryInspector& queries) {
+    const int step = workspace.step();
+    if (step == 0) return std::nullopt;
+    const std::shared_ptr<const QueryFindings> findings = queries.findings();
+    const Recursion& recursion = findings->recursion;
+    const int depth = recursion.pair_at(step).depth;
+    const RecursionPair* before = &recursion.pair_at(step - 1);
+    while (before->depth > depth) before = &recursion.pairs[static_cast<std::size_t>(before->parent)];
+    return std::min(before->last, step - 1);
 }
 
 /// The first event of the first pair that the present one called.
@@ -266,11 +269,13 @@ std::vector<Command> step_commands() {
                              why_no_step}}),
         Command("step.over_back", "Step over, backwards",
                 "Shows the last test before that is not about parts of its pair.",
-                [](Workspace& workspace) { to_event(workspace, *event_before_pair(workspace)); },
+                [](Workspace& workspace, QueryInspector& queries) {
+                    to_event(workspace, *event_before_pair(workspace, queries));
+                },
                 {.shortcut = "Shift+Down",
                  .repeats = true,
-                 .enabled = {[](const Workspace& workspace) {
-                                 return in_any_query(workspace) && event_before_pair(workspace);
+                 .enabled = {[](const Workspace& workspace, const QueryInspector& queries) {
+                                 return in_any_query(workspace) && event_before_pair(workspace, queries);
                              },
                              why_no_step}}),
         Command("step.out", "Step out", "Shows the test that led to the present one.",

@@ -5,14 +5,6 @@
 
 namespace mobbscope::app {
 
-namespace {
-
-const RecursionPair& pair_of(const Recursion& recursion, int event) {
-    return recursion.pairs[static_cast<std::size_t>(recursion.pair_of[static_cast<std::size_t>(event)])];
-}
-
-}  // namespace
-
 std::string node_filter(const mobb::Tree& tree, int side, int node) {
     return std::string(side == 0 ? "node(a) = " : "node(b) = ") + std::to_string(tree.level(node)) + '.' +
            std::to_string(tree.place_in_level(node));
@@ -20,14 +12,14 @@ std::string node_filter(const mobb::Tree& tree, int side, int node) {
 
 std::string pair_filter(const QueryInspector& queries, int event) {
     const QueryFindings& found = *queries.findings();
-    const RecursionPair& pair = pair_of(found.recursion, event);
+    const RecursionPair& pair = found.recursion.pair_at(event);
     return node_filter(found.sides[0].placed.tree(), 0, pair.a) + " and " +
            node_filter(found.sides[1].placed.tree(), 1, pair.b);
 }
 
 std::string name_of_event(const QueryInspector& queries, int event) {
     const QueryFindings& found = *queries.findings();
-    const RecursionPair& pair = pair_of(found.recursion, event);
+    const RecursionPair& pair = found.recursion.pair_at(event);
     return node_name(found.sides[0], pair.a) + ", " + node_name(found.sides[1], pair.b);
 }
 

@@ -118,17 +118,34 @@ EventValues QueryInspector::events() const {
     return {workspace_.recorded()->trace, found.recursion, found.sides[0].placed, found.sides[1].placed};
 }
 
-const PassingEvents& QueryInspector::passing(const EventFilter& filter) const {
-    constexpr std::size_t kMostFilters = 200;  // each letter that is typed makes another one
+PassingEvents& QueryInspector::passing(const EventFilter& filter) const {
+    // Each letter that is typed makes another one.
+    const std::size_t kMostFilters = 200 + 2 * workspace_.scene().debug.breakpoints.size();
     const EventValues values = events();
     std::map<std::string, PassingEvents>& known = workspace_.derived().passing;
     if (known.size() > kMostFilters) known.clear();
     const auto [at, is_new] = known.try_emplace(filter.text());
-    if (is_new) {
-        at->second.passes = passing_steps(values, filter);
-        at->second.count = static_cast<int>(std::ranges::count(at->second.passes, true));
-    }
+    if (is_new) at->second.passes = passing_steps(values, filter);
     return at->second;
+}
+
+int QueryInspector::hits(const EventFilter& filter) const {
+    const InFocus& inside = in_focus();
+    PassingEvents& of = passing(filter);
+    const FocusWindow& window = workspace_.look.focus;
+    if (!of.count || of.count->first != window) {
+        int count = 0;
+        for (std::size_t step = 0; step < of.passes.size(); ++step)
+            count += of.passes[step] && (inside.empty() || inside[step] != 0) ? 1 : 0;
+        of.count.emplace(window, count);
+    }
+    return of.count->second;
+}
+
+int QueryInspector::events_in_focus() const {
+    const InFocus& inside = in_focus();
+    return inside.empty() ? events().size()
+                          : static_cast<int>(inside.size() - static_cast<std::size_t>(std::ranges::count(inside, 0)));
 }
 
 const std::vector<int>& QueryInspector::break_steps() const {
@@ -176,11 +193,13 @@ std::optional<int> QueryInspector::listed_event_beside(int by) const {
     std::vector<int> steps = *listed_events();
     auto at = std::ranges::find(steps, present);
     if (at == steps.end()) {
+        if (steps.empty()) return std::nullopt;
+        if (workspace_.events.by.field != EventField::step) return by > 0 ? steps.front() : steps.back();
         // It has its place among them all the same.
-        std::ranges::sort(steps);
-        steps.insert(std::ranges::lower_bound(steps, present), present);
-        sort_as(steps, events(), workspace_.events);
-        at = std::ranges::find(steps, present);
+        at =
+            steps.insert(workspace_.events.descending ? std::ranges::lower_bound(steps, present, std::ranges::greater())
+                                                      : std::ranges::lower_bound(steps, present),
+                         present);
     }
     const std::ptrdiff_t place = at - steps.begin() + by;
     if (place < 0 || place >= std::ssize(steps)) return std::nullopt;

@@ -41,7 +41,10 @@ class QueryInspector {
     void replace_recursion(const std::shared_ptr<const QueryFindings>& of, Recursion recursion);
     /// Of the query in view, which has made tests, until findings() are others.
     EventValues events() const;
-    const PassingEvents& passing(const EventFilter& filter) const;
+    PassingEvents& passing(const EventFilter& filter) const;
+    /// How many events in the focus pass, and how many there are.
+    int hits(const EventFilter& filter) const;
+    int events_in_focus() const;
     /// In which events breakpoints hold that are on, in order.
     const std::vector<int>& break_steps() const;
     /// The rows of the list of events: those in the focus that pass its filter.

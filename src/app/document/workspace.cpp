@@ -78,21 +78,10 @@ void Workspace::edit(const EditName& name, const std::function<void(Scene&)>& ch
 }
 
 void Workspace::edit_debug(const std::string& title, const std::function<void(DebugState&)>& change) {
-    Document next = with_scene(document(), changed_scene([&](Scene& scene) { change(scene.debug); }));
-    Derived& was = derived();
-    history.change(std::move(next), {title, ""});
-    Derived kept{document().fitted};
-    kept.recorded = std::move(was.recorded);
-    kept.findings = std::move(was.findings);
-    kept.findings_of = std::move(was.findings_of);
-    kept.passing = std::move(was.passing);
-    kept.listed_events = std::move(was.listed_events);
-    kept.focused = std::move(was.focused);
-    kept.costs = std::move(was.costs);
-    kept.sandwich = std::move(was.sandwich);
-    derived_ = std::move(kept);
-    looked_at_.fitted = document().fitted;
-    changed();
+    DebugState next = scene().debug;
+    change(next);
+    if (next == scene().debug) return;
+    edit({title, ""}, [&](Scene& scene) { scene.debug = std::move(next); });
 }
 
 void Workspace::change_view(const std::function<void(ViewState&)>& change, const std::optional<EditName>& name) {
@@ -167,8 +156,9 @@ void Workspace::settle_step() {
 
 /// Branches and ranges are of one trace; who is asked about moves with the time cursor.
 void Workspace::settle_look() {
+    const bool same_traces = looked_at_.fitted && ask_the_same(*looked_at_.fitted, *document().fitted);
     if (looked_at_.query != view().query) look = {};
-    if (looked_at_.fitted != document().fitted) {
+    if (!same_traces) {
         look.focus.branch.reset();
         look.zoom.reset();
     }
@@ -176,7 +166,7 @@ void Workspace::settle_look() {
         look.sample.reset();
         look.point.reset();
     }
-    if (looked_at_.fitted != document().fitted || looked_at_.query != view().query) hovered_event = -1;
+    if (!same_traces || looked_at_.query != view().query) hovered_event = -1;
     looked_at_ = {document().fitted, view().query, view().time};
 }
 
@@ -214,7 +204,13 @@ void Workspace::remember_step(Document& next) {
 
 Workspace::Derived& Workspace::derived() const {
     if (derived_.of != document().fitted) {
-        derived_ = {};
+        // Another breakpoint, say, changes nothing that was found out about the queries.
+        if (!derived_.of || !ask_the_same(*derived_.of, *document().fitted)) derived_ = {};
+        // These refer to the scene that they were made of.
+        derived_.moves.reset();
+        derived_.choice.reset();
+        derived_.chosen = {-1, -1};
+        derived_.break_steps.reset();
         derived_.of = document().fitted;
     }
     return derived_;
@@ -241,8 +237,8 @@ bool Workspace::revisit(bool forward) {
         const VisitedStep next = from.back();
         from.pop_back();
         const std::optional<int> query = find_query(*document().fitted, next.of.first);
-        // It is asked no more, or one is there already.
-        if (!query || next == present) continue;
+        // It is asked no more, its steps are of other trees, or one is there already.
+        if (!query || step_key(*document().fitted, *query) != next.of || next == present) continue;
         if (present) (forward ? way.before : way.after).push_back(*present);
         change_view([&](ViewState& view) {
             view.query = query;

@@ -80,7 +80,7 @@ struct EventList {
 /// Which events of a query pass a filter.
 struct PassingEvents {
     std::vector<bool> passes;
-    int count = 0;
+    std::optional<std::pair<FocusWindow, int>> count{};  ///< of those in a focus
 };
 
 class Workspace {
@@ -162,7 +162,7 @@ class Workspace {
     Scene changed_scene(const std::function<void(Scene&)>& change) const;
     /// Changes the scene at once. Throws as changed_scene does: nothing is changed then.
     void edit(const EditName& name, const std::function<void(Scene&)>& change);
-    /// Changes how queries are debugged: what was found out about them stays.
+    /// Changes how queries are debugged. What leaves it as it is is no edit.
     void edit_debug(const std::string& title, const std::function<void(DebugState&)>& change);
     /// Changes how it is seen, which undo leaves as it is (see History::look). No name: as what it changes says.
     void change_view(const std::function<void(ViewState&)>& change, const std::optional<EditName>& name = {});

@@ -126,8 +126,8 @@ void InputQueue::feed(ImGuiIO& io, const Others& others) {
     frame.in_text = io.WantTextInput;
     while (!waiting_.empty()) {
         // Keys in menus put the mouse away; a button brings it back where it is, as moving it does.
-        const bool is_away = io.MousePos.x == -FLT_MAX;
-        if (is_away && mouse_ && std::holds_alternative<MouseButton>(waiting_.front())) {
+        const bool is_away = io.MousePos.x == -FLT_MAX && mouse_ && mouse_->x != -FLT_MAX;
+        if (is_away && std::holds_alternative<MouseButton>(waiting_.front())) {
             io.MousePos = *mouse_;
             frame.moved = true;
         }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -96,6 +97,11 @@ void of_scene(Ui& ui, const CostInspector& costs) {
         ImGui::SetTooltip("%s: %s of its own, %s below\nClick for the pairs above and below it", name.c_str(),
                           counted(cost.own, "test", "tests").c_str(), std::to_string(cost.below).c_str());
     });
+    if (counted_costs->in_part > 0) {
+        words(ui.style.warning, "Here recording stopped in " + std::to_string(counted_costs->in_part) + " of " +
+                                    counted(counted_costs->tests.size(), "query", "queries") + ".");
+        ui.mark_only("query.stopped.all_queries");
+    }
     if (const Sandwich* around = costs.sandwich()) {
         const std::string name = tree_node_name(ui.workspace, around->of);
         neighbours(ui, ("Called pairs with " + name).c_str(), "above", around->above);

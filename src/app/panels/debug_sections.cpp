@@ -5,6 +5,7 @@
 #include <scene/step_link.h>
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,11 +17,11 @@ namespace {
 enum class Pressed { nothing, row, remove };
 
 /// A row with a button at its right end that removes what it is of.
-Pressed removable_row(Ui& ui, Row what, const std::string& tooltip) {
+Pressed removable_row(Ui& ui, Row what, const std::function<std::string()>& tooltip) {
     const float side = ImGui::GetFrameHeight();
     what.buttons = what.right = side;
     Pressed out = row(ui, what) ? Pressed::row : Pressed::nothing;
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltip.c_str());
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltip().c_str());
     ImGui::SameLine(0, 0);
     ImGui::PushID(what.mark.c_str());
     ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32_BLACK_TRANS);
@@ -33,7 +34,7 @@ Pressed removable_row(Ui& ui, Row what, const std::string& tooltip) {
 }
 
 std::string hits_text(QueryInspector& queries, const EventFilter& filter) {
-    return counted(queries.passing(filter).count, "hit", "hits");
+    return "at " + counted(queries.hits(filter), "test", "tests");
 }
 
 void breakpoint_row(Ui& ui, QueryInspector& queries, const Breakpoint& breakpoint, std::size_t index) {
@@ -47,9 +48,9 @@ void breakpoint_row(Ui& ui, QueryInspector& queries, const Breakpoint& breakpoin
     ImGui::SameLine(0, ui.px(4));
     const Row what{
         .mark = mark, .name = breakpoint.where, .remark = hits_text(queries, filter), .quiet = !breakpoint.on};
-    switch (removable_row(
-        ui, what,
-        breakpoint.where + "\nBreaks when " + filter.words() + ".\nA click lists the events at which it does")) {
+    switch (removable_row(ui, what, [&] {
+        return breakpoint.where + "\nBreaks when " + filter.words() + ".\nA click lists the events at which it does";
+    })) {
         case Pressed::nothing:
             break;
         case Pressed::row:
@@ -101,7 +102,7 @@ void bookmarks(Ui& ui) {
                        .name = names[i],
                        .remark = names[i] == link ? "" : link,
                        .selected = present == i};
-        switch (removable_row(ui, what, bookmark.note.empty() ? names[i] : bookmark.note)) {
+        switch (removable_row(ui, what, [&] { return bookmark.note.empty() ? names[i] : bookmark.note; })) {
             case Pressed::nothing:
                 break;
             case Pressed::row:

@@ -7,7 +7,9 @@
 #include <explain/query_sentence.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace mobbscope::app {
 
@@ -78,12 +80,12 @@ void cell(Ui& ui, const EventColumn& column, const std::string& text, ImU32 colo
 
 FilterField list_filter(const Ui& ui, QueryInspector& queries) {
     const std::optional<EventFilter>& now = ui.workspace.events.filter;
-    const int all = queries.events().size();
+    const int all = queries.events_in_focus();
     return {.mark = "events.filter",
             .now = now ? now->text() : "",
             .hint = "gap < 0.05 and level(a) >= 3",
             .hits = [&queries, all](const EventFilter& filter) {
-                return std::to_string(queries.passing(filter).count) + " of " + std::to_string(all);
+                return std::to_string(queries.hits(filter)) + " of " + std::to_string(all);
             }};
 }
 
@@ -116,6 +118,11 @@ void filter_line(Ui& ui, QueryInspector& queries) {
     ImGui::SameLine();
     list_menu(ui);
     filter_words(ui, field);
+    if (!ui.workspace.look.focus.is_all()) {
+        text_line(ui.style.accent, "Only the focus is listed.");
+        ImGui::SameLine();
+        command_button(ui, "list everything", "focus.none", "events.focus_none");
+    }
     if (!entered) return;
     if (!entered->empty()) return ui.invoke("events.filter", *entered);
     if (ui.workspace.events.filter) ui.invoke("events.all");
@@ -214,6 +221,10 @@ void EventTable::row(Ui& ui, QueryInspector& queries, int index) const {
 void EventTable::table(Ui& ui, QueryInspector& queries) {
     const auto rows = queries.listed_events();
     if (std::exchange(rows_, rows) != rows) present_ = -2;
+    const EventList& list = ui.workspace.events;
+    const std::string order =
+        column_name(list.by) + (list.descending ? " down " : " up ") + (list.filter ? list.filter->text() : "");
+    const bool is_ordered_anew = std::exchange(order_, order) != order;
     if (rows->empty()) {
         const bool whole = ui.workspace.look.focus.is_all();
         return words(ui.style.quiet,
@@ -242,6 +253,8 @@ void EventTable::table(Ui& ui, QueryInspector& queries) {
         }
         const float row_height = ImGui::GetTextLineHeight() + ui.px(3);
         follow(ui.workspace.step(), row_height, head_height);
+        // Who sorts or filters looks for what comes first.
+        if (is_ordered_anew) ImGui::SetScrollY(0);
         clipped_rows(ui, "##rows", static_cast<int>(rows->size()), row_height,
                      [&](int index) { row(ui, queries, index); });
         ImGui::EndTable();

@@ -4,6 +4,7 @@
 #include <app/ui/ui.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace mobbscope::app {
@@ -22,6 +23,7 @@ class EventTable {
     std::shared_ptr<const std::vector<int>> rows_;  ///< as they were drawn last
     int step_ = -1;                                 ///< likewise
     int present_ = -1;                              ///< its row; -1: it has none
+    std::string order_{};                           ///< by what they are filtered and sorted
 };
 
 /// Whether the list stands in place of the recursion.

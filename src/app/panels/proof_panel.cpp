@@ -3,6 +3,7 @@
 #include <app/ui/widgets.h>
 #include <base/text.h>
 #include <explain/query_sentence.h>
+#include <render/query/proof_walls.h>
 
 #include <algorithm>
 #include <string>
@@ -93,6 +94,8 @@ void proof_section(Ui& ui, const QueryFindings& findings) {
     if (count == 0 || !section(ui, "THE PROOF", counted(count, "line", "lines"))) return;
     rows(ui, "proof", static_cast<int>(count), kMostRows,
          [&](int i) { line_row(ui, findings, static_cast<std::size_t>(i)); });
+    if (proof.lines.size() > kMostWalls)
+        words(ui.style.quiet, "The " + std::to_string(kMostWalls) + " tightest are drawn.");
     const ViewState& view = ui.workspace.view();
     query_button(ui, view.proof ? "hide walls" : "show walls", "view.proof");
     flow(button_width("show region"));

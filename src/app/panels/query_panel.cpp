@@ -135,6 +135,7 @@ void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures) {
         query_counters(ui, queries, *findings);
         break_when(ui, queries);
         bookmarks(ui);
+        pictures.stay();
         if (section(ui, "RECURSION: TIME OF A BY TIME OF B")) {
             pictures.square(ui, queries, *findings);
             recording_note(ui, "square");

@@ -80,6 +80,9 @@ class MapPicture {
 class QueryPictures {
   public:
     EventTable events;
+    /// Called above the pictures of a panel that scrolls: what the mouse is on below stays there when what stands above
+    /// grows, so that a click may be the first of two.
+    void stay();
     /// A's time by B's: every pair of nodes that was tested.
     void square(Ui& ui, QueryInspector& queries, const QueryFindings& findings);
     /// How far A and B are apart at each moment.
@@ -123,6 +126,7 @@ class QueryPictures {
     Kept<PairCell> square_, icicle_;
     Kept<ClearanceColumn> clearance_;
     Kept<StripCell> strip_;
+    float top_ = 0;      ///< where stay() was called last, pixels
     float scroll_ = 0;   ///< of the icicle, pixels
     int followed_ = -1;  ///< the step that was brought into strip and icicle last
     struct {

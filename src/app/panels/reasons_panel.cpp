@@ -26,7 +26,8 @@ void pair_row(Ui& ui, QueryInspector& queries, const QueryFindings& findings, in
     const int hovered = ui.workspace.hovered_event;
     if (row(ui, {.mark = mark,
                  .name = node_name(findings.sides[0], pair.a) + " / " + node_name(findings.sides[1], pair.b),
-                 .remark = short_outcome(findings.sides, event),
+                 .remark = event.outcome == mobb::Outcome::separated ? with_unit(event.gap, "m")
+                                                                     : short_outcome(findings.sides, event),
                  .selected = ui.workspace.step() >= pair.first && ui.workspace.step() <= pair.last,
                  .hovered = hovered >= pair.first && hovered <= pair.last,
                  .indent = ui.px(14),
@@ -57,15 +58,17 @@ void reasons(Ui& ui, QueryInspector& queries, const QueryFindings& findings) {
     }
     const std::vector<int>& pairs = asked->pairs;
     const bool of_sample = ui.workspace.look.sample.has_value();
+    const bool stopped = ui.workspace.recorded()->trace.stopped();
     if (pairs.empty()) {
-        words(ui.style.quiet, of_sample ? "No test came to it." : "The two are not both there then.");
-        return;
+        words(ui.style.quiet, !of_sample ? "The two are not both there then."
+                              : stopped  ? "No test that was recorded came to it."
+                                         : "No test came to it.");
     }
     rows(ui, "##reasons", static_cast<int>(pairs.size()), kMostReasonRows, [&](int i) {
         pair_row(ui, queries, findings, pairs[static_cast<std::size_t>(i)], "reason." + std::to_string(i));
     });
-    const bool stopped = ui.workspace.recorded()->trace.stopped();
-    if (!of_sample && !stopped && findings.recursion.pairs[static_cast<std::size_t>(pairs.back())].has_children()) {
+    if (!pairs.empty() && !of_sample && !stopped &&
+        findings.recursion.pairs[static_cast<std::size_t>(pairs.back())].has_children()) {
         words(ui.style.quiet, "The search ended with a hit before it came to this moment.");
     }
     recording_note(ui, "reasons");

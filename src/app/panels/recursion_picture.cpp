@@ -89,7 +89,9 @@ std::vector<PairCell> square_cells(const Recursion& recursion, mobb::Interval a,
     return out;
 }
 
-int icicle_row(float height, int depth, float scale) {
+int icicle_row(float height, int depth, float scale, float event_width) {
+    constexpr float kLabelled = 14;  // pixels an event at scale 1: a pair has room for its label
+    if (event_width >= kLabelled * scale) return static_cast<int>(20 * scale);
     return static_cast<int>(std::clamp(height / static_cast<float>(std::max(1, depth)), 8 * scale, 20 * scale));
 }
 

@@ -43,8 +43,9 @@ struct PairCell {
 std::vector<PairCell> square_cells(const Recursion& recursion, mobb::Interval a, mobb::Interval b, int width,
                                    int height);
 
-/// Pixels of a row of an icicle so high and deep, at a scale: not too low to be clicked, even if not all fit.
-int icicle_row(float height, int depth, float scale);
+/// Pixels of a row of an icicle so high and deep, at a scale: not too low to be clicked, even if not all fit. High
+/// enough for labels where an event is wide enough for them.
+int icicle_row(float height, int depth, float scale, float event_width);
 /// Pairs as the events of them and below them (to the right) by depth (downwards); rows of `row` pixels.
 std::vector<PairCell> icicle_cells(const Recursion& recursion, const ShownEvents& shown, int width, int row);
 

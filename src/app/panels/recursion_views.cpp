@@ -293,13 +293,16 @@ void way_to_pair(Ui& ui, const QueryFindings& findings) {
     };
     const float between = button_width(">");
     const auto room_of = [&](int at) { return button_width(label(at).c_str()) + between; };
-    float room = ImGui::GetContentRegionAvail().x - room_of(chain.front()) - between;
-    std::size_t from = chain.size();
+    // The present one comes first, then the root, then those above the present one.
+    const float width = ImGui::GetContentRegionAvail().x;
+    std::size_t from = chain.size() - 1;
+    const bool with_root = from == 0 || room_of(chain.front()) + room_of(chain.back()) + between <= width;
+    float room = width - room_of(chain.back()) - between - (with_root ? room_of(chain.front()) : 0);
     while (from > 1 && room_of(chain[from - 1]) <= room) room -= room_of(chain[--from]);
     const auto crumb = [&](std::size_t i) {
         if (i > 0) {
-            ImGui::SameLine(0, 0);
-            text_line(ui.style.quiet, i == from && from > 1 ? " \u2026 " : " \u203A ");
+            if (with_root) ImGui::SameLine(0, 0);
+            text_line(ui.style.quiet, i == from && (from > 1 || !with_root) ? " \u2026 " : " \u203A ");
             ImGui::SameLine(0, 0);
         }
         const RecursionPair& of = findings.recursion.pairs[static_cast<std::size_t>(chain[i])];
@@ -311,11 +314,20 @@ void way_to_pair(Ui& ui, const QueryFindings& findings) {
         ImGui::PopStyleColor();
         if (ImGui::IsItemHovered()) ui.hovered_event = of.last;
     };
-    crumb(0);
-    for (std::size_t i = from; i < chain.size(); ++i) crumb(i);
+    if (with_root) crumb(0);
+    for (std::size_t i = std::max<std::size_t>(from, 1); i < chain.size(); ++i) crumb(i);
     ImGui::PopStyleColor();
     ImGui::PopStyleVar();
     ImGui::PopFont();
+}
+
+void QueryPictures::stay() {
+    const float top = ImGui::GetCursorPosY();
+    const float moved = top - std::exchange(top_, top);
+    // The click may still be held.
+    if (moved == 0 || !ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem)) return;
+    if (ImGui::GetIO().MousePos.y > ImGui::GetCursorScreenPos().y - moved)
+        ImGui::SetScrollY(ImGui::GetScrollY() + moved);
 }
 
 void QueryPictures::square(Ui& ui, QueryInspector& queries, const QueryFindings& findings) {
@@ -427,7 +439,9 @@ void QueryPictures::icicle(Ui& ui, QueryInspector& queries, ImVec2 size) {
     const int present = recursion.pair_of[static_cast<std::size_t>(step)];
     const EventRange range = shown_range(ui.workspace);
     const ShownEvents shown{range, &queries.in_focus()};
-    const int row = icicle_row(size.y, recursion.depth, ui.style.scale);
+    const float event_width = size.x / static_cast<float>(range.size());
+    const bool zoomed = ui.workspace.look.zoom.has_value();
+    const int row = icicle_row(size.y, recursion.depth, ui.style.scale, zoomed ? event_width : 0);
     const std::vector<PairCell>& cells = icicle_.of(findings, {width, row, range, ui.workspace.look.focus},
                                                     [&] { return icicle_cells(recursion, shown, width, row); });
 
@@ -451,8 +465,7 @@ void QueryPictures::icicle(Ui& ui, QueryInspector& queries, ImVec2 size) {
     const ImGuiIO& io = ImGui::GetIO();
     const float reach = io.MouseDragThreshold;
     const bool clicked = ImGui::IsItemDeactivated() && io.MouseDragMaxDistanceSqr[0] < reach * reach;
-    const IcicleTests tests{trace,       recursion, at.x,    size.x / static_cast<float>(range.size()),
-                            range.first, row,       ui.px(5)};
+    const IcicleTests tests{trace, recursion, at.x, event_width, range.first, row, ui.px(5)};
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
     const auto draw = [&](const PairCell& cell, const RecursionPair& pair, ImVec2 min, ImVec2 end, bool past) {

@@ -1,10 +1,26 @@
 #include <app/session/cost_inspector.h>
+#include <scene/fitted_scene.h>
 
 #include <algorithm>
 #include <numeric>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace mobbscope::app {
+
+namespace {
+
+// The jobs are known by their titles.
+constexpr const char* kCountAll = "Counting the tests of all queries";
+constexpr const char* kCountAround = "Counting the tests around a node";
+
+bool is_under_way(const Workspace& workspace, std::string_view title) {
+    return std::ranges::any_of(workspace.jobs,
+                               [&](const RunningJob& running) { return running.job->title() == title; });
+}
+
+}  // namespace
 
 const SceneCosts* CostInspector::costs() const {
     const auto& known = workspace_.derived().costs;
@@ -13,15 +29,27 @@ const SceneCosts* CostInspector::costs() const {
 
 void CostInspector::count(std::function<void()> then) {
     if (costs()) return then ? then() : void();
-    jobs_.start("Counting the tests of all queries",
-                [this, in = workspace_.document().fitted, then = std::move(then)](JobControl& control) -> Job::Finish {
-                    SceneCosts found = scene_costs(*in, progress_of(control));
-                    return [this, in, then, found = std::move(found)]() mutable {
-                        if (in != workspace_.document().fitted) return;
-                        workspace_.derived().costs = std::move(found);
-                        if (then) then();
-                    };
-                });
+    if (is_under_way(workspace_, kCountAll)) {
+        if (then) then_ = std::move(then);
+        return;
+    }
+    then_ = std::move(then);
+    jobs_.start(kCountAll, [this, in = workspace_.document().fitted](JobControl& control) -> Job::Finish {
+        SceneCosts found = scene_costs(*in, progress_of(control));
+        return [this, in, found = std::move(found)]() mutable { take(*in, std::move(found)); };
+    });
+}
+
+void CostInspector::take(const FittedScene& in, SceneCosts found) {
+    const FittedScene& now = *workspace_.document().fitted;
+    std::function<void()> then = std::exchange(then_, nullptr);
+    if (ask_the_same(in, now)) {
+        workspace_.derived().costs = std::move(found);
+        if (then) then();
+        return;
+    }
+    const bool wanted = then || order == Order::tests || branches_of == Of::scene;
+    if (wanted && !now.queries().empty()) count(std::move(then));
 }
 
 const Sandwich* CostInspector::sandwich() const {
@@ -30,13 +58,16 @@ const Sandwich* CostInspector::sandwich() const {
 }
 
 void CostInspector::show_sandwich(TreeNode node) {
-    jobs_.start("Counting the tests around a node",
-                [this, in = workspace_.document().fitted, node](JobControl& control) -> Job::Finish {
-                    Sandwich found = sandwich_of(*in, node, progress_of(control));
-                    return [this, in, found = std::move(found)]() mutable {
-                        if (in == workspace_.document().fitted) workspace_.derived().sandwich = std::move(found);
-                    };
-                });
+    // The one that was asked for before could end after this one.
+    std::erase_if(workspace_.jobs, [](const RunningJob& running) { return running.job->title() == kCountAround; });
+    if (sandwich() && sandwich()->of == node) return;
+    jobs_.start(kCountAround, [this, in = workspace_.document().fitted, node](JobControl& control) -> Job::Finish {
+        Sandwich found = sandwich_of(*in, node, progress_of(control));
+        return [this, in, found = std::move(found)]() mutable {
+            // Of other trees it would be another node.
+            if (ask_the_same(*in, *workspace_.document().fitted)) workspace_.derived().sandwich = std::move(found);
+        };
+    });
 }
 
 bool CostInspector::lists_hits_first() const {

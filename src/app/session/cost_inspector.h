@@ -5,7 +5,8 @@
 #include <app/session/jobs.h>
 #include <app/session/query_answers.h>
 
-#include <optional>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,8 @@ class CostInspector {
 
     /// Null until they were counted.
     const SceneCosts* costs() const;
-    /// Counts them, in the background where that takes long; at once if they are known. A worst query that was asked
-    /// for is shown then.
+    /// Counts them, in the background where that takes long, and calls `then`; at once if they are known. While they
+    /// are being counted it only takes `then`. They are counted anew if the scene asks something else by the end.
     void count(std::function<void()> then = {});
     /// Of the node that was asked for last; null: of none.
     const Sandwich* sandwich() const;
@@ -39,9 +40,12 @@ class CostInspector {
     std::vector<int> listed() const;
 
   private:
+    void take(const FittedScene& in, SceneCosts found);
+
     Workspace& workspace_;
     Jobs& jobs_;
     QueryAnswers& answers_;
+    std::function<void()> then_;  ///< of the count that is under way
 };
 
 /// "walk 2.1": a node of a clip's tree.

@@ -90,6 +90,9 @@ void Excerpts::open(Side a, Side b, const std::array<Rgba, 2>& colors) {
     excerpt.agents.push_back({b.name, same_clip ? 0 : 1, b.placement, in_bytes(colors[1])});
     excerpt.clips.push_back(std::move(a.clip));
     if (!same_clip) excerpt.clips.push_back(std::move(b.clip));
+    // Bookmarks are of the whole's queries; the rest holds of any.
+    excerpt.debug.filters = workspace_.scene().debug.filters;
+    excerpt.debug.breakpoints = workspace_.scene().debug.breakpoints;
     excerpt.view.theme = workspace_.view().theme;
     excerpt.view.query = 0;
     Document next = document_of(std::move(excerpt), workspace_.document().fitted.get());
@@ -119,6 +122,14 @@ void Excerpts::leave() {
     Document whole{origin->fitted, origin->view};
     whole.steps = origin->steps;
     whole.opening = origin->opening;
+    DebugState debug = whole.fitted->scene().debug;
+    debug.filters = workspace_.scene().debug.filters;
+    debug.breakpoints = workspace_.scene().debug.breakpoints;
+    if (debug != whole.fitted->scene().debug) {
+        Scene scene = whole.fitted->scene();
+        scene.debug = std::move(debug);
+        whole = with_scene(whole, std::move(scene));
+    }
     workspace_.history.change(std::move(whole), {"going back to the whole", ""});
     ++counts_.restores;
     workspace_.changed();

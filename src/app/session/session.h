@@ -50,6 +50,7 @@ struct Keys {
     std::string focus;                 ///< the widget that has them, by its mark; empty: the viewport
     FocusMove move = FocusMove::none;  ///< asked for, and done in the next frame
     std::string field{};               ///< to be typed into, by its mark: likewise
+    std::string section{};             ///< to be unfolded and scrolled to, by its title in lower case: likewise
 };
 
 /// Of text and panels.

@@ -110,7 +110,7 @@ void Focus::done_with(const std::string& name) {
 }
 
 void Focus::press_stop(const Stop& stop) {
-    if (stop.own == OwnKeys::none) {
+    if (stop.own == OwnKeys::none || stop.own == OwnKeys::text) {
         activate(stop.id);
     } else {
         pressed_.emplace_back(stop.name, Chord{Key::enter});
@@ -386,7 +386,10 @@ void Focus::tab(bool back) {
     // From what is gone it goes on where that stood.
     const std::size_t gone = std::min(order_, count);
     const std::size_t at = now ? static_cast<std::size_t>(now - stops_.data()) : (back ? gone : gone + count - 1);
-    if (const Stop* next = from_order(back ? at + count - 1 : at + 1, back, now)) go(*next);
+    if (const Stop* next = from_order(back ? at + count - 1 : at + 1, back, now)) {
+        go(*next);
+        if (next->own == OwnKeys::text) activate(next->id);
+    }
 }
 
 void Focus::next_panel(bool back) {

@@ -19,8 +19,8 @@
 namespace mobbscope::app {
 
 /// Keys that a widget wants for itself while it has the focus (Focus::take). Of all others Enter and Space press it,
-/// and arrows go to the next widget in their direction.
-enum class OwnKeys { none, up_down, left_right, menu };
+/// and arrows go to the next widget in their direction. `text`: Tab alone is enough to type into it.
+enum class OwnKeys { none, up_down, left_right, menu, text };
 
 class Focus {
   public:

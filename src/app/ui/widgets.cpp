@@ -102,6 +102,12 @@ bool is_folded(const Settings& settings, const std::string& title, bool at_first
 
 bool section(Ui& ui, const std::string& title, const std::string& right, bool folded_at_first) {
     const std::string id = lower(title);
+    if (ui.session.keys.section == id) {
+        ui.session.keys.section.clear();
+        ui.session.settings.folded[id] = false;
+        ImGui::SetScrollHereY(0);
+        ui.want_frame_in(0);
+    }
     const bool open = !is_folded(ui.session.settings, id, folded_at_first);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     heading(ui, title.c_str(), right);
@@ -385,7 +391,7 @@ std::optional<std::string> text_edit(Ui& ui, const std::string& mark, const std:
     const bool own = input.typing && input.mark == mark;
     std::string shown = now;
     ImGui::InputText(("##" + mark).c_str(), own ? &input.text : &shown);
-    ui.mark(mark);
+    ui.mark(mark, OwnKeys::text);
     if (begins_input(input, mark)) input = {.mark = mark, .text = shown, .before = now, .waits = 0, .typing = true};
     if (!own || ImGui::IsItemActive()) return std::nullopt;
     const FieldInput done = std::exchange(input, {});

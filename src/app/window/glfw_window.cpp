@@ -43,7 +43,7 @@ constexpr int kGrip = 48;
 // clang-format off
 #define MOBBSCOPE_GLFW_FUNCTIONS(X) \
     X(glfwCreateStandardCursor) X(glfwCreateWindow) X(glfwDestroyCursor) X(glfwDestroyWindow) \
-    X(glfwGetClipboardString) X(glfwGetCurrentContext) X(glfwGetFramebufferSize) X(glfwGetKeyName) \
+    X(glfwGetClipboardString) X(glfwGetCurrentContext) X(glfwGetCursorPos) X(glfwGetFramebufferSize) X(glfwGetKeyName) \
     X(glfwGetMonitorContentScale) X(glfwGetMonitorWorkarea) X(glfwGetMonitors) X(glfwGetMouseButton) \
     X(glfwGetPrimaryMonitor) X(glfwGetProcAddress) X(glfwGetTime) X(glfwGetWindowAttrib) X(glfwGetWindowPos) \
     X(glfwGetWindowSize) X(glfwGetWindowUserPointer) X(glfwInit) X(glfwInitHint) X(glfwMakeContextCurrent) \
@@ -353,26 +353,34 @@ struct GlfwWindow::State final : Desktop {
         glfwSetWindowIcon(window, static_cast<int>(images.size()), images.data());
     }
 
+    /// Positions come in the window's coordinates, which on some displays are not pixels.
+    static void mouse_is_at(GLFWwindow* of, double x, double y) {
+        PictureSize points;
+        PictureSize pixels;
+        glfwGetWindowSize(of, &points.width, &points.height);
+        glfwGetFramebufferSize(of, &pixels.width, &pixels.height);
+        const glm::dvec2 scale(static_cast<double>(pixels.width) / std::max(points.width, 1),
+                               static_cast<double>(pixels.height) / std::max(points.height, 1));
+        shell_of(of).feed(MouseMove{glm::vec2(glm::dvec2(x, y) * scale)});
+    }
+
     void set_callbacks() {
         glfwSetWindowUserPointer(window, this);
         glfwSetWindowPosCallback(window, [](GLFWwindow* of, int, int) { state_of(of).moved = true; });
         glfwSetWindowSizeCallback(window, [](GLFWwindow* of, int, int) { state_of(of).moved = true; });
         glfwSetWindowMaximizeCallback(window, [](GLFWwindow* of, int) { state_of(of).moved = true; });
-        glfwSetCursorPosCallback(window, [](GLFWwindow* of, double x, double y) {
-            // Positions come in the window's coordinates, which on some displays are not pixels.
-            PictureSize points;
-            PictureSize pixels;
-            glfwGetWindowSize(of, &points.width, &points.height);
-            glfwGetFramebufferSize(of, &pixels.width, &pixels.height);
-            const glm::dvec2 scale(static_cast<double>(pixels.width) / std::max(points.width, 1),
-                                   static_cast<double>(pixels.height) / std::max(points.height, 1));
-            shell_of(of).feed(MouseMove{glm::vec2(glm::dvec2(x, y) * scale)});
-        });
+        glfwSetCursorPosCallback(window, mouse_is_at);
         glfwSetCursorEnterCallback(window, [](GLFWwindow* of, int entered) {
             bool held = false;
             for (int button = 0; button < 3; ++button) held |= glfwGetMouseButton(of, button) == GLFW_PRESS;
             // Dear ImGui's way to say that there is no mouse.
             if (!entered && !held) shell_of(of).feed(MouseMove{glm::vec2(-FLT_MAX)});
+            // Where it comes back to the place that it left, GLFW tells of no move.
+            if (entered) {
+                double x = 0, y = 0;
+                glfwGetCursorPos(of, &x, &y);
+                mouse_is_at(of, x, y);
+            }
         });
         glfwSetMouseButtonCallback(window, [](GLFWwindow* of, int button, int action, int) {
             if (button < 3) shell_of(of).feed(MouseButton{button, action == GLFW_PRESS});

@@ -218,6 +218,7 @@ struct Shell::State final : PictureMaker {
         focus.begin_frame();
         viewports.resize(session.views.count());
         window_layout(ui, viewports, pictures);
+        session.keys.section.clear();
         focus.end_frame(style);
         const ImGuiIO& io = ImGui::GetIO();
         if (io.WantTextInput) ui.want_frame_in(kBlink);

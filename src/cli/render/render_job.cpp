@@ -12,6 +12,7 @@
 #include <render/image/png.h>
 #include <render/layout/follow.h>
 #include <render/pictures/build_draw_list.h>
+#include <scene/step_link.h>
 
 #include <unistd.h>
 
@@ -151,10 +152,12 @@ void refuse_other_options(const Command& command) {
 
 SceneStore::Loaded& SceneStore::loaded(const RenderArguments& arguments) {
     for (const auto& known : scenes_) {
-        if (known->scene.file == arguments.file && known->options == arguments.import_options) return *known;
+        if (known->name == arguments.file && known->options == arguments.import_options) return *known;
     }
-    scenes_.push_back(
-        std::make_unique<Loaded>(Loaded{arguments.import_options, load(arguments.file, arguments.import_options), {}}));
+    const LinkedFile linked = linked_file(arguments.file);
+    Scene scene = load(linked.file, arguments.import_options);
+    if (linked.link) show_step(scene, *linked.link);
+    scenes_.push_back(std::make_unique<Loaded>(Loaded{arguments.file, arguments.import_options, std::move(scene), {}}));
     return *scenes_.back();
 }
 

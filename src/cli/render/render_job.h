@@ -23,6 +23,7 @@ class SceneStore {
 
   private:
     struct Loaded {
+        std::filesystem::path name;  ///< with the step that it quotes
         ImportOptions options;
         Scene scene;
         std::vector<std::shared_ptr<KeptPaths>> paths;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 
 namespace mobbscope {
 
@@ -64,6 +66,17 @@ std::optional<mobb::Interval> chord(const std::vector<glm::dvec2>& polygon, glm:
     return out;
 }
 
+/// The gap of the last line that is drawn.
+double widest_drawn(const std::vector<ProofLine>& lines) {
+    if (lines.size() <= kMostWalls) return std::numeric_limits<double>::infinity();
+    std::vector<double> gaps;
+    gaps.reserve(lines.size());
+    for (const ProofLine& line : lines) gaps.push_back(line.gap);
+    const auto last = gaps.begin() + static_cast<std::ptrdiff_t>(kMostWalls - 1);
+    std::ranges::nth_element(gaps, last);
+    return *last;
+}
+
 }  // namespace
 
 std::vector<WallGap> add_proof_walls(DrawList& list, const QueryProof& proof, std::optional<double> time, float scale) {
@@ -71,8 +84,10 @@ std::vector<WallGap> add_proof_walls(DrawList& list, const QueryProof& proof, st
     const std::optional<std::size_t> stands_out = at_time ? at_time : proof.tightest;
     const Rgba color = list.palette.separated;
     std::vector<WallGap> out;
+    const double widest = widest_drawn(proof.lines);
     for (std::size_t i = 0; i < proof.lines.size(); ++i) {
         const bool first = i == stands_out;
+        if (!first && proof.lines[i].gap > widest) continue;
         add_wall(list, proof.lines[i], color, first ? kStandsOut : WallStyle{}, static_cast<int>(i), scale);
         if (first || i == proof.tightest) out.push_back(add_gap(list, proof.lines[i], color, scale));
     }

@@ -7,6 +7,7 @@
 #include <render/parts/floor_and_axes.h>
 #include <scene/drawn_agent.h>
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -19,8 +20,12 @@ struct WallGap {
     double gap = 0;
 };
 
-/// Adds a wall for each line over its time. The one that holds at `time` stands out; without one the tightest. Returns
-/// the gaps that are told: of the tightest, and of the one that stands out.
+/// Of more lines only the tightest are drawn: beyond, walls hide each other.
+constexpr std::size_t kMostWalls = 2000;
+
+/// Adds a wall for each line over its time, kMostWalls of them and the one that stands out. The one that holds at
+/// `time` stands out; without one the tightest. Returns the gaps that are told: of the tightest, and of the one that
+/// stands out.
 std::vector<WallGap> add_proof_walls(DrawList& list, const QueryProof& proof, std::optional<double> time, float scale);
 
 /// Adds the line that tells that an overlap was avoidable.
