@@ -271,7 +271,6 @@ std::vector<Command> crowd_commands() {
                 "Lists the forced and turned plays of a run by a column; by the same one again the other way round.",
                 sort_special_plays,
                 {.argument = "COLUMN",
-                 .enabled = &Workspace::crowd,
                  .choices = [] { return std::vector<std::string>(kPlayColumns.begin(), kPlayColumns.end()); },
                  .chosen =
                      [](const CrowdInspector& crowds, const std::string& column) {
