@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <span>
 
@@ -66,7 +66,7 @@ class LeastDistance {
 
     BonePair pair(std::size_t i, std::size_t j) const { return {a0_[i], a1_[i], b0_[j], b1_[j]}; }
 
-    SegmentDistance found{std::numeric_limits<double>::infinity()};
+    SegmentDistance found{std::numeric_limits<double>::infinity(), {}, {}};
     double s = 0;
     std::size_t a = 0, b = 0;  ///< the bones
 
@@ -98,7 +98,7 @@ class LeastDistance {
             const Part part = left.back();
             left.pop_back();
             const double least = 0.5 * (part.at_begin + part.at_end - speed * (part.end - part.begin));
-            if (least >= found.distance - kBodyTolerance) continue;
+            if (std::max(least, 0.0) >= found.distance - kBodyTolerance) continue;
             const double middle = 0.5 * (part.begin + part.end);
             const double at_middle = take(pair, i, j, middle);
             left.push_back({middle, part.end, at_middle, part.at_end});
@@ -113,7 +113,8 @@ class LeastDistance {
 /// before.
 double first_nearer(const BonePair& pair, double reach, double most) {
     const double speed = pair.speed();
-    for (double s = 0; s < most;) {
+    double s = 0;
+    while (s < most) {
         const double free = pair.at(s).distance - reach;
         if (free < 0) return s;
         if (speed == 0) break;
@@ -170,7 +171,7 @@ std::string bone_words(const Skeleton& skeleton, SkeletonBone bone) {
 }
 
 SegmentDistance distance_of(const Segment& a, const Segment& b) {
-    SegmentDistance out{std::numeric_limits<double>::infinity()};
+    SegmentDistance out{std::numeric_limits<double>::infinity(), {}, {}};
     const auto consider = [&](glm::dvec3 on_a, glm::dvec3 on_b) {
         const double distance = glm::length(on_a - on_b);
         if (distance < out.distance) out = {distance, on_a, on_b};

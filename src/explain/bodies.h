@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>

@@ -3,7 +3,7 @@
 #include <explain/query_sentence.h>
 
 #include <cstddef>
-#include <optional>
+#include <string_view>
 
 namespace mobbscope {
 

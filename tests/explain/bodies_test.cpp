@@ -75,7 +75,7 @@ Motions random_body(Random& random, mobb::Motion motion) {
     Motions out;
     const int joints = random.integer(1, 7), count = random.integer(1, 12);
     for (int i = 0; i < joints; ++i)
-        out.skeleton.joints.push_back({"j" + std::to_string(i), i == 0 ? -1 : random.integer(0, i - 1)});
+        out.skeleton.joints.push_back({"j" + std::to_string(i), i == 0 ? -1 : random.integer(0, i - 1), false});
     // Now and then there is a joint above the root, which is no part of the body.
     out.skeleton.root = joints > 3 && random.chance(0.3) ? 1 : 0;
     const std::vector<bool> inside = subtree(out.skeleton.joints, out.skeleton.root);
@@ -183,7 +183,7 @@ TEST(Bodies, NearestBonesAreThoseOfAllPairsAtAllTimes) {
 /// A pole of 1 m at a height, with an arm of half a metre along x or none.
 Motions pole(double low, double arm, int samples = 3) {
     Motions out;
-    out.skeleton.joints = {{"Foot", -1}, {"Head", 0}, {"Hand", 1}};
+    out.skeleton.joints = {{"Foot", -1, false}, {"Head", 0, false}, {"Hand", 1, false}};
     for (int i = 0; i < samples; ++i) {
         out.skeleton.positions.insert(out.skeleton.positions.end(), {{0, 0, low}, {0, 0, low + 1}, {arm, 0, low + 1}});
     }

@@ -1,11 +1,14 @@
 #include <app/commands/command.h>
+#include <app/document/job.h>
 #include <app/panels/query_parts.h>
 #include <base/text.h>
 #include <explain/body_words.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace mobbscope::app {
 
