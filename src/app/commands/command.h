@@ -188,10 +188,10 @@ std::vector<Command> tree_commands();
 std::vector<Command> query_commands();
 std::vector<Command> step_commands();
 std::vector<Command> reason_commands();
-std::vector<Command> proof_commands();  ///< among those of queries
+std::vector<Command> proof_commands();    ///< among those of queries
 std::vector<Command> compare_commands();  ///< among those of queries
-std::vector<Command> map_commands();    ///< among those of queries
-std::vector<Command> debug_commands();  ///< among those of queries: events, breakpoints, bookmarks
+std::vector<Command> map_commands();      ///< among those of queries
+std::vector<Command> debug_commands();    ///< among those of queries: events, breakpoints, bookmarks
 std::vector<Command> go_commands();
 std::vector<Command> crowd_commands();
 
