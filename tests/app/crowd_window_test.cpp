@@ -439,6 +439,9 @@ TEST(CrowdWindow, AnExcerptBeginsAtTheTopOfItsPanels) {
     w.double_click("conflict.0");
     const auto scroll_down = [&] {
         const glm::vec2 splitter = w.place("splitter.right");
+        // Dear ImGui keeps the wheel to what it scrolled last until the mouse moves.
+        w.window.shell().feed(MouseMove{{splitter.x + 20, 300}});
+        w.window.settle();
         w.window.shell().feed(MouseMove{{splitter.x + 20, 60}});
         for (int i = 0; i < 20; ++i) w.window.shell().feed(Wheel{{0, -10}});
         w.window.settle();
