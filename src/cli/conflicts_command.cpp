@@ -13,6 +13,7 @@
 #include <glm/vec2.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <iostream>
 #include <optional>
 #include <span>
@@ -29,9 +30,8 @@ struct ConflictsCommandArguments : FittedArguments {
     bool check = false;
 };
 
-/// The crowd in the file: its agents, or the people of a run; a CSV without ids is somebody alone.
-Scene load_crowd(const ConflictsCommandArguments& arguments) {
-    Scene scene = load(arguments.file, arguments.import_options, RadiusOf::every_clip);
+/// The crowd of a scene: its agents, or the people of a run; a CSV without ids is somebody alone.
+Scene crowd_in(Scene scene, const ConflictsCommandArguments& arguments) {
     if (scene.crowd) return scene_of_people(scene);
     if (!is_scene_file(arguments.file) && scene.agents.empty() && scene.clips.front().facts.format == "csv")
         add_agents_for_clips(scene);
@@ -83,11 +83,19 @@ class People {
     int samples_ = 0;
 };
 
+/// Conflicts of a run in which no play was forced: the simulator was told that they do not collide. Of no run none.
+std::optional<std::int64_t> unforced_in(const Scene& scene, const FitArguments& fit) {
+    if (!scene.crowd) return std::nullopt;
+    return std::ranges::count_if(conflicts_in(fitted(scene, fit)),
+                                 [&](const SceneConflict& conflict) { return !was_forced(*scene.crowd, conflict); });
+}
+
 struct Findings {
     const Scene& scene;
     const People& people;
     const std::vector<mobb::PlacedTree>& crowd;
     const PeopleConflicts& conflicts;
+    std::optional<std::int64_t> unforced;  ///< see unforced_in
 
     const mobb::PlacedClip& clip(int agent) const { return crowd[static_cast<std::size_t>(agent)].placed_clip(); }
     /// Halfway between the two where they are closest.
@@ -127,6 +135,7 @@ void write_json(const Findings& findings) {
     out.member("radius", common_radius(findings.scene));
     out.members("pairs", findings.conflicts.pairs(), "pairs_tested", findings.conflicts.pairs_tested());
     out.member("seconds", findings.conflicts.seconds());
+    if (findings.unforced) out.member("unforced", *findings.unforced);
     out.begin_array("conflicts");
     for (std::size_t i = 0; i < findings.conflicts.size(); ++i) {
         const PeopleConflict conflict = findings.conflicts[i];
@@ -184,18 +193,23 @@ void print_text(const Findings& findings) {
     }
     std::cout << conflict_count(conflicts.size(), findings.people.count(), conflicts.seconds()) << "; "
               << conflicts.pairs_tested() << " of " << counted(conflicts.pairs(), "pair", "pairs") << " tested\n";
+    if (findings.unforced.value_or(0) > 0)
+        std::cout << counted(*findings.unforced, "contact", "contacts")
+                  << " without a forced play: an answer was wrong, or the run was edited\n";
 }
 
 int run_conflicts(const ConflictsCommandArguments& arguments) {
     FitArguments fit = arguments.fit;
     if (!fit.tree) fit.tree = mobb::TreeKind::blocks;
-    const FittedScene scene = fitted(load_crowd(arguments), fit);
+    const Scene loaded = load(arguments.file, arguments.import_options, RadiusOf::every_clip);
+    const std::optional<std::int64_t> unforced = unforced_in(loaded, fit);
+    const FittedScene scene = fitted(crowd_in(loaded, arguments), fit);
     std::vector<mobb::PlacedTree> crowd;
     for (const PlacedAgent& who : scene.placed_agents()) crowd.push_back(scene.placed(who));
     const People people(scene.scene());
     const PeopleConflicts conflicts(crowd, people.of_agents(), arguments.fit.brute ? Search::direct : Search::trees,
                                     tell("tested", "pairs"));
-    const Findings findings{scene.scene(), people, crowd, conflicts};
+    const Findings findings{scene.scene(), people, crowd, conflicts, unforced};
     arguments.json ? write_json(findings) : print_text(findings);
     flush_results();
     return arguments.check && !conflicts.empty() ? kFailed : kDone;

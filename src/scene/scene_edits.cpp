@@ -79,8 +79,10 @@ class ImpliedQueries {
     std::optional<int> query_now(const Scene& scene, int query, int others) const {
         const auto pair = pairs_.find(query);
         if (pair == pairs_.end()) return std::nullopt;
-        return static_cast<int>(query_of_pair(scene, static_cast<std::size_t>(pair->second.a + others),
-                                              static_cast<std::size_t>(pair->second.b + others)));
+        const auto agent = [&](int before) {
+            return static_cast<std::size_t>(before) + static_cast<std::size_t>(others);
+        };
+        return static_cast<int>(query_of_pair(scene, agent(pair->second.a), agent(pair->second.b)));
     }
 
   private:

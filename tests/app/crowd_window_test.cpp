@@ -20,6 +20,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -463,6 +465,37 @@ TEST(CrowdWindow, AnExcerptBeginsAtTheTopOfItsPanels) {
     run_command(w.session, "conflicts.open");
     w.window.settle();
     EXPECT_EQ(w.place("query.answer").y, answer) << "another excerpt";
+}
+
+TEST(CrowdWindow, TheTwoOfAnUnforcedConflictExpectNone) {
+    Session session(false);
+    session.files.open({std::filesystem::path(MOBBSCOPE_SOURCE_DIR "/tests/app/goldens/files/run.json")});
+    const auto open_first = [&] {
+        run_command(session, "conflicts.find");
+        while (session.jobs.job()) session.poll();
+        run_command(session, "conflicts.go", "0");
+        run_command(session, "conflicts.open");
+        ASSERT_TRUE(session.workspace.in_excerpt());
+    };
+    open_first();
+    EXPECT_TRUE(session.workspace.scene().queries.empty()) << "a forced play may collide";
+    run_command(session, "crowd.back");
+    session.workspace.edit({"an edit", ""}, [](Scene& scene) {
+        CrowdRun run = *scene.crowd;
+        for (CrowdAgent& agent : run.agents) {
+            for (Play& play : agent.plays) play.kind = PlayKind::pivoted;
+        }
+        scene.crowd = std::make_shared<const CrowdRun>(std::move(run));
+    });
+    open_first();
+    ASSERT_EQ(session.workspace.scene().queries.size(), 1u);
+    EXPECT_EQ(session.workspace.scene().queries[0].expect, (Expectation{false, {}}));
+    EXPECT_TRUE(session.queries.answer_of(0).contact) << "which is wrong";
+    run_command(session, "query.capture");
+    EXPECT_FALSE(session.workspace.scene().clips[0].source) << "its samples are inside";
+    EXPECT_EQ(session.workspace.scene().queries[0].expect->collides, true);
+    run_command(session, "crowd.back");
+    EXPECT_TRUE(session.workspace.crowd());
 }
 
 }  // namespace

@@ -307,5 +307,29 @@ TEST(Trajectories, WhatHoldsForAllIsSaidOnce) {
     EXPECT_EQ(run.out.find("0.2 m are taken", at + 1), std::string::npos) << run.out;
 }
 
+/// A small run; `kind` in place of "forced".
+std::string run_with(const std::string& kind) {
+    const std::string source = MOBBSCOPE_SOURCE_DIR;
+    std::string text = testing::slurp(source + "/tests/app/goldens/files/run.json");
+    const auto replace_all = [&](const std::string& part, const std::string& by) {
+        for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + by.size()))
+            text.replace(at, part.size(), by);
+    };
+    replace_all("../../../../assets", source + "/assets");
+    replace_all("\"forced\"", '"' + kind + '"');
+    return text;
+}
+
+TEST(ConflictsOfARun, ThoseWithoutAForcedPlayAreCounted) {
+    const TempFolder folder;
+    const std::string run = folder.write("run.json", run_with("forced"));
+    const std::string edited = folder.write("edited.json", run_with("pivoted"));
+    EXPECT_EQ(conflicts({run})["unforced"], 0);
+    EXPECT_GT(conflicts({edited})["unforced"], 0);
+    EXPECT_EQ(run_program({"conflicts", run}).out.find("without a forced play"), std::string::npos);
+    EXPECT_NE(run_program({"conflicts", edited}).out.find("without a forced play: an answer was wrong"),
+              std::string::npos);
+}
+
 }  // namespace
 }  // namespace mobbscope

@@ -68,7 +68,9 @@ bool differs_from_stored(const Workspace& workspace, const QueryInspector& queri
     return has_tests(workspace) && queries.stored_trace() && queries.stored_check().difference;
 }
 
-void go_to_difference(Workspace& workspace, const QueryInspector& queries) {
+void go_to_difference(Workspace& workspace, const QueryInspector& queries, Keys& keys) {
+    workspace.compare_with = Workspace::CompareWith{};
+    keys.section = "compare";
     // Of a trace that is now shorter its end stands for what is missing.
     const int step = std::min(queries.stored_check().difference->step, workspace.recorded()->trace.size() - 1);
     workspace.change_view([&](ViewState& view) { view.step = {Step::Unit::event, static_cast<double>(step)}; });

@@ -22,8 +22,9 @@ bool has_queries(const Workspace& workspace) { return !workspace.fitted().querie
 std::string_view why_no_query(const Workspace& workspace) {
     return workspace.crowd() ? "a run is asked for its conflicts" : "there is no query";
 }
-bool may_capture(const Workspace& workspace, const Jobs& jobs) {
-    return has_queries(workspace) && !jobs.job() && !workspace.in_excerpt();
+bool may_capture(const Workspace& workspace, const Jobs& jobs) { return has_queries(workspace) && !jobs.job(); }
+std::string_view why_no_capture(const Workspace& workspace, const Jobs& jobs) {
+    return jobs.job() ? "work is under way" : why_no_query(workspace);
 }
 bool in_query(const Workspace& workspace) { return workspace.view().query.has_value(); }
 int query_total(const Workspace& workspace) { return static_cast<int>(workspace.fitted().queries().size()); }
@@ -242,7 +243,7 @@ std::vector<Command> query_commands() {
             "query.capture", "Open as a capture",
             "Opens the two of a query as a scene of their own, their samples inside and the answer expected; saved, "
             "it stands alone.",
-            capture, {.argument = "[N]", .enabled = {may_capture, why_no_query}}),
+            capture, {.argument = "[N]", .enabled = {may_capture, why_no_capture}}),
         Command("query.copy_command", "Copy the query as command",
                 "Shows a query and copies the command line that draws it again without a window.", copy_query_command,
                 {.argument = "[N]", .enabled = {has_queries, why_no_query}}),

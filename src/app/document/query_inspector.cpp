@@ -117,7 +117,10 @@ std::optional<double> QueryInspector::compared_moment() const {
     const Recursion& recursion = findings()->recursion;
     if (recursion.pairs.empty()) return std::nullopt;
     const RecursionPair& pair = recursion.pair_at(workspace_.step());
-    return 0.5 * (std::max(pair.time_a.t0, pair.time_b.t0) + std::min(pair.time_a.t1, pair.time_b.t1));
+    const double middle = 0.5 * (std::max(pair.time_a.t0, pair.time_b.t0) + std::min(pair.time_a.t1, pair.time_b.t1));
+    // Behind a contact nothing was to be decided.
+    const auto& contact = workspace_.recorded()->contact;
+    return contact ? std::min(middle, contact->time) : middle;
 }
 
 std::optional<PlaceReasons> QueryInspector::reasons() const {

@@ -64,6 +64,9 @@ void expectation(Ui& ui, QueryInspector& queries) {
         words(ui.style.warning, "Not as the scene expects: " + *wrong);
     }
     query_button(ui, query.expect ? "Expect this instead" : "Expect this answer", "query.expect");
+    if (!query.trace || queries.stored_check().agrees()) return;
+    words(ui.style.warning, "Its tests are not those of the stored trace.");
+    query_button(ui, "first difference", "compare.difference");
 }
 
 void contact_rows(Ui& ui, const QueryFindings& findings, const mobb::Contact& contact) {

@@ -2,6 +2,7 @@
 
 #include <scene/crowd_run.h>
 #include <scene/drawn_agent.h>
+#include <scene/scene_edits.h>
 
 #include <array>
 #include <cmath>
@@ -41,7 +42,10 @@ void Excerpts::open_conflict(const SceneConflict& of) {
         return Side{who.name, joint ? joint_to(clip, joint) : clip, who.placement};
     };
     // Of a run the first agents that are drawn are its people.
-    open(side(of.a, of.a_joint), side(of.b, of.b_joint), query_colors(workspace_.fitted().scene(), of.a, of.b));
+    const CrowdRun* run = workspace_.crowd();
+    std::optional<Expectation> expect;
+    if (run && !was_forced(*run, of)) expect = Expectation{false, {}};
+    open(side(of.a, of.a_joint), side(of.b, of.b_joint), query_colors(workspace_.fitted().scene(), of.a, of.b), expect);
 }
 
 void Excerpts::open_candidate(int candidate) {
@@ -77,7 +81,7 @@ void Excerpts::open_candidate(int candidate) {
     open(std::move(a), std::move(b), query_colors(workspace_.fitted().scene(), person(follows), person(blocker.agent)));
 }
 
-void Excerpts::open(Side a, Side b, const std::array<Rgba, 2>& colors) {
+void Excerpts::open(Side a, Side b, const std::array<Rgba, 2>& colors, const std::optional<Expectation>& expect) {
     jobs_.require_none();
     const bool same_clip = a.clip.clip == b.clip.clip;
     if (b.name == a.name) b.name += " (2)";
@@ -95,6 +99,10 @@ void Excerpts::open(Side a, Side b, const std::array<Rgba, 2>& colors) {
     excerpt.debug.breakpoints = workspace_.scene().debug.breakpoints;
     excerpt.view.theme = workspace_.view().theme;
     excerpt.view.query = 0;
+    if (expect) {
+        make_queries_explicit(excerpt);
+        excerpt.queries.front().expect = expect;
+    }
     Document next = document_of(std::move(excerpt), workspace_.document().fitted.get());
     const Document& now = workspace_.document();
     // An excerpt of an excerpt is of the same whole.

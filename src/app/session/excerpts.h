@@ -7,6 +7,7 @@
 #include <base/color.h>
 
 #include <array>
+#include <optional>
 #include <string>
 
 namespace mobbscope::app {
@@ -18,7 +19,8 @@ class Excerpts {
 
     // All throw std::invalid_argument while a job is under way.
     void open(const PlacedAgent& a, const PlacedAgent& b);
-    /// The two of a conflict.
+    /// The two of a conflict. Of a run where no play was forced the simulator was told that they do not collide: the
+    /// query expects that.
     void open_conflict(const SceneConflict& of);
     /// A candidate of the choice and who rules it out. Throws std::invalid_argument if nobody does.
     void open_candidate(int candidate);
@@ -30,7 +32,7 @@ class Excerpts {
         SceneClip clip;
         mobb::Placement placement;
     };
-    void open(Side a, Side b, const std::array<Rgba, 2>& colors);
+    void open(Side a, Side b, const std::array<Rgba, 2>& colors, const std::optional<Expectation>& expect = {});
     void turn_away();
 
     Workspace& workspace_;

@@ -299,7 +299,8 @@ std::string edited_run_warning(const Scene& run, const FollowedChoice& followed)
     std::string text = agent_name(run, followed.agent) + " plays " + named(played, play.kind) + at_time(choice.time) +
                        ", but made again the choice is " + named({taken.move, taken.turn_deg}, choice.kind);
     if (taken.played == play.move && choice.kind == play.kind) text += ", elsewhere";
-    return text + ": seed, grace, plays or clips were edited since, or another version simulated it";
+    return text +
+           ": seed, grace, plays or clips were edited since, another version simulated it, or an answer was wrong";
 }
 
 std::vector<LabelRequest> add_candidates(DrawList& list, const FittedScene& fitted, const FollowedChoice& followed,

@@ -39,7 +39,8 @@ std::string outcome_counts(const Scene& run, const Choice& choice);
 std::string choice_sentence(const Scene& run, const FollowedChoice& followed);
 
 /// Of a choice that does not come out as the run says "17 plays walk (forced) at 12.87 s, but made again the choice is
-/// run: seed, grace, plays or clips were edited since, or another version simulated it"; of others nothing.
+/// run: seed, grace, plays or clips were edited since, another version simulated it, or an answer was wrong"; of others
+/// nothing.
 std::string edited_run_warning(const Scene& run, const FollowedChoice& followed);
 
 /// Adds the ways: at a moment on the floor, in space-time upwards. Where one is ruled out, the two disks that meet are
