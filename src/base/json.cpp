@@ -259,13 +259,13 @@ double JsonPlace::number() const {
 double JsonPlace::number(double least, double most) const {
     const double value = number();
     if (value >= least && value <= most) return value;
-    fail(short_double(value) + " is out of range; give " + short_double(least) + " to " + short_double(most));
+    fail(format_double(value) + " is out of range; give " + format_double(least) + " to " + format_double(most));
 }
 
 int JsonPlace::integer(int least, int most) const {
     const double value = number();
     if (value >= least && value <= most && value == std::floor(value)) return static_cast<int>(value);
-    fail(short_double(value) + " is out of range; give a whole number from " + std::to_string(least) + " to " +
+    fail(format_double(value) + " is out of range; give a whole number from " + std::to_string(least) + " to " +
          std::to_string(most));
 }
 

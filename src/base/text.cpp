@@ -168,8 +168,6 @@ std::string format_double(double value) {
     return size >= 1e-5 && size < 1e15 ? digits_of(value, std::chars_format::fixed) : digits_of(value);
 }
 
-std::string short_double(double value) { return digits_of(value); }
-
 std::string brief(double value) { return digits_of(value, std::chars_format::general, 6); }
 
 std::string figure(double value, int digits) {

@@ -31,11 +31,8 @@ std::optional<int> parse_int(std::string_view text);
 /// "A:B" as two finite numbers; nothing for anything else.
 std::optional<std::pair<double, double>> parse_range(std::string_view text);
 
-/// The fewest digits that are read back as the same double: for files. Negative zero keeps its sign ("-0.0").
+/// The fewest digits that are read back as the same double. Negative zero keeps its sign ("-0.0").
 std::string format_double(double value);
-
-/// The fewest digits that are read back as the same double: for messages.
-std::string short_double(double value);
 
 /// A number for people: six significant digits.
 std::string brief(double value);

@@ -32,7 +32,7 @@ Tolerance read_tolerance(const JsonPlace& place) {
 
 /// What options take as text, here as text or number.
 std::string word_of(const JsonPlace& place) {
-    return place.is_number() ? short_double(place.number()) : place.string();
+    return place.is_number() ? format_double(place.number()) : place.string();
 }
 
 /// What a golden's file adds to the name of its case, the longest first.
@@ -112,7 +112,7 @@ std::vector<std::filesystem::path> orphaned_goldens(const std::filesystem::path&
 CaseTerms read_terms(const JsonPlace& root, const std::filesystem::path& folder) {
     const JsonPlace version = root.require("mobbscope_case");
     if (version.number() != kVersion) {
-        version.fail("the case has version " + short_double(version.number()) + "; this program reads version " +
+        version.fail("the case has version " + format_double(version.number()) + "; this program reads version " +
                      std::to_string(kVersion));
     }
     CaseTerms out;

@@ -69,7 +69,7 @@ CaseReport read_case_report(const std::filesystem::path& report, const std::vect
     const JsonPlace root(value, name);
     const JsonPlace version = root.require("mobbscope_report");
     if (version.number() != kReportVersion) {
-        version.fail("the report has version " + short_double(version.number()) + "; this program reads version " +
+        version.fail("the report has version " + format_double(version.number()) + "; this program reads version " +
                      std::to_string(kReportVersion));
     }
     std::set<std::string> seen;

@@ -103,7 +103,7 @@ void print_clip(const Scene& scene, const SceneClip& clip, const Warnings& commo
     if (!facts.label.empty()) std::cout << "  class        " << in_quotes(facts.label) << '\n';
     if (facts.t0) {
         std::cout << "  there        from " << brief(clip.start) << " to " << brief(clip.start + clip.clip->duration())
-                  << " s; 0 is " << short_double(*facts.t0) << " s in the file\n";
+                  << " s; 0 is " << format_double(*facts.t0) << " s in the file\n";
     }
     std::cout << "  in the file  " << counted(facts.frames, "frame", "frames") << " over " << brief(facts.duration)
               << " s, " << (facts.dt ? brief(*facts.dt) + " s apart" : "not uniform in time") << ", "

@@ -50,7 +50,7 @@ std::string pair_words(std::span<const mobb::MeasuredPair> pairs, std::size_t in
     if (index >= pairs.size()) return "none";
     const mobb::MeasuredPair& pair = pairs[index];
     return "samples " + std::to_string(pair.i) + " and " + std::to_string(pair.j) + " at " +
-           short_double(pair.distance) + " m";
+           format_double(pair.distance) + " m";
 }
 
 /// One side of a difference, with all digits.
@@ -61,7 +61,7 @@ std::string side_words(const mobb::Trace& trace, const TraceDifference& differen
         out = "called by step " + std::to_string(event.parent) + " at depth " + std::to_string(event.depth) + ", ";
     }
     out += std::to_string(event.a) + " x " + std::to_string(event.b) + ' ' + std::string(mobb::name(event.test)) +
-           ": " + plain_outcome(event, short_double);
+           ": " + plain_outcome(event, format_double);
     return out;
 }
 

@@ -80,8 +80,8 @@ class BvhWriter {
 
     std::string write() {
         add_hierarchy();
-        text_ += "MOTION\nFrames: " + std::to_string(motion_.frames()) + "\nFrame Time: " + short_double(motion_.dt()) +
-                 '\n';
+        text_ += "MOTION\nFrames: " + std::to_string(motion_.frames()) +
+                 "\nFrame Time: " + format_double(motion_.dt()) + '\n';
         std::vector<EulerAngles> before(joints_.size());
         motion_.each_frame([&](std::span<const JointPose> pose) { add_row(pose, before); });
         return std::move(text_);

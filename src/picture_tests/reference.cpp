@@ -66,7 +66,7 @@ std::optional<Reference> read_reference(const std::filesystem::path& folder) {
     root.allow_only({"mobbscope_reference", "fonts", "imgui", "opengl"});
     const JsonPlace version = root.require("mobbscope_reference");
     if (version.number() != kReferenceVersion) {
-        version.fail("the reference has version " + short_double(version.number()) + "; this program reads version " +
+        version.fail("the reference has version " + format_double(version.number()) + "; this program reads version " +
                      std::to_string(kReferenceVersion));
     }
     Reference out;

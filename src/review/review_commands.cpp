@@ -191,7 +191,7 @@ std::vector<Command> mode_commands() {
                                    return std::vector<std::string>{"0.2", "0.5", "1", "2"};
                                },
                            .chosen = so([](const Review& review, const std::string& text) {
-                               return short_double(review.look.blink_seconds) == text;
+                               return format_double(review.look.blink_seconds) == text;
                            })}));
     out.push_back(divider_command("review.divider_left", "Slider to the left", "Left", -kDividerStep));
     out.push_back(divider_command("review.divider_right", "Slider to the right", "Right", kDividerStep));

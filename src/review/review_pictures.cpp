@@ -112,7 +112,7 @@ std::vector<PictureView> views_of(Ui& ui, const Review& review, const ReviewPict
     const double turns = ui.now / seconds;
     ui.want_frame_in(std::max((std::floor(turns) + 1 - turns) * seconds, 0.001));
     PictureView now = std::fmod(std::floor(turns), 2) < 1 ? golden : actual;
-    now.title += ", every " + short_double(seconds) + " s";
+    now.title += ", every " + format_double(seconds) + " s";
     return {now};
 }
 

@@ -61,7 +61,7 @@ class CrowdReader {
     static std::uint64_t read_seed(const JsonPlace& place) {
         // Beyond 2^53 a double no longer tells whole numbers apart.
         const double seed = place.number(0, static_cast<double>(kMaxSeed));
-        if (seed != std::floor(seed)) place.fail(short_double(seed) + " is no seed; give a whole number");
+        if (seed != std::floor(seed)) place.fail(format_double(seed) + " is no seed; give a whole number");
         return static_cast<std::uint64_t>(seed);
     }
 
@@ -161,20 +161,20 @@ class CrowdReader {
         }
         const double end = before.placement.start + clip_of(from).until_next();
         if (!(std::abs(play.placement.start - end) <= kJoint)) {
-            place.require("start").fail("the play before ends at " + short_double(end) + " s; begin there");
+            place.require("start").fail("the play before ends at " + format_double(end) + " s; begin there");
         }
         if (play.chosen_at < before.chosen_at) {
-            place.fail("chosen at " + short_double(play.chosen_at) + " s, before the play before it, at " +
-                       short_double(before.chosen_at) + " s");
+            place.fail("chosen at " + format_double(play.chosen_at) + " s, before the play before it, at " +
+                       format_double(before.chosen_at) + " s");
         }
         const Stance left = placed(from.exit, before.placement);
         const Stance taken = placed(to.entry, play.placement);
         const glm::dvec2 gap = taken.position - left.position;
         if (!(std::hypot(gap.x, gap.y) <= kJoint)) {
             place.require("translate")
-                .fail("begins at (" + short_double(taken.position.x) + ", " + short_double(taken.position.y) +
-                      "), but the play before ends at (" + short_double(left.position.x) + ", " +
-                      short_double(left.position.y) + ")");
+                .fail("begins at (" + format_double(taken.position.x) + ", " + format_double(taken.position.y) +
+                      "), but the play before ends at (" + format_double(left.position.x) + ", " +
+                      format_double(left.position.y) + ")");
         }
         const double turn = std::remainder(taken.heading_deg - left.heading_deg, 360.0);
         const bool may_turn = run_.turn_rate == kTurnsAtOnce && play.kind != PlayKind::chosen;

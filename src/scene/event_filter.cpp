@@ -431,7 +431,7 @@ std::string compared_words(const Term& term) {
         return out + word;
     }
     if (term.level >= 0) out += std::to_string(term.level) + '.';
-    out += short_double(term.value);
+    out += format_double(term.value);
     return field.unit.empty() ? out : out + ' ' + std::string(field.unit);
 }
 

@@ -52,7 +52,7 @@ std::vector<std::pair<std::string_view, std::string>> others(const mobb::FitOpti
     if (fit.leaf != base.leaf) out.emplace_back("leaf", std::to_string(fit.leaf));
     if (fit.levels != base.levels) out.emplace_back("levels", std::to_string(fit.levels));
     if (fit.axes != base.axes) out.emplace_back("axes", mobb::name(fit.axes));
-    if (fit.time_scale != base.time_scale) out.emplace_back("time_scale", short_double(fit.time_scale));
+    if (fit.time_scale != base.time_scale) out.emplace_back("time_scale", format_double(fit.time_scale));
     return out;
 }
 

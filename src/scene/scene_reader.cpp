@@ -87,7 +87,7 @@ std::string read_id(const JsonPlace& place) {
     const double number = place.number();
     // Beyond 2^53 a double no longer tells whole numbers apart.
     if (number != std::floor(number) || std::abs(number) >= 0x1p53)
-        place.fail(short_double(number) + " is not exact as a number; write the id as a string");
+        place.fail(format_double(number) + " is not exact as a number; write the id as a string");
     return std::to_string(static_cast<std::int64_t>(number));
 }
 
@@ -97,7 +97,7 @@ void read_option(const JsonPlace& place, std::string_view key, std::string& to) 
     } else if (key == "animation" && place.is_number()) {
         to = std::to_string(place.integer(0, kMaxInt));
     } else if (key == "unit" && place.is_number()) {
-        to = short_double(place.number());
+        to = format_double(place.number());
     } else {
         to = place.string();
     }
@@ -245,7 +245,7 @@ class SceneReader {
         if (const auto schema = root_.find("$schema")) schema->string();
         const auto version = root_.find("mobbscope");
         if (version && version->number() != kVersion) {
-            version->fail("the file has version " + short_double(version->number()) + "; this program reads version " +
+            version->fail("the file has version " + format_double(version->number()) + "; this program reads version " +
                           std::to_string(kVersion));
         }
     }

@@ -290,7 +290,7 @@ std::vector<ViewOption> all_view_options() {
                      view.time.reset();
                      if (text != "none") view.time = parse_number_within(text, -mobb::kMaxTime, mobb::kMaxTime);
                  },
-             .text = [](const ViewState& view) { return view.time ? short_double(*view.time) : "none"; }}),
+             .text = [](const ViewState& view) { return view.time ? format_double(*view.time) : "none"; }}),
         field<&ViewState::time_window>(
             {.key = "time_window",
              .what = "Of a crowd's run: seconds before and after the time that space-time shows (2)",
@@ -304,7 +304,7 @@ std::vector<ViewOption> all_view_options() {
                  [](const std::string& text, ViewState& view) {
                      view.time_window = parse_number_within(text, kLeastTimeWindow, kMostTimeWindow);
                  },
-             .text = [](const ViewState& view) { return short_double(view.time_window); }}),
+             .text = [](const ViewState& view) { return format_double(view.time_window); }}),
         field<&ViewState::follow>(
             {.key = "follow",
              .what = "The agent that the camera goes along with, 5 m around it unless there is a target; of a run with "
@@ -359,7 +359,9 @@ std::vector<ViewOption> all_view_options() {
                          text == "auto" ? 0 : parse_number_within(text, kLeastTimeHeight, kMostTimeHeight);
                  },
              .text =
-                 [](const ViewState& view) { return view.time_height > 0 ? short_double(view.time_height) : "auto"; }}),
+                 [](const ViewState& view) {
+                     return view.time_height > 0 ? format_double(view.time_height) : "auto";
+                 }}),
         choice<&ViewState::color_by, color_by_from_name>(
             {.key = "color_by",
              .what = "What the colour of boxes says: agent (whose they are) or level",

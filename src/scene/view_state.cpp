@@ -83,7 +83,7 @@ std::string to_string(const Step& step) {
         case Step::Unit::event:
             return std::to_string(static_cast<int>(step.value));
         case Step::Unit::percent:
-            return short_double(step.value) + '%';
+            return format_double(step.value) + '%';
         case Step::Unit::end:
             return "end";
         case Step::Unit::separated:

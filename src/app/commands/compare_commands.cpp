@@ -56,7 +56,7 @@ void go_to_moment(Workspace& workspace, const QueryInspector& queries, const std
     const double time = number_in(text, "the time", -mobb::kMaxTime, mobb::kMaxTime);
     const TraversalComparison& traversals = queries.comparison()->traversals;
     const ComparedTime* at = traversals.at(time);
-    if (!at) throw std::invalid_argument("nothing was decided about " + short_double(time) + " s");
+    if (!at) throw std::invalid_argument("nothing was decided about " + format_double(time) + " s");
     const int step = traversals.decision(*at, 0).step;
     workspace.change_view([&](ViewState& view) {
         view.time = time;

@@ -253,7 +253,7 @@ std::vector<Command> crowd_commands() {
                 {.menu = kNoMenu,
                  .argument = "S",
                  .enabled = &Workspace::crowd,
-                 .present = [](const Workspace& workspace) { return short_double(workspace.view().time_window); }}),
+                 .present = [](const Workspace& workspace) { return format_double(workspace.view().time_window); }}),
         Command("crowd.next_choice", "Next choice", "Goes to the time at which the agent chooses next.", to_choice<1>,
                 {.shortcut = "N", .enabled = has_choice<1>}),
         Command("crowd.previous_choice", "Previous choice", "Goes to the time at which the agent chose before.",

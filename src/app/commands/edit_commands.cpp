@@ -206,7 +206,7 @@ std::vector<Command> edit_commands() {
                  .present =
                      [](const Workspace& workspace) {
                          const glm::dvec2 at = selected_placement(workspace).translate;
-                         return short_double(at.x) + ' ' + short_double(at.y);
+                         return format_double(at.x) + ' ' + format_double(at.y);
                      }}),
         Command(
             "agent.turn", "Turn agent to",
@@ -215,13 +215,13 @@ std::vector<Command> edit_commands() {
              .argument = "DEG",
              .enabled = {has_selected_agent, why_nothing_to_place},
              .present =
-                 [](const Workspace& workspace) { return short_double(selected_placement(workspace).rotate_deg); }}),
+                 [](const Workspace& workspace) { return format_double(selected_placement(workspace).rotate_deg); }}),
         Command(
             "agent.start", "Start agent at", "Lets the selected agent begin at a moment, in seconds.", start,
             {.menu = kNoMenu,
              .argument = "S",
              .enabled = {has_selected_agent, why_nothing_to_place},
-             .present = [](const Workspace& workspace) { return short_double(selected_placement(workspace).start); }}),
+             .present = [](const Workspace& workspace) { return format_double(selected_placement(workspace).start); }}),
         Command("agent.nudge", "Move agent by", "Moves the selected agent on the floor by metres.", nudge,
                 {.menu = kNoMenu, .argument = "DX DY", .enabled = {has_selected_agent, why_nothing_to_place}}),
         Command("agent.shift_start", "Shift agent in time by",

@@ -77,13 +77,13 @@ void place_in_map(MapInspector& maps, const std::string& text) {
 std::string present_extent(const MapInspector& maps) {
     const auto map = maps.map();
     if (!map) return "auto";
-    const auto of = [](const MapRange& r) { return short_double(r.from) + ':' + short_double(r.to); };
+    const auto of = [](const MapRange& r) { return format_double(r.from) + ':' + format_double(r.to); };
     return of(map->order.across) + ',' + of(map->order.up);
 }
 
 std::string present_range(const MapInspector& maps) {
     const auto& colors = maps.choice.colors;
-    return colors ? short_double(colors->first) + ':' + short_double(colors->second) : "auto";
+    return colors ? format_double(colors->first) + ':' + format_double(colors->second) : "auto";
 }
 
 std::string present_place(const MapInspector& maps) {
@@ -91,7 +91,7 @@ std::string present_place(const MapInspector& maps) {
     order.across.axis = maps.choice.across;
     order.up.axis = maps.choice.up;
     const glm::dvec2 at = offset_between({}, maps.query().b.placement, order);
-    return short_double(at.x) + ' ' + short_double(at.y);
+    return format_double(at.x) + ' ' + format_double(at.y);
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ void select_in(const Workspace& workspace, PictureOrder& order) {
 /// Numbers with commas between them.
 std::string with_commas(std::initializer_list<double> numbers) {
     std::string out;
-    for (const double number : numbers) out += (out.empty() ? "" : ",") + short_double(number);
+    for (const double number : numbers) out += (out.empty() ? "" : ",") + format_double(number);
     return out;
 }
 
@@ -66,17 +66,17 @@ std::string camera_options(const Camera& file, const Camera& now) {
     if (now.preset == CameraPreset::free) {
         reached.yaw_deg = now.yaw_deg;
         reached.pitch_deg = now.pitch_deg;
-        out += " --yaw " + short_double(now.yaw_deg) + " --pitch " + short_double(now.pitch_deg);
+        out += " --yaw " + format_double(now.yaw_deg) + " --pitch " + format_double(now.pitch_deg);
     }
     if (orientation(now).perspective != orientation(reached).perspective) {
         out += now.perspective ? " --perspective" : " --ortho";
     }
     if (now.fov_deg != file.fov_deg && (orientation(now).perspective || now.target)) {
-        out += " --fov " + short_double(now.fov_deg);
+        out += " --fov " + format_double(now.fov_deg);
     }
     if (!now.target) return out;
     out += " --target " + with_commas({now.target->x, now.target->y, now.target->z});
-    out += " --distance " + short_double(now.distance);
+    out += " --distance " + format_double(now.distance);
     if (now.shift != glm::dvec2(0)) out += " --shift " + with_commas({now.shift.x, now.shift.y});
     return out;
 }
@@ -105,12 +105,12 @@ std::optional<std::string> view_options_between(const ViewState& file, const Vie
 std::string fit_options(const mobb::FitOptions& fit) {
     return " --tree " + std::string(mobb::name(fit.tree)) + " --leaf " + std::to_string(fit.leaf) + " --levels " +
            std::to_string(fit.levels) + " --axes " + std::string(mobb::name(fit.axes)) + " --time-scale " +
-           short_double(fit.time_scale);
+           format_double(fit.time_scale);
 }
 
 std::string picture_options(const PictureOptions& options) {
     std::string out = " --size " + size_word(options.size);
-    if (options.scale > 0) out += " --scale " + short_double(options.scale);
+    if (options.scale > 0) out += " --scale " + format_double(options.scale);
     if (options.samples != kPictureSamples) out += " --samples " + std::to_string(options.samples);
     if (options.background) out += " --background transparent";
     return out;

@@ -81,11 +81,12 @@ std::vector<Command> tree_commands() {
                 {.argument = "N",
                  .present =
                      [](const Workspace& workspace) { return std::to_string(workspace.fitted().options().levels); }}),
-        Command("tree.time_scale", "Time scale...", "Mixes time with space in free boxes at so many metres per second.",
-                set_time_scale,
-                {.argument = "W",
-                 .present =
-                     [](const Workspace& workspace) { return short_double(workspace.fitted().options().time_scale); }}),
+        Command(
+            "tree.time_scale", "Time scale...", "Mixes time with space in free boxes at so many metres per second.",
+            set_time_scale,
+            {.argument = "W",
+             .present =
+                 [](const Workspace& workspace) { return format_double(workspace.fitted().options().time_scale); }}),
     };
     return in_menu("Tree", rows);
 }

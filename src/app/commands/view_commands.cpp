@@ -425,7 +425,7 @@ std::vector<Command> window_commands() {
                  .argument = "X",
                  .enabled = always,
                  .where = Where::everywhere,
-                 .present = [](const Session& session) { return short_double(session.ui_scale()); }}),
+                 .present = [](const Session& session) { return format_double(session.ui_scale()); }}),
         Command("window.larger", "Larger text", "Makes text and panels larger.", larger,
                 {.shortcut = "Ctrl+=", .repeats = true, .enabled = always, .where = Where::everywhere}),
         Command("window.smaller", "Smaller text", "Makes text and panels smaller.", smaller,
@@ -448,7 +448,7 @@ std::vector<Command> time_commands() {
                  .argument = "S",
                  .present =
                      [](const Workspace& workspace) {
-                         return workspace.view().time ? short_double(*workspace.view().time) : std::string();
+                         return workspace.view().time ? format_double(*workspace.view().time) : std::string();
                      }}),
         Command(
             "time.clear", "No time cursor", "Takes the time cursor out of the picture.",
@@ -476,7 +476,7 @@ std::vector<Command> time_commands() {
                 },
                 {.argument = "X",
                  .enabled = always,
-                 .present = [](const Playback& playback) { return short_double(playback.speed); }}),
+                 .present = [](const Playback& playback) { return format_double(playback.speed); }}),
     };
     return in_menu("View/Time", rows);
 }

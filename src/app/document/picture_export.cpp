@@ -81,7 +81,7 @@ std::vector<ExportOption> all_export_options() {
              [](const std::string& text, PictureExport& to) {
                  to.scale = text == "auto" ? 0 : parse_number_within(text, kLeastScale, kMostScale);
              },
-         .text = [](const PictureExport& of) { return of.scale > 0 ? short_double(of.scale) : "auto"; }},
+         .text = [](const PictureExport& of) { return of.scale > 0 ? format_double(of.scale) : "auto"; }},
         {.key = "samples",
          .title = "Picture samples",
          .doc = "Says how many samples a pixel of exported pictures has: more make smoother edges.",

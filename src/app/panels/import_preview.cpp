@@ -60,7 +60,7 @@ void metre_scale(Ui& ui, const Plot& in, double pixels_a_metre) {
     list.AddLine({x, y}, {x + length, y}, ui.style.text, ui.px(1.5f));
     for (const float end : {x, x + length})
         list.AddLine({end, y - ui.px(3)}, {end, y + ui.px(3)}, ui.style.text, ui.px(1));
-    note(ui, {x + length + ui.px(5), y - ui.style.caption->FontSize / 2}, ui.style.text, short_double(metres) + " m");
+    note(ui, {x + length + ui.px(5), y - ui.style.caption->FontSize / 2}, ui.style.text, format_double(metres) + " m");
 }
 
 /// From the first sample to the first that is some way off, of length 1; none where none is.

@@ -90,7 +90,7 @@ void time_scale(Ui& ui, Jobs& jobs) {
                                           .by_factors = true,
                                           .live = !jobs.job()});
     ImGui::EndDisabled();
-    if (wanted) ui.invoke("tree.time_scale", short_double(*wanted));
+    if (wanted) ui.invoke("tree.time_scale", format_double(*wanted));
 }
 
 /// Left and Right go to the next level; with Shift they make a range longer or shorter.

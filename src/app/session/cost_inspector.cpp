@@ -81,7 +81,7 @@ std::vector<int> CostInspector::listed() const {
     if (!lists_hits_first()) return out;
     const QueryAnswers::Known known = answers_.known();
     const auto is_hit = [&](int query) { return std::ranges::binary_search(known.hits, query); };
-    std::ranges::stable_partition(out, is_hit);
+    std::stable_partition(out.begin(), out.end(), is_hit);
     return out;
 }
 

@@ -93,7 +93,7 @@ std::vector<MenuEntry> sample_menu(const Session& session) {
     if (const auto who = placed_agent_of(session.workspace.fitted(), session.workspace.selection.path)) {
         const double time =
             session.workspace.fitted().placed(*who).placed_clip().time(session.workspace.selection.index);
-        menu.push_back({"time.at", short_double(time), formatted("Time cursor to %.3f s", time)});
+        menu.push_back({"time.at", format_double(time), formatted("Time cursor to %.3f s", time)});
     }
     append_agent(menu, session);
     return menu;
@@ -198,9 +198,9 @@ std::vector<MenuEntry> test_menu(const Workspace& workspace, const QueryInspecto
 }
 
 std::vector<MenuEntry> time_menu(const Session& session, double time) {
-    std::vector<MenuEntry> menu{{"time.at", short_double(time), formatted("Time cursor to %.3f s", time)}};
+    std::vector<MenuEntry> menu{{"time.at", format_double(time), formatted("Time cursor to %.3f s", time)}};
     if (session.workspace.view().query) {
-        menu.push_back({"reasons.at", short_double(time), formatted("Reasons at %.3f s", time)});
+        menu.push_back({"reasons.at", format_double(time), formatted("Reasons at %.3f s", time)});
     }
     append(menu, entries_of(kTime));
     return menu;

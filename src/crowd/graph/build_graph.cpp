@@ -246,7 +246,7 @@ class Builder {
         // Half a step short: the frame at the end is the first of the move that follows.
         clip.options.trim = {begin, end - dt / 2};
         // What was found out from all of the recording must not be sought in a part.
-        clip.options.unit = short_or_exact(whole.facts.unit);
+        clip.options.unit = format_double(whole.facts.unit);
         if (is_utf8(whole.facts.root) && leads_to_root(*whole.skeleton, whole.facts.root))
             clip.options.root = whole.facts.root;
         clip.facts = whole.facts;
@@ -288,11 +288,6 @@ class Builder {
     /// Of joints that share a name the first is found by it.
     static bool leads_to_root(const Skeleton& skeleton, const std::string& name) {
         return std::ranges::find(skeleton.joints, name, &Joint::name) - skeleton.joints.begin() == skeleton.root;
-    }
-
-    static std::string short_or_exact(double unit) {
-        const std::string text = short_double(unit);
-        return parse_double(text) == unit ? text : format_double(unit);
     }
 
     Scene written() const {
@@ -460,7 +455,7 @@ void check_move(const Scene& scene, const GraphMove& move) {
     const SceneClip& clip = scene.clips[static_cast<std::size_t>(move.clip)];
     if (is_near(move.entry) && is_near(move.exit)) return;
     throw InputError(clip.source.value_or(scene.file.string()), "clip " + in_quotes(clip.name),
-                     "begins or ends more than " + short_double(kMostStance) + " m from the origin; move it there");
+                     "begins or ends more than " + format_double(kMostStance) + " m from the origin; move it there");
 }
 
 }  // namespace

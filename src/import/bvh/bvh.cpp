@@ -162,7 +162,7 @@ bool is_rate(double rate, double off) {
 /// What else a frame time may be that is far too long; empty if it is not.
 std::string doubt_of_frame_time(double seconds) {
     if (seconds < kDoubtfulFrameTime) return "";
-    const std::string is = "Frame Time is " + short_double(seconds) + " seconds, which looks like ";
+    const std::string is = "Frame Time is " + format_double(seconds) + " seconds, which looks like ";
     const auto write = [](double time) { return "write " + formatted("%.6g", time) + " there"; };
     if (is_rate(seconds, 0.0005)) return is + "frames a second; if so, " + write(1 / seconds);
     // Rounded to whole milliseconds it may be 5 % off.

@@ -11,12 +11,12 @@ namespace mobbscope {
 namespace {
 
 std::string text_of(const std::string& value) { return value; }
-std::string text_of(double value) { return short_double(value); }
+std::string text_of(double value) { return format_double(value); }
 std::string text_of(const Radius& value) { return radius_text(value); }
 std::string text_of(Origin value) { return std::string(name(value)); }
 std::string text_of(mobb::Motion value) { return std::string(name(value)); }
 std::string text_of(const std::pair<double, double>& value) {
-    return short_double(value.first) + ' ' + short_double(value.second);
+    return format_double(value.first) + ' ' + format_double(value.second);
 }
 
 void read_text(const ImportOption&, std::string_view text, std::optional<std::string>& to) { to = std::string(text); }
@@ -77,7 +77,7 @@ std::string unit_word(double metres) {
     for (const char* named : {"m", "cm", "in"}) {
         if (metres_per_unit(named) == metres) return named;
     }
-    return short_double(metres);
+    return format_double(metres);
 }
 
 OptionOffer origin_offer() {

@@ -33,12 +33,12 @@ void check(const ImportOptions& options) {
             "up must be y, z or auto");
     require(!options.trim || (options.trim->first >= 0 && options.trim->first < options.trim->second &&
                               options.trim->second <= mobb::kMaxTime),
-            "trim must be two times A and B in seconds, 0 <= A < B <= " + short_double(mobb::kMaxTime));
+            "trim must be two times A and B in seconds, 0 <= A < B <= " + format_double(mobb::kMaxTime));
     const double* const metres = options.radius ? std::get_if<double>(&*options.radius) : nullptr;
     require(!metres || (*metres >= 0 && *metres <= mobb::kMaxLength),
-            "radius must be from 0 to " + short_double(mobb::kMaxLength) + " metres");
+            "radius must be from 0 to " + format_double(mobb::kMaxLength) + " metres");
     require(!options.dt || (*options.dt >= mobb::kLeastDt && *options.dt <= mobb::kMaxTime),
-            "dt must be from " + short_double(mobb::kLeastDt) + " to " + short_double(mobb::kMaxTime) + " seconds");
+            "dt must be from " + format_double(mobb::kLeastDt) + " to " + format_double(mobb::kMaxTime) + " seconds");
     if (options.columns) chosen_columns(*options.columns);
 }
 

@@ -73,7 +73,7 @@ RadiusTable read_radii(const std::filesystem::path& file) {
         if (key.empty()) lines.fail("has no " + what + "; name one, or * for all others");
         const std::optional<double> metres = parse_double(value);
         if (!metres || *metres < 0 || *metres > mobb::kMaxLength) {
-            lines.fail(in_quotes(value) + " is no radius; give metres from 0 to " + short_double(mobb::kMaxLength));
+            lines.fail(in_quotes(value) + " is no radius; give metres from 0 to " + format_double(mobb::kMaxLength));
         }
         const bool is_new = key == "*" ? !out.others : !out.radii.contains(key);
         if (!is_new) lines.fail(in_quotes(key) + " stands twice; remove one");
@@ -96,7 +96,7 @@ Radius radius_from_text(std::string_view text) {
 }
 
 std::string radius_text(const Radius& radius) {
-    if (const double* metres = std::get_if<double>(&radius)) return short_double(*metres);
+    if (const double* metres = std::get_if<double>(&radius)) return format_double(*metres);
     if (const RadiusColumn* column = std::get_if<RadiusColumn>(&radius)) return column->name;
     return std::get<std::shared_ptr<const RadiusTable>>(radius)->file;
 }

@@ -45,8 +45,8 @@ SampleGrid sample_grid(double first, double last, const std::optional<std::pair<
     const double length = last - first;
     const auto [from, to] = trim.value_or(std::pair{0.0, length});
     if (from > length) {
-        throw std::invalid_argument("trim begins at " + short_double(from) + " s but the file lasts " +
-                                    short_double(length) + " s");
+        throw std::invalid_argument("trim begins at " + format_double(from) + " s but the file lasts " +
+                                    format_double(length) + " s");
     }
     const double count = sample_count(from, std::min(to, length), step);
     if (count > static_cast<double>(most)) {

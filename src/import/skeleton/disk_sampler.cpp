@@ -181,7 +181,7 @@ void GroundedMotion::pose(double seconds, std::vector<glm::dvec3>& positions,
     for (std::size_t i = 0; i < positions.size(); ++i) {
         glm::dvec3& p = positions[i];
         if (!std::isfinite(p.x + p.y + p.z)) {
-            throw std::invalid_argument("at " + short_double(seconds) + " s the joint " + in_quotes(joints()[i].name) +
+            throw std::invalid_argument("at " + format_double(seconds) + " s the joint " + in_quotes(joints()[i].name) +
                                         " is at no finite place; the file is damaged");
         }
         p = ground_ * p;

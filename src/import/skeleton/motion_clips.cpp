@@ -35,7 +35,7 @@ constexpr std::pair<const char*, const char*> kUnitChoices[] = {
 
 /// Metres with two decimals, or as many digits as it takes.
 std::string brief_length(double metres) {
-    return (metres >= 0.1 ? short_double(std::round(metres * 100) / 100) : formatted("%.1g", metres)) + " m";
+    return (metres >= 0.1 ? format_double(std::round(metres * 100) / 100) : formatted("%.1g", metres)) + " m";
 }
 
 /// The unit that makes a body of that height, in file units, most nearly 1.7 m tall.
@@ -174,7 +174,7 @@ class MotionImport {
         const double seconds = times.last - times.first;
         return {seconds,
                 {std::move(roots),
-                 {"fps", short_double(kDefaultFps), "as usual; " + frames},
+                 {"fps", format_double(kDefaultFps), "as usual; " + frames},
                  unit_offer(root_.value_or(taken.joint)),
                  up_offer(),
                  {"trim", "", "all of it"},

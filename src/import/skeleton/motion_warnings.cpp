@@ -33,7 +33,7 @@ double median(std::vector<double> values) {
 }
 
 /// Three decimals: millimetres, milliseconds.
-std::string rounded(double value) { return short_double(std::round(value * 1000) / 1000); }
+std::string rounded(double value) { return format_double(std::round(value * 1000) / 1000); }
 
 /// The sample that shows what comes after the first pose.
 std::size_t next_pose(const mobb::Clip& clip) {

@@ -77,7 +77,7 @@ class CsvParser {
         if (tracks_.empty())
             throw InputError(file_, at_line(lines_.number()), "there is no row after the header; add samples");
         const auto twice = [this](const Track& track, const TrackPoint& row) {
-            return time_word() + ' ' + short_double(row.frame) + " of track " + in_quotes(track.id) +
+            return time_word() + ' ' + format_double(row.frame) + " of track " + in_quotes(track.id) +
                    " stands already in line ";
         };
         const bool sorts = table_.has_id && (table_.has_time || table_.has_frame);
@@ -433,9 +433,9 @@ class CsvParser {
         const std::vector<std::size_t> from = made->columns();
         if (made->only_column())
             fail(from.front(),
-                 in_quotes(fields_[from.front()]) + " is beyond " + short_double(largest) + "; check the units");
+                 in_quotes(fields_[from.front()]) + " is beyond " + format_double(largest) + "; check the units");
         const std::string message = std::string(name(column)) + " becomes " + brief(value) +
-                                    ", which is no number up to " + short_double(largest) + "; check the ";
+                                    ", which is no number up to " + format_double(largest) + "; check the ";
         from.empty() ? fail(message + "option columns") : fail(from.front(), message + "units");
     }
 
@@ -456,7 +456,7 @@ class CsvParser {
         if (time > last_) return;
         const std::string likely = likely_column(Column::id);
         fail(column_of_time(),
-             time_word() + " does not come after " + short_double(last_) +
+             time_word() + " does not come after " + format_double(last_) +
                  " of the row before; sort the rows and remove doubles" +
                  (likely.empty() || options_.columns
                       ? ""

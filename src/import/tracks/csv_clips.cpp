@@ -24,7 +24,7 @@ double unit_scale(const CsvTable& table, const ImportOptions& options) {
 /// What is said where the table tells another unit than metres.
 std::string unit_remark(const CsvTable& table) {
     if (table.unit == 1) return "";
-    return "a unit of length is " + short_double(table.unit) + " m, as " + table.unit_why +
+    return "a unit of length is " + format_double(table.unit) + " m, as " + table.unit_why +
            " says; give unit if that is wrong";
 }
 
@@ -226,18 +226,18 @@ ImportOffer csv_offer(const CsvTable& table, const std::filesystem::path&, const
     }
     // Rows in step are the samples.
     if (table.has_frame && !options.dt) {
-        out.options.push_back({"fps", table.rate ? short_double(*table.rate) : "",
+        out.options.push_back({"fps", table.rate ? format_double(*table.rate) : "",
                                table.rate ? "as a comment says" : "the file does not say its frames a second",
                                !table.rate});
     } else if (!uniform) {
-        out.options.push_back({"fps", short_double(kDefaultFps), "as usual; the rows are not uniform in time"});
+        out.options.push_back({"fps", format_double(kDefaultFps), "as usual; the rows are not uniform in time"});
     }
     out.options.push_back(unit_offer(table.unit, table.unit == 1 ? "as usual of CSV files" : unit_remark(table)));
     if (out.seconds > 0) out.options.push_back({"trim", "", "all of it"});
     out.options.push_back(origin_offer());
     if (table.tracks.size() > 1) out.options.push_back(id_offer(table.tracks));
     const bool is_usual = table.has_id && !table.has_radius;
-    out.options.push_back({"radius", is_usual ? short_double(kDefaultTrackRadius) : "",
+    out.options.push_back({"radius", is_usual ? format_double(kDefaultTrackRadius) : "",
                            table.has_radius ? "the column r" : "the file has no column r",
                            !table.has_radius && !table.has_id});
     for (const std::string& name : table.others) out.options.back().choices.push_back({name, "the column " + name});

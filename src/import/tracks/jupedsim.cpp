@@ -184,13 +184,13 @@ class JupedsimReader {
         if (type != SQLITE_INTEGER && type != SQLITE_FLOAT)
             fail_at(name, in_quotes(text_in(row, column)) + " is no number; give one");
         const double value = sqlite3_column_double(row, column);
-        if (!(std::abs(value) <= largest)) fail_at(name, brief(value) + " is beyond " + short_double(largest));
+        if (!(std::abs(value) <= largest)) fail_at(name, brief(value) + " is beyond " + format_double(largest));
         return value;
     }
 
     double whole(sqlite3_stmt* row, int column, const char* name) const {
         const double value = number(row, column, name, kMaxFrame);
-        if (value != std::floor(value)) fail_at(name, short_double(value) + " is no whole number; frames and ids are");
+        if (value != std::floor(value)) fail_at(name, format_double(value) + " is no whole number; frames and ids are");
         return value;
     }
 

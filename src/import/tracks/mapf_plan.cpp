@@ -238,7 +238,7 @@ class PlanReader {
             }
             if (const std::string anchor = yaml_.anchor(); !anchor.empty()) numbers_[anchor] = value;
         }
-        if (std::abs(value) > largest) yaml_.fail(key + " is beyond " + short_double(largest));
+        if (std::abs(value) > largest) yaml_.fail(key + " is beyond " + format_double(largest));
     }
 
     [[noreturn]] void fail_as_number(const std::string& key) const {

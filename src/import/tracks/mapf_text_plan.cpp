@@ -137,7 +137,7 @@ class CellReader {
             at_ = after;
             while (at_ != end_ && is_blank(*at_)) ++at_;
         }
-        if (std::abs(value) > mobb::kMaxLength) fail("a cell is beyond " + short_double(mobb::kMaxLength));
+        if (std::abs(value) > mobb::kMaxLength) fail("a cell is beyond " + format_double(mobb::kMaxLength));
         return value;
     }
 
@@ -186,13 +186,13 @@ class TextPlanParser {
             lines_.fail("lines of agents and of steps are mixed; give one line a step, or one an agent");
         const std::optional<double> number = parse_double(label.number);
         if (!number || *number > kMaxFrame)
-            lines_.fail(in_quotes(label.number) + " is beyond " + short_double(kMaxFrame));
+            lines_.fail(in_quotes(label.number) + " is beyond " + format_double(kMaxFrame));
         label.of == LineOf::step ? read_step(*number, label.cells) : read_agent(label);
     }
 
     void read_step(double step, std::string_view cells) {
         if (step_ && step <= *step_)
-            lines_.fail("step " + short_double(step) + " stands after step " + short_double(*step_) +
+            lines_.fail("step " + format_double(step) + " stands after step " + format_double(*step_) +
                         "; put the steps in order, each once");
         CellReader reader(cells, lines_);
         std::size_t agent = 0;

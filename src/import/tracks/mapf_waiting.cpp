@@ -118,7 +118,7 @@ TrackFile plan_of(std::vector<Track> tracks, const std::string& file) {
                                  kMostFilling * static_cast<double>(tracks.size() * longest) + kAlwaysFilledInPlan);
     if (points > most) {
         throw InputError(file, at_line(latest->line),
-                         "agents stay where they are until the plan's last step, t = " + short_double(latest->frame) +
+                         "agents stay where they are until the plan's last step, t = " + format_double(latest->frame) +
                              ", which makes " + formatted("%.0f", points) + " points of its " +
                              counted(tracks.size(), "agent", "agents") + ", over " + formatted("%.0f", most) +
                              "; check t, or split the plan");

@@ -258,7 +258,7 @@ class TextTracksParser {
         const std::optional<double> value = std::isnan(known) ? parse_double(word) : known;
         if (!value) fail(column, in_quotes(word) + " is no finite number; write it like 0.25");
         if (std::abs(*value) > largest)
-            fail(column, in_quotes(word) + " is beyond " + short_double(largest) + "; check the row");
+            fail(column, in_quotes(word) + " is beyond " + format_double(largest) + "; check the row");
         return *value;
     }
 

@@ -118,7 +118,7 @@ class TrackClipMaker {
         if (!options.fps) most_filled_ = std::min(most_made_, kMaxFill * points + kAlwaysFilled);
         if (!(clock_.duration() <= mobb::kMaxTime)) {
             throw std::invalid_argument("its frames last " + brief(clock_.duration()) + " s, over " +
-                                        short_double(mobb::kMaxTime) + "; check them");
+                                        format_double(mobb::kMaxTime) + "; check them");
         }
         if (!options.dt && !file.rate_assumption.empty()) common_.warnings.push_back({file.rate_assumption, "dt"});
         if (options.unit && *options.unit != "auto") {
@@ -266,7 +266,7 @@ std::vector<ImportedClip> track_clips(const TrackFile& tracks, const std::filesy
         throw InputError(
             name, "",
             (options.id ? "track " + in_quotes(*options.id) + " has no point" : "nobody is there") + " between " +
-                short_double(options.trim->first) + " and " + short_double(options.trim->second) +
+                format_double(options.trim->first) + " and " + format_double(options.trim->second) +
                 " s of trim, which counts from the earliest row; the file lasts " + brief(maker.duration()) + " s");
     }
     return clips;
@@ -277,7 +277,7 @@ ImportOffer track_offer(const TrackFile& tracks, const std::filesystem::path& fi
     const TrackClipMaker maker = at_place(file.string(), "", [&] { return TrackClipMaker(tracks, none); });
     const std::string step = maker.usual_step() > 0 ? brief(1 / maker.usual_step()) + " points a second" : "points";
     ImportOffer out{maker.duration(),
-                    {{"fps", maker.usual_step() > 0 ? short_double(1 / maker.usual_step()) : "", "as stored: " + step},
+                    {{"fps", maker.usual_step() > 0 ? format_double(1 / maker.usual_step()) : "", "as stored: " + step},
                      unit_offer(tracks.unit, tracks.unit_assumption.empty() ? "as the file or its format says"
                                                                             : tracks.unit_assumption),
                      {"trim", "", "all of it, from the file's earliest row"},
@@ -285,8 +285,8 @@ ImportOffer track_offer(const TrackFile& tracks, const std::filesystem::path& fi
     if (tracks.tracks.size() > 1) out.options.push_back(id_offer(tracks.tracks));
     const auto has_class = [](const Track& track) { return !track.label.empty(); };
     const bool by_class = std::any_of(tracks.tracks.begin(), tracks.tracks.end(), has_class);
-    out.options.push_back({"radius", by_class ? "" : short_double(kDefaultTrackRadius), assumed_radius(tracks)});
-    out.options.push_back({"dt", short_double(maker.frame_time()),
+    out.options.push_back({"radius", by_class ? "" : format_double(kDefaultTrackRadius), assumed_radius(tracks)});
+    out.options.push_back({"dt", format_double(maker.frame_time()),
                            tracks.rate_assumption.empty() ? "as the file or its format says" : tracks.rate_assumption});
     out.options.push_back(motion_option_offer(kMotionOfTracks, "as usual of trajectories: points are far apart"));
     return out;

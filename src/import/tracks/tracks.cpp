@@ -15,7 +15,7 @@ void TrackCollector::add(std::string_view id, const TrackPoint& point, std::stri
 }
 
 std::string TrackCollector::is_twice(const Track& track, const TrackPoint& point) {
-    return in_quotes(track.id) + " is in frame " + short_double(point.frame) + " already in line ";
+    return in_quotes(track.id) + " is in frame " + format_double(point.frame) + " already in line ";
 }
 
 std::vector<Track> TrackCollector::take(const std::string& file,

@@ -96,7 +96,7 @@ class TrajnetppParser {
         if (!at->is_number()) lines_.fail(std::string(key) + " must be a number");
         const double value = at->get<double>();
         if (!(std::abs(value) <= largest))
-            lines_.fail(std::string(key) + " is beyond " + short_double(largest) + "; check it");
+            lines_.fail(std::string(key) + " is beyond " + format_double(largest) + "; check it");
         return value;
     }
 

@@ -128,7 +128,7 @@ std::string key_of(const ElementTerms& terms, const JsonValue& element, std::siz
         if (!text && !number) return "";
         // By name, as participants count anew where one is missing.
         const std::string who = key == "participant" ? participant_of(element, participants) : "";
-        out += (!who.empty() ? who : text ? *text : short_double(*number)) + '\0';
+        out += (!who.empty() ? who : text ? *text : format_double(*number)) + '\0';
     }
     return out;
 }
@@ -144,7 +144,7 @@ std::string element_words(const ElementKind& kind, const JsonValue& element, std
     const auto* number = kind.is_object() ? held<double>(element, kind.name[1]) : nullptr;
     const std::string who = number ? participant_of(element, participants) : "";
     if (!who.empty())
-        return called + " of " + cleaned(who) + ", " + std::string(kind.name[1]) + ' ' + short_double(*number);
+        return called + " of " + cleaned(who) + ", " + std::string(kind.name[1]) + ' ' + format_double(*number);
     const std::string state = text_in(element, kind.list == "highlights" ? "role" : "state");
     return called + ' ' + std::to_string(index + 1) + (state.empty() ? "" : " (" + cleaned(state) + ')') +
            layer_words(element) + point_words(element, " from ", "from") + point_words(element, " to ", "to") +

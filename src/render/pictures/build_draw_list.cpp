@@ -24,8 +24,8 @@ namespace {
 
 void check_scale(double scale) {
     if (scale == 0 || (scale >= kLeastScale && scale <= kMostScale)) return;
-    throw std::invalid_argument("text and lines cannot be drawn " + short_double(scale) + " times as large: give " +
-                                short_double(kLeastScale) + " to " + short_double(kMostScale));
+    throw std::invalid_argument("text and lines cannot be drawn " + format_double(scale) + " times as large: give " +
+                                format_double(kLeastScale) + " to " + format_double(kMostScale));
 }
 
 std::unique_ptr<Picture> picture_of(KeptPaths& kept, const ViewState& view, const PictureOptions& options,
