@@ -43,7 +43,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::array<std::string_view, 6> kFileOrders{"name", "-name", "size", "-size", "date", "-date"};
 constexpr int kFarthest = 100'000;  // pixels from the corner of the displays
 
-constexpr std::chrono::milliseconds kLockPatience{250};  // with another window that is writing
+constexpr std::chrono::milliseconds kLockPatience{1000};  // with another window that is writing
 
 constexpr int kVersion = 1;  // of what the keys mean; a file without one is of the first
 
