@@ -165,7 +165,7 @@ std::string format_double(double value) {
     // A JSON reader takes "-0" for the integer 0 and loses the sign.
     if (value == 0 && std::signbit(value)) return "-0.0";
     const double size = std::abs(value);
-    return size >= 1e-5 && size < 1e15 ? digits_of(value, std::chars_format::fixed) : digits_of(value);
+    return size >= 1e-5 && size < 1e6 ? digits_of(value, std::chars_format::fixed) : digits_of(value);
 }
 
 std::string brief(double value) { return digits_of(value, std::chars_format::general, 6); }
