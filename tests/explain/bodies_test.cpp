@@ -110,7 +110,7 @@ double least_of_all(const PlacedBody& a, int i, const PlacedBody& b, int j, doub
 
 TEST(Bodies, NearestBonesAreThoseOfAllPairsAtAllTimes) {
     Random random(2);
-    int touch = 0, miss = 0, beyond_disks = 0, no_hit = 0;
+    int touch = 0, miss = 0, no_hit = 0;
     for (int round = 0; round < 900; ++round) {
         const mobb::Motion motion = round % 3 == 0 ? mobb::Motion::linear : mobb::Motion::held;
         const Motions of_a = random_body(random, motion), of_b = random_body(random, motion);
@@ -136,7 +136,6 @@ TEST(Bodies, NearestBonesAreThoseOfAllPairsAtAllTimes) {
                 const bool searched = std::ranges::any_of(
                     found.intervals, [&](const mobb::Interval& i) { return i.t0 <= time && time < i.t1; });
                 EXPECT_TRUE(searched || distance >= -tolerance) << round << " at " << time;
-                if (distance < -tolerance && clearance_at(piece, time) > 0) ++beyond_disks;
             }
             least = std::min(least, of_piece);
             if (step >= found.steps.size() || found.steps[step].a_sample != piece.a_sample ||
@@ -177,7 +176,6 @@ TEST(Bodies, NearestBonesAreThoseOfAllPairsAtAllTimes) {
     EXPECT_GT(touch, 20);
     EXPECT_GT(miss, 20);
     EXPECT_GT(no_hit, 10) << "disks that hit where no body does";
-    EXPECT_GT(beyond_disks, 0) << "bodies that touch where no disks do";
 }
 
 /// A pole of 1 m at a height, with an arm of half a metre along x or none.
