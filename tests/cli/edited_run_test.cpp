@@ -41,7 +41,8 @@ TEST(EditedRun, IsToldByThePictureOfAChoice) {
         ++told;
         EXPECT_TRUE(is_one_line(result.err)) << result.err;
         EXPECT_NE(result.err.find("edited.json: " + agent + " plays "), std::string::npos) << result.err;
-        EXPECT_NE(result.err.find(": seed, grace, plays or clips were edited since, another version simulated it, or an answer was wrong"),
+        EXPECT_NE(result.err.find(": seed, grace, plays or clips were edited since, another version simulated it, or "
+                                  "an answer was wrong"),
                   std::string::npos);
         EXPECT_NE(testing::slurp(out).find("made again the choice is"), std::string::npos) << "in the caption";
     }
