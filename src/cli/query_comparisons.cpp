@@ -5,7 +5,6 @@
 #include <cli/query_comparisons.h>
 #include <explain/query_sentence.h>
 #include <explain/trace_comparison.h>
-#include <mobb/blocks.h>
 #include <scene/answer.h>
 #include <scene/scene_json.h>
 
@@ -16,7 +15,6 @@
 #include <iostream>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace mobbscope::cli {
@@ -46,23 +44,6 @@ struct CheckedQuery {
         return out.append("; ").append(traces);
     }
 };
-
-/// Of blocks the queries that crowds ask, which only say yes or no, against the one that finds the contact.
-std::optional<std::string> yes_no_disagreement(const FittedScene& fitted, const SceneQuery& query, bool collides) {
-    const mobb::Blocks *of_a = fitted.tree(query.a.clip).blocks(), *of_b = fitted.tree(query.b.clip).blocks();
-    if (!of_a || !of_b) return std::nullopt;
-    const mobb::PlacedBlocks a(*of_a, query.a.placement), b(*of_b, query.b.placement);
-    const std::array pairs{mobb::BlocksPair{&a, &b}};
-    std::array<bool, 1> each{};
-    mobb::intersects_each(pairs, each);
-    for (const auto& [name, says] :
-         {std::pair("mobb::intersects", mobb::intersects(a, b)), std::pair("mobb::intersects_each", each[0])}) {
-        if (says != collides)
-            return std::string(name) + " says that they " + (says ? "collide" : "do not collide") +
-                   ", but the query that finds contacts says otherwise";
-    }
-    return std::nullopt;
-}
 
 CheckedQuery check_query(const FittedScene& fitted, const SceneQuery& query) {
     CheckedQuery out{query, answer(fitted, query, {.trace = query.trace != nullptr}), {}, {}};

@@ -1,6 +1,7 @@
 #include <base/text.h>
 #include <explain/query_sentence.h>
 #include <explain/trace_comparison.h>
+#include <mobb/blocks.h>
 #include <scene/fit_text.h>
 
 #include <algorithm>
@@ -134,6 +135,22 @@ std::string check_words(const TraceCheck& check, const mobb::Trace& stored, cons
            side_words(present, difference);
     if (differs_in(difference, "pairs")) out += first_pair_words(stored[difference.step], present[difference.step]);
     return out;
+}
+
+std::optional<std::string> yes_no_disagreement(const FittedScene& fitted, const SceneQuery& query, bool collides) {
+    const mobb::Blocks *of_a = fitted.tree(query.a.clip).blocks(), *of_b = fitted.tree(query.b.clip).blocks();
+    if (!of_a || !of_b) return std::nullopt;
+    const mobb::PlacedBlocks a(*of_a, query.a.placement), b(*of_b, query.b.placement);
+    const std::array pairs{mobb::BlocksPair{&a, &b}};
+    std::array<bool, 1> each{};
+    mobb::intersects_each(pairs, each);
+    for (const auto& [name, says] :
+         {std::pair("mobb::intersects", mobb::intersects(a, b)), std::pair("mobb::intersects_each", each[0])}) {
+        if (says != collides)
+            return std::string(name) + " says that they " + (says ? "collide" : "do not collide") +
+                   ", but the query that finds contacts says otherwise";
+    }
+    return std::nullopt;
 }
 
 std::vector<Decision> decisions_of(const mobb::PlacedTree& a, const mobb::PlacedTree& b,

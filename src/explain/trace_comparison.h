@@ -43,6 +43,10 @@ TraceCheck check_trace(const mobb::Trace& stored, const mobb::Trace& present);
 /// "54 events agree with the stored trace", or the first difference with both sides.
 std::string check_words(const TraceCheck& check, const mobb::Trace& stored, const mobb::Trace& present);
 
+/// Of blocks: what is wrong if the queries that crowds ask, which only say yes or no, disagree with the one that finds
+/// the contact. Of other trees nothing.
+std::optional<std::string> yes_no_disagreement(const FittedScene& fitted, const SceneQuery& query, bool collides);
+
 // ---- two traversals: by time
 
 /// What a traversal found out at one of its ends (TraversalEnd), and what it had cost so far.

@@ -308,7 +308,7 @@ TEST(Trajectories, WhatHoldsForAllIsSaidOnce) {
 }
 
 /// A small run; `kind` in place of "forced".
-std::string run_with(const std::string& kind) {
+std::string small_run(const std::string& kind) {
     const std::string source = MOBBSCOPE_SOURCE_DIR;
     std::string text = testing::slurp(source + "/tests/app/goldens/files/run.json");
     const auto replace_all = [&](const std::string& part, const std::string& by) {
@@ -322,8 +322,8 @@ std::string run_with(const std::string& kind) {
 
 TEST(ConflictsOfARun, ThoseWithoutAForcedPlayAreCounted) {
     const TempFolder folder;
-    const std::string run = folder.write("run.json", run_with("forced"));
-    const std::string edited = folder.write("edited.json", run_with("pivoted"));
+    const std::string run = folder.write("run.json", small_run("forced"));
+    const std::string edited = folder.write("edited.json", small_run("pivoted"));
     EXPECT_EQ(conflicts({run})["unforced"], 0);
     EXPECT_GT(conflicts({edited})["unforced"], 0);
     EXPECT_EQ(run_program({"conflicts", run}).out.find("without a forced play"), std::string::npos);
