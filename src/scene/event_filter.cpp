@@ -420,7 +420,7 @@ std::string of_side(std::string_view words, int side) {
 
 std::string compared_words(const Term& term) {
     const EventFieldInfo& field = info(term.field);
-    const std::string what = field.of_side ? of_side(field.words, term.side) : std::string(field.words);
+    std::string what = field.of_side ? of_side(field.words, term.side) : std::string(field.words);
     if (field.kind == FieldKind::flag) return what;
     std::string out = what + " is ";
     const auto sign = std::ranges::find(kSigns, term.comparison, &Sign::comparison);
