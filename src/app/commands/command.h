@@ -145,6 +145,11 @@ void add_screen(Session& session, std::unique_ptr<Screen> screen);
 std::string_view why_not(const Session& session, const Command& command);
 /// ... of a command that looks for a step of the query in view.
 std::string_view why_no_step(const Workspace& workspace);
+/// ... of a command about the tests of the query in view, and whether there are any.
+std::string_view why_no_tests(const Workspace& workspace);
+bool has_tests(const Workspace& workspace);
+/// Whether the scene asks anything.
+bool has_queries(const Workspace& workspace);
 
 /// Null if there is none.
 const Command* find_command(std::string_view id, std::span<const Command> table = commands());

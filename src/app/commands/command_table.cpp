@@ -98,6 +98,14 @@ std::string_view why_no_step(const Workspace& workspace) {
     return workspace.view().query ? "there is none from here" : "no query is shown";
 }
 
+std::string_view why_no_tests(const Workspace& workspace) {
+    return workspace.view().query ? "the query made no test" : "no query is shown";
+}
+
+bool has_tests(const Workspace& workspace) { return workspace.recorded() && !workspace.recorded()->trace.empty(); }
+
+bool has_queries(const Workspace& workspace) { return !workspace.fitted().queries().empty(); }
+
 const Command* find_command(std::string_view id, std::span<const Command> table) {
     const auto at = std::find_if(table.begin(), table.end(), [&](const Command& c) { return c.id == id; });
     return at == table.end() ? nullptr : &*at;

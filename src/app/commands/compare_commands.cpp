@@ -16,12 +16,6 @@ namespace {
 
 constexpr std::string_view kStored = "stored";
 
-bool has_tests(const Workspace& workspace) { return workspace.recorded() && !workspace.recorded()->trace.empty(); }
-
-std::string_view why_no_tests(const Workspace& workspace) {
-    return workspace.view().query ? "the query made no test" : "no query is shown";
-}
-
 bool compares_fits(const Workspace& workspace) { return workspace.compare_with && workspace.compare_with->fit; }
 
 std::vector<std::string> comparable(const QueryInspector& queries) {
@@ -73,7 +67,7 @@ void go_to_difference(Workspace& workspace, const QueryInspector& queries, Keys&
     keys.section = "compare";
     // Of a trace that is now shorter its end stands for what is missing.
     const int step = std::min(queries.stored_check().difference->step, workspace.recorded()->trace.size() - 1);
-    workspace.change_view([&](ViewState& view) { view.step = {Step::Unit::event, static_cast<double>(step)}; });
+    workspace.go_to_event(step);
 }
 
 }  // namespace

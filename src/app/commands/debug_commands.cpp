@@ -37,10 +37,6 @@ std::string name_for(std::string_view text, const std::string& what) {
     return std::string(name);
 }
 
-void go_to_event(Workspace& workspace, int event) {
-    workspace.change_view([&](ViewState& view) { view.step = {Step::Unit::event, static_cast<double>(event)}; });
-}
-
 // --- the list of events
 
 void show_list(Settings& settings) { settings.shows_events = !settings.shows_events; }
@@ -85,7 +81,7 @@ void sort_by(Workspace& workspace, const std::string& text) {
 
 template <int by>
 void to_row(QueryInspector& queries, Workspace& workspace, Notifications& notifications) {
-    if (const auto event = queries.listed_event_beside(by)) return go_to_event(workspace, *event);
+    if (const auto event = queries.listed_event_beside(by)) return workspace.go_to_event(*event);
     notifications.tell(MessageLevel::info, std::string("The list of events ") + (by > 0 ? "ends" : "begins") + " here");
 }
 
@@ -228,14 +224,14 @@ bool has_breaks(const QueryInspector& queries, const Workspace& workspace) {
 void to_next_break(QueryInspector& queries, Workspace& workspace, Notifications& notifications) {
     const std::vector<int>& steps = queries.break_steps();
     const auto next = std::ranges::upper_bound(steps, workspace.step());
-    if (next != steps.end()) return go_to_event(workspace, *next);
+    if (next != steps.end()) return workspace.go_to_event(*next);
     notifications.tell(MessageLevel::info, "No breakpoint holds at a later step");
 }
 
 void to_previous_break(QueryInspector& queries, Workspace& workspace, Notifications& notifications) {
     const std::vector<int>& steps = queries.break_steps();
     const auto behind = std::ranges::lower_bound(steps, workspace.step());
-    if (behind != steps.begin()) return go_to_event(workspace, *std::prev(behind));
+    if (behind != steps.begin()) return workspace.go_to_event(*std::prev(behind));
     notifications.tell(MessageLevel::info, "No breakpoint holds at an earlier step");
 }
 

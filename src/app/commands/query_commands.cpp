@@ -18,7 +18,6 @@ namespace mobbscope::app {
 
 namespace {
 
-bool has_queries(const Workspace& workspace) { return !workspace.fitted().queries().empty(); }
 std::string_view why_no_query(const Workspace& workspace) {
     return workspace.crowd() ? "a run is asked for its conflicts" : "there is no query";
 }

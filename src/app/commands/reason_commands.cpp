@@ -19,11 +19,6 @@ namespace {
 
 constexpr std::string_view kNoQuery = "no query is shown";
 
-bool is_in_query(const Workspace& workspace) { return workspace.recorded() && !workspace.recorded()->trace.empty(); }
-std::string_view why_not_in_query(const Workspace& workspace) {
-    return workspace.view().query ? "the query made no test" : kNoQuery;
-}
-
 // --- reasons
 
 double moment_in(const std::string& text) { return number_in(text, "the time", -mobb::kMaxTime, mobb::kMaxTime); }
@@ -62,12 +57,12 @@ void reasons_of_sample(Workspace& workspace, Keys& keys, const std::string& text
 
 /// The side of the query in view that the selected sample is of.
 std::optional<int> side_of_sample(const Workspace& workspace) {
-    if (!is_in_query(workspace) || workspace.selection.kind != Selection::Kind::sample) return std::nullopt;
+    if (!has_tests(workspace) || workspace.selection.kind != Selection::Kind::sample) return std::nullopt;
     return index_in_view(workspace.fitted(), workspace.view(), workspace.selection.path);
 }
 
 bool has_place_asked(const Workspace& workspace) {
-    return is_in_query(workspace) && (workspace.look.sample || workspace.look.point || workspace.view().time);
+    return has_tests(workspace) && (workspace.look.sample || workspace.look.point || workspace.view().time);
 }
 
 void no_reasons(Workspace& workspace) {
@@ -139,13 +134,11 @@ void show_sandwich(CostInspector& costs, Workspace& workspace, const std::string
     costs.show_sandwich({clip, node_at(workspace.fitted().tree(clip), place)});
 }
 
-bool has_scene_queries(const Workspace& workspace) { return !workspace.fitted().queries().empty(); }
-
 }  // namespace
 
 std::vector<Command> reason_commands() {
-    const Condition in_query{is_in_query, why_not_in_query};
-    const Condition with_queries{has_scene_queries, [] { return std::string_view("there is no query"); }};
+    const Condition in_query{has_tests, why_no_tests};
+    const Condition with_queries{has_queries, [] { return std::string_view("there is no query"); }};
     const std::vector<Command> rows{
         Command("reasons.at", "Reasons at a moment",
                 "Lists the tests, from the roots on, that decided about a moment in seconds, and puts the time cursor "

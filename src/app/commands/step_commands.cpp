@@ -19,12 +19,7 @@ namespace {
 
 constexpr int kMaxSteps = std::numeric_limits<int>::max();
 
-bool has_any_query(const Workspace& workspace) { return !workspace.fitted().queries().empty(); }
 bool in_any_query(const Workspace& workspace) { return workspace.view().query.has_value(); }
-
-void to_event(Workspace& workspace, int event) {
-    workspace.change_view([&](ViewState& view) { view.step = {Step::Unit::event, static_cast<double>(event)}; });
-}
 
 /// Without a query in view the first one is shown instead, where it was left; else at this step.
 bool entered(Workspace& workspace, QueryInspector& queries, Step step) {
@@ -38,16 +33,16 @@ constexpr Step kFirst{Step::Unit::event, 0};
 constexpr Step kEnd{Step::Unit::end, 0};
 
 void first(Workspace& workspace, QueryInspector& queries) {
-    if (!entered(workspace, queries, kFirst)) to_event(workspace, 0);
+    if (!entered(workspace, queries, kFirst)) workspace.go_to_event(0);
 }
 
 void back(Workspace& workspace, QueryInspector& queries) {
-    if (!entered(workspace, queries, kEnd)) to_event(workspace, std::max(workspace.step() - 1, 0));
+    if (!entered(workspace, queries, kEnd)) workspace.go_to_event(std::max(workspace.step() - 1, 0));
 }
 
 void forward(Workspace& workspace, QueryInspector& queries) {
     if (!entered(workspace, queries, kFirst))
-        to_event(workspace, std::min(workspace.step() + 1, workspace.recorded()->trace.size() - 1));
+        workspace.go_to_event(std::min(workspace.step() + 1, workspace.recorded()->trace.size() - 1));
 }
 
 void last(Workspace& workspace, QueryInspector& queries) {
@@ -57,7 +52,7 @@ void last(Workspace& workspace, QueryInspector& queries) {
 void to(Session& session, const std::string& text) {
     if (text.empty()) return ask_for_argument(session, command_named("step.to"));
     Workspace& workspace = session.workspace;
-    to_event(workspace, whole_number_in(text, "the step", 0, workspace.recorded()->trace.size() - 1));
+    workspace.go_to_event(whole_number_in(text, "the step", 0, workspace.recorded()->trace.size() - 1));
 }
 
 void percent(Workspace& workspace, const std::string& text) {
@@ -91,7 +86,7 @@ void to_counted(Workspace& workspace, QueryInspector& queries, Notifications& no
     const mobb::Tree& b = workspace.fitted().tree(query.b.clip);
     const int by = next ? 1 : -1;
     for (int event = std::min(from, trace.size()) + by; event >= 0 && event < trace.size(); event += by) {
-        if (is_counted(of, trace, event, a, b)) return to_event(workspace, event);
+        if (is_counted(of, trace, event, a, b)) return workspace.go_to_event(event);
     }
     notifications.tell(MessageLevel::info, (next ? "There is no later test " : "There is no test before ") + what);
 }
@@ -112,7 +107,7 @@ Command found_row(std::string_view id, std::string_view title, std::string_view 
     const auto go = [sought](Workspace& workspace, QueryInspector& queries, Notifications& notifications) {
         to_counted<way>(workspace, queries, notifications, {sought.unit, 1}, sought.what);
     };
-    return {id, title, doc, go, {.shortcut = key, .enabled = {has_any_query, why_no_step}}};
+    return {id, title, doc, go, {.shortcut = key, .enabled = {has_queries, why_no_step}}};
 }
 
 template <Way way>
@@ -132,8 +127,8 @@ void to_avoidable(Workspace& workspace, QueryInspector& queries, Notifications& 
     const int here = workspace.step() + (was_in ? 0 : -way);
     const auto behind = std::ranges::upper_bound(avoidable.events, here);
     const auto at = std::ranges::lower_bound(avoidable.events, here);
-    if (way > 0 && behind != avoidable.events.end()) return to_event(workspace, *behind);
-    if (way < 0 && at != avoidable.events.begin()) return to_event(workspace, *(at - 1));
+    if (way > 0 && behind != avoidable.events.end()) return workspace.go_to_event(*behind);
+    if (way < 0 && at != avoidable.events.begin()) return workspace.go_to_event(*(at - 1));
     std::string why = avoidable.events.empty() ? "No overlap of this query was avoidable"
                       : way > 0                ? "There is no later avoidable overlap"
                                                : "There is no earlier avoidable overlap";
@@ -153,7 +148,7 @@ void to_next_of_node(Workspace& workspace, Notifications& notifications) {
     const mobb::Trace& trace = workspace.recorded()->trace;
     for (int i = 1; i <= trace.size(); ++i) {
         const int event = (workspace.step() + i) % trace.size();
-        if ((of_a ? trace[event].a : trace[event].b) == workspace.selection.index) return to_event(workspace, event);
+        if ((of_a ? trace[event].a : trace[event].b) == workspace.selection.index) return workspace.go_to_event(event);
     }
     notifications.tell(MessageLevel::info, "The selected node is never tested: the search ended before it");
 }
@@ -195,16 +190,16 @@ int parent_event(const Workspace& workspace) {
 }  // namespace
 
 std::vector<Command> step_commands() {
-    const CommandTraits of_depth{.menu = kNoMenu, .argument = "K", .enabled = {has_any_query, why_no_step}};
+    const CommandTraits of_depth{.menu = kNoMenu, .argument = "K", .enabled = {has_queries, why_no_step}};
     const std::vector<Command> rows{
         Command("step.first", "First step", "Shows the first test of the query.", first,
-                {.shortcut = "Shift+Left", .enabled = {has_any_query, why_no_step}}),
+                {.shortcut = "Shift+Left", .enabled = {has_queries, why_no_step}}),
         Command("step.back", "Step back", "Shows the test before.", back,
-                {.shortcut = "Left", .repeats = true, .enabled = {has_any_query, why_no_step}}),
+                {.shortcut = "Left", .repeats = true, .enabled = {has_queries, why_no_step}}),
         Command("step.forward", "Step forward", "Shows the next test.", forward,
-                {.shortcut = "Right", .repeats = true, .enabled = {has_any_query, why_no_step}}),
+                {.shortcut = "Right", .repeats = true, .enabled = {has_queries, why_no_step}}),
         Command("step.last", "Last step", "Shows the last test, with the answer.", last,
-                {.shortcut = "Shift+Right", .enabled = {has_any_query, why_no_step}}),
+                {.shortcut = "Shift+Right", .enabled = {has_queries, why_no_step}}),
         Command("step.before", "Step looked at before",
                 "Goes back to where the last jump, or the last run of single steps, began; once more comes back, so "
                 "that one key compares two steps.",
@@ -232,10 +227,10 @@ std::vector<Command> step_commands() {
                                  "Shows the last test of the two leaves before."),
         Command("step.next_avoidable", "Next avoidable overlap",
                 "Shows the next test that found an overlap although one line keeps the disks apart.", to_avoidable<1>,
-                {.shortcut = "U", .enabled = {has_any_query, why_no_step}}),
+                {.shortcut = "U", .enabled = {has_queries, why_no_step}}),
         Command("step.previous_avoidable", "Previous avoidable overlap",
                 "Shows the last test before that found an overlap although one line keeps the disks apart.",
-                to_avoidable<-1>, {.shortcut = "Shift+U", .enabled = {has_any_query, why_no_step}}),
+                to_avoidable<-1>, {.shortcut = "Shift+U", .enabled = {has_queries, why_no_step}}),
         Command("step.next_depth", "Next test at a depth",
                 "Shows the next test so deep in the recursion, 0 at the roots.", to_depth<Way::next>, of_depth),
         Command("step.previous_depth", "Previous test at a depth",
@@ -249,7 +244,7 @@ std::vector<Command> step_commands() {
                              }}}),
         Command("step.into", "Step into", "Shows the first test of the first pair that the present one called.",
                 [](Workspace& workspace, QueryInspector& queries) {
-                    to_event(workspace, *first_below(workspace, queries));
+                    workspace.go_to_event(*first_below(workspace, queries));
                 },
                 {.shortcut = "F11",
                  .repeats = true,
@@ -259,7 +254,7 @@ std::vector<Command> step_commands() {
                              why_no_step}}),
         Command("step.over", "Step over", "Shows the next test that is not about parts of the present two nodes.",
                 [](Workspace& workspace, QueryInspector& queries) {
-                    to_event(workspace, *event_after_pair(workspace, queries));
+                    workspace.go_to_event(*event_after_pair(workspace, queries));
                 },
                 {.shortcut = "Down",
                  .repeats = true,
@@ -270,7 +265,7 @@ std::vector<Command> step_commands() {
         Command("step.over_back", "Step over, backwards",
                 "Shows the last test before that is not about parts of its pair.",
                 [](Workspace& workspace, QueryInspector& queries) {
-                    to_event(workspace, *event_before_pair(workspace, queries));
+                    workspace.go_to_event(*event_before_pair(workspace, queries));
                 },
                 {.shortcut = "Shift+Down",
                  .repeats = true,
@@ -279,7 +274,7 @@ std::vector<Command> step_commands() {
                              },
                              why_no_step}}),
         Command("step.out", "Step out", "Shows the test that led to the present one.",
-                [](Workspace& workspace) { to_event(workspace, parent_event(workspace)); },
+                [](Workspace& workspace) { workspace.go_to_event(parent_event(workspace)); },
                 {.shortcut = "Up Shift+F11",
                  .repeats = true,
                  .enabled = {[](const Workspace& workspace) {

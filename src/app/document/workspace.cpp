@@ -99,6 +99,10 @@ void Workspace::change_view(const std::function<void(ViewState&)>& change, const
     visited.moved(left, present_step(), goes_on);
 }
 
+void Workspace::go_to_event(int event) {
+    change_view([&](ViewState& view) { view.step = {Step::Unit::event, static_cast<double>(event)}; });
+}
+
 void Workspace::change_document(Document next, const EditName& name) {
     clamp_views(next);
     remember_step(next);

@@ -172,6 +172,8 @@ class Workspace {
     void edit_debug(const std::string& title, const std::function<void(DebugState&)>& change);
     /// Changes how it is seen, which undo leaves as it is (see History::look). No name: as what it changes says.
     void change_view(const std::function<void(ViewState&)>& change, const std::optional<EditName>& name = {});
+    /// Shows an event of the query in view.
+    void go_to_event(int event);
     /// The next document of the history.
     void change_document(Document next, const EditName& name);
     /// Changes the present state in place: no step of its own for undo.
