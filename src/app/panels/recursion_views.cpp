@@ -233,7 +233,9 @@ void draw_label(Ui& ui, const QueryFindings& findings, const RecursionPair& pair
     const auto without_name = [](const std::string& name) { return name.substr(name.rfind(' ') + 1); };
     const std::string a = node_name(findings.sides[0], pair.a);
     const std::string b = node_name(findings.sides[1], pair.b);
-    for (const std::string& label : {a + " / " + b, without_name(a) + " / " + without_name(b)}) {
+    const std::string named = a + " / " + b;
+    const std::string bare = without_name(a) + " / " + without_name(b);
+    for (const std::string& label : {named, bare}) {
         const ImVec2 text = text_size(*ui.style.caption, label);
         if (text.x > room || text.y > max.y - min.y) continue;
         ImU32 ink = past ? ui.style.text : ui.style.quiet;
