@@ -2,7 +2,7 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <explain/level_columns.h>
-#include <scene/scene_json.h>
+#include <explain/tree_json.h>
 
 #include <algorithm>
 #include <iostream>
