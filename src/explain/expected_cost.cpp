@@ -95,7 +95,7 @@ class EarlierHits {
     }
 
     /// The area of the shifts at which they have, of those of an area around the present one. `radii`: both added;
-    /// `time`: since both are there.
+    /// `time`: for which both were there.
     double area(double radii, double time, double around) const {
         const double edge = std::sqrt(around / pi);
         const double watched = std::min(time, way_.where(edge));
@@ -199,7 +199,7 @@ class Descent {
 
     struct Pair {
         int a, b;
-        Chances called;  ///< that the pair which leads here meets, if it shares time
+        Chances called;  ///< that the pair which leads here meets, and nothing was hit before this one begins
         double least;    ///< of meeting_area/area, over the pairs that lead here, 1 at most
         double weight;   ///< how many pairs it counts for
     };
@@ -230,34 +230,60 @@ class Descent {
             out_.shares[1][static_cast<std::size_t>(pair.b)] += tests.expected / 2;
             least = std::min(least, meeting_area(p.outline, q.outline, headings_, next_heading()) / area());
         }
-        const Chances meet{std::max(0.0, least - earlier_hits(p, q, least) / area()), least};
-        expect_below(pair, p, q, meet, least, below);
+        const double durations = (p.outline.duration + q.outline.duration) / (2 * out_.placements.offset);
+        if (!p.is_leaf && !q.is_leaf) {
+            for (const int a : a_.children(pair.a)) {
+                for (const int b : b_.children(pair.b)) {
+                    const NodeFigures& child_a = nodes_a_[static_cast<std::size_t>(a)];
+                    const NodeFigures& child_b = nodes_b_[static_cast<std::size_t>(b)];
+                    const Chances called = without_hits(p, q, least, before(child_a, child_b), 0);
+                    expect(mobb::TestKind::time, called * (durations * pair.weight));
+                    below.push_back({a, b, called, least, pair.weight});
+                }
+            }
+        } else {
+            expect_leaf(p, q, without_hits(p, q, least, before(p, q), mean_common(p, q) / 2) * pair.weight);
+        }
     }
 
-    /// The tests that a pair leads to if it meets.
-    void expect_below(const Pair& pair, const NodeFigures& p, const NodeFigures& q, Chances meet, double least,
-                      std::vector<Pair>& below) {
-        const double twice_offset = 2 * out_.placements.offset;
-        const Chances met = meet * (pair.weight / twice_offset);
-        if (!p.is_leaf && !q.is_leaf) {
-            expect(mobb::TestKind::time, met * (4 * (p.outline.duration + q.outline.duration)));
-            for (const int a : a_.children(pair.a)) {
-                for (const int b : b_.children(pair.b)) below.push_back({a, b, meet, least, pair.weight});
-            }
-            return;
-        }
-        // A leaf meets all leaves below an inner node whose times it shares; on the way two times are tested for each
-        // inner node.
+    /// A leaf meets all leaves below an inner node whose times it shares, or one other leaf; on the way two times are
+    /// tested for each inner node.
+    void expect_leaf(const NodeFigures& p, const NodeFigures& q, Chances met) {
         const double leaf_duration = p.is_leaf ? p.outline.duration : q.outline.duration;
         const NodeFigures& other = p.is_leaf ? q : p;
-        expect(mobb::TestKind::time, met * (2 * (other.inner_below * leaf_duration + other.inner_durations)));
-        expect(mobb::TestKind::samples, met * (static_cast<double>(p.count) * q.count * (a_.clip().dt() + b_.clip().dt())));
+        const double twice_offset = 2 * out_.placements.offset;
+        const double times = 2 * (other.inner_below * leaf_duration + other.inner_durations) / twice_offset;
+        const double pairs = static_cast<double>(p.count) * q.count * (a_.clip().dt() + b_.clip().dt()) / twice_offset;
+        expect(mobb::TestKind::time, met * times);
+        expect(mobb::TestKind::samples, met * pairs);
     }
 
-    double earlier_hits(const NodeFigures& p, const NodeFigures& q, double least) const {
-        const double h_p = p.outline.duration, h_q = q.outline.duration;
-        return hits_.area(p.radius + q.radius, std::min(p.begin, q.begin) + h_p * h_q / (h_p + h_q) / 2,
-                          least * area());
+    /// The mean time that two nodes share, if they share some.
+    static double mean_common(const NodeFigures& p, const NodeFigures& q) {
+        return p.outline.duration * q.outline.duration / (p.outline.duration + q.outline.duration);
+    }
+
+    /// What comes before the time that two nodes share.
+    struct Before {
+        double nothing;  ///< the chance that one of the clips begins only then
+        double time;     ///< else for how long both were there, s, on average
+    };
+    static Before before(const NodeFigures& p, const NodeFigures& q) {
+        const double earlier = std::min(p.begin, q.begin), apart = std::abs(p.begin - q.begin);
+        const double common = mean_common(p, q);
+        if (earlier > 0) return {0, earlier + std::min(apart, common) / 2};
+        return {1 - std::min(1.0, apart / std::min(p.outline.duration, q.outline.duration)) / 2, common};
+    }
+
+    /// That two nodes meet that have the chance `least` without hits, and nothing was hit before the time that two of
+    /// theirs share, nor in the first `inside` seconds of it.
+    Chances without_hits(const NodeFigures& p, const NodeFigures& q, double least, const Before& earlier,
+                         double inside) const {
+        const auto hit = [&](double time) {
+            return time > 0 ? hits_.area(p.radius + q.radius, time, least * area()) / area() : 0;
+        };
+        const double hits = earlier.nothing * hit(inside) + (1 - earlier.nothing) * hit(earlier.time + inside);
+        return {std::max(0.0, least - hits), least};
     }
 
     /// Draws one pair at random out of each of as many stretches, equally long, as pairs are worked out.

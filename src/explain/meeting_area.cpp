@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 
 namespace mobbscope {
 
@@ -27,15 +28,20 @@ double share_within(double from, std::array<double, 3> reach, double limit) {
     const double sum = reach[0] + reach[1] + widest;
     if (from + sum <= limit) return 1;
     if (from - sum >= limit) return 0;
-    constexpr std::array<double, 3> kPoints{-0.7745966692414834, 0, 0.7745966692414834};
-    constexpr std::array<double, 3> kWeights{5.0 / 18, 8.0 / 18, 5.0 / 18};
+    struct Point {
+        double at, weight;
+    };
+    constexpr std::array<Point, 3> kPoints{
+        {{-0.7745966692414834, 5.0 / 18}, {0, 8.0 / 18}, {0.7745966692414834, 5.0 / 18}}};
+    constexpr std::array<Point, 1> kMiddle{{{0, 1}}};
+    const auto points = [&](double r) { return r > 0 ? std::span<const Point>(kPoints) : std::span<const Point>(kMiddle); };
     double share = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 3; ++j) {
-            const double middle = from + kPoints[i] * reach[0] + kPoints[j] * reach[1];
+    for (const Point& i : points(reach[0])) {
+        for (const Point& j : points(reach[1])) {
+            const double middle = from + i.at * reach[0] + j.at * reach[1];
             const double inside = std::min(middle + widest, limit) - std::max(middle - widest, -limit);
-            const double part = widest > 0 ? std::max(inside, 0.0) / (2 * widest) : std::abs(middle) <= limit;
-            share += kWeights[i] * kWeights[j] * part;
+            const double part = std::max(inside, 0.0) / (2 * widest);
+            share += i.weight * j.weight * part;
         }
     }
     return share;

@@ -13,6 +13,8 @@ namespace mobbscope {
 
 namespace {
 
+constexpr double kLeastSide = 1e-9;  // m: points that stand meet nowhere, rather than everywhere
+
 struct Around {
     glm::dvec2 middle{0};
     double reach = 0;
@@ -46,7 +48,7 @@ StandardPlacements::StandardPlacements(const mobb::Clip& a, const mobb::Clip& b)
     const Around of_a = around(a), of_b = around(b);
     middle_a = of_a.middle;
     middle_b = of_b.middle;
-    side = 4 * (of_a.reach + of_b.reach);
+    side = std::max(4 * (of_a.reach + of_b.reach), kLeastSide);
 }
 
 mobb::Placement StandardPlacements::b(std::uint64_t seed, std::uint64_t index) const {
@@ -91,6 +93,12 @@ std::vector<mobb::TestCounts> count_tests(std::span<const PlacedQuery> queries, 
         progress(done += end - first, queries.size());
     });
     return out;
+}
+
+double MeanTests::boxes() const {
+    double sum = 0;
+    for (const mobb::BoxKind kind : mobb::kBoxKinds) sum += (*this)[kind];
+    return sum;
 }
 
 MeanTests& MeanTests::operator+=(const MeanTests& other) {

@@ -28,7 +28,7 @@ struct PlacedQuery {
 /// is uniform over a square. They depend on the clips alone, so all fits are asked the same.
 struct StandardPlacements {
     glm::dvec2 middle_a{0}, middle_b{0};  ///< of the box around the clip's disks
-    double side = 0;    ///< m: four times the sum of the two reaches around the middles, so boxes of no heading meet outside
+    double side = 0;    ///< m: four times what both reach around their middles: upright boxes never meet outside
     double offset = 0;  ///< s: the longer duration
 
     StandardPlacements(const mobb::Clip& a, const mobb::Clip& b);
@@ -42,7 +42,7 @@ std::vector<PlacedQuery> standard_queries(const mobb::Tree& a, const mobb::Tree&
                                           std::uint64_t seed);
 
 /// Asks all queries on all processors, and gives the tests that each made. `progress` is told by one thread at a time;
-/// it may throw to end the work.
+/// it may throw to end the work. Throws std::invalid_argument if a placement is none that may be.
 std::vector<mobb::TestCounts> count_tests(std::span<const PlacedQuery> queries, const Progress& progress = {});
 
 /// Tests of a query as numbers that need not be whole: expected, or a mean.
@@ -52,7 +52,7 @@ struct MeanTests {
     double& operator[](mobb::TestKind test) { return by_kind[test.index()]; }
     double operator[](mobb::TestKind test) const { return by_kind[test.index()]; }
     double all() const { return std::accumulate(by_kind.begin(), by_kind.end(), 0.0); }
-    double boxes() const { return all() - (*this)[mobb::TestKind::time] - (*this)[mobb::TestKind::samples]; }
+    double boxes() const;
     MeanTests& operator+=(const MeanTests& other);
 };
 
