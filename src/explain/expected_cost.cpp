@@ -50,8 +50,7 @@ struct Wandering {
         for (const mobb::Disk& disk : disks) mean_radius += disk.r / static_cast<double>(count);
         for (std::size_t k = 0; k < kDirections; ++k) {
             const double angle = 2 * pi * static_cast<double>(k) / kDirections;
-            for (const mobb::Disk& d : disks)
-                reaches[k].push_back(d.x * std::cos(angle) + d.y * std::sin(angle) + d.r);
+            for (const mobb::Disk& d : disks) reaches[k].push_back(d.x * std::cos(angle) + d.y * std::sin(angle) + d.r);
         }
         for (std::size_t length = 1;; length *= 2) {
             const std::size_t last = std::min(length, count) - 1;

@@ -34,7 +34,9 @@ double share_within(double from, std::array<double, 3> reach, double limit) {
     constexpr std::array<Point, 3> kPoints{
         {{-0.7745966692414834, 5.0 / 18}, {0, 8.0 / 18}, {0.7745966692414834, 5.0 / 18}}};
     constexpr std::array<Point, 1> kMiddle{{{0, 1}}};
-    const auto points = [&](double r) { return r > 0 ? std::span<const Point>(kPoints) : std::span<const Point>(kMiddle); };
+    const auto points = [&](double r) {
+        return r > 0 ? std::span<const Point>(kPoints) : std::span<const Point>(kMiddle);
+    };
     double share = 0;
     for (const Point& i : points(reach[0])) {
         for (const Point& j : points(reach[1])) {
@@ -77,8 +79,7 @@ class Zonotope {
                 for (std::size_t k = j + 1; k < kEdges; ++k) {
                     const double d = std::abs(det_[i][j][k]);
                     if (d == 0) continue;
-                    volume += 8 * d *
-                              share_within(middle_of(i, j, k), {edges_[i].z, edges_[j].z, edges_[k].z}, limit);
+                    volume += 8 * d * share_within(middle_of(i, j, k), {edges_[i].z, edges_[j].z, edges_[k].z}, limit);
                 }
             }
         }
@@ -126,8 +127,7 @@ double area_along_axes(const BoxOutline& a, const BoxOutline& b) {
 
 }  // namespace
 
-BoxOutline::BoxOutline(const mobb::Tree& tree, int node)
-    : kind(tree.node(node).kind), time_scale(tree.time_scale()) {
+BoxOutline::BoxOutline(const mobb::Tree& tree, int node) : kind(tree.node(node).kind), time_scale(tree.time_scale()) {
     const mobb::Box box = tree.box(node);
     duration = tree.t1(tree.node(node)) - tree.t0(tree.node(node));
     half = {box.half.x, box.half.y};

@@ -17,12 +17,12 @@ struct BoxOutline {
     BoxOutline(const mobb::Tree& tree, int node);
 
     mobb::BoxKind kind;
-    double duration;        ///< s, of the node
-    double time_scale;      ///< of the tree
-    double area;            ///< on the floor, m^2; of an upright or moving box
-    double perimeter;       ///< likewise, m
-    glm::dvec2 half;        ///< likewise, m
-    double speed;           ///< of a moving box, m/s
+    double duration;                       ///< s, of the node
+    double time_scale;                     ///< of the tree
+    double area;                           ///< on the floor, m^2; of an upright or moving box
+    double perimeter;                      ///< likewise, m
+    glm::dvec2 half;                       ///< likewise, m
+    double speed;                          ///< of a moving box, m/s
     std::array<glm::dvec3, 3> half_edges;  ///< in (x, y, w*t)
 };
 

@@ -59,8 +59,7 @@ mobb::Placement StandardPlacements::b(std::uint64_t seed, std::uint64_t index) c
     place.start = offset * centered();
     const double dx = side / 2 * centered();
     const double dy = side / 2 * centered();
-    place.translate =
-        middle_a + glm::dvec2(dx, dy) - mobb::Rotation::from_degrees(place.rotate_deg)(middle_b);
+    place.translate = middle_a + glm::dvec2(dx, dy) - mobb::Rotation::from_degrees(place.rotate_deg)(middle_b);
     return place;
 }
 

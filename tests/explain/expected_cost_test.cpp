@@ -89,7 +89,8 @@ TEST(MeetingArea, OfClosedForms) {
     const BoxOutline of_round(round, 0);
     EXPECT_NEAR(of_round.area, 25, 0.2);
     EXPECT_NEAR(meeting_area(of_round, of_stand), upright_area(of_round.area, of_round.perimeter, 1, 4), 1e-9);
-    // Squares of 1 m along the axes: 1 + 1 + (2 + 2) (2/pi) (1 + 1)/... at heading 0 4 m^2, at 45 degrees (1 + sqrt 2)^2.
+    // Squares of 1 m along the axes: 1 + 1 + (2 + 2) (2/pi) (1 + 1)/... at heading 0 4 m^2, at 45 degrees (1 + sqrt
+    // 2)^2.
     const mobb::Tree aabb(standing(20, 0.5), {TreeKind::aabb});
     double mean = 0;
     for (int i = 0; i < 3600; ++i) {
@@ -114,14 +115,13 @@ struct Sampled {
 };
 Sampled sampled_area(Random& random, const mobb::Tree& a, int node_a, const mobb::Tree& b, int node_b) {
     const mobb::Box box_a = a.box(node_a), box_b = b.box(node_b);
-    const auto* const test = std::ranges::find_if(mobb::kPairTests, [&](const mobb::PairTest& pair) {
-        return pair.a == box_a.kind && pair.b == box_b.kind;
-    });
+    const auto* const test = std::ranges::find_if(
+        mobb::kPairTests, [&](const mobb::PairTest& pair) { return pair.a == box_a.kind && pair.b == box_b.kind; });
     const double a0 = a.t0(a.node(node_a)), a1 = a.t1(a.node(node_a));
     const double b0 = b.t0(b.node(node_b)), b1 = b.t1(b.node(node_b));
     constexpr int kPlaces = 40'000;
-    const double half = glm::length(box_a.half) + glm::length(box_b.half) + glm::length(box_a.drift) +
-                        glm::length(box_b.drift);
+    const double half =
+        glm::length(box_a.half) + glm::length(box_b.half) + glm::length(box_a.drift) + glm::length(box_b.drift);
     int meet = 0;
     for (int i = 0; i < kPlaces; ++i) {
         mobb::Placement place;
@@ -366,7 +366,8 @@ TEST(ExpectedCost, OfAnyClipsIsANumber) {
     Random random(38);
     for (int round = 0; round < 200; ++round) {
         const mobb::ClipPtr clip_a = mobb::test::random_motion(random, mobb::test::random_clip(random, 300));
-        const mobb::ClipPtr clip_b = mobb::test::random_motion(random, mobb::test::random_partner(random, *clip_a, 300));
+        const mobb::ClipPtr clip_b =
+            mobb::test::random_motion(random, mobb::test::random_partner(random, *clip_a, 300));
         const mobb::FitOptions fit = mobb::test::random_fit(random);
         const ExpectedCost cost = expected_cost(mobb::Tree(clip_a, fit), mobb::Tree(clip_b, fit)).value();
         for (const MeanTests& tests : {cost.tests, cost.bound}) {
