@@ -203,7 +203,7 @@ class Descent {
         double weight;   ///< how many pairs it counts for
     };
 
-    static constexpr std::size_t kHeadings = 2048;  ///< of all pairs of a level
+    static constexpr std::size_t kHeadings = 512;  ///< of all pairs of a level
 
     /// The chance that two nodes share time.
     double share(const NodeFigures& p, const NodeFigures& q) const {
