@@ -82,7 +82,8 @@ class EarlierHits {
         const double all = std::max(a.duration(), b.duration());
         double farthest = 0, widest = 0;
         add(0, 0, 0);
-        for (double time = std::min(a.dt(), b.dt());; time *= kStep) {
+        double time = std::min(a.dt(), b.dt());
+        for (;;) {
             const double way = std::sqrt(of_a.square_way.at(time) + of_b.square_way.at(time));
             const double reach = std::hypot(of_a.reach.at(time), of_b.reach.at(time));
             farthest = std::max(farthest, way);
@@ -90,6 +91,7 @@ class EarlierHits {
             widest = std::max(widest, reach - way / pi);
             add(time, farthest, widest);
             if (time >= all) break;
+            time *= kStep;
         }
     }
 
