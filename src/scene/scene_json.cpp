@@ -1,9 +1,9 @@
 #include <base/text.h>
-#include <mobb/level_figures.h>
 #include <scene/scene_json.h>
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace mobbscope {
@@ -12,7 +12,7 @@ namespace {
 
 using Layout = JsonWriter::Layout;
 
-// ---- fits and trees
+// ---- fits
 
 std::optional<mobb::TreeKind> find_tree_kind_at(const JsonPlace& place) {
     return place.attempt([&] { return find_tree_kind(place.string()); });
@@ -26,53 +26,6 @@ mobb::TreeKind read_tree_kind(const JsonPlace& place) {
 mobb::Axes read_axes(const JsonPlace& place) {
     if (const auto axes = mobb::axes_from_name(place.string())) return *axes;
     place.fail(in_quotes(place.string()) + " names no axes; give one of " + listed(mobb::axes_names()));
-}
-
-/// The first 2 or 3 coordinates of a vector.
-void write_vector(JsonWriter& out, const glm::dvec3& v, int count) {
-    count == 2 ? out.value(glm::dvec2(v)) : out.value(v);
-}
-
-void write_node(JsonWriter& out, const mobb::Tree& tree, int index) {
-    const mobb::Node& node = tree.node(index);
-    const mobb::Box box = tree.box(index);
-    const mobb::BoxInfo& shape = mobb::info(box.kind);
-    const int dimensions = shape.axes == mobb::BoxAxes::space_time ? 3 : 2;
-    out.begin_object(Layout::row);
-    out.members("index", index, "parent", tree.parent(index), "level", tree.level(index));
-    out.members("first", node.first, "count", node.count, "leaf", tree.is_leaf(index));
-    out.member("kind", shape.name);
-    out.key("center");
-    // A box that moves has its centre in the middle of its time; files give it at t0.
-    write_vector(out, box.center - glm::dvec3(box.drift, 0), dimensions);
-    out.begin_array("axes");
-    for (int i = 0; i < dimensions; ++i) write_vector(out, box.axes[static_cast<std::size_t>(i)], dimensions);
-    out.end_array();
-    out.key("half");
-    write_vector(out, box.half, dimensions);
-    if (shape.round) {
-        // Its disk at t0 and at t1: x, y, r.
-        out.begin_array("bounds");
-        for (const double side : {-1.0, 1.0})
-            out.tuple(box.center.x + side * box.drift.x, box.center.y + side * box.drift.y, box.half.x);
-        out.end_array();
-    }
-    if (shape.moves) {
-        out.member("velocity", 2.0 * box.drift / (tree.t1(node) - tree.t0(node)));
-    }
-    out.members("t0", tree.t0(node), "t1", tree.t1(node));
-    out.end_object();
-}
-
-void write_level(JsonWriter& out, const mobb::LevelFigures& figures) {
-    out.begin_object(Layout::row);
-    for (const mobb::LevelColumn& column : mobb::kLevelColumns) {
-        const std::optional<double> value = column.of(figures);
-        out.key(column.name);
-        if (!value) out.null();
-        if (value) column.whole ? out.value(static_cast<std::int64_t>(*value)) : out.value(*value);
-    }
-    out.end_object();
 }
 
 // ---- contacts and traces
@@ -167,19 +120,6 @@ mobb::FitOptions read_fit(const JsonPlace& place, mobb::FitOptions fit) {
 void write_fit(JsonWriter& out, const mobb::FitOptions& fit) {
     out.row("tree", mobb::name(fit.tree), "leaf", fit.leaf, "levels", fit.levels, "axes", mobb::name(fit.axes),
             "time_scale", fit.time_scale);
-}
-
-void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree) {
-    const mobb::FitOptions& options = tree.options();
-    out.begin_object();
-    out.members("clip", clip, "tree", mobb::name(options.tree), "axes", mobb::name(options.axes));
-    out.members("leaf", options.leaf, "time_scale", options.time_scale);
-    out.list("levels", mobb::level_figures(tree),
-             [&](const mobb::LevelFigures& figures) { write_level(out, figures); });
-    out.begin_array("nodes");
-    for (int i = 0; i < static_cast<int>(tree.nodes().size()); ++i) write_node(out, tree, i);
-    out.end_array();
-    out.end_object();
 }
 
 void write_contact(JsonWriter& out, const std::optional<mobb::Contact>& contact) {

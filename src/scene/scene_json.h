@@ -1,4 +1,4 @@
-/// Parts of the scene file that stand in other JSON too: fits, contacts and traces; and trees.
+/// Parts of the scene file that stand in other JSON too: fits, contacts and traces.
 #pragma once
 
 #include <base/json.h>
@@ -9,7 +9,6 @@
 
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 
 namespace mobbscope {
@@ -26,9 +25,6 @@ void refuse_old_tree_names(const JsonPlace& place);
 /// Throws InputError.
 mobb::FitOptions read_fit(const JsonPlace& place, mobb::FitOptions base = {});
 void write_fit(JsonWriter& out, const mobb::FitOptions& fit);
-
-/// Per-level figures and every node of the tree over the clip of that name.
-void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree);
 
 /// An object, or null for no contact.
 void write_contact(JsonWriter& out, const std::optional<mobb::Contact>& contact);

@@ -1,5 +1,7 @@
 #include "run_program.h"
 
+#include <base/text.h>
+#include <explain/expected_cost.h>
 #include <explain/level_columns.h>
 #include <scene/fitted_scene.h>
 #include <support/json_keys.h>
@@ -12,6 +14,7 @@
 #include <span>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace mobbscope {
 namespace {
@@ -34,19 +37,22 @@ TEST(Fit, JsonIsTheTree) {
                              {mobb::TreeKind::umobb, 7, 4, mobb::Axes::covariance, 1.5});
     const mobb::Tree& tree = fitted.tree(1);
     const json& printed = trees[1];
-    EXPECT_EQ(keys(printed), (std::set<std::string>{"clip", "tree", "axes", "leaf", "time_scale", "levels", "nodes"}));
+    EXPECT_EQ(keys(printed),
+              (std::set<std::string>{"clip", "tree", "axes", "leaf", "time_scale", "expected", "levels", "nodes"}));
     EXPECT_EQ(printed["clip"], "bend");
     EXPECT_EQ(printed["tree"], "umobb");
     EXPECT_EQ(printed["axes"], "covariance");
     EXPECT_EQ(printed["leaf"], 7);
     EXPECT_EQ(printed["time_scale"], 1.5);
     ASSERT_EQ(printed["nodes"].size(), tree.nodes().size());
+    const ExpectedCost cost = expected_cost(tree, tree).value();
+    const std::vector<double> shares = cost.node_shares();
     for (std::size_t i = 0; i < tree.nodes().size(); ++i) {
         const mobb::Node& node = tree.nodes()[i];
         const mobb::Box box = tree.box(static_cast<int>(i));
         const json& entry = printed["nodes"][i];
         EXPECT_EQ(keys(entry), (std::set<std::string>{"index", "parent", "level", "first", "count", "leaf", "kind",
-                                                      "center", "axes", "half", "t0", "t1"}));
+                                                      "center", "axes", "half", "t0", "t1", "share"}));
         EXPECT_EQ(entry["index"], i);
         EXPECT_EQ(entry["parent"], tree.parent(static_cast<int>(i)));
         EXPECT_EQ(entry["level"], tree.level(static_cast<int>(i)));
@@ -68,7 +74,13 @@ TEST(Fit, JsonIsTheTree) {
         }
         EXPECT_EQ(entry["t0"], tree.t0(node));
         EXPECT_EQ(entry["t1"], tree.t1(node));
+        EXPECT_EQ(entry["share"], shares[i]);
     }
+    EXPECT_EQ(keys(printed["expected"]), (std::set<std::string>{"box_tests", "sample_pairs", "area", "offset"}));
+    EXPECT_EQ(printed["expected"]["box_tests"], cost.tests.boxes());
+    EXPECT_EQ(printed["expected"]["sample_pairs"], cost.tests[mobb::TestKind::samples]);
+    EXPECT_EQ(printed["expected"]["area"], cost.placements.area());
+    EXPECT_EQ(printed["expected"]["offset"], cost.placements.offset);
     const auto figures = mobb::level_figures(tree);
     ASSERT_EQ(printed["levels"].size(), figures.size());
     EXPECT_EQ(printed["levels"][2]["nodes"], figures[2].nodes);
@@ -82,20 +94,39 @@ TEST(Fit, JsonIsTheTree) {
     EXPECT_EQ(keys(printed["levels"][2]), columns);
 }
 
+/// What is expected is by a formula, which blocks have none of: they are counted.
+TEST(Fit, NothingIsExpectedOfBlocks) {
+    const Result run = run_program({"fit", kFitScenes + "crossing.json", "--json", "--tree", "blocks"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const json tree = json::parse(run.out)["trees"][0];
+    EXPECT_TRUE(tree["expected"].is_null());
+    EXPECT_TRUE(tree["nodes"][0]["share"].is_null());
+    EXPECT_EQ(run_program({"fit", kFitScenes + "crossing.json", "--tree", "blocks"}).out.find("expected"),
+              std::string::npos);
+}
+
 TEST(Fit, TheTableHasTheColumnsOfALevel) {
     const Result run = run_program({"fit", kFitScenes + "crossing.json"});
-    EXPECT_NE(run.out.find("\n  level   nodes   volume m^2*s   tightness %\n"), std::string::npos) << run.out;
+    const std::string headings = "  level   nodes   volume m^2*s   tightness %   box tests   cost %";
+    EXPECT_NE(run.out.find("\n" + headings + "\n"), std::string::npos) << run.out;
     const FittedScene fitted(load_scene(kFitScenes + "crossing.json"), {});
+    const ExpectedCost expected = expected_cost(fitted.tree(0), fitted.tree(0)).value();
     std::istringstream lines(run.out);
     std::string line;
-    for (int i = 0; i < 3; ++i) std::getline(lines, line);
+    for (int i = 0; i < 2; ++i) std::getline(lines, line);
+    EXPECT_EQ(line.rfind("  against itself: " + figure(expected.tests.boxes(), 3) + " box tests and ", 0), 0u) << line;
+    for (int i = 0; i < 2; ++i) std::getline(lines, line);
     std::istringstream root(line);
+    std::string shown;
     for (const mobb::LevelColumn& column : mobb::kLevelColumns) {
-        std::string shown;
         root >> shown;
         EXPECT_EQ(shown, level_text(column, mobb::level_figures(fitted.tree(0)).front())) << column.name;
     }
-    EXPECT_EQ(line.size(), std::string("  level   nodes   volume m^2*s   tightness %").size());
+    root >> shown;
+    EXPECT_EQ(shown, figure(expected.levels[0].boxes(), 3));
+    root >> shown;
+    EXPECT_EQ(shown, figure(100 * cost_of(expected.levels[0]) / cost_of(expected.tests), 3));
+    EXPECT_EQ(line.size(), headings.size());
 }
 
 TEST(Fit, ColumnsStayApartWhereNumbersAreWiderThanHeadings) {
@@ -105,8 +136,8 @@ TEST(Fit, ColumnsStayApartWhereNumbersAreWiderThanHeadings) {
         "thin.json", R"({"clips": {"thin": {"dt": 1, "samples": [[0, 0, 1e-60], [3, 1, 1e-60], [4, 9, 1e-60]]}}})");
     const Result run = run_program({"fit", file.string(), "--leaf", "3"});
     ASSERT_EQ(run.status, 0) << run.err;
-    EXPECT_NE(run.out.find("\n  level   nodes   volume m^2*s    tightness %\n"
-                           "      0       1             69   1.36591e-119\n"),
+    EXPECT_NE(run.out.find("\n  level   nodes   volume m^2*s    tightness %   box tests   cost %\n"
+                           "      0       1             69   1.36591e-119           1      100\n"),
               std::string::npos)
         << run.out;
 }
@@ -120,7 +151,7 @@ TEST(Fit, AMovingBoxIsGivenAtT0WithItsVelocity) {
     const std::span<const mobb::Disk> samples = scene.clips[1].clip->samples();
     for (const json& node : printed["nodes"]) {
         EXPECT_EQ(keys(node), (std::set<std::string>{"index", "parent", "level", "first", "count", "leaf", "kind",
-                                                     "center", "axes", "half", "velocity", "t0", "t1"}));
+                                                     "center", "axes", "half", "velocity", "t0", "t1", "share"}));
         EXPECT_EQ(node["kind"], "moving");
         ASSERT_EQ(node["velocity"].size(), 2u);
         ASSERT_EQ(node["axes"].size(), 2u);
@@ -165,7 +196,7 @@ TEST(Fit, AnAabbIsAFlatBoxAlongXAndY) {
 TEST(Fit, TextHasALineForEachLevel) {
     const Result run = run_program({"fit", kFitScenes + "circles.json", "--levels", "3"});
     ASSERT_EQ(run.status, 0) << run.err;
-    EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 5);
+    EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 6);
     EXPECT_TRUE(run.out.starts_with("circles: 1260 samples in 42 s; mobb tree of 7 nodes"));
 }
 

@@ -1,0 +1,79 @@
+/// Queries that fits are judged by, the tests that they make, and what these cost.
+#pragma once
+
+#include <mobb/observer.h>
+#include <mobb/tree.h>
+#include <scene/scene.h>
+
+#include <glm/vec2.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace mobbscope {
+
+/// Two trees where they are placed. The trees must outlive it.
+struct PlacedQuery {
+    const mobb::Tree* a;
+    const mobb::Tree* b;
+    mobb::Placement place_a, place_b;
+};
+
+/// Placements of two clips that say nothing about any scene: A stays where its file has it and begins at 0; B is turned
+/// to a heading that is uniform, begins at a start uniform within +-offset, and its middle is shifted from A's by what
+/// is uniform over a square. They depend on the clips alone, so all fits are asked the same.
+struct StandardPlacements {
+    glm::dvec2 middle_a{0}, middle_b{0};  ///< of the box around the clip's disks
+    double side = 0;    ///< m: four times what both reach around their middles: upright boxes never meet outside
+    double offset = 0;  ///< s: the longer duration
+
+    StandardPlacements(const mobb::Clip& a, const mobb::Clip& b);
+
+    double area() const { return side * side; }
+    /// B's placement of that number: the same for the same seed, on every machine.
+    mobb::Placement b(std::uint64_t seed, std::uint64_t index) const;
+};
+
+std::vector<PlacedQuery> standard_queries(const mobb::Tree& a, const mobb::Tree& b, std::size_t count,
+                                          std::uint64_t seed);
+
+/// Asks all queries on all processors, and gives the tests that each made. `progress` is told by one thread at a time;
+/// it may throw to end the work. Throws std::invalid_argument if a placement is none that may be.
+std::vector<mobb::TestCounts> count_tests(std::span<const PlacedQuery> queries, const Progress& progress = {});
+
+/// Tests of a query as numbers that need not be whole: expected, or a mean.
+struct MeanTests {
+    std::array<double, mobb::kTestKindCount> by_kind{};
+
+    double& operator[](mobb::TestKind test) { return by_kind[test.index()]; }
+    double operator[](mobb::TestKind test) const { return by_kind[test.index()]; }
+    double all() const { return std::accumulate(by_kind.begin(), by_kind.end(), 0.0); }
+    double boxes() const;
+    MeanTests& operator+=(const MeanTests& other);
+};
+
+/// Requires counts.
+MeanTests mean_tests(std::span<const mobb::TestCounts> counts);
+
+/// What a test costs, ns: a query's time is that of its tests, but for what every query takes.
+/// Of docs/performance.md, "The price of a test".
+inline constexpr MeanTests kTestPrices{{3, 14, 37, 26, 15, 0, 1.4}};
+
+/// ns
+double cost_of(const MeanTests& tests, const MeanTests& prices = kTestPrices);
+double cost_of(const mobb::TestCounts& tests, const MeanTests& prices = kTestPrices);
+
+/// How numbers spread, one for each query. Of the differences between two fits, query by query, the standard error is
+/// that of the paired difference.
+struct Spread {
+    double mean = 0, standard_error = 0;  ///< of the mean; 0 of a single number
+    double p95 = 0, p99 = 0, max = 0;     ///< at least that share of the numbers is not above
+};
+/// Requires numbers.
+Spread spread_of(std::span<const double> numbers);
+
+}  // namespace mobbscope

@@ -1,0 +1,15 @@
+/// A tree as `fit --json` has it.
+#pragma once
+
+#include <base/json_writer.h>
+#include <mobb/tree.h>
+
+#include <string>
+
+namespace mobbscope {
+
+/// What a query of the tree against itself is expected to cost, per-level figures and every node of the tree over the
+/// clip of that name.
+void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree);
+
+}  // namespace mobbscope
