@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <mutex>
+#include <numbers>
+#include <utility>
 
 namespace mobbscope {
 
@@ -63,33 +66,63 @@ mobb::Placement StandardPlacements::b(std::uint64_t seed, std::uint64_t index) c
     return place;
 }
 
-std::vector<PlacedQuery> standard_queries(const mobb::Tree& a, const mobb::Tree& b, std::size_t count,
-                                          std::uint64_t seed) {
-    const StandardPlacements placements(a.clip(), b.clip());
-    std::vector<PlacedQuery> out;
-    out.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) out.push_back({&a, &b, {}, placements.b(seed, i)});
+std::string_view name(QueryWorkload::Kind kind) {
+    return kind == QueryWorkload::Kind::placements ? "placements" : "queries";
+}
+
+QueryWorkload standard_workload(std::span<const mobb::ClipPtr> clips, std::size_t count, std::uint64_t seed) {
+    QueryWorkload out;
+    out.seed = seed;
+    out.queries.reserve(count);
+    std::map<std::pair<std::size_t, std::size_t>, StandardPlacements> placements;
+    const std::size_t pairs = clips.size() * (clips.size() + 1) / 2;
+    for (std::size_t i = 0; i < count; ++i) {
+        // Pair k of the triangle of all; the golden ratio brings up all of them evenly, however few are asked.
+        const double turn = static_cast<double>(i) * std::numbers::phi;
+        auto k = static_cast<std::size_t>((turn - std::floor(turn)) * static_cast<double>(pairs));
+        std::size_t b = 0;
+        for (; k > b; ++b) k -= b + 1;
+        const auto at = placements.try_emplace({k, b}, *clips[k], *clips[b]).first;
+        out.queries.push_back({static_cast<int>(k), static_cast<int>(b), {}, at->second.b(seed, i)});
+        out.area += at->second.area() / static_cast<double>(count);
+        out.offset += at->second.offset / static_cast<double>(count);
+    }
     return out;
 }
 
-std::vector<mobb::TestCounts> count_tests(std::span<const PlacedQuery> queries, const Progress& progress) {
+QueryWorkload scene_workload(const Scene& scene) {
+    QueryWorkload out;
+    out.kind = QueryWorkload::Kind::queries;
+    const std::size_t count = query_count(scene);
+    out.queries.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const SceneQuery query = query_at(scene, i);
+        out.queries.push_back({query.a.clip, query.b.clip, query.a.placement, query.b.placement});
+    }
+    return out;
+}
+
+std::vector<mobb::TestCounts> count_tests(const QueryWorkload& workload,
+                                          std::span<const std::shared_ptr<const mobb::Tree>> trees, std::size_t first,
+                                          const Progress& progress) {
     constexpr std::size_t kTogether = 256;
-    std::vector<mobb::TestCounts> out(queries.size());
+    const std::size_t count = workload.queries.size() - std::min(first, workload.queries.size());
+    std::vector<mobb::TestCounts> out(count);
     limit_worker_threads();
     std::mutex telling;
     std::size_t done = 0;
-    tbb::parallel_for(std::size_t{0}, (queries.size() + kTogether - 1) / kTogether, [&](std::size_t part) {
-        const std::size_t first = part * kTogether, end = std::min(first + kTogether, queries.size());
-        for (std::size_t i = first; i < end; ++i) {
-            const PlacedQuery& asked = queries[i];
+    tbb::parallel_for(std::size_t{0}, (count + kTogether - 1) / kTogether, [&](std::size_t part) {
+        const std::size_t begin = part * kTogether, end = std::min(begin + kTogether, count);
+        for (std::size_t i = begin; i < end; ++i) {
+            const ClipQuery& asked = workload.queries[first + i];
             mobb::Statistics statistics;
-            mobb::query(mobb::PlacedTree(*asked.a, asked.place_a), mobb::PlacedTree(*asked.b, asked.place_b),
-                        statistics);
+            mobb::query(mobb::PlacedTree(*trees[static_cast<std::size_t>(asked.clip_a)], asked.place_a),
+                        mobb::PlacedTree(*trees[static_cast<std::size_t>(asked.clip_b)], asked.place_b), statistics);
             out[i] = statistics.tests;
         }
         if (!progress) return;
         const std::scoped_lock lock(telling);
-        progress(done += end - first, queries.size());
+        progress(done += end - begin, count);
     });
     return out;
 }

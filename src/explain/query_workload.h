@@ -10,18 +10,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <numeric>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace mobbscope {
-
-/// Two trees where they are placed. The trees must outlive it.
-struct PlacedQuery {
-    const mobb::Tree* a;
-    const mobb::Tree* b;
-    mobb::Placement place_a, place_b;
-};
 
 /// Placements of two clips that say nothing about any scene: A stays where its file has it and begins at 0; B is turned
 /// to a heading that is uniform, begins at a start uniform within +-offset, and its middle is shifted from A's by what
@@ -38,12 +33,40 @@ struct StandardPlacements {
     mobb::Placement b(std::uint64_t seed, std::uint64_t index) const;
 };
 
-std::vector<PlacedQuery> standard_queries(const mobb::Tree& a, const mobb::Tree& b, std::size_t count,
-                                          std::uint64_t seed);
+/// Two clips of a list, each where it is placed.
+struct ClipQuery {
+    int clip_a = 0, clip_b = 0;
+    mobb::Placement place_a, place_b;
+};
 
-/// Asks all queries on all processors, and gives the tests that each made. `progress` is told by one thread at a time;
-/// it may throw to end the work. Throws std::invalid_argument if a placement is none that may be.
-std::vector<mobb::TestCounts> count_tests(std::span<const PlacedQuery> queries, const Progress& progress = {});
+/// Queries that fits are judged by. Every fit is asked the same.
+struct QueryWorkload {
+    enum class Kind {
+        placements,  ///< StandardPlacements
+        queries,     ///< those of a scene, or of a capture
+    };
+    Kind kind = Kind::placements;
+    std::vector<ClipQuery> queries;
+    // Of placements:
+    double area = 0;         ///< m^2, of the shifts; the mean over the queries, as pairs of clips have their own
+    double offset = 0;       ///< s, likewise: B starts within +-this
+    std::uint64_t seed = 0;  ///< the same seed gives the same queries, of which a longer workload has more
+};
+/// As in files: "placements", "queries".
+std::string_view name(QueryWorkload::Kind kind);
+
+/// Standard placements of clips against each other and themselves: every pair as often as every other. Requires clips,
+/// of which none is null.
+QueryWorkload standard_workload(std::span<const mobb::ClipPtr> clips, std::size_t count, std::uint64_t seed);
+/// The queries of a scene; its clips are the list. There may be none.
+QueryWorkload scene_workload(const Scene& scene);
+
+/// Asks queries [first, all) of a workload on all processors, and gives the tests that each made. `trees`: by clip,
+/// none null. `progress` is told by one thread at a time of how many of these were asked; it may throw to end the work.
+/// Throws std::invalid_argument if a placement is none that may be.
+std::vector<mobb::TestCounts> count_tests(const QueryWorkload& workload,
+                                          std::span<const std::shared_ptr<const mobb::Tree>> trees,
+                                          std::size_t first = 0, const Progress& progress = {});
 
 /// Tests of a query as numbers that need not be whole: expected, or a mean.
 struct MeanTests {

@@ -13,9 +13,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -216,17 +218,57 @@ TEST(StandardPlacements, HoldEveryMeeting) {
     }
 }
 
+using Trees = std::vector<std::shared_ptr<const mobb::Tree>>;
+
+/// Of a tree against itself, under standard placements.
+std::vector<mobb::TestCounts> count_against_itself(const mobb::ClipPtr& clip, const mobb::FitOptions& fit,
+                                                   std::size_t count) {
+    return count_tests(standard_workload(std::vector{clip}, count, 1), Trees{std::make_shared<mobb::Tree>(clip, fit)});
+}
+
+/// Of two trees against each other.
+std::vector<mobb::TestCounts> count_of_two(const Trees& trees, std::size_t count) {
+    const StandardPlacements placements(trees[0]->clip(), trees[1]->clip());
+    QueryWorkload workload;
+    for (std::size_t i = 0; i < count; ++i) workload.queries.push_back({0, 1, {}, placements.b(3, i)});
+    return count_tests(workload, trees);
+}
+
+TEST(QueryWorkload, AsksEveryPairOfClipsAsOften) {
+    const std::vector<mobb::ClipPtr> clips{human(1, 60), human(2, 90), human(3, 120)};
+    const QueryWorkload workload = standard_workload(clips, 600, 5);
+    std::map<std::pair<int, int>, int> asked;
+    for (const ClipQuery& pair : workload.queries) ++asked[{pair.clip_a, pair.clip_b}];
+    EXPECT_EQ(asked.size(), 6u);
+    for (const auto& [pair, count] : asked) {
+        EXPECT_LE(pair.first, pair.second);
+        EXPECT_NEAR(count, 100, 3);
+    }
+    const QueryWorkload longer = standard_workload(clips, 700, 5);
+    for (std::size_t i = 0; i < workload.queries.size(); ++i) {
+        EXPECT_EQ(workload.queries[i].place_b, longer.queries[i].place_b);
+    }
+    const QueryWorkload own = standard_workload(std::vector{clips[0]}, 10, 5);
+    const StandardPlacements placements(*clips[0], *clips[0]);
+    EXPECT_NEAR(own.area, placements.area(), 1e-9 * own.area);
+    EXPECT_NEAR(own.offset, placements.offset, 1e-12);
+}
+
 TEST(CountedTests, AreThoseOfEachQuery) {
-    const mobb::Tree a(human(5, 200), {}), b(human(6, 150), {});
-    const std::vector<PlacedQuery> queries = standard_queries(a, b, 1000, 9);
+    const Trees trees{std::make_shared<mobb::Tree>(human(5, 200), mobb::FitOptions()),
+                      std::make_shared<mobb::Tree>(human(6, 150), mobb::FitOptions())};
+    const QueryWorkload workload =
+        standard_workload(std::vector{trees[0]->shared_clip(), trees[1]->shared_clip()}, 1000, 9);
     std::size_t told = 0;
     const std::vector<mobb::TestCounts> counts =
-        count_tests(queries, [&](std::size_t done, std::size_t all) { told = done + all; });
+        count_tests(workload, trees, 0, [&](std::size_t done, std::size_t all) { told = done + all; });
     EXPECT_EQ(told, 2000u);
     mobb::TestCounts sum;
-    for (std::size_t i = 0; i < queries.size(); ++i) {
+    for (std::size_t i = 0; i < workload.queries.size(); ++i) {
+        const ClipQuery& asked = workload.queries[i];
         mobb::Statistics statistics;
-        mobb::query(mobb::PlacedTree(a, queries[i].place_a), mobb::PlacedTree(b, queries[i].place_b), statistics);
+        mobb::query(mobb::PlacedTree(*trees[static_cast<std::size_t>(asked.clip_a)], asked.place_a),
+                    mobb::PlacedTree(*trees[static_cast<std::size_t>(asked.clip_b)], asked.place_b), statistics);
         EXPECT_EQ(counts[i], statistics.tests);
         for (const TestKind kind : mobb::kTestKinds) sum[kind] += counts[i][kind];
     }
@@ -235,7 +277,9 @@ TEST(CountedTests, AreThoseOfEachQuery) {
     EXPECT_DOUBLE_EQ(mean[TestKind::samples], static_cast<double>(sum[TestKind::samples]) / 1000);
     EXPECT_NEAR(cost_of(mean), cost_of(sum) / 1000, 1e-9);
     const auto fail = [](std::size_t, std::size_t) { throw std::runtime_error("enough"); };
-    EXPECT_THROW(count_tests(queries, fail), std::runtime_error);
+    EXPECT_THROW(count_tests(workload, trees, 0, fail), std::runtime_error);
+    const std::vector<mobb::TestCounts> rest = count_tests(workload, trees, 300);
+    EXPECT_TRUE(std::ranges::equal(rest, std::span(counts).subspan(300)));
 }
 
 TEST(CountedTests, SpreadIsThatOfTheNumbers) {
@@ -277,8 +321,8 @@ TEST(ExpectedCost, OfAStandingTreeIsTheClosedForm) {
     EXPECT_NEAR(cost.tests.boxes(), 1 + (meet - hit) * (2 + 4 + 8) + 3 * hit, 1e-9);
     ASSERT_EQ(cost.levels.size(), 4u);
     EXPECT_NEAR(cost.levels[2].boxes(), 4 * (meet - hit) + hit, 1e-9);
-    EXPECT_NEAR(mean_tests(count_tests(standard_queries(tree, tree, 100'000, 1))).boxes(), cost.tests.boxes(),
-                0.03 * cost.tests.boxes());
+    EXPECT_NEAR(mean_tests(count_against_itself(tree.shared_clip(), tree.options(), 100'000)).boxes(),
+                cost.tests.boxes(), 0.03 * cost.tests.boxes());
 }
 
 TEST(ExpectedCost, CountsWalksOfALeafInTimeAlone) {
@@ -291,7 +335,8 @@ TEST(ExpectedCost, CountsWalksOfALeafInTimeAlone) {
     const double meet = upright_area(1, 4, 1, 4) / cost.placements.area();
     // The inner nodes last 1, 1/2 and 1/2 s, A's leaf 1 s.
     EXPECT_NEAR(cost.bound[TestKind::time], 1 + meet * 2 * ((1 + 1) + 2 * (1 + 0.5)) / 2, 1e-9);
-    const std::vector<mobb::TestCounts> counts = count_tests(standard_queries(a, b, 50'000, 3));
+    const std::vector<mobb::TestCounts> counts =
+        count_of_two({std::make_shared<mobb::Tree>(a), std::make_shared<mobb::Tree>(b)}, 50'000);
     EXPECT_LT(mean_tests(counts)[TestKind::time], 1.01 * cost.bound[TestKind::time]);
     EXPECT_GT(mean_tests(counts)[TestKind::time], 0.99 * cost.tests[TestKind::time]);
 }
@@ -327,7 +372,7 @@ TEST(ExpectedCost, SharesAreThoseThatAreCounted) {
     for (const TreeKind kind : {TreeKind::mobb, TreeKind::umobb, TreeKind::moving}) {
         const mobb::Tree tree(human(9, 240), {kind});
         std::vector<double> counted(tree.nodes().size());
-        for (const PlacedQuery& asked : standard_queries(tree, tree, 40'000, 1)) {
+        for (const ClipQuery& asked : standard_workload(std::vector{tree.shared_clip()}, 40'000, 1).queries) {
             ByNode by_node(counted);
             mobb::query(mobb::PlacedTree(tree, {}), mobb::PlacedTree(tree, asked.place_b), by_node);
         }
@@ -411,7 +456,7 @@ struct Comparison {
             for (const int leaf : {3, 10, 40}) {
                 const mobb::Tree tree(clip, {kind, leaf});
                 const ExpectedCost cost = expected_cost(tree, tree).value();
-                const std::vector<mobb::TestCounts> counts = count_tests(standard_queries(tree, tree, 4000, 1));
+                const std::vector<mobb::TestCounts> counts = count_against_itself(clip, {kind, leaf}, 4000);
                 std::vector<double> boxes;
                 for (const mobb::TestCounts& tests : counts) boxes.push_back(static_cast<double>(tests.boxes()));
                 const Spread spread = spread_of(boxes);
@@ -457,7 +502,8 @@ TEST(ExpectedCost, RanksFitsOfRecordingsAsCountsDo) {
 TEST(ExpectedCost, OfTwoClipsIsNearTheCount) {
     const mobb::Tree a(human(20, 300), {}), b(human(21, 150), {});
     const ExpectedCost cost = expected_cost(a, b).value();
-    const MeanTests counted = mean_tests(count_tests(standard_queries(a, b, 20'000, 1)));
+    const MeanTests counted =
+        mean_tests(count_of_two({std::make_shared<mobb::Tree>(a), std::make_shared<mobb::Tree>(b)}, 20'000));
     EXPECT_NEAR(cost.tests.boxes(), counted.boxes(), 0.15 * counted.boxes());
     EXPECT_NEAR(cost_of(cost.tests), cost_of(counted), 0.15 * cost_of(counted));
 }
