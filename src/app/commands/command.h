@@ -190,6 +190,7 @@ std::vector<Command> clip_commands();
 std::vector<Command> view_commands();
 std::vector<Command> shown_commands();
 std::vector<Command> tree_commands();
+std::vector<Command> sweep_commands();  ///< among those of trees
 std::vector<Command> query_commands();
 std::vector<Command> step_commands();
 std::vector<Command> reason_commands();

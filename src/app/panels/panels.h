@@ -16,6 +16,7 @@ void menu_bar(Ui& ui);
 void scene_panel(Ui& ui, QueryInspector& queries);             ///< agents, clips, queries
 float placement_height(const Ui& ui, Settings& settings);      ///< pixels; 0: nobody is selected who can be placed
 void placement_panel(Ui& ui);                                  ///< the selected agent by numbers; else nothing
+void sweep_panel(Ui& ui, SweepInspector& sweeps);              ///< which tree to ship
 void tree_panel(Ui& ui, Jobs& jobs, QueryInspector& queries);  ///< how trees are fitted and how tight they are
 void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures);  ///< the answer, and why
 /// How high the map of placements is, and its side; pixels.

@@ -56,10 +56,11 @@ std::string hover_facts(const Workspace& workspace, const QueryInspector& querie
     return out;
 }
 
-/// The work under way: jobs of the scene, the oldest first, and behind them that of screens.
+/// The work under way: jobs of the scene, the oldest first, and behind them a sweep and that of screens.
 std::vector<const Job*> work_under_way(const Session& session) {
     std::vector<const Job*> out;
     for (std::size_t i = 0; i < session.jobs.count(); ++i) out.push_back(&session.jobs.job(i));
+    if (const Job* sweep = session.sweeps.job()) out.push_back(sweep);
     for (const auto& screen : session.screens) {
         if (const Job* work = screen->work()) out.push_back(work);
     }
@@ -69,6 +70,7 @@ std::vector<const Job*> work_under_way(const Session& session) {
 /// Ends the first of it.
 void cancel_first(Session& session) {
     if (session.jobs.job()) return session.jobs.cancel(0);
+    if (session.sweeps.is_running()) return session.sweeps.cancel();
     const auto first = std::ranges::find_if(session.screens, [](const auto& screen) { return screen->work(); });
     if (first != session.screens.end()) (*first)->cancel();
 }

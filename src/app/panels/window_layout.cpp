@@ -195,6 +195,7 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
             for (const auto& each : ui.session.screens) each->draw_above_scene(ui);
             scene_panel(ui, ui.session.queries);
             tree_panel(ui, ui.session.jobs, ui.session.queries);
+            sweep_panel(ui, ui.session.sweeps);
         });
         if (placement > 0) panel(ui, "placement", {left, placement}, [&] { placement_panel(ui); });
         ImGui::EndGroup();

@@ -41,6 +41,7 @@ double Session::ui_scale() const {
 void Session::poll() {
     for (const auto& each : screens) each->poll();
     jobs.poll();
+    sweeps.update();
     imports.ask_for_offer();
 }
 
@@ -49,6 +50,7 @@ void Session::end_work() {
     recovery.end_work();
     dialogs.preview.end();
     maps.end_work();
+    sweeps.cancel();
     answers.end_work();
     for (const auto& each : screens) each->end_work();
 }

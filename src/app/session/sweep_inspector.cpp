@@ -1,0 +1,114 @@
+#include <app/session/sweep_inspector.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <vector>
+
+namespace mobbscope::app {
+
+namespace {
+
+constexpr std::size_t kMostQueries = 16'000;
+constexpr std::uint64_t kSeed = 1;
+
+std::vector<mobb::ClipPtr> clips_of(const Scene& scene) {
+    std::vector<mobb::ClipPtr> out;
+    out.reserve(scene.clips.size());
+    for (const SceneClip& clip : scene.clips) out.push_back(clip.clip);
+    return out;
+}
+
+/// Whether the same is asked of both.
+bool is_same(const Scene& a, const Scene& b, QueryWorkload::Kind kind) {
+    if (!std::ranges::equal(a.clips, b.clips, {}, &SceneClip::clip, &SceneClip::clip)) return false;
+    return kind == QueryWorkload::Kind::placements || (a.agents == b.agents && a.queries == b.queries);
+}
+
+}  // namespace
+
+SweepOrder SweepInspector::order() const {
+    SweepOrder out = usual_sweep(workspace_.fitted().options());
+    if (over_axes) set_over(out, "axes=all");
+    if (over_time_scale) set_over(out, "time_scale=0.1:30");
+    out.most_queries = kMostQueries;
+    return out;
+}
+
+void SweepInspector::start() {
+    auto sweep = std::make_shared<Sweep>();
+    sweep->scene = workspace_.document().fitted->shared_scene();
+    sweep->kind = workspace_.workload();
+    running_ = sweep;
+    job_ = std::make_unique<Job>(
+        "Trying fits",
+        [sweep, order = order()](JobControl& control) -> Job::Finish {
+            const std::vector<mobb::ClipPtr> clips = clips_of(*sweep->scene);
+            const QueryWorkload workload = sweep->kind == QueryWorkload::Kind::placements
+                                               ? standard_workload(clips, order.most_queries, kSeed)
+                                               : scene_workload(*sweep->scene);
+            const auto publish = [&](const std::shared_ptr<const SweepResult>& result) {
+                {
+                    const std::scoped_lock lock(sweep->mutex);
+                    sweep->result = result;
+                    sweep->area = workload.area;
+                    sweep->offset = workload.offset;
+                }
+                control.tell_news();
+            };
+            publish(
+                std::make_shared<const SweepResult>(sweep_fits(clips, workload, order, progress_of(control), publish)));
+            return {};
+        },
+        [&at = *desktop_] { at.wake(); });
+    if (!options_.attended) {
+        job_->wait(std::chrono::hours(24));
+        update();
+    }
+}
+
+void SweepInspector::cancel() {
+    job_.reset();
+    running_.reset();
+}
+
+void SweepInspector::update() {
+    if (!job_ || !job_->done()) return;
+    try {
+        job_->finish();
+        ended_ = running_;
+        compared_ = {};
+    } catch (const std::exception& error) {
+        notifications_.tell(MessageLevel::error, error.what());
+    }
+    cancel();
+}
+
+std::shared_ptr<const SweepInspector::Sweep> SweepInspector::shown() const {
+    for (const auto& sweep : {running_, ended_}) {
+        if (!sweep) continue;
+        const std::scoped_lock lock(sweep->mutex);
+        if (sweep->result) return sweep;
+    }
+    return nullptr;
+}
+
+std::optional<SweepInspector::Shown> SweepInspector::result() const {
+    const auto sweep = shown();
+    if (!sweep) return std::nullopt;
+    const std::scoped_lock lock(sweep->mutex);
+    return Shown{sweep->result, sweep->kind, sweep->area, sweep->offset};
+}
+
+bool SweepInspector::is_of_scene() const {
+    const auto sweep = shown();
+    const std::shared_ptr<const Scene>& now = workspace_.document().fitted->shared_scene();
+    if (!sweep) return false;
+    if (compared_ != std::pair(sweep->scene, now)) {
+        compared_ = {sweep->scene, now};
+        is_same_ = is_same(*sweep->scene, *now, sweep->kind);
+    }
+    return is_same_;
+}
+
+}  // namespace mobbscope::app
