@@ -32,6 +32,18 @@ std::string complaint_about_flag(const std::string& text) {
     return is_flag ? "" : in_quotes(text) + " is neither true nor false";
 }
 
+/// What `set` throws as std::invalid_argument becomes bad usage of the option.
+std::function<void(const std::string&)> or_refuse(const std::string& name,
+                                                  std::function<void(const std::string&)> set) {
+    return [name, set = std::move(set)](const std::string& text) {
+        try {
+            set(text);
+        } catch (const std::invalid_argument& error) {
+            throw UsageError(name + ": " + error.what());
+        }
+    };
+}
+
 }  // namespace
 
 Option& Option::required() {
@@ -102,14 +114,18 @@ Option Command::add_flag(const std::string& name, std::function<void(bool)> set,
 
 Option Command::add_option(const std::string& name, std::function<void(const std::string&)> set,
                            const std::string& help, const std::string& placeholder) {
-    const auto set_or_refuse = [name, set = std::move(set)](const std::string& text) {
-        try {
-            set(text);
-        } catch (const std::invalid_argument& error) {
-            throw UsageError(name + ": " + error.what());
-        }
+    return Option(
+        *app_->add_option_function<std::string>(name, or_refuse(name, std::move(set)), help)->type_name(placeholder));
+}
+
+Option Command::add_repeated_option(const std::string& name, std::function<void(const std::string&)> set,
+                                    const std::string& help, const std::string& placeholder) {
+    const auto set_each = [set = or_refuse(name, std::move(set))](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) set(text);
     };
-    return Option(*app_->add_option_function<std::string>(name, set_or_refuse, help)->type_name(placeholder));
+    return Option(*app_->add_option_function<std::vector<std::string>>(name, set_each, help)
+                       ->type_name(placeholder)
+                       ->allow_extra_args(false));
 }
 
 Option Command::add_list_option(const std::string& name,

@@ -96,6 +96,9 @@ class Command {
     /// The std::invalid_argument that `set` throws becomes bad usage of the option.
     Option add_option(const std::string& name, std::function<void(const std::string&)> set, const std::string& help,
                       const std::string& placeholder);
+    /// The same of an option that may be given more than once: `set` gets each.
+    Option add_repeated_option(const std::string& name, std::function<void(const std::string&)> set,
+                               const std::string& help, const std::string& placeholder);
     /// The same with as many texts as follow.
     Option add_list_option(const std::string& name, const std::function<void(const std::vector<std::string>&)>& set,
                            const std::string& help, const std::string& placeholder);

@@ -59,7 +59,7 @@ int run(int argc, char** argv) {
     for (const auto add :
          {add_bench_command, add_conflicts_command, add_convert_command, add_diff_command, add_fit_command,
           add_graph_command, add_info_command, add_map_command, add_query_command, add_render_command,
-          add_review_command, add_simulate_command, add_test_command, add_verify_command}) {
+          add_review_command, add_simulate_command, add_sweep_command, add_test_command, add_verify_command}) {
         add(program);
     }
     // Before any command runs: what stands in front of its name is no argument of it.

@@ -289,4 +289,12 @@ Scene load(const std::filesystem::path& file, const ImportOptions& options, Radi
     return scene;
 }
 
+Scene load_file_or_folder(const std::filesystem::path& path, const ImportOptions& options) {
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(path, ignored)) return load(path, options);
+    Scene scene = load_files({path}, options, tell("read", "files"));
+    print_warnings(scene);
+    return scene;
+}
+
 }  // namespace mobbscope::cli

@@ -108,5 +108,7 @@ Progress tell(const std::string& doing, const std::string& things);
 
 /// load_scene, with its warnings on standard error. Throws InputError.
 Scene load(const std::filesystem::path& file, const ImportOptions& options, RadiusOf radius = RadiusOf::imported_clips);
+/// The same, or the clips of all files in a folder.
+Scene load_file_or_folder(const std::filesystem::path& path, const ImportOptions& options);
 
 }  // namespace mobbscope::cli

@@ -52,6 +52,7 @@ void add_map_command(Command& program);
 void add_query_command(Command& program);
 void add_render_command(Command& program);
 void add_simulate_command(Command& program);
+void add_sweep_command(Command& program);
 void add_test_command(Command& program);
 void add_verify_command(Command& program);
 

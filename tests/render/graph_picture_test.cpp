@@ -1,5 +1,5 @@
 // The picture of a motion graph: what it says. What it looks like is a golden:
-// tests/picture_tests/graph_golden_test.cpp.
+// tests/picture_tests/plain_pictures_golden_test.cpp.
 #include <render/pictures/graph_moves.h>
 #include <render/pictures/graph_picture.h>
 

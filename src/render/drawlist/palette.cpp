@@ -12,6 +12,8 @@ namespace {
 constexpr float kFaintestOnDark = 1.35f;
 constexpr float kFaintestOnLight = 1.5f;
 
+constexpr std::uint32_t kOrange = 0xE69F00;
+constexpr std::uint32_t kPurple = 0xCC79A7;
 constexpr std::uint32_t kSkyBlue = 0x56B4E9;
 constexpr std::uint32_t kBluishGreen = 0x009E73;
 constexpr std::uint32_t kYellow = 0xF0E442;
@@ -60,6 +62,16 @@ Rgba quantity_color(float quantity, const Palette& palette) {
     const float at = (palette.dark ? 0.3f + 0.7f * t : 0.8f * t) * static_cast<float>(kViridis.size() - 1);
     const std::size_t below = std::min(static_cast<std::size_t>(at), kViridis.size() - 2);
     return mix_colors(hex(kViridis[below]), hex(kViridis[below + 1]), at - static_cast<float>(below));
+}
+
+Rgba category_color(std::size_t index, const Palette& palette) {
+    // What is pale is darkened to be seen on white.
+    const auto pale = [&](std::uint32_t color) {
+        return palette.dark ? hex(color) : mix_colors(hex(color), Rgba(0, 0, 0, 1), 0.2f);
+    };
+    const std::array<Rgba, 7> colors{pale(kOrange), pale(kSkyBlue),  palette.separated,    pale(kPurple),
+                                     palette.hit,   palette.overlap, palette.apart_in_time};
+    return colors[index % colors.size()];
 }
 
 Rgba with_alpha(Rgba color, float alpha) { return {color.r, color.g, color.b, alpha}; }

@@ -5,6 +5,8 @@
 #include <base/color.h>
 #include <scene/view_state.h>
 
+#include <cstddef>
+
 namespace mobbscope {
 
 struct Palette {
@@ -28,6 +30,9 @@ const Palette& palette(Theme theme);
 
 /// The colour of a quantity from 0 to 1: viridis, of which the part that stands out from the theme's ground is taken.
 Rgba quantity_color(float quantity, const Palette& palette);
+
+/// The colour of one of several things without an order; after seven they repeat.
+Rgba category_color(std::size_t index, const Palette& palette);
 
 /// `color` with another opacity.
 Rgba with_alpha(Rgba color, float alpha);

@@ -1,0 +1,359 @@
+#include <base/error.h>
+#include <base/json_writer.h>
+#include <base/text.h>
+#include <cli/command_line.h>
+#include <cli/options.h>
+#include <cli/program.h>
+#include <explain/fit_sweep.h>
+#include <explain/time_scale_curves.h>
+#include <scene/load_files.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace mobbscope::cli {
+
+namespace {
+
+constexpr int kLeastQueries = 2, kMostQueries = 1'000'000;
+constexpr std::size_t kMostLines = 15;
+
+struct SweepCommandArguments : FittedArguments {
+    SweepOrder over;
+    bool csv = false;
+    bool of_scene = false;  ///< the scene's own queries
+    std::uint64_t seed = 1;
+};
+
+using Layout = JsonWriter::Layout;
+
+/// A row's line in a file: over all queries, or over those in which a clip takes part.
+struct RowFigures {
+    const SweepRow& row;
+    std::optional<std::string> clip;
+    std::size_t queries;
+    const MeanTests& tests;
+    const Spread& cost;
+    bool all;  ///< over all queries
+};
+
+/// Calls `write` with each row over all clips; where there are several, also over each one.
+template <class Write>
+void for_each_row(const Scene& scene, const SweepResult& result, Write write) {
+    const bool single = scene.clips.size() == 1;
+    for (const SweepRow& row : result.rows) {
+        write(RowFigures{row, single ? std::optional(scene.clips[0].name) : std::nullopt, result.queries, row.tests,
+                         row.cost, true});
+        for (std::size_t i = 0; i < row.clips.size(); ++i) {
+            const SweepClip& clip = row.clips[i];
+            write(RowFigures{row, scene.clips[i].name, clip.queries, clip.tests, clip.cost, false});
+        }
+    }
+}
+
+void write_fit(JsonWriter& out, const mobb::FitOptions& fit) {
+    out.members("tree", mobb::name(fit.tree), "leaf", fit.leaf, "axes", mobb::name(fit.axes), "time_scale",
+                fit.time_scale);
+}
+
+void write_row(JsonWriter& out, const RowFigures& figures, bool has_quantiles) {
+    out.begin_object(Layout::row);
+    out.member("clip", figures.clip);
+    write_fit(out, figures.row.fit);
+    out.members("box_tests", figures.tests.boxes(), "sample_pairs", figures.tests[mobb::TestKind::samples]);
+    out.members("cost", figures.cost.mean, "standard_error", figures.cost.standard_error);
+    const auto if_known = [&](double quantile) { return has_quantiles ? std::optional(quantile) : std::nullopt; };
+    out.members("p95", if_known(figures.cost.p95), "p99", if_known(figures.cost.p99), "max",
+                if_known(figures.cost.max));
+    if (figures.all) {
+        out.members("difference", figures.row.difference, "difference_error", figures.row.difference_error);
+        out.members("nodes", figures.row.nodes, "bytes", figures.row.bytes);
+    }
+    out.member("queries", figures.queries);
+    out.end_object();
+}
+
+void write_curves(JsonWriter& out, const std::vector<LevelCurve>& curves) {
+    out.begin_array("levels");
+    for (const LevelCurve& curve : curves) {
+        out.begin_object(Layout::row);
+        write_fit(out, curve.fit);
+        out.begin_array("levels");
+        for (std::size_t i = 0; i < curve.levels.size(); ++i) {
+            out.row("level", i, "volume", curve.levels[i].volume, "cost", curve.levels[i].cost);
+        }
+        out.end_array();
+        out.end_object();
+    }
+    out.end_array();
+}
+
+void print_json(const Scene& scene, const QueryWorkload& workload, const SweepResult& result,
+                const std::vector<LevelCurve>& curves) {
+    JsonWriter out(std::cout);
+    out.begin_object();
+    const bool placed = workload.kind == QueryWorkload::Kind::placements;
+    const auto of_placements = [&](auto value) { return placed ? std::optional(value) : std::nullopt; };
+    out.begin_object("workload", Layout::row);
+    out.members("kind", name(workload.kind), "area", of_placements(workload.area), "offset",
+                of_placements(workload.offset), "seed", of_placements(workload.seed), "queries", result.queries);
+    out.end_object();
+    out.member("unit", unit_of(result.order.cost));
+    const bool has_quantiles = result.order.cost == SweepCost::price;
+    out.begin_array("rows");
+    for_each_row(scene, result, [&](const RowFigures& figures) { write_row(out, figures, has_quantiles); });
+    out.end_array();
+    const SweepRow& chosen = result.rows[result.recommended];
+    out.begin_object("recommended");
+    write_fit(out, chosen.fit);
+    out.members("cost", chosen.cost.mean, "present_cost", result.rows[result.present].cost.mean, "why", result.why);
+    out.end_object();
+    out.begin_array("exceptions");
+    for (const SweepException& exception : result.exceptions) {
+        out.begin_object(Layout::row);
+        out.member("clip", scene.clips[static_cast<std::size_t>(exception.clip)].name);
+        write_fit(out, result.rows[exception.row].fit);
+        out.member("saving", exception.saving);
+        out.end_object();
+    }
+    out.end_array();
+    if (!curves.empty()) write_curves(out, curves);
+    out.end_object();
+}
+
+/// A cell as CSV has it.
+std::string csv_cell(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"') out += '"';
+        out += c;
+    }
+    out += '"';
+    return out;
+}
+
+void print_csv(const Scene& scene, const SweepResult& result) {
+    std::cout << "clip,tree,leaf,axes,time_scale,box_tests,sample_pairs,cost,standard_error,difference,"
+                 "difference_error,p95,p99,max,nodes,bytes,queries\n";
+    const bool has_quantiles = result.order.cost == SweepCost::price;
+    for_each_row(scene, result, [&](const RowFigures& figures) {
+        const mobb::FitOptions& fit = figures.row.fit;
+        std::cout << csv_cell(figures.clip.value_or("")) << ',' << mobb::name(fit.tree) << ',' << fit.leaf << ','
+                  << mobb::name(fit.axes) << ',' << format_double(fit.time_scale);
+        const auto number = [](double value, bool known = true) {
+            std::cout << ',' << (known ? format_double(value) : "");
+        };
+        number(figures.tests.boxes());
+        number(figures.tests[mobb::TestKind::samples]);
+        number(figures.cost.mean);
+        number(figures.cost.standard_error);
+        number(figures.row.difference, figures.all);
+        number(figures.row.difference_error, figures.all);
+        for (const double quantile : {figures.cost.p95, figures.cost.p99, figures.cost.max}) {
+            number(quantile, has_quantiles);
+        }
+        number(static_cast<double>(figures.row.nodes), figures.all);
+        number(static_cast<double>(figures.row.bytes), figures.all);
+        std::cout << ',' << figures.queries << '\n';
+    });
+}
+
+/// The rows that are worth a line: the best of each kind and axes, the present one, and the next best of other trees;
+/// the best first.
+std::vector<std::size_t> lines_of(const SweepResult& result) {
+    std::vector<std::size_t> order(result.rows.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    const auto cost = [&](std::size_t i) { return result.rows[i].cost.mean; };
+    std::ranges::stable_sort(order, {}, cost);
+    std::vector<std::size_t> lines{result.recommended};
+    const auto add_if = [&](auto is_new) {
+        for (const std::size_t i : order) {
+            const auto same = [&](std::size_t other) { return !is_new(result.rows[i], result.rows[other]); };
+            if (lines.size() < kMostLines && std::ranges::none_of(lines, same)) lines.push_back(i);
+        }
+    };
+    if (result.present != result.recommended) lines.push_back(result.present);
+    const auto other_kind = [](const SweepRow& a, const SweepRow& b) {
+        return a.fit.tree != b.fit.tree || a.fit.axes != b.fit.axes;
+    };
+    // Leaves between which no node has its size make the same trees.
+    const auto other_trees = [&](const SweepRow& a, const SweepRow& b) {
+        return other_kind(a, b) || a.cost.mean != b.cost.mean || a.nodes != b.nodes;
+    };
+    add_if([&](const SweepRow& a, const SweepRow& b) { return other_kind(a, b); });
+    add_if(other_trees);
+    std::ranges::stable_sort(lines, {}, cost);
+    return lines;
+}
+
+/// Cells under each other: the first column to the left, the others to the right.
+void print_table(const std::vector<std::vector<std::string>>& lines) {
+    std::vector<std::size_t> widths(lines.front().size());
+    for (const std::vector<std::string>& line : lines) {
+        for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+    }
+    for (const std::vector<std::string>& line : lines) {
+        std::cout << ' ' << line[0] << std::string(widths[0] - line[0].size(), ' ');
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            std::cout << "   " << std::string(widths[i] - line[i].size(), ' ') << line[i];
+        }
+        std::cout << '\n';
+    }
+}
+
+std::string workload_words(const QueryWorkload& workload, const SweepResult& result, std::size_t clips) {
+    std::string out = counted(clips, "clip", "clips") + ", ";
+    if (workload.kind == QueryWorkload::Kind::queries)
+        return out + counted(result.queries, "query", "queries") + " of the scene";
+    out += counted(result.queries, "standard placement", "standard placements");
+    out += clips == 1 ? " of it against itself" : " of each against each and itself";
+    return out + " (shift over " + figure(workload.area, 3) + " m^2, start within +-" + figure(workload.offset, 3) +
+           " s, seed " + std::to_string(workload.seed) + ")";
+}
+
+/// Fit options that are not as in the scene, for the command line and for a scene.
+std::pair<std::string, std::string> applied(const mobb::FitOptions& fit) {
+    const mobb::TreeInfo& kind = mobb::info(fit.tree);
+    const std::string tree(mobb::name(fit.tree)), axes(mobb::name(fit.axes)), leaf = std::to_string(fit.leaf),
+                                                                              scale = format_double(fit.time_scale);
+    std::string options = "--tree " + tree, json = "\"tree\": \"" + tree + '"';
+    if (kind.splits()) {
+        options += " --leaf " + leaf;
+        json += ", \"leaf\": " + leaf;
+    }
+    if (kind.chooses_axes()) {
+        options += " --axes " + axes;
+        json += ", \"axes\": \"" + axes + '"';
+    }
+    if (kind.uses_time_scale()) {
+        options += " --time-scale " + scale;
+        json += ", \"time_scale\": " + scale;
+    }
+    return {options, json};
+}
+
+void print_text(const Scene& scene, const QueryWorkload& workload, const SweepResult& result) {
+    const bool has_quantiles = result.order.cost == SweepCost::price;
+    std::cout << workload_words(workload, result, scene.clips.size()) << '\n';
+    std::vector<std::vector<std::string>> table{
+        {"fit", "cost", "+-", "against best", "box tests", "sample pairs", "p95", "p99", "max", "nodes", "memory"}};
+    for (const std::size_t i : lines_of(result)) {
+        const SweepRow& row = result.rows[i];
+        const double best = result.rows[result.recommended].cost.mean;
+        const auto cell = [](double value) { return figure(value, 3); };
+        const auto quantile = [&](double value) { return has_quantiles ? cell(value) : "-"; };
+        table.push_back({(i == result.recommended ? "* " : "  ") + sweep_words(row.fit, result.order.present) +
+                             (i == result.present ? " (now)" : ""),
+                         cell(row.cost.mean), cell(row.cost.standard_error),
+                         i == result.recommended ? "" : formatted("%+.1f %%", 100 * row.difference / best),
+                         cell(row.tests.boxes()), cell(row.tests[mobb::TestKind::samples]), quantile(row.cost.p95),
+                         quantile(row.cost.p99), quantile(row.cost.max), std::to_string(row.nodes),
+                         bytes_text(row.bytes)});
+    }
+    const std::size_t shown = table.size() - 1;
+    print_table(table);
+    std::cout << " cost of a query in " << unit_of(result.order.cost);
+    if (shown < result.rows.size())
+        std::cout << "; " << result.rows.size() << " fits were tried, --csv and --json have them all";
+    std::cout << '\n' << result.why << '\n';
+    for (const SweepException& exception : result.exceptions) {
+        std::cout << "  " << cleaned(scene.clips[static_cast<std::size_t>(exception.clip)].name) << ": "
+                  << sweep_words(result.rows[exception.row].fit, result.order.present) << " would cost it "
+                  << figure(100 * exception.saving, 2) << " % less\n";
+    }
+    if (result.recommended == result.present) return;
+    const auto [options, json] = applied(result.rows[result.recommended].fit);
+    std::cout << "to use it: " << options << ", or in a scene: \"fit\": {" << json << "}\n";
+}
+
+std::vector<LevelCurve> curves_of(const std::vector<mobb::ClipPtr>& clips, const SweepResult& result) {
+    std::vector<double> scales;
+    for (const SweepRow& row : result.rows) {
+        if (mobb::info(row.fit.tree).uses_time_scale()) scales.push_back(row.fit.time_scale);
+    }
+    std::ranges::sort(scales);
+    scales.erase(std::unique(scales.begin(), scales.end()), scales.end());
+    return time_scale_curves(clips, result.rows[result.recommended].fit, scales, tell("worked out", "time scales"));
+}
+
+void run_sweep(SweepCommandArguments& arguments) {
+    const Scene scene = load_file_or_folder(arguments.file, arguments.import_options);
+    SweepOrder order = arguments.over;
+    order.present = arguments.fit.over(scene.fit);
+    if (!order.varies()) {
+        const SweepOrder usual = usual_sweep(order.present);
+        order.trees = usual.trees;
+        order.leaf = usual.leaf;
+    }
+    std::vector<mobb::ClipPtr> clips;
+    for (const SceneClip& clip : scene.clips) clips.push_back(clip.clip);
+    if (clips.empty()) throw InputError(arguments.file, "there are no clips to fit");
+    if (arguments.of_scene && query_count(scene) == 0) {
+        throw InputError(arguments.file,
+                         "there is nothing to ask; add queries, or two agents at least, or leave out --queries scene");
+    }
+    const QueryWorkload workload =
+        arguments.of_scene ? scene_workload(scene) : standard_workload(clips, order.most_queries, arguments.seed);
+    const SweepResult result = sweep_fits(clips, workload, order, tell("tried", "fits"));
+    if (arguments.csv) {
+        print_csv(scene, result);
+    } else if (arguments.json) {
+        const bool has_curves = !order.time_scale.values.empty();
+        print_json(scene, workload, result, has_curves ? curves_of(clips, result) : std::vector<LevelCurve>{});
+    } else {
+        print_text(scene, workload, result);
+    }
+    flush_results();
+}
+
+void add_sweep_options(Command& command, SweepCommandArguments& arguments) {
+    const auto path = [&arguments](const std::string& text) { arguments.file = parse_file_name(text); };
+    command.add_option("FILE", path, openable_files() + ", or a folder of clips", "").required();
+    command.add_repeated_option(
+        "--over", [&arguments](const std::string& text) { set_over(arguments.over, text); },
+        "What is varied, one option each time: tree=all or mobb,umobb; leaf=1:200 or 5,10,20; axes=all; "
+        "time_scale=0.1:30. Of a range A:B as many values as needed (tree=all and leaf=1:200)",
+        "NAME=VALUES");
+    const auto set_queries = [&arguments](const std::string& text) {
+        arguments.of_scene = text == "scene";
+        if (arguments.of_scene) return;
+        const std::optional<int> number = parse_int(text);
+        if (!number || *number < kLeastQueries || *number > kMostQueries) {
+            throw std::invalid_argument(in_quotes(text) + " is neither scene nor a whole number from " +
+                                        std::to_string(kLeastQueries) + " to " + std::to_string(kMostQueries));
+        }
+        arguments.over.most_queries = static_cast<std::size_t>(*number);
+    };
+    command.add_option("--queries", set_queries,
+                       "scene, for the scene's own queries; or how many standard placements of its clips at most "
+                       "(16000)",
+                       "scene|N");
+    add_parsed(command, "--seed", arguments.seed, parse_seed, "Of the placements (1)", "S");
+    add_parsed(command, "--cost", arguments.over.cost, one_of(sweep_cost_from_name, "price, time"),
+               "price (tests times what each costs: the same everywhere) or time (measured on one thread) (price)",
+               "WHAT");
+    const Option json = command.add_flag("--json", arguments.json, "Everything as JSON");
+    Option csv = command.add_flag("--csv", arguments.csv, "The rows as CSV");
+    csv.excludes(json);
+    add_fit_options(command, arguments.fit);
+    add_import_options(command, arguments.import_options);
+}
+
+}  // namespace
+
+void add_sweep_command(Command& program) {
+    program.add_subcommand("sweep", "Try many fits of the same clips on the same queries: which should I ship?",
+                           add_sweep_options, run_sweep);
+}
+
+}  // namespace mobbscope::cli
