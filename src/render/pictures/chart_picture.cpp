@@ -205,9 +205,11 @@ class ChartDrawing {
     void words_above() {
         const float size = std::round(1.4F * m_.text);
         glm::vec2 at = room_.min;
-        write(TextRole::caption, fit_text(chart_.title, FontFace::text, size, room_.size().x), size, list_.palette.text,
-              at);
-        at.y += 1.15F * line_height(FontFace::text, size);
+        if (!chart_.title.empty()) {
+            write(TextRole::caption, fit_text(chart_.title, FontFace::text, size, room_.size().x), size,
+                  list_.palette.text, at);
+            at.y += 1.15F * line_height(FontFace::text, size);
+        }
         std::vector<std::string> below = wrap_text(chart_.caption, FontFace::text, m_.text, room_.size().x);
         if (below.size() > kMostCaptionLines) {
             for (std::size_t i = kMostCaptionLines; i < below.size(); ++i)
@@ -219,7 +221,7 @@ class ChartDrawing {
                   list_.palette.quiet_text, at);
             at.y += line_height(FontFace::text, m_.text);
         }
-        top_ = at.y + m_.pad;
+        top_ = at.y > room_.min.y ? at.y + m_.pad : at.y;
     }
 
     /// What the axes enclose: beside it stand numbers, titles and names.

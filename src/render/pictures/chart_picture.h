@@ -42,7 +42,7 @@ struct Chart {
         sequence,    ///< they have one, from little to much
     };
 
-    std::string title;
+    std::string title{};    ///< may be empty
     std::string caption{};  ///< below the title: what was measured, and how
     Axis x;
     Axis y;

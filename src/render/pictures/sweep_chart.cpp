@@ -1,0 +1,78 @@
+#include <render/pictures/sweep_chart.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace mobbscope {
+
+namespace {
+
+enum class Over { leaf, time_scale };
+
+bool matters(Over over, mobb::TreeKind kind) {
+    return over == Over::leaf ? mobb::info(kind).splits() : mobb::info(kind).uses_time_scale();
+}
+
+double value_of(Over over, const mobb::FitOptions& fit) {
+    return over == Over::leaf ? static_cast<double>(fit.leaf) : fit.time_scale;
+}
+
+bool varies(Over over, const SweepResult& result) {
+    const double first = value_of(over, result.rows.front().fit);
+    return std::ranges::any_of(result.rows, [&](const SweepRow& row) {
+        return matters(over, row.fit.tree) && value_of(over, row.fit) != first;
+    });
+}
+
+}  // namespace
+
+SweepChart sweep_chart(const SweepResult& result) {
+    SweepChart out;
+    const Over over = !varies(Over::leaf, result) && varies(Over::time_scale, result) ? Over::time_scale : Over::leaf;
+    out.chart.x = over == Over::leaf ? Chart::Axis{"samples of a leaf", "", Chart::Scale::factors}
+                                     : Chart::Axis{"time scale", "m/s", Chart::Scale::factors};
+    out.chart.y = {"a query", std::string(unit_of(result.order.cost)), Chart::Scale::factors};
+    // By kind and value the cheapest row.
+    std::map<mobb::TreeKind, std::map<double, std::size_t>> cheapest;
+    double least = value_of(over, result.rows.front().fit), most = least;
+    for (std::size_t i = 0; i < result.rows.size(); ++i) {
+        const SweepRow& row = result.rows[i];
+        const double value = matters(over, row.fit.tree) ? value_of(over, row.fit) : 0;
+        if (value > 0) {
+            least = std::min(least, value);
+            most = std::max(most, value);
+        }
+        const auto at = cheapest[row.fit.tree].try_emplace(value, i).first;
+        if (row.cost.mean < result.rows[at->second].cost.mean) at->second = i;
+    }
+    for (const auto& [kind, rows] : cheapest) {
+        Chart::Series series{std::string(mobb::info(kind).label), {}};
+        out.rows.emplace_back();
+        const auto add = [&](double value, std::size_t row) {
+            series.points.push_back({value, result.rows[row].cost.mean});
+            out.rows.back().push_back(row);
+        };
+        for (const auto& [value, row] : rows) {
+            if (value > 0) {
+                add(value, row);
+            } else {
+                add(least, row);
+                add(most, row);
+            }
+        }
+        out.chart.series.push_back(std::move(series));
+    }
+    const auto mark = [&](const char* text, std::size_t row, bool recommended) {
+        const mobb::FitOptions& fit = result.rows[row].fit;
+        out.chart.marks.push_back(
+            {text, matters(over, fit.tree) ? value_of(over, fit) : most, result.rows[row].cost.mean, recommended});
+    };
+    const bool ended = !result.why.empty();
+    if (!ended || result.recommended != result.present) mark("now", result.present, false);
+    if (ended) mark(result.recommended == result.present ? "now, and best" : "best", result.recommended, true);
+    return out;
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,21 @@
+/// What fits cost, as a chart: over the samples of a leaf, a line for each kind of tree.
+#pragma once
+
+#include <explain/fit_sweep.h>
+#include <render/pictures/chart_picture.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace mobbscope {
+
+struct SweepChart {
+    Chart chart;
+    std::vector<std::vector<std::size_t>> rows;  ///< of the sweep, by series and point
+};
+
+/// Each line has the cheapest fits of its kind; where leaves are not varied but time scales are, over these. A kind to
+/// which neither matters is a level line. The present fit is marked, and once the sweep has ended the recommended one.
+SweepChart sweep_chart(const SweepResult& result);
+
+}  // namespace mobbscope
