@@ -290,10 +290,7 @@ class FitSearch {
             constexpr std::size_t kTogether = 1024;
             for (std::size_t q = first; q < asked_; ++q) {
                 const ClipQuery& asked = queries_[q];
-                mobb::Statistics statistics;
-                mobb::query(placed(trees, asked.clip_a, asked.place_a), placed(trees, asked.clip_b, asked.place_b),
-                            statistics);
-                const MeanTests tests = as_sums(statistics.tests);
+                const MeanTests tests = as_sums(count_tests(asked, trees));
                 more.tests += tests;
                 more.costs.push_back(cost_of(tests, prices));
                 if (!more.clip_tests.empty()) {
@@ -344,11 +341,7 @@ class FitSearch {
             note_size(more.back(), trees[i]);
             // The counts that go with it.
             for (std::size_t q = first; q < asked_; ++q) {
-                mobb::Statistics statistics;
-                const ClipQuery& asked = queries_[q];
-                mobb::query(placed(trees[i], asked.clip_a, asked.place_a),
-                            placed(trees[i], asked.clip_b, asked.place_b), statistics);
-                more.back().tests += as_sums(statistics.tests);
+                more.back().tests += as_sums(count_tests(queries_[q], trees[i]));
             }
             tell(0);
         }
