@@ -8,9 +8,9 @@
 ///   answers ROW     "HITS BITS CONTACTS COUNTS": numbers that are equal if all answers are
 ///   time ROW SLICE  nanoseconds of processor time
 /// RANGE and OFFSET are those of QueryDraw. --count ROW asks the queries of slice 0 once, for callgrind, and ends.
+#include <base/thread_clock.h>
 #include <mobb/query.h>
 #include <paper_tables/built_in_clips.h>
-#include <paper_tables/clock.h>
 #include <paper_tables/random_queries.h>
 
 #if __has_include(<mobb/production.h>)

@@ -50,7 +50,7 @@ mobb::ClipPtr with_radius(const mobb::Clip& clip, double radius) {
 }
 
 /// The clip whose held steps are too long by most, and how many there are of them.
-void print_held_warning(const Scene& scene) {
+void print_held_warning(const Scene& scene, const std::string& name) {
     const SceneClip* worst = nullptr;
     double most = 0;
     std::size_t count = 0;
@@ -66,7 +66,7 @@ void print_held_warning(const Scene& scene) {
     std::vector<ImportWarning> warnings;
     warn_of_long_held_step(*worst->clip, warnings);
     const std::string others = count > 1 ? " (and " + counted(count - 1, "more clip", "more clips") + ")" : "";
-    warn(shown_name(scene.file) + ": clip " + in_quotes(worst->name) + others + ": " + warnings.front().text);
+    warn(name + ": clip " + in_quotes(worst->name) + others + ": " + warnings.front().text);
 }
 
 /// A warning, and of how many clips.
@@ -77,8 +77,8 @@ struct ClipsWarning {
 };
 
 /// One line a text, whatever the number of clips it holds for.
-void print_warnings(const Scene& scene) {
-    print_held_warning(scene);
+void print_warnings(const Scene& scene, const std::string& name) {
+    print_held_warning(scene, name);
     std::vector<ClipsWarning> all;
     std::unordered_map<std::string, std::size_t> by_text;
     for (const SceneClip& clip : scene.clips) {
@@ -99,7 +99,7 @@ void print_warnings(const Scene& scene) {
                         : "of " + std::to_string(scene.clips.size()) + " clips " + std::to_string(each.clips) +
                               ", such as " + in_quotes(each.first->name) + ": ";
         }
-        warn(shown_name(scene.file) + ": " + whose + said(each.warning));
+        warn(name + ": " + whose + said(each.warning));
     }
 }
 
@@ -282,7 +282,7 @@ Scene load(const std::filesystem::path& file, const ImportOptions& options, Radi
         for_sources.radius.reset();
     }
     for_sources.motion.reset();
-    print_warnings(scene);
+    print_warnings(scene, shown_name(scene.file));
     if (for_sources != ImportOptions{} && std::none_of(scene.clips.begin(), scene.clips.end(), has_source)) {
         warn(shown_name(file) + ": import options do not apply: every clip has its samples in the scene");
     }
@@ -293,7 +293,7 @@ Scene load_file_or_folder(const std::filesystem::path& path, const ImportOptions
     std::error_code ignored;
     if (!std::filesystem::is_directory(path, ignored)) return load(path, options);
     Scene scene = load_files({path}, options, tell("read", "files"));
-    print_warnings(scene);
+    print_warnings(scene, shown_name(path));
     return scene;
 }
 

@@ -1,4 +1,5 @@
 #include <base/text.h>
+#include <base/thread_clock.h>
 #include <base/threads.h>
 #include <explain/fit_sweep.h>
 #include <mobb/query.h>
@@ -120,7 +121,7 @@ MeanTests as_sums(const mobb::TestCounts& counts) { return mean_tests(std::span(
 class FitSearch {
   public:
     FitSearch(std::span<const mobb::ClipPtr> clips, const QueryWorkload& workload, const SweepOrder& order,
-          const Progress& progress, const SweepPass& pass)
+              const Progress& progress, const SweepPass& pass)
         : clips_(clips), order_(order), progress_(progress), pass_(pass), sizes_(node_sizes(clips)) {
         const std::size_t count = workload.queries.size(), most = std::max<std::size_t>(order.most_queries, 1);
         // Of a scene's queries that are too many, such as a crowd's, evenly many of all.
@@ -289,10 +290,7 @@ class FitSearch {
             constexpr std::size_t kTogether = 1024;
             for (std::size_t q = first; q < asked_; ++q) {
                 const ClipQuery& asked = queries_[q];
-                mobb::Statistics statistics;
-                mobb::query(placed(trees, asked.clip_a, asked.place_a), placed(trees, asked.clip_b, asked.place_b),
-                            statistics);
-                const MeanTests tests = as_sums(statistics.tests);
+                const MeanTests tests = as_sums(count_tests(asked, trees));
                 more.tests += tests;
                 more.costs.push_back(cost_of(tests, prices));
                 if (!more.clip_tests.empty()) {
@@ -343,11 +341,7 @@ class FitSearch {
             note_size(more.back(), trees[i]);
             // The counts that go with it.
             for (std::size_t q = first; q < asked_; ++q) {
-                mobb::Statistics statistics;
-                const ClipQuery& asked = queries_[q];
-                mobb::query(placed(trees[i], asked.clip_a, asked.place_a),
-                            placed(trees[i], asked.clip_b, asked.place_b), statistics);
-                more.back().tests += as_sums(statistics.tests);
+                more.back().tests += as_sums(count_tests(queries_[q], trees[i]));
             }
             tell(0);
         }
@@ -364,10 +358,10 @@ class FitSearch {
                         pairs.emplace_back(placed(trees[i], asked.clip_a, asked.place_a),
                                            placed(trees[i], asked.clip_b, asked.place_b));
                     }
-                    const auto begin = Clock::now();
+                    const auto begin = ThreadClock::now();
                     for (const auto& [a, b] : pairs) hits_ += mobb::query(a, b) ? 1 : 0;
-                    const std::chrono::duration<double, std::nano> taken = Clock::now() - begin;
-                    least[i][stretch] = std::min(least[i][stretch], taken.count() / static_cast<double>(to - from));
+                    const double taken = nanoseconds(ThreadClock::now() - begin);
+                    least[i][stretch] = std::min(least[i][stretch], taken / static_cast<double>(to - from));
                 }
                 tell(0);
             }
@@ -421,21 +415,36 @@ class FitSearch {
         return out;
     }
 
-    /// Adds fits around the best of each family that may have the best of all. Returns whether there were any to add.
+    /// Adds fits around the best of each family that may have the best of all, or of the second best kind. Returns
+    /// whether there were any to add.
     bool refine() {
-        std::vector<Place> best;
-        double least = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i < families_.size(); ++i) {
-            best.push_back(best_of(i));
-            least = std::min(least, at(best.back().measured).mean());
-        }
+        const std::vector<std::size_t> leaders = leading();
         const std::size_t before = rows_;
-        for (const Place& place : best) {
-            if (at(place.measured).mean() > least * (1 + kContender)) continue;
-            if (families_[place.family].leaf_range) refine_along(place, true);
-            if (families_[place.family].scale_range) refine_along(place, false);
+        for (std::size_t i = 0; i < families_.size(); ++i) {
+            const Place place = best_of(i);
+            const double cost = at(place.measured).mean();
+            const auto is_near = [&](std::size_t leader) {
+                return cost >= at(leader).mean() && cost <= at(leader).mean() * (1 + kContender);
+            };
+            if (std::ranges::none_of(leaders, is_near)) continue;
+            if (families_[i].leaf_range) refine_along(place, true);
+            if (families_[i].scale_range) refine_along(place, false);
         }
         return rows_ > before;
+    }
+
+    /// The best fit, and the best of another kind, if there is one.
+    std::vector<std::size_t> leading() const {
+        std::vector<std::size_t> out;
+        for (int rank = 0; rank < 2; ++rank) {
+            std::optional<std::size_t> best;
+            for (std::size_t i = 0; i < measured_.size(); ++i) {
+                if (!out.empty() && at(i).fit.tree == at(out.front()).fit.tree) continue;
+                if (!best || at(i).mean() < at(*best).mean()) best = i;
+            }
+            if (best) out.push_back(*best);
+        }
+        return out;
     }
 
     void refine_along(const Place& best, bool is_leaf) {
@@ -466,16 +475,14 @@ class FitSearch {
         if (next_above) look_at(*next_above);
     }
 
-    /// Whether the best fit differs for sure from all others, or by too little to matter.
+    /// Whether the best fit, and that of the second best kind, differ for sure from all that cost more, or by too
+    /// little to matter.
     bool told_apart() const {
-        std::size_t best = 0;
-        for (std::size_t i = 1; i < measured_.size(); ++i) {
-            if (at(i).mean() < at(best).mean()) best = i;
-        }
-        return std::ranges::none_of(measured_, [&](const auto& other) {
-            if (other == measured_[best]) return false;
-            const Difference apart = difference(other->costs, at(best).costs);
-            return apart.mean > kSame * at(best).mean() && apart.mean < kTold * apart.error;
+        return std::ranges::all_of(leading(), [this](std::size_t leader) {
+            return std::ranges::none_of(measured_, [&](const auto& other) {
+                const Difference apart = difference(other->costs, at(leader).costs);
+                return apart.mean > kSame * at(leader).mean() && apart.mean < kTold * apart.error;
+            });
         });
     }
 
@@ -620,6 +627,16 @@ class FitSearch {
             };
             text += range("leaf", std::to_string(from.leaf), std::to_string(to.leaf));
             text += range("time scale", brief(from.time_scale), brief(to.time_scale));
+        }
+        std::vector<const SweepRow*> others;
+        for (const SweepRow& row : out.rows) {
+            if (row.fit.tree != chosen.fit.tree) others.push_back(&row);
+        }
+        if (!others.empty()) {
+            const SweepRow& next =
+                **std::ranges::min_element(others, {}, [](const SweepRow* row) { return row->cost.mean; });
+            text += "; the next kind is " + sweep_words(next.fit, order_.present) + ", which costs " +
+                    figure(100 * next.difference / chosen.cost.mean, 2) + " % more";
         }
         return text;
     }

@@ -102,6 +102,13 @@ QueryWorkload scene_workload(const Scene& scene) {
     return out;
 }
 
+mobb::TestCounts count_tests(const ClipQuery& query, std::span<const std::shared_ptr<const mobb::Tree>> trees) {
+    mobb::Statistics statistics;
+    mobb::query(mobb::PlacedTree(*trees[static_cast<std::size_t>(query.clip_a)], query.place_a),
+                mobb::PlacedTree(*trees[static_cast<std::size_t>(query.clip_b)], query.place_b), statistics);
+    return statistics.tests;
+}
+
 std::vector<mobb::TestCounts> count_tests(const QueryWorkload& workload,
                                           std::span<const std::shared_ptr<const mobb::Tree>> trees, std::size_t first,
                                           const Progress& progress) {
@@ -113,13 +120,7 @@ std::vector<mobb::TestCounts> count_tests(const QueryWorkload& workload,
     std::size_t done = 0;
     tbb::parallel_for(std::size_t{0}, (count + kTogether - 1) / kTogether, [&](std::size_t part) {
         const std::size_t begin = part * kTogether, end = std::min(begin + kTogether, count);
-        for (std::size_t i = begin; i < end; ++i) {
-            const ClipQuery& asked = workload.queries[first + i];
-            mobb::Statistics statistics;
-            mobb::query(mobb::PlacedTree(*trees[static_cast<std::size_t>(asked.clip_a)], asked.place_a),
-                        mobb::PlacedTree(*trees[static_cast<std::size_t>(asked.clip_b)], asked.place_b), statistics);
-            out[i] = statistics.tests;
-        }
+        for (std::size_t i = begin; i < end; ++i) out[i] = count_tests(workload.queries[first + i], trees);
         if (!progress) return;
         const std::scoped_lock lock(telling);
         progress(done += end - begin, count);

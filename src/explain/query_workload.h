@@ -61,6 +61,9 @@ QueryWorkload standard_workload(std::span<const mobb::ClipPtr> clips, std::size_
 /// The queries of a scene; its clips are the list. There may be none.
 QueryWorkload scene_workload(const Scene& scene);
 
+/// The tests that a query makes. `trees`: by clip, none null. Throws std::invalid_argument if a placement is none that
+/// may be.
+mobb::TestCounts count_tests(const ClipQuery& query, std::span<const std::shared_ptr<const mobb::Tree>> trees);
 /// Asks queries [first, all) of a workload on all processors, and gives the tests that each made. `trees`: by clip,
 /// none null. `progress` is told by one thread at a time of how many of these were asked; it may throw to end the work.
 /// Throws std::invalid_argument if a placement is none that may be.

@@ -1,11 +1,11 @@
 #include <base/random.h>
 #include <base/text.h>
+#include <base/thread_clock.h>
 #include <mobb/blocks.h>
 #include <mobb/level_figures.h>
 #include <mobb/placed_tree.h>
 #include <mobb/query.h>
 #include <mobb/traversal.h>
-#include <paper_tables/clock.h>
 #include <paper_tables/measure.h>
 
 #include <algorithm>

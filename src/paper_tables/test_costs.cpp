@@ -1,7 +1,7 @@
+#include <base/thread_clock.h>
 #include <mobb/placed_tree.h>
 #include <mobb/query.h>
 #include <mobb/separation.h>
-#include <paper_tables/clock.h>
 #include <paper_tables/test_costs.h>
 
 #include <algorithm>

@@ -18,7 +18,7 @@ namespace {
 using testing::small_chart;
 using testing::small_level_chart;
 
-const TextRun* text_of(const DrawList& list, const std::string& text) {
+const TextRun* run_with(const DrawList& list, const std::string& text) {
     const auto at =
         std::find_if(list.texts.begin(), list.texts.end(), [&](const TextRun& t) { return t.text == text; });
     return at == list.texts.end() ? nullptr : &*at;
@@ -64,7 +64,7 @@ TEST(ChartPicture, ATickStandsWhereItsNumberIs) {
         Chart chart = straight(scale);
         chart.series[0].points = {{20, 0}, {50, 5}, {200, 10}};
         const ChartPicture picture = chart_picture({chart}, {640, 360}, Theme::dark);
-        const TextRun* number = text_of(picture.list, "50");
+        const TextRun* number = run_with(picture.list, "50");
         ASSERT_NE(number, nullptr);
         EXPECT_NEAR(number->box.center().x, picture.points[0][0][1]->x, 1);
     }
@@ -73,18 +73,18 @@ TEST(ChartPicture, ATickStandsWhereItsNumberIs) {
 TEST(ChartPicture, NumbersOfFactorsAreRoundAndHaveRoom) {
     const ChartPicture picture = chart_picture({small_chart()}, {640, 360}, Theme::light);
     for (const char* leaf : {"1", "2", "5", "10", "20", "50", "100", "200"})
-        EXPECT_NE(text_of(picture.list, leaf), nullptr) << leaf;
+        EXPECT_NE(run_with(picture.list, leaf), nullptr) << leaf;
     const ChartPicture small = chart_picture({small_chart()}, {200, 200}, Theme::light);
-    EXPECT_NE(text_of(small.list, "10"), nullptr);
-    EXPECT_EQ(text_of(small.list, "20"), nullptr);
+    EXPECT_NE(run_with(small.list, "10"), nullptr);
+    EXPECT_EQ(run_with(small.list, "20"), nullptr);
 }
 
 TEST(ChartPicture, ARangeBelowAFactorOfTwoHasEvenNumbers) {
     Chart chart = straight(Chart::Scale::factors);
     chart.series[0].points = {{1.1, 0}, {1.5, 1}};
     const ChartPicture picture = chart_picture({chart}, {640, 360}, Theme::dark);
-    EXPECT_NE(text_of(picture.list, "1.20"), nullptr);
-    EXPECT_NE(text_of(picture.list, "1.40"), nullptr);
+    EXPECT_NE(run_with(picture.list, "1.20"), nullptr);
+    EXPECT_NE(run_with(picture.list, "1.40"), nullptr);
 }
 
 TEST(ChartPicture, WordsNeverMeet) {
@@ -103,7 +103,7 @@ TEST(ChartPicture, NamesOfLinesThatEndTogetherStandApart) {
         chart.series.push_back({.name = "tree " + std::to_string(i), .points = {{0, 0}, {1, 5 + 0.001 * i}, {2, 5}}});
     const DrawList list = chart_picture({chart}, {640, 360}, Theme::light).list;
     expect_readable(list);
-    for (const Chart::Series& series : chart.series) EXPECT_NE(text_of(list, series.name), nullptr) << series.name;
+    for (const Chart::Series& series : chart.series) EXPECT_NE(run_with(list, series.name), nullptr) << series.name;
 }
 
 TEST(ChartPicture, NamesThatHaveNoRoomAreCounted) {
@@ -115,13 +115,13 @@ TEST(ChartPicture, NamesThatHaveNoRoomAreCounted) {
     const auto names = std::count_if(list.texts.begin(), list.texts.end(), [](const TextRun& t) {
         return t.role == TextRole::legend && t.text.find("more") == std::string::npos;
     });
-    EXPECT_NE(text_of(list, "+ " + std::to_string(41 - names) + " more"), nullptr);
+    EXPECT_NE(run_with(list, "+ " + std::to_string(41 - names) + " more"), nullptr);
 }
 
 TEST(ChartPicture, MarkedPointsHaveARingAndALabel) {
     const ChartPicture picture = chart_picture({small_chart()}, {640, 360}, Theme::dark);
-    EXPECT_NE(text_of(picture.list, "now: MOBB, leaf 10"), nullptr);
-    EXPECT_NE(text_of(picture.list, "recommended: moving, leaf 40"), nullptr);
+    EXPECT_NE(run_with(picture.list, "now: MOBB, leaf 10"), nullptr);
+    EXPECT_NE(run_with(picture.list, "recommended: moving, leaf 40"), nullptr);
     const auto rings_at = [&](glm::vec2 at) {
         return std::count_if(picture.list.marks.begin(), picture.list.marks.end(), [&](const OverlayPanel& mark) {
             const glm::vec2 off = glm::abs(mark.rect.center() - at);

@@ -121,7 +121,7 @@ class Ruler {
 };
 
 /// Places as near to the wanted ones as they can be, in this order, `gap` apart and within [low, high], which has room.
-std::vector<float> spread(const std::vector<float>& wanted, float gap, float low, float high) {
+std::vector<float> kept_apart(const std::vector<float>& wanted, float gap, float low, float high) {
     // Less the gaps above them they need only not fall: neighbours that would do take their mean.
     struct Block {
         float sum = 0;
@@ -319,7 +319,7 @@ class ChartDrawing {
         std::stable_sort(ends.begin(), ends.end(), [](const End& a, const End& b) { return a.at.y < b.at.y; });
         std::vector<float> wanted;
         for (const End& end : ends) wanted.push_back(end.at.y);
-        const std::vector<float> places = spread(wanted, gap, low, all > rows ? high - gap : high);
+        const std::vector<float> places = kept_apart(wanted, gap, low, all > rows ? high - gap : high);
         const float left = area_.max.x + swatch_room();
         for (std::size_t i = 0; i < ends.size(); ++i) {
             const Rgba color = color_of(ends[i].series);

@@ -1,0 +1,196 @@
+// mobbscope sweep: rows that say what fits cost, one recommendation, and one line for what is no order.
+#include "run_program.h"
+
+#include <support/json_keys.h>
+#include <support/temp_folder.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+namespace {
+
+using nlohmann::json;
+using testing::is_one_line;
+using testing::keys;
+using testing::Result;
+using testing::run_program;
+using testing::TempFolder;
+
+const std::string kSweepAssets = MOBBSCOPE_SOURCE_DIR "/assets/";
+const std::string kSweptScene = kSweepAssets + "scenes/crossing.json";
+
+Result sweep_of(const std::string& file, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"sweep", file};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_program(arguments);
+}
+
+TEST(Sweep, JsonHasEveryRow) {
+    const Result run = sweep_of(kSweptScene, {"--over", "leaf=5,10,20", "--over", "tree=mobb,umobb,blocks", "--queries",
+                                              "500", "--seed", "3", "--json"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    const json sweep = json::parse(run.out);
+    EXPECT_EQ(sweep["workload"]["kind"], "placements");
+    EXPECT_EQ(sweep["workload"]["seed"], 3);
+    EXPECT_EQ(sweep["workload"]["queries"], 500);
+    EXPECT_GT(sweep["workload"]["area"], 0);
+    EXPECT_GT(sweep["workload"]["offset"], 0);
+    EXPECT_EQ(sweep["unit"], "ns, tests times price");
+    EXPECT_FALSE(sweep.contains("levels"));
+    std::set<std::string> fits, clips;
+    double least = 1e9;
+    for (const json& row : sweep["rows"]) {
+        EXPECT_EQ(row.contains("difference"), row["clip"].is_null());
+        clips.insert(row["clip"].dump());
+        if (!row["clip"].is_null()) continue;
+        fits.insert(row["tree"].get<std::string>() + row["leaf"].dump());
+        EXPECT_GT(row["box_tests"], 0);
+        EXPECT_GE(row["max"], row["p99"]);
+        EXPECT_GE(row["p99"], row["p95"]);
+        least = std::min(least, row["cost"].get<double>());
+    }
+    EXPECT_EQ(fits, (std::set<std::string>{"mobb5", "mobb10", "mobb20", "umobb5", "umobb10", "umobb20", "blocks10"}));
+    EXPECT_EQ(clips, (std::set<std::string>{"null", "\"bend\"", "\"straight\""}));
+    const json& recommended = sweep["recommended"];
+    EXPECT_EQ(keys(recommended),
+              (std::set<std::string>{"tree", "leaf", "axes", "time_scale", "cost", "present_cost", "why"}));
+    EXPECT_EQ(recommended["cost"], least);
+    EXPECT_LT(recommended["cost"], recommended["present_cost"]);
+    EXPECT_NE(recommended["why"].get<std::string>().find("over 500 placements"), std::string::npos);
+}
+
+TEST(Sweep, CsvHasTheRowsOfJson) {
+    const std::vector<std::string> order{"--over", "leaf=1:50", "--queries", "300"};
+    std::vector<std::string> as_json = order, as_csv = order;
+    as_json.emplace_back("--json");
+    as_csv.emplace_back("--csv");
+    const json rows = json::parse(sweep_of(kSweptScene, as_json).out)["rows"];
+    std::istringstream csv(sweep_of(kSweptScene, as_csv).out);
+    std::string line;
+    std::getline(csv, line);
+    EXPECT_TRUE(line.starts_with("clip,tree,leaf,axes,time_scale,box_tests,sample_pairs,cost,standard_error,")) << line;
+    const auto columns = std::ranges::count(line, ',');
+    std::size_t count = 0;
+    for (; std::getline(csv, line); ++count) {
+        EXPECT_EQ(std::ranges::count(line, ','), columns) << line;
+        ASSERT_LT(count, rows.size());
+        const json& row = rows[count];
+        const std::string begin = (row["clip"].is_null() ? "" : row["clip"].get<std::string>()) + ",mobb," +
+                                  row["leaf"].dump() + ",endpoints,";
+        EXPECT_TRUE(line.starts_with(begin)) << line << " is not " << row;
+    }
+    EXPECT_EQ(count, rows.size());
+}
+
+TEST(Sweep, TextSaysWhichToTakeAndHow) {
+    const Result run = sweep_of(kSweepAssets + "clips", {});
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_NE(run.out.find("7 clips, "), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find(" standard placements of each against each and itself (shift over "), std::string::npos);
+    EXPECT_NE(run.out.find(", seed 1)"), std::string::npos);
+    EXPECT_NE(run.out.find("MOBB, leaf 10 (now)"), std::string::npos);
+    EXPECT_NE(run.out.find(" less than MOBB, leaf 10, now, over "), std::string::npos);
+    EXPECT_NE(run.out.find("\nto use it: --tree "), std::string::npos);
+    EXPECT_LT(std::ranges::count(run.out, '\n'), 30);
+    EXPECT_EQ(run.out, sweep_of(kSweepAssets + "clips", {}).out) << "the same again";
+}
+
+TEST(Sweep, TheAdviceHoldsWhenItIsTaken) {
+    const std::vector<std::string> over{"--over", "leaf=1:100", "--json"};
+    const std::string file = kSweepAssets + "clips/wander.glb";
+    const json first = json::parse(sweep_of(file, over).out)["recommended"];
+    std::vector<std::string> taken = over;
+    taken.insert(taken.end(), {"--leaf", first["leaf"].dump(), "--tree", first["tree"].get<std::string>()});
+    const json again = json::parse(sweep_of(file, taken).out)["recommended"];
+    EXPECT_EQ(again["leaf"], first["leaf"]);
+    EXPECT_EQ(again["present_cost"], first["cost"]);
+    EXPECT_NE(again["why"].get<std::string>().find(", as now: "), std::string::npos) << again["why"];
+}
+
+TEST(Sweep, OfTheScenesQueriesAllAreAsked) {
+    const Result run = sweep_of(kSweptScene, {"--queries", "scene", "--json"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const json workload = json::parse(run.out)["workload"];
+    EXPECT_EQ(workload["kind"], "queries");
+    EXPECT_EQ(workload["queries"], 1);
+    EXPECT_TRUE(workload["area"].is_null());
+    EXPECT_TRUE(workload["seed"].is_null());
+}
+
+TEST(Sweep, TimeScalesComeWithTheirLevels) {
+    const Result run = sweep_of(kSweepAssets + "clips/wander.glb", {"--over", "time_scale=0.5,2", "--over",
+                                                                    "tree=mobb,umobb", "--queries", "200", "--json"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const json levels = json::parse(run.out)["levels"];
+    ASSERT_EQ(levels.size(), 5u);
+    EXPECT_EQ(levels[0]["tree"], "mobb");
+    EXPECT_EQ(levels[1]["tree"], "moving");
+    EXPECT_EQ(levels[2]["time_scale"], 0.5);
+    EXPECT_EQ(levels[4]["time_scale"], 2);
+    EXPECT_GT(levels[4]["levels"][0]["volume"], 0);
+    EXPECT_GT(levels[4]["levels"][0]["cost"], 0);
+}
+
+TEST(Sweep, TimeIsMeasured) {
+    const Result run = sweep_of(kSweptScene, {"--cost", "time", "--over", "leaf=5,20", "--queries", "300", "--json"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const json sweep = json::parse(run.out);
+    EXPECT_EQ(sweep["unit"], "ns, measured");
+    for (const json& row : sweep["rows"]) {
+        EXPECT_GT(row["cost"], 0);
+        EXPECT_TRUE(row["p99"].is_null());
+    }
+}
+
+TEST(Sweep, WhatIsNoOrderIsOneLine) {
+    const TempFolder folder;
+    for (const std::vector<std::string>& bad : std::vector<std::vector<std::string>>{{"--over", "leaf=200:1"},
+                                                                                     {"--over", "leaf=0"},
+                                                                                     {"--over", "leaf="},
+                                                                                     {"--over", "leaf=nan"},
+                                                                                     {"--over", "leaf=1:1000000000"},
+                                                                                     {"--over", "tree=oak"},
+                                                                                     {"--over", "axes=x"},
+                                                                                     {"--over", "time_scale=nan:1"},
+                                                                                     {"--over", "time_scale=0:1"},
+                                                                                     {"--over", "levels=1:3"},
+                                                                                     {"--over"},
+                                                                                     {"--queries", "1000000000"},
+                                                                                     {"--queries", "0"},
+                                                                                     {"--queries", "some"},
+                                                                                     {"--seed", "-1"},
+                                                                                     {"--cost", "money"},
+                                                                                     {"--json", "--csv"},
+                                                                                     {"--leaf", "0"}}) {
+        const Result run = sweep_of(kSweptScene, bad);
+        EXPECT_EQ(run.status, 2) << bad.back();
+        EXPECT_TRUE(is_one_line(run.err)) << run.err;
+        EXPECT_EQ(run.out, "");
+    }
+    const std::string alone = kSweepAssets + "clips/wander.glb", empty = folder.path() / "empty";
+    std::filesystem::create_directory(empty);
+    const std::string mixed = folder.path() / "mixed";
+    std::filesystem::create_directory(mixed);
+    std::filesystem::copy_file(alone, mixed + "/good.glb");
+    std::ofstream(mixed + "/bad.bvh") << "HIERARCHY\n";
+    for (const std::vector<std::string>& bad : std::vector<std::vector<std::string>>{
+             {alone, "--queries", "scene"}, {empty}, {mixed}, {folder.path() / "none.bvh"}}) {
+        const Result run = sweep_of(bad.front(), {bad.begin() + 1, bad.end()});
+        EXPECT_EQ(run.status, 2) << bad.front();
+        EXPECT_TRUE(is_one_line(run.err)) << run.err;
+        EXPECT_EQ(run.out, "");
+    }
+}
+
+}  // namespace
+}  // namespace mobbscope
