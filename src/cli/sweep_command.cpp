@@ -276,16 +276,6 @@ void print_text(const Scene& scene, const QueryWorkload& workload, const SweepRe
     std::cout << "to use it: " << options << ", or in a scene: \"fit\": {" << json << "}\n";
 }
 
-std::vector<LevelCurve> curves_of(const std::vector<mobb::ClipPtr>& clips, const SweepResult& result) {
-    std::vector<double> scales;
-    for (const SweepRow& row : result.rows) {
-        if (mobb::info(row.fit.tree).uses_time_scale()) scales.push_back(row.fit.time_scale);
-    }
-    std::ranges::sort(scales);
-    scales.erase(std::unique(scales.begin(), scales.end()), scales.end());
-    return time_scale_curves(clips, result.rows[result.recommended].fit, scales, tell("worked out", "time scales"));
-}
-
 void run_sweep(SweepCommandArguments& arguments) {
     const Scene scene = load_file_or_folder(arguments.file, arguments.import_options);
     SweepOrder order = arguments.over;
@@ -309,7 +299,9 @@ void run_sweep(SweepCommandArguments& arguments) {
         print_csv(scene, result);
     } else if (arguments.json) {
         const bool has_curves = !order.time_scale.values.empty();
-        print_json(scene, workload, result, has_curves ? curves_of(clips, result) : std::vector<LevelCurve>{});
+        print_json(scene, workload, result,
+                   has_curves ? time_scale_curves(clips, result, tell("worked out", "time scales"))
+                              : std::vector<LevelCurve>{});
     } else {
         print_text(scene, workload, result);
     }

@@ -52,4 +52,15 @@ std::vector<LevelCurve> time_scale_curves(std::span<const mobb::ClipPtr> clips, 
     return out;
 }
 
+std::vector<LevelCurve> time_scale_curves(std::span<const mobb::ClipPtr> clips, const SweepResult& swept,
+                                          const Progress& progress) {
+    std::vector<double> scales;
+    for (const SweepRow& row : swept.rows) {
+        if (mobb::info(row.fit.tree).uses_time_scale()) scales.push_back(row.fit.time_scale);
+    }
+    std::ranges::sort(scales);
+    scales.erase(std::unique(scales.begin(), scales.end()), scales.end());
+    return time_scale_curves(clips, swept.rows[swept.recommended].fit, scales, progress);
+}
+
 }  // namespace mobbscope

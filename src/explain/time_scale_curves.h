@@ -1,6 +1,7 @@
 /// What the time scale of free boxes in space-time does to their volume and cost.
 #pragma once
 
+#include <explain/fit_sweep.h>
 #include <mobb/tree.h>
 #include <scene/scene.h>
 
@@ -24,5 +25,9 @@ struct LevelCurve {
 /// told by one thread at a time how many of these are done; it may throw to end the work.
 std::vector<LevelCurve> time_scale_curves(std::span<const mobb::ClipPtr> clips, const mobb::FitOptions& fit,
                                           std::span<const double> time_scales, const Progress& progress = {});
+
+/// ... at the time scales that a sweep tried, with the other options of the fit that it recommends.
+std::vector<LevelCurve> time_scale_curves(std::span<const mobb::ClipPtr> clips, const SweepResult& swept,
+                                          const Progress& progress = {});
 
 }  // namespace mobbscope

@@ -25,8 +25,9 @@ constexpr int kRows = 6;  // of the list of the cheapest
 /// "938 ns"
 std::string cost_text(double cost) { return figure(cost, 3) + " ns"; }
 
-/// "-30 %", to the present fit
+/// "-30 %", to the present fit; of that "now"
 std::string change_text(const SweepResult& result, const SweepRow& row) {
+    if (&row == &result.rows[result.present]) return "now";
     const double change = 100 * (row.cost.mean / result.rows[result.present].cost.mean - 1);
     return formatted("%+.*f %%", std::abs(change) < 9.95 ? 1 : 0, change);
 }
@@ -53,26 +54,58 @@ void apply(const Ui& ui, const SweepRow& row) {
     ui.invoke("tree.fit", fit_text(row.fit, ui.workspace.fitted().options()));
 }
 
-/// Costs over the samples of a leaf. The point next to the mouse tells of its fit, and a click applies it.
-void cost_chart(Ui& ui, const SweepResult& result) {
-    const SweepChart chart = sweep_chart(result);
+/// A chart across the panel, and the names of its lines below it; returns where its points are, on the screen.
+std::vector<std::vector<std::optional<ImVec2>>> draw_chart(Ui& ui, Chart chart, const std::string& mark) {
+    chart.has_names = false;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const PictureSize size{std::max(8, static_cast<int>(ImGui::GetContentRegionAvail().x)),
                            static_cast<int>(ui.px(kChart))};
-    const ChartPicture picture = chart_picture({chart.chart}, size, ui.style.palette.dark ? Theme::dark : Theme::light,
+    const ChartPicture picture = chart_picture({chart}, size, ui.style.palette.dark ? Theme::dark : Theme::light,
                                                static_cast<double>(ui.style.scale));
-    ImGui::InvisibleButton("sweep chart", {static_cast<float>(size.width), static_cast<float>(size.height)});
-    ui.mark_only("sweep.chart");
+    ImGui::InvisibleButton(mark.c_str(), {static_cast<float>(size.width), static_cast<float>(size.height)});
+    ui.mark_only(mark);
     draw_overlay(ui, picture.list, at);
+    std::vector<std::vector<std::optional<ImVec2>>> points;
+    for (const auto& series : picture.points.front()) {
+        points.emplace_back();
+        for (const auto& point : series)
+            points.back().push_back(point ? std::optional(ImVec2(at.x + point->x, at.y + point->y)) : std::nullopt);
+    }
+    return points;
+}
+
+/// Which line is which.
+void series_names(Ui& ui, const Chart& chart) {
+    ImGui::PushFont(ui.style.caption);
+    const float side = ui.px(7), line = ImGui::GetTextLineHeight();
+    for (std::size_t i = 0; i < chart.series.size(); ++i) {
+        const std::string& name = chart.series[i].name;
+        const Rgba color = series_color(chart, i, ui.style.palette);
+        if (i > 0) flow(side + ui.px(12) + ImGui::CalcTextSize(name.c_str()).x);
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const float top = at.y + 0.5f * (line - side);
+        ImGui::GetWindowDrawList()->AddRectFilled({at.x, top}, {at.x + side, top + side}, to_im(color), ui.px(2));
+        ImGui::Dummy({side, line});
+        ImGui::SameLine(0, ui.px(4));
+        text_line(to_im(readable(color, ui.style.palette)), name);
+    }
+    ImGui::PopFont();
+}
+
+/// Costs over the samples of a leaf. The point next to the mouse tells of its fit, and a click applies it.
+void cost_chart(Ui& ui, const SweepResult& result) {
+    const SweepChart chart = sweep_chart(result);
+    const auto points = draw_chart(ui, chart.chart, "sweep.chart");
+    const bool hovered = ImGui::IsItemHovered(), clicked = ImGui::IsItemClicked();
+    series_names(ui, chart.chart);
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     std::optional<std::size_t> nearest;
     ImVec2 nearest_at{};
     float least = ui.px(kNear);
     for (std::size_t series = 0; series < chart.rows.size(); ++series) {
         for (std::size_t i = 0; i < chart.rows[series].size(); ++i) {
-            const auto& point = picture.points.front()[series][i];
-            if (!point) continue;
-            const ImVec2 there{at.x + point->x, at.y + point->y};
+            if (!points[series][i]) continue;
+            const ImVec2 there = *points[series][i];
             ui.marks.add("sweep.point." + std::to_string(chart.rows[series][i]),
                          {{there.x - 2, there.y - 2}, {there.x + 2, there.y + 2}});
             const float away = std::hypot(there.x - mouse.x, there.y - mouse.y);
@@ -82,10 +115,24 @@ void cost_chart(Ui& ui, const SweepResult& result) {
             nearest_at = there;
         }
     }
-    if (!ImGui::IsItemHovered() || !nearest) return;
+    if (!hovered || !nearest) return;
     ImGui::GetWindowDrawList()->AddCircle(nearest_at, ui.px(6), ui.style.text, 0, ui.px(1.4f));
     tell_row(result, result.rows[*nearest]);
-    if (ImGui::IsItemClicked()) apply(ui, result.rows[*nearest]);
+    if (clicked) apply(ui, result.rows[*nearest]);
+}
+
+/// The level that is shown, over the time scale.
+void curves_chart(Ui& ui, const SweepInspector& sweeps, const std::vector<LevelCurve>& curves) {
+    const LevelRange shown = ui.workspace.view().levels;
+    std::size_t depth = 1;
+    for (const LevelCurve& curve : curves) depth = std::max(depth, curve.levels.size());
+    const std::size_t level = shown.leaves ? depth - 1 : static_cast<std::size_t>(std::max(0, shown.last));
+    const Chart chart = time_scale_chart(curves, level, sweeps.shows_volume ? CurveOf::volume : CurveOf::cost);
+    draw_chart(ui, chart, "sweep.curves");
+    series_names(ui, chart);
+    if (small_button(ui, sweeps.shows_volume ? "Show cost" : "Show volume", "sweep.curves_of",
+                     "Volume or expected cost of the level that is shown, over the time scale"))
+        ui.later([](SweepInspector& now) { now.shows_volume = !now.shows_volume; });
 }
 
 /// The cheapest fits, a row each.
@@ -144,6 +191,7 @@ void sweep_panel(Ui& ui, SweepInspector& sweeps) {
         cost_chart(ui, *shown->rows);
         best_rows(ui, *shown->rows);
         words(ui.style.quiet, workload_words(*shown));
+        if (shown->curves) curves_chart(ui, sweeps, *shown->curves);
     } else if (!sweeps.is_running()) {
         words(ui.style.quiet,
               "Tries all kinds of trees with leaves of 1 to 200 samples on the same queries, and says which costs "
@@ -156,7 +204,7 @@ void sweep_panel(Ui& ui, SweepInspector& sweeps) {
     }
     for (const auto& [command, label] :
          {std::pair("tree.sweep_axes", "axes"), {"tree.sweep_time_scale", "time scale"}}) {
-        ImGui::SameLine(0, ui.px(10));
+        flow(ImGui::GetFrameHeight() + ui.px(4) + ImGui::CalcTextSize(label).x);
         bool on = find_command(command)->checked(ui.session);
         if (ImGui::Checkbox(label, &on)) ui.invoke(command);
         ui.mark(command);

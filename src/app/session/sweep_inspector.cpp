@@ -97,7 +97,7 @@ std::optional<SweepInspector::Shown> SweepInspector::result() const {
     const auto sweep = shown();
     if (!sweep) return std::nullopt;
     const std::scoped_lock lock(sweep->mutex);
-    return Shown{sweep->result, sweep->kind, sweep->area, sweep->offset};
+    return Shown{sweep->result, sweep->kind, sweep->area, sweep->offset, sweep->curves};
 }
 
 bool SweepInspector::is_of_scene() const {

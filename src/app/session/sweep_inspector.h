@@ -7,6 +7,7 @@
 #include <app/session/notifications.h>
 #include <app/session/session_options.h>
 #include <explain/fit_sweep.h>
+#include <explain/time_scale_curves.h>
 
 #include <memory>
 #include <mutex>
@@ -30,6 +31,7 @@ class SweepInspector {
     // What is tried besides all kinds of trees and leaves of 1 to 200 samples.
     bool over_axes = false;
     bool over_time_scale = false;
+    bool shows_volume = true;  ///< of the levels over the time scale; else their cost
 
     /// What a sweep tries now.
     SweepOrder order() const;
@@ -47,7 +49,8 @@ class SweepInspector {
     struct Shown {
         std::shared_ptr<const SweepResult> rows;  ///< never null
         QueryWorkload::Kind workload;
-        double area, offset;  ///< of standard placements, see QueryWorkload
+        double area, offset;                                    ///< of standard placements, see QueryWorkload
+        std::shared_ptr<const std::vector<LevelCurve>> curves;  ///< where time scales were tried; null: not yet
     };
     /// Of the sweep under way what it has so far, else of the last that ended.
     std::optional<Shown> result() const;
@@ -62,6 +65,7 @@ class SweepInspector {
         mutable std::mutex mutex;  ///< of what follows
         std::shared_ptr<const SweepResult> result;
         double area = 0, offset = 0;
+        std::shared_ptr<const std::vector<LevelCurve>> curves;
     };
 
     /// The one of result(), or null.

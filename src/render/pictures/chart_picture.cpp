@@ -173,7 +173,7 @@ class ChartDrawing {
         axes();
         std::vector<std::vector<std::optional<glm::vec2>>> points;
         for (std::size_t i = 0; i < chart_.series.size(); ++i) points.push_back(series(i));
-        names(points);
+        if (chart_.has_names) names(points);
         marks(points);
         return points;
     }
@@ -196,11 +196,7 @@ class ChartDrawing {
     glm::vec2 pixel(double x, double y) const {
         return {area_.min.x + x_.share(x) * area_.size().x, area_.max.y - y_.share(y) * area_.size().y};
     }
-    Rgba color_of(std::size_t series) const {
-        if (chart_.colors == Chart::Colors::categories) return category_color(series, list_.palette);
-        const std::size_t steps = std::max<std::size_t>(chart_.series.size() - 1, 1);
-        return quantity_color(static_cast<float>(series) / static_cast<float>(steps), list_.palette);
-    }
+    Rgba color_of(std::size_t series) const { return series_color(chart_, series, list_.palette); }
 
     void words_above() {
         const float size = std::round(1.4F * m_.text);
@@ -226,7 +222,9 @@ class ChartDrawing {
 
     /// What the axes enclose: beside it stand numbers, titles and names.
     void set_area() {
-        for (const Chart::Series& series : chart_.series) names_ = std::max(names_, width(series.name));
+        if (chart_.has_names) {
+            for (const Chart::Series& series : chart_.series) names_ = std::max(names_, width(series.name));
+        }
         names_ = std::min(std::ceil(names_), kWidestNames * room_.size().x);
         area_.min.y = std::round(top_ + line() + 6 * m_.scale);
         area_.max.y = std::max(std::round(room_.max.y - 2 * line() - 10 * m_.scale), area_.min.y + kLeastArea);
@@ -234,7 +232,7 @@ class ChartDrawing {
         float numbers = 0;
         for (const Tick& tick : y_ticks_) numbers = std::max(numbers, width(tick.text, FontFace::mono));
         area_.min.x = std::round(room_.min.x + numbers + 8 * m_.scale);
-        const float beside = chart_.series.empty() ? 0 : names_ + swatch_room();
+        const float beside = names_ > 0 ? names_ + swatch_room() : 0;
         area_.max.x = std::max(std::round(room_.max.x - beside), area_.min.x + kLeastArea);
     }
     /// From the area's edge over the gap and the swatch to a name.
@@ -428,6 +426,12 @@ class ChartDrawing {
 };
 
 }  // namespace
+
+Rgba series_color(const Chart& chart, std::size_t series, const Palette& palette) {
+    if (chart.colors == Chart::Colors::categories) return category_color(series, palette);
+    const std::size_t steps = std::max<std::size_t>(chart.series.size() - 1, 1);
+    return quantity_color(static_cast<float>(series) / static_cast<float>(steps), palette);
+}
 
 ChartPicture chart_picture(const std::vector<Chart>& charts, PictureSize size, Theme theme, double scale) {
     check(size);

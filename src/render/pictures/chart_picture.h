@@ -49,7 +49,11 @@ struct Chart {
     std::vector<Series> series;
     std::vector<Mark> marks{};
     Colors colors = Colors::categories;
+    bool has_names = true;  ///< of the series, behind their lines
 };
+
+/// The colour of a chart's series.
+Rgba series_color(const Chart& chart, std::size_t series, const Palette& palette);
 
 struct ChartPicture {
     DrawList list;

@@ -75,4 +75,30 @@ SweepChart sweep_chart(const SweepResult& result) {
     return out;
 }
 
+Chart time_scale_chart(const std::vector<LevelCurve>& curves, std::size_t level, CurveOf of) {
+    Chart out;
+    out.x = {"time scale", "m/s", Chart::Scale::factors};
+    out.y = of == CurveOf::volume ? Chart::Axis{"volume of level " + std::to_string(level), "m\u00B2\u00B7s"}
+                                  : Chart::Axis{"expected on level " + std::to_string(level), "ns a query"};
+    out.y.from_zero = true;
+    double least = 0, most = 0;
+    for (const LevelCurve& curve : curves) {
+        if (!mobb::info(curve.fit.tree).uses_time_scale()) continue;
+        least = least == 0 ? curve.fit.time_scale : std::min(least, curve.fit.time_scale);
+        most = std::max(most, curve.fit.time_scale);
+    }
+    for (const LevelCurve& curve : curves) {
+        const LevelCurve::Level& at = curve.levels[std::min(level, curve.levels.size() - 1)];
+        const double value = of == CurveOf::volume ? at.volume : at.cost;
+        const std::string name(mobb::info(curve.fit.tree).label);
+        if (!mobb::info(curve.fit.tree).uses_time_scale()) {
+            out.series.push_back({name, {{least, value}, {most, value}}});
+            continue;
+        }
+        if (out.series.empty() || out.series.back().name != name) out.series.push_back({name, {}});
+        out.series.back().points.push_back({curve.fit.time_scale, value});
+    }
+    return out;
+}
+
 }  // namespace mobbscope

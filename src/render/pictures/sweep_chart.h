@@ -2,6 +2,7 @@
 #pragma once
 
 #include <explain/fit_sweep.h>
+#include <explain/time_scale_curves.h>
 #include <render/pictures/chart_picture.h>
 
 #include <cstddef>
@@ -17,5 +18,9 @@ struct SweepChart {
 /// Each line has the cheapest fits of its kind; where leaves are not varied but time scales are, over these. A kind to
 /// which neither matters is a level line. The present fit is marked, and once the sweep has ended the recommended one.
 SweepChart sweep_chart(const SweepResult& result);
+
+/// What a level of trees does over the time scale of UMOBB, beside MOBB and moving boxes, which have none.
+enum class CurveOf { volume, cost };
+Chart time_scale_chart(const std::vector<LevelCurve>& curves, std::size_t level, CurveOf of);
 
 }  // namespace mobbscope
