@@ -561,6 +561,22 @@ std::vector<Case> cases() {
     edit("tree.time_scale", "2.5",
          [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.fitted().tree(0).time_scale(), 2.5); });
 
+    edit("tree.fit", "moving,leaf=7", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.workspace.scene().fit.tree, mobb::TreeKind::moving);
+        EXPECT_EQ(w.session.workspace.scene().fit.leaf, 7);
+    });
+    look("tree.sweep", "", [](CommandWorld& w) { EXPECT_FALSE(w.session.sweeps.result()->rows->why.empty()); });
+    look("tree.sweep_axes", "", [](CommandWorld& w) { EXPECT_TRUE(w.session.sweeps.over_axes); });
+    look("tree.sweep_time_scale", "", [](CommandWorld& w) { EXPECT_TRUE(w.session.sweeps.over_time_scale); });
+    add({"tree.sweep_apply",
+         "",
+         {{"tree.sweep", ""}},
+         [](CommandWorld& w) {
+             const SweepResult& result = *w.session.sweeps.result()->rows;
+             EXPECT_EQ(w.session.workspace.scene().fit.tree, result.rows[result.recommended].fit.tree);
+         },
+         true});
+
     // Query
     look("query.select", "2", [](CommandWorld& w) {
         EXPECT_EQ(w.view().query, 2);
@@ -1057,6 +1073,8 @@ TEST(CommandEffects, EveryCommandIsTried) {
     for (const Command& command : commands_with_review()) {
         // crowd_test.cpp has a crowd to try them on.
         if (command.id.starts_with("crowd.") || command.id.starts_with("conflicts.")) continue;
+        // sweep_test.cpp has a sweep that is under way.
+        if (command.id == "tree.sweep_cancel") continue;
         // review_test.cpp has picture tests.
         if (command.id.starts_with("review.")) continue;
         known.emplace(command.id);

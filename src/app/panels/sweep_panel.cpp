@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,8 +20,6 @@ namespace {
 // Pixels at scale 1.
 constexpr float kChart = 190;
 constexpr float kNear = 14;  // of the mouse to a point
-
-constexpr int kRows = 6;  // of the list of the cheapest
 
 /// "938 ns"
 std::string cost_text(double cost) { return figure(cost, 3) + " ns"; }
@@ -135,21 +134,30 @@ void curves_chart(Ui& ui, const SweepInspector& sweeps, const std::vector<LevelC
         ui.later([](SweepInspector& now) { now.shows_volume = !now.shows_volume; });
 }
 
-/// The cheapest fits, a row each.
+/// The cheapest fit of each kind, the cheapest first, and the present one.
+std::vector<std::size_t> best_of_kinds(const SweepResult& result) {
+    std::map<mobb::TreeKind, std::size_t> best;
+    const auto cost = [&](std::size_t i) { return result.rows[i].cost.mean; };
+    for (std::size_t i = 0; i < result.rows.size(); ++i) {
+        const auto at = best.try_emplace(result.rows[i].fit.tree, i).first;
+        if (cost(i) < cost(at->second)) at->second = i;
+    }
+    std::vector<std::size_t> out;
+    for (const auto& [kind, row] : best) out.push_back(row);
+    if (std::ranges::find(out, result.present) == out.end()) out.push_back(result.present);
+    std::ranges::stable_sort(out, {}, cost);
+    return out;
+}
+
 void best_rows(Ui& ui, const SweepResult& result) {
-    std::vector<std::size_t> order(result.rows.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return result.rows[i].cost.mean; });
-    order.resize(std::min<std::size_t>(order.size(), kRows));
-    if (std::ranges::find(order, result.present) == order.end()) order.push_back(result.present);
-    const mobb::FitOptions& now = ui.workspace.fitted().options();
-    rows(ui, "sweep rows", static_cast<int>(order.size()), kRows + 1, [&](int k) {
-        const SweepRow& fit = result.rows[order[static_cast<std::size_t>(k)]];
-        const std::string remark = cost_text(fit.cost.mean) + "  " + change_text(result, fit);
+    const std::vector<std::size_t> best = best_of_kinds(result);
+    const int count = static_cast<int>(best.size());
+    rows(ui, "sweep rows", count, count, [&](int k) {
+        const SweepRow& fit = result.rows[best[static_cast<std::size_t>(k)]];
         if (row(ui, {.mark = "sweep.row." + std::to_string(k),
                      .name = sweep_words(fit.fit, result.order.present),
-                     .remark = remark,
-                     .selected = fit.fit == now}))
+                     .remark = cost_text(fit.cost.mean) + "  " + change_text(result, fit),
+                     .selected = fit.fit == ui.workspace.fitted().options()}))
             apply(ui, fit);
         if (ImGui::IsItemHovered()) tell_row(result, fit);
     });

@@ -56,8 +56,14 @@ void SweepInspector::start() {
                 }
                 control.tell_news();
             };
-            publish(
-                std::make_shared<const SweepResult>(sweep_fits(clips, workload, order, progress_of(control), publish)));
+            const auto result =
+                std::make_shared<const SweepResult>(sweep_fits(clips, workload, order, progress_of(control), publish));
+            publish(result);
+            if (order.time_scale.values.empty()) return {};
+            auto curves = std::make_shared<const std::vector<LevelCurve>>(
+                time_scale_curves(clips, *result, progress_of(control)));
+            const std::scoped_lock lock(sweep->mutex);
+            sweep->curves = std::move(curves);
             return {};
         },
         [&at = *desktop_] { at.wake(); });
