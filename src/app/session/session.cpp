@@ -50,6 +50,7 @@ void Session::end_work() {
     dialogs.preview.end();
     maps.end_work();
     answers.end_work();
+    fit_costs.end_work();
     for (const auto& each : screens) each->end_work();
 }
 
