@@ -4,6 +4,7 @@
 #include <explain/expected_cost.h>
 #include <explain/level_columns.h>
 #include <explain/tree_json.h>
+#include <import/tracks/csv.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -17,6 +18,10 @@ namespace mobbscope::cli {
 
 namespace {
 
+struct FitCommandArguments : FittedArguments {
+    bool csv = false;
+};
+
 void print_json(const FittedScene& fitted) {
     JsonWriter out(std::cout);
     out.begin_object();
@@ -26,6 +31,38 @@ void print_json(const FittedScene& fitted) {
     }
     out.end_array();
     out.end_object();
+}
+
+/// A row for each node; a cell of what there is none of is empty.
+void print_csv(const FittedScene& fitted) {
+    std::cout << "clip,tree,leaf,axes,time_scale,index,parent,level,first,count,is_leaf,kind,t0,t1,volume,tightness,"
+                 "share,box_tests\n";
+    for (int clip = 0; clip < static_cast<int>(fitted.scene().clips.size()); ++clip) {
+        const mobb::Tree& tree = fitted.tree(clip);
+        const mobb::FitOptions& options = tree.options();
+        const std::optional<ExpectedCost> expected = expected_cost(tree, tree);
+        const std::vector<double> shares = expected ? expected->node_shares() : std::vector<double>();
+        const std::string name = csv_field(fitted.scene().clips[static_cast<std::size_t>(clip)].name);
+        for (int i = 0; i < static_cast<int>(tree.nodes().size()); ++i) {
+            const mobb::Node& node = tree.node(i);
+            const mobb::Box box = tree.box(i);
+            const double volume = mobb::volume(box, tree.time_scale());
+            const double cylinders = mobb::cylinder_volume(tree.clip(), {node.first, node.count});
+            std::cout << name << ',' << mobb::name(options.tree) << ',' << options.leaf << ','
+                      << mobb::name(options.axes) << ',' << format_double(options.time_scale) << ',' << i << ','
+                      << tree.parent(i) << ',' << tree.level(i) << ',' << node.first << ',' << node.count << ','
+                      << (tree.is_leaf(i) ? "true" : "false") << ',' << mobb::info(box.kind).name << ','
+                      << format_double(tree.t0(node)) << ',' << format_double(tree.t1(node)) << ','
+                      << format_double(volume) << ',' << (volume > 0 ? format_double(cylinders / volume) : "") << ',';
+            if (expected) {
+                const double share = shares[static_cast<std::size_t>(i)];
+                std::cout << format_double(share) << ',' << format_double(share * expected->tests.boxes());
+            } else {
+                std::cout << ',';
+            }
+            std::cout << '\n';
+        }
+    }
 }
 
 /// "against itself: 1.56 box tests and 0.768 sample pairs expected, 29 ns (shift over 25.6 m^2, start within +-2 s)"
@@ -94,14 +131,16 @@ void print_trees(const FittedScene& fitted) {
     }
 }
 
-void run_fit(const FittedArguments& arguments) {
+void run_fit(const FitCommandArguments& arguments) {
     const FittedScene scene = fitted(load(arguments.file, arguments.import_options), arguments.fit);
-    arguments.json ? print_json(scene) : print_trees(scene);
+    const auto print = arguments.csv ? print_csv : arguments.json ? print_json : print_trees;
+    print(scene);
     flush_results();
 }
 
-void add_options_of_fit(Command& command, FittedArguments& arguments) {
-    add_fitted_options(command, arguments, "Levels and nodes as JSON");
+void add_options_of_fit(Command& command, FitCommandArguments& arguments) {
+    const Option json = add_fitted_options(command, arguments, "Levels and nodes as JSON");
+    command.add_flag("--csv", arguments.csv, "Nodes as CSV, a row each").excludes(json);
 }
 
 }  // namespace

@@ -25,6 +25,15 @@ struct AskedAgain {
     std::int64_t tests_of(int first, int end) const {
         return made_before[static_cast<std::size_t>(end)] - made_before[static_cast<std::size_t>(first)];
     }
+    /// The pair's own.
+    mobb::TestCounts counts_of(const RecursionPair& pair) const {
+        mobb::TestCounts out;
+        for (int i = pair.first; i <= pair.last; ++i) {
+            const mobb::TestKind test = recorded.trace[i].test;
+            out[test] += test == mobb::TestKind::samples ? tests_of(i, i + 1) : 1;
+        }
+        return out;
+    }
     TreeNodes nodes_of(const RecursionPair& pair) const {
         return {TreeNode{clips[0], pair.a}, TreeNode{clips[1], pair.b}};
     }
@@ -104,6 +113,7 @@ SceneCosts scene_costs(const FittedScene& fitted, const CostProgress& told, cons
     for_each_query(fitted, told, bound, [&](const AskedAgain& asked) {
         out.tests.push_back(asked.recorded.tests.all());
         out.in_part += asked.recorded.trace.stopped() ? 1 : 0;
+        for (const mobb::TestKind kind : mobb::kTestKinds) out.kinds[kind] += asked.recorded.tests[kind];
         for (const RecursionPair& pair : asked.recursion.pairs) {
             const std::int64_t own = asked.tests_of(pair.first, pair.last + 1);
             const std::int64_t all = asked.tests_of(pair.first, pair.end);
@@ -116,6 +126,14 @@ SceneCosts scene_costs(const FittedScene& fitted, const CostProgress& told, cons
             const TreeNodes of = asked.nodes_of(pair);
             add(of[0]);
             if (of[1] != of[0]) add(of[1]);
+            const mobb::TestCounts tests = asked.counts_of(pair);
+            for (const TreeNode side : of) nodes.at(side).boxes += tests.boxes();
+            const auto level = [&](TreeNode at) {
+                return static_cast<std::size_t>(fitted.tree(at.clip).level(at.node));
+            };
+            const std::size_t upper = std::min(level(of[0]), level(of[1]));
+            if (out.levels.size() <= upper) out.levels.resize(upper + 1);
+            for (const mobb::TestKind kind : mobb::kTestKinds) out.levels[upper][kind] += tests[kind];
         }
     });
     out.nodes = by_cost(nodes, [](const NodeCost& cost) { return cost.own + cost.below; });

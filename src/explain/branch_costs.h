@@ -36,13 +36,17 @@ struct NodeCost {
     TreeNode at;
     std::int64_t own = 0;    ///< of the node itself
     std::int64_t below = 0;  ///< of pairs below one that the node is in, without its own
+    std::int64_t boxes = 0;  ///< tests of its box, once for either side: those of all nodes are twice all box tests
 };
 
 struct SceneCosts {
     std::vector<std::int64_t> tests;  ///< by query
     std::vector<NodeCost> nodes;      ///< that were tested; the costliest first, by own and below
     std::vector<int> by_tests;        ///< queries, the costliest first
-    int in_part = 0;                  ///< queries whose recording stopped: nodes have what was recorded of them
+    mobb::TestCounts kinds;           ///< of all queries
+    /// Of all queries, by the level of the pair's nodes: the upper one's, where a leaf meets those below another node.
+    std::vector<mobb::TestCounts> levels;
+    int in_part = 0;  ///< queries whose recording stopped: nodes have what was recorded of them
 };
 
 using CostProgress = std::function<void(std::size_t done, std::size_t all)>;

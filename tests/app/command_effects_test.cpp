@@ -560,6 +560,8 @@ std::vector<Case> cases() {
     edit("tree.levels", "2", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.fitted().tree(0).depth(), 2); });
     edit("tree.time_scale", "2.5",
          [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.fitted().tree(0).time_scale(), 2.5); });
+    look("tree.cost_of", "queries",
+         [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.workload(), QueryWorkload::Kind::queries); });
 
     edit("tree.fit", "moving,leaf=7", [](CommandWorld& w) {
         EXPECT_EQ(w.session.workspace.scene().fit.tree, mobb::TreeKind::moving);

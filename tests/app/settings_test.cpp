@@ -38,6 +38,7 @@ TEST(Settings, AreReadBackAsTheyWereWritten) {
     settings.window = WindowPlace{-12, 40, 1280, 800, true};
     settings.folded = {{"clips", true}, {"tree", false}};
     settings.file_order = "-date";
+    settings.cost_of = QueryWorkload::Kind::queries;
     settings.last.files = {folder.path() / "b.json"};
     settings.last.view.query = 2;
     settings.last.view.camera.yaw_deg = 12.5;
@@ -84,8 +85,8 @@ TEST(Settings, JunkIsPassedOver) {
           R"({"recent": {"a": 1}})", R"({"recent": [1, null, "here"]})", R"({"theme": "pink", "folder": "here"})",
           R"({"window": {"x": 1}})", R"({"window": {"x": 0, "y": 0, "width": 0, "height": 5}})",
           R"({"window": {"x": 1e300, "y": 0, "width": 9, "height": 5}})", R"({"folded": [true]})",
-          R"({"folded": {"clips": "yes"}})", R"({"file_order": "colour"})", R"({"last_session": [1]})",
-          R"({"last_session": {"files": "a", "view": {"query": -1}}})"}) {
+          R"({"folded": {"clips": "yes"}})", R"({"file_order": "colour"})", R"({"cost_of": "colour"})",
+          R"({"last_session": [1]})", R"({"last_session": {"files": "a", "view": {"query": -1}}})"}) {
         EXPECT_EQ(load_settings(folder.write("settings.json", text)), Settings{}) << text;
     }
     const Settings some =

@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <span>
@@ -92,6 +94,87 @@ TEST(Fit, JsonIsTheTree) {
         EXPECT_EQ(printed["levels"][2][std::string(column.name)], *column.of(figures[2])) << column.name;
     }
     EXPECT_EQ(keys(printed["levels"][2]), columns);
+}
+
+/// The fields of lines without line breaks in quotes.
+std::vector<std::vector<std::string>> csv_rows(const std::string& text) {
+    std::vector<std::vector<std::string>> out;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        out.push_back({""});
+        bool quoted = false;
+        for (const char c : line) {
+            if (c == '"') quoted = !quoted;
+            if (c == ',' && !quoted) {
+                out.back().emplace_back();
+            } else {
+                out.back().back() += c;
+            }
+        }
+    }
+    return out;
+}
+
+/// Every number of --csv is that of --json, and figures of levels follow from its rows.
+TEST(Fit, CsvHasARowForEachNode) {
+    const std::string scene = kFitScenes + "crossing.json";
+    for (const char* kind : {"mobb", "umobb", "moving", "blocks"}) {
+        const Result run = run_program({"fit", scene, "--csv", "--tree", kind, "--leaf", "7"});
+        ASSERT_EQ(run.status, 0) << run.err;
+        const json trees =
+            json::parse(run_program({"fit", scene, "--json", "--tree", kind, "--leaf", "7"}).out)["trees"];
+        const auto rows = csv_rows(run.out);
+        const std::vector<std::string>& names = rows.front();
+        std::size_t row = 1;
+        for (const json& tree : trees) {
+            std::vector<double> volumes(tree["levels"].size());
+            double box_tests = 0;
+            for (const json& node : tree["nodes"]) {
+                ASSERT_LT(row, rows.size());
+                ASSERT_EQ(rows[row].size(), names.size());
+                std::map<std::string, std::string> cells;
+                for (std::size_t i = 0; i < names.size(); ++i) cells[names[i]] = rows[row][i];
+                EXPECT_EQ(cells["clip"], tree["clip"]);
+                EXPECT_EQ(cells["tree"], kind);
+                EXPECT_EQ(cells["leaf"], "7");
+                EXPECT_EQ(cells["axes"], tree["axes"]);
+                EXPECT_EQ(cells["time_scale"], format_double(tree["time_scale"]));
+                for (const char* whole : {"index", "parent", "level", "first", "count"})
+                    EXPECT_EQ(cells[whole], node[whole].dump()) << whole;
+                for (const char* number : {"t0", "t1"}) EXPECT_EQ(cells[number], format_double(node[number]));
+                EXPECT_EQ(cells["is_leaf"], node["leaf"] ? "true" : "false");
+                EXPECT_EQ(cells["kind"], node["kind"]);
+                EXPECT_EQ(cells["share"], node["share"].is_null() ? "" : format_double(node["share"]));
+                if (!cells["box_tests"].empty()) box_tests += std::stod(cells["box_tests"]);
+                const auto level = static_cast<std::size_t>(node["level"]);
+                const bool ends = cells["is_leaf"] == "true";
+                for (std::size_t k = level; k < (ends ? volumes.size() : level + 1); ++k)
+                    volumes[k] += std::stod(cells["volume"]);
+                ++row;
+            }
+            for (std::size_t k = 0; k < volumes.size(); ++k) {
+                const double volume = tree["levels"][k]["volume"];
+                EXPECT_NEAR(volumes[k], volume, 1e-9 * volume);
+            }
+            if (!tree["expected"].is_null()) {
+                const double expected = tree["expected"]["box_tests"];
+                EXPECT_NEAR(box_tests, expected, 1e-9 * expected);
+            }
+        }
+        EXPECT_EQ(row, rows.size());
+    }
+}
+
+TEST(Fit, CsvQuotesNamesAndIsNoJson) {
+    const testing::TempFolder folder;
+    const auto file = folder.write("named.json", R"({"clips": {"a, \"b\"\nc": {"dt": 1, "samples": [[0, 0, 1]]}}})");
+    const Result run = run_program({"fit", file.string(), "--csv"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_NE(run.out.find("\n\"a, \"\"b\"\"\nc\",mobb,10,"), std::string::npos) << run.out;
+    EXPECT_EQ(run_program({"fit", file.string(), "--csv", "--json"}).status, 2);
+    if (std::filesystem::exists("/dev/full")) {
+        EXPECT_EQ(run_program({"fit", file.string(), "--csv"}, "/dev/full").status, 3);
+    }
 }
 
 /// What is expected is by a formula, which blocks have none of: they are counted.

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -109,6 +110,18 @@ std::map<TreeNode, NodeCost> node_costs(const FittedScene& fitted) {
     return out;
 }
 
+std::int64_t box_tests_of_roots(const FittedScene& fitted) {
+    std::int64_t out = 0;
+    for (std::size_t i = 0; i < fitted.queries().size(); ++i) {
+        const RecordedQuery recorded = record(fitted, fitted.queries()[i]);
+        for (int event = 0; event < recorded.trace.size(); ++event) {
+            const mobb::Trace::Event at = recorded.trace[event];
+            out += at.a == 0 && at.b == 0 && at.test.is_box() ? 1 : 0;
+        }
+    }
+    return out;
+}
+
 TEST(BranchCosts, SumsPerNodeAreTheCounters) {
     Random random(366);
     std::int64_t tests = 0;
@@ -140,6 +153,21 @@ TEST(BranchCosts, SumsPerNodeAreTheCounters) {
             }
         }
         EXPECT_EQ(costs.in_part, 0);
+        mobb::TestCounts kinds, in_levels;
+        for (std::size_t i = 0; i < fitted.queries().size(); ++i) {
+            const mobb::TestCounts of_query = record(fitted, fitted.queries()[i]).tests;
+            for (const mobb::TestKind kind : mobb::kTestKinds) kinds[kind] += of_query[kind];
+        }
+        for (const mobb::TestCounts& level : costs.levels) {
+            for (const mobb::TestKind kind : mobb::kTestKinds) in_levels[kind] += level[kind];
+        }
+        EXPECT_EQ(costs.kinds, kinds);
+        EXPECT_EQ(in_levels, kinds);
+        EXPECT_EQ(costs.levels.front().boxes(), costs.nodes.empty() ? 0 : box_tests_of_roots(fitted));
+        const std::int64_t of_nodes =
+            std::accumulate(costs.nodes.begin(), costs.nodes.end(), std::int64_t{0},
+                            [](std::int64_t sum, const NodeCost& cost) { return sum + cost.boxes; });
+        EXPECT_EQ(of_nodes, 2 * kinds.boxes()) << "each test is of two nodes";
         std::vector<std::int64_t> sorted = costs.tests;
         std::ranges::sort(sorted);
         EXPECT_EQ(tests_at(costs, 1), sorted.back());

@@ -3,9 +3,11 @@
 #include <base/text.h>
 #include <scene/scene_json.h>
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 
 namespace mobbscope::app {
 
@@ -53,6 +55,13 @@ void set_time_scale(Edits& edits, const std::string& text) {
         number_in(text, "the time scale", 1 / mobb::kMaxTimeScale, mobb::kMaxTimeScale));
 }
 
+/// In the order of QueryWorkload::Kind.
+constexpr std::array<std::string_view, 2> kCostOf{"placements", "queries"};
+
+void choose_cost(Settings& settings, const std::string& text) {
+    settings.cost_of = choice_named<QueryWorkload::Kind>(kCostOf, text, "the queries");
+}
+
 }  // namespace
 
 std::vector<Command> tree_commands() {
@@ -87,6 +96,18 @@ std::vector<Command> tree_commands() {
             {.argument = "W",
              .present =
                  [](const Workspace& workspace) { return format_double(workspace.fitted().options().time_scale); }}),
+        Command("tree.cost_of", "Cost of",
+                "Chooses the queries that costs of trees are about: standard placements, or those of the scene.",
+                choose_cost,
+                {.argument = "placements|queries",
+                 .enabled = {has_queries, [] { return std::string_view("there is no query"); }},
+                 .choices = [] { return as_strings(kCostOf); },
+                 .choice_title =
+                     [](const std::string& kind) {
+                         return kind == kCostOf[0] ? "Standard placements" : "The scene's queries";
+                     },
+                 .chosen = [](const Workspace& workspace,
+                              const std::string& kind) { return name(workspace.workload()) == kind; }}),
     };
     return in_menu("Tree", rows);
 }

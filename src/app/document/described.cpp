@@ -41,6 +41,11 @@ void describe_node(Described& out, const DrawnAgent& agent, int index) {
     if (volume > 0) out.facts.emplace_back("tightness", formatted("%.1f %%", 100 * cylinders / volume));
 }
 
+/// "standard placements"
+std::string workload_title(QueryWorkload::Kind workload) {
+    return workload == QueryWorkload::Kind::placements ? "standard placements" : "the scene's queries";
+}
+
 void describe_sample(Described& out, const DrawnAgent& agent, int index) {
     const mobb::PlacedClip& clip = agent.clip();
     const mobb::Disk disk = clip.disk(index);
@@ -110,6 +115,12 @@ Described describe(const Workspace& workspace, const Selection& what) {
     if (what.kind == Selection::Kind::path) describe_path(out, fitted, *who);
     if (what.kind == Selection::Kind::node) {
         describe_node(out, drawn_agent_of(fitted, *who), what.index);
+        const std::shared_ptr<const TreeCost> cost = workspace.cost_of(who->clip);
+        if (cost && !cost->shares.empty()) {
+            const double share = cost->shares[static_cast<std::size_t>(what.index)];
+            out.facts.emplace_back("cost",
+                                   figure(100 * share, 2) + " % of all box tests in " + workload_title(cost->workload));
+        }
         if (const BlameInScene* blame = workspace.blame()) {
             const std::int64_t overlaps = blame->of(who->clip, what.index);
             out.facts.emplace_back("to blame", counted(overlaps, "avoidable overlap", "avoidable overlaps"));

@@ -196,6 +196,7 @@ Json json_of(const Settings& settings) {
     if (settings.window) json["window"] = json_of(*settings.window);
     json["folded"] = settings.folded;
     json["shows_events"] = settings.shows_events;
+    json["cost_of"] = name(settings.cost_of);
     json["last_session"] = json_of(settings.last);
     json["export"] = json_of(settings.picture_export);
     return json;
@@ -291,6 +292,8 @@ Settings load_settings(const std::filesystem::path& file) {
     }
     const auto shows_events = json.find("shows_events");
     settings.shows_events = shows_events != json.end() && shows_events->is_boolean() && shows_events->get<bool>();
+    if (setting_text(json, "cost_of") == name(QueryWorkload::Kind::queries))
+        settings.cost_of = QueryWorkload::Kind::queries;
     const std::string order = setting_text(json, "file_order");
     if (std::ranges::find(kFileOrders, order) != kFileOrders.end()) settings.file_order = order;
     settings.last = read_last(json);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <app/document/picture_export.h>
+#include <explain/query_workload.h>
 #include <scene/view_state.h>
 
 #include <cstdint>
@@ -37,10 +38,11 @@ struct Settings {
     double left_width = 256;       ///< of the panels, pixels at scale 1
     double right_width = 320;
     double bottom_height = 150;
-    double events_height = 300;         ///< of the panel below with the list of events
-    bool shows_events = false;          ///< the list of a query's events stands in place of its recursion
-    std::optional<Theme> theme;         ///< that was chosen last; none: never
-    std::optional<WindowPlace> window;  ///< none: it was never open
+    double events_height = 300;  ///< of the panel below with the list of events
+    bool shows_events = false;   ///< the list of a query's events stands in place of its recursion
+    QueryWorkload::Kind cost_of = QueryWorkload::Kind::placements;  ///< what costs of trees are about
+    std::optional<Theme> theme;                                     ///< that was chosen last; none: never
+    std::optional<WindowPlace> window;                              ///< none: it was never open
     std::map<std::string, bool>
         folded;  ///< sections of panels, by their titles in small letters: whether each is folded
     std::string file_order =

@@ -2,11 +2,13 @@
 #include <app/document/workspace.h>
 #include <explain/query_progress.h>
 #include <scene/crowd_scene.h>
+#include <scene/motion_graph.h>
 #include <scene/scene_edits.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
+#include <utility>
 
 namespace mobbscope::app {
 
@@ -14,6 +16,16 @@ namespace {
 
 /// Agents whose pairs are still listed one by one.
 constexpr std::size_t kFewAgents = 12;
+constexpr std::size_t kKeptCosts = 32;  // of trees that were looked at
+
+/// The clip of the document that one plays: of a run that of the play, which is drawn as one that runs on.
+int clip_of(const Workspace& workspace, const PlacedAgent& who) {
+    if (!workspace.crowd()) return who.clip;
+    const Agent& agent = workspace.fitted().scene().agents[static_cast<std::size_t>(who.agent)];
+    const CrowdAgent& person = workspace.crowd()->agents[static_cast<std::size_t>(agent.run_agent)];
+    const int move = person.plays[static_cast<std::size_t>(agent.play)].move;
+    return workspace.scene().graph->moves[static_cast<std::size_t>(move)].clip;
+}
 
 }  // namespace
 
@@ -206,6 +218,29 @@ void Workspace::remember_step(Document& next) {
     looked_at.by_one = by_one;
 }
 
+QueryWorkload::Kind Workspace::workload() const {
+    const bool asks = !crowd() && !document().fitted->queries().empty();
+    return asks ? settings_->cost_of : QueryWorkload::Kind::placements;
+}
+
+std::shared_ptr<const TreeCost> Workspace::cost_of(int clip) const {
+    const std::shared_ptr<const mobb::Tree>& tree = fitted().shared_tree(clip);
+    if (workload() == QueryWorkload::Kind::placements) {
+        const auto known = std::ranges::find(standard_costs_, tree, [](const auto& cost) { return cost->tree; });
+        return known == standard_costs_.end() ? nullptr : *known;
+    }
+    Derived& d = derived();
+    if (!d.costs) return nullptr;
+    auto [at, is_new] = d.costs_of_trees.try_emplace(clip);
+    if (is_new) at->second = std::make_shared<const TreeCost>(cost_in_scene(*d.costs, clip, tree));
+    return at->second;
+}
+
+void Workspace::keep_standard_cost(std::shared_ptr<const TreeCost> cost) {
+    standard_costs_.insert(standard_costs_.begin(), std::move(cost));
+    if (standard_costs_.size() > kKeptCosts) standard_costs_.pop_back();
+}
+
 Workspace::Derived& Workspace::derived() const {
     if (derived_.of != document().fitted) {
         // Another breakpoint, say, changes nothing that was found out about the queries.
@@ -270,6 +305,15 @@ mobb::Interval time_span(const Workspace& workspace) {
         span.t1 = std::max(span.t1, clip.time(clip.count()));
     });
     return span.t0 <= span.t1 ? span : mobb::Interval{0, 0};
+}
+
+int clip_in_focus(const Workspace& workspace) {
+    if (workspace.selection.kind == Selection::Kind::clip) return workspace.selection.index;
+    if (workspace.selection.on_path()) {
+        if (const auto who = placed_agent_of(workspace.fitted(), workspace.selection.path))
+            return clip_of(workspace, *who);
+    }
+    return clip_of(workspace, workspace.fitted().placed_agents().front());
 }
 
 const std::vector<ClipGroup>& clip_groups(const Workspace& workspace) {

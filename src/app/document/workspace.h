@@ -17,6 +17,7 @@
 #include <explain/focus_window.h>
 #include <explain/query_findings.h>
 #include <explain/trace_comparison.h>
+#include <explain/tree_cost.h>
 #include <mobb/level_figures.h>
 #include <render/drawlist/camera.h>
 #include <render/drawlist/draw_list.h>
@@ -158,11 +159,17 @@ class Workspace {
     /// What is asked in the view, recorded; null if no query is in the view.
     const RecordedQuery* recorded() const;
     /// Whom the queries blame for avoidable overlaps; null if nobody has counted since the scene or its fit changed.
+    /// Which queries costs are about: those that settings choose, where the scene asks any.
+    QueryWorkload::Kind workload() const;
+    /// What the tree of a clip costs in these; null: it is not known yet.
+    std::shared_ptr<const TreeCost> cost_of(int clip) const;
     const BlameInScene* blame() const { return blame_counted_in == document().fitted ? counted_blame.get() : nullptr; }
     /// The event of the trace that the view shows; requires recorded().
     int step() const;
 
     // Changes.
+    /// Keeps what was found out of a tree under standard placements, of the latest few.
+    void keep_standard_cost(std::shared_ptr<const TreeCost> cost);
     /// The scene after `change`, which may change `view` and `fit` along. Throws what `change` throws, and
     /// std::invalid_argument for options of the fit that are out of range.
     Scene changed_scene(const std::function<void(Scene&)>& change) const;
@@ -218,6 +225,7 @@ class Workspace {
             focused.reset();
         }
         std::optional<SceneCosts> costs{};
+        std::map<int, std::shared_ptr<const TreeCost>> costs_of_trees{};  ///< by clip; of `costs`
         std::optional<Sandwich> sandwich{};
         std::map<std::size_t, Answer> answers{};
         std::map<int, std::vector<mobb::LevelFigures>> figures{};
@@ -237,8 +245,9 @@ class Workspace {
     void settle_look();
 
     Settings* settings_;
-    std::shared_ptr<const FittedScene> pointed_into_;  ///< what selection and hovered are of
-    bool stepping_ = false;                            ///< the step was changed in the present interaction
+    std::vector<std::shared_ptr<const TreeCost>> standard_costs_;  ///< the latest first
+    std::shared_ptr<const FittedScene> pointed_into_;              ///< what selection and hovered are of
+    bool stepping_ = false;                                        ///< the step was changed in the present interaction
     struct LookedAt {
         std::shared_ptr<const FittedScene> fitted;
         std::optional<int> query;
@@ -254,6 +263,8 @@ class Workspace {
 bool is_crowd(const Workspace& workspace);
 /// First and last moment of the paths in view, global seconds; 0..0 for an empty scene.
 mobb::Interval time_span(const Workspace& workspace);
+/// The clip whose tree panels are about: of what is selected, else the first that is seen. Requires clips.
+int clip_in_focus(const Workspace& workspace);
 /// The document's clips by folder and rig; kept until the scene changes.
 const std::vector<ClipGroup>& clip_groups(const Workspace& workspace);
 

@@ -116,15 +116,9 @@ void costliest(Ui& ui, QueryInspector& queries, CostInspector& costs, const Quer
     if (!section(ui, "COSTLIEST BRANCHES")) return;
     const std::size_t count = ui.workspace.fitted().queries().size();
     if (count > 1) {
-        const auto choice = [&](const std::string& label, const std::string& which, bool on) {
-            ImGui::PushStyleColor(ImGuiCol_Text, on ? ui.style.text : ui.style.quiet);
-            ImGui::PushStyleColor(ImGuiCol_Button, on ? ui.style.raised : IM_COL32_BLACK_TRANS);
-            if (small_button(ui, label.c_str(), "branches." + which)) ui.invoke("branches.of", which);
-            ImGui::PopStyleColor(2);
-        };
-        choice("this query", "query", !scene);
-        ImGui::SameLine();
-        choice("all " + std::to_string(count), "scene", scene);
+        const std::array all{ChoiceWord{"query", "this query"}, ChoiceWord{"scene", "all " + std::to_string(count)}};
+        const int pressed = word_choice(ui, "branches", all, scene ? 1 : 0);
+        if (pressed >= 0) ui.invoke("branches.of", all[static_cast<std::size_t>(pressed)].name);
     }
     if (scene && count > 1) {
         of_scene(ui, costs);

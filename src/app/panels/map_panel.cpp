@@ -6,9 +6,10 @@
 #include <render/text/labels.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace mobbscope::app {
 
@@ -59,21 +60,6 @@ MapColors colors_of(const MapInspector& maps, const PlacementMap& map) {
     return chosen ? MapColors{chosen->first, chosen->second} : usual_colors(map);
 }
 
-/// Words that are one of a few, the present one in the accent's colour; says which is pressed.
-template <std::size_t count>
-int word_choice(Ui& ui, const char* mark, const std::array<const char*, count>& all, int now) {
-    int pressed = -1;
-    for (std::size_t i = 0; i < count; ++i) {
-        if (i > 0) ImGui::SameLine(0, ui.px(2));
-        const bool is_now = static_cast<int>(i) == now;
-        ImGui::PushStyleColor(ImGuiCol_Text, is_now ? ui.style.text : ui.style.quiet);
-        ImGui::PushStyleColor(ImGuiCol_Button, is_now ? ui.style.raised : ui.style.panel);
-        if (small_button(ui, all[i], std::string(mark) + '.' + all[i])) pressed = static_cast<int>(i);
-        ImGui::PopStyleColor(2);
-    }
-    return pressed;
-}
-
 /// The axes, and what is shown over them.
 void controls(Ui& ui, const MapInspector& maps) {
     const Command& axes = *find_command("map.axes", commands(ui.session));
@@ -94,9 +80,10 @@ void controls(Ui& ui, const MapInspector& maps) {
     }
     ImGui::PopStyleVar();
     ImGui::SameLine(0, ui.px(4));
-    constexpr std::array kShows{"answer", "clearance", "tests"};
-    const int pressed = word_choice(ui, "map.show", kShows, static_cast<int>(maps.choice.show));
-    if (pressed >= 0) ui.invoke("map.show", kShows[static_cast<std::size_t>(pressed)]);
+    std::vector<ChoiceWord> shows;
+    for (const std::string_view show : map_show_names()) shows.push_back({std::string(show), std::string(show)});
+    const int pressed = word_choice(ui, "map.show", shows, static_cast<int>(maps.choice.show));
+    if (pressed >= 0) ui.invoke("map.show", shows[static_cast<std::size_t>(pressed)].name);
 }
 
 void caption(Ui& ui, ImVec2 at, const std::string& left, const std::string& right, float width) {

@@ -13,11 +13,13 @@
 namespace mobbscope::app {
 
 void menu_bar(Ui& ui);
-void scene_panel(Ui& ui, QueryInspector& queries);             ///< agents, clips, queries
-float placement_height(const Ui& ui, Settings& settings);      ///< pixels; 0: nobody is selected who can be placed
-void placement_panel(Ui& ui);                                  ///< the selected agent by numbers; else nothing
-void sweep_panel(Ui& ui, SweepInspector& sweeps);              ///< which tree to ship
-void tree_panel(Ui& ui, Jobs& jobs, QueryInspector& queries);  ///< how trees are fitted and how tight they are
+void scene_panel(Ui& ui, QueryInspector& queries);         ///< agents, clips, queries
+float placement_height(const Ui& ui, Settings& settings);  ///< pixels; 0: nobody is selected who can be placed
+void placement_panel(Ui& ui);                              ///< the selected agent by numbers; else nothing
+void sweep_panel(Ui& ui, SweepInspector& sweeps);          ///< which tree to ship
+void tree_panel(Ui& ui, Jobs& jobs, QueryInspector& queries, FitCosts& costs);  ///< how trees are fitted
+/// What a query of a clip's tree costs, by kind of test and by level, and how tight its levels are.
+void cost_section(Ui& ui, QueryInspector& queries, FitCosts& costs, int clip);
 void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures);  ///< the answer, and why
 /// How high the map of placements is, and its side; pixels.
 struct MapLayout {

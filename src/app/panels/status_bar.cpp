@@ -46,8 +46,8 @@ std::string hover_facts(const Workspace& workspace, const QueryInspector& querie
         const auto index = static_cast<std::size_t>(what.index);
         return sentence(workspace.fitted().queries()[index], queries.answer_of(index).contact);
     }
-    constexpr std::array<std::string_view, 7> kFacts{"clip",  "samples",   "time", "radius",
-                                                     "speed", "tightness", "lasts"};
+    constexpr std::array<std::string_view, 8> kFacts{"clip",  "samples",   "time", "radius",
+                                                     "speed", "tightness", "cost", "lasts"};
     const Described described = describe(workspace, what);
     std::string out = cleaned(described.name);
     for (const auto& [key, value] : described.facts) {

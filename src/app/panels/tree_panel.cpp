@@ -2,15 +2,9 @@
 #include <app/panels/panels.h>
 #include <app/ui/widgets.h>
 #include <base/text.h>
-#include <explain/level_columns.h>
-#include <render/parts/node_boxes.h>
-#include <scene/crowd_run.h>
-#include <scene/motion_graph.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 namespace mobbscope::app {
@@ -192,87 +186,6 @@ void shown_levels(Ui& ui, int depth) {
     ui.mark("view.leaves");
 }
 
-/// The clip of the document that one plays: of a run that of the play, which is drawn as one that runs on.
-int clip_of(const Workspace& workspace, const PlacedAgent& who) {
-    if (!workspace.crowd()) return who.clip;
-    const Agent& agent = workspace.fitted().scene().agents[static_cast<std::size_t>(who.agent)];
-    const CrowdAgent& person = workspace.crowd()->agents[static_cast<std::size_t>(agent.run_agent)];
-    const int move = person.plays[static_cast<std::size_t>(agent.play)].move;
-    return workspace.scene().graph->moves[static_cast<std::size_t>(move)].clip;
-}
-
-/// The tree that the bars are about: of what is selected, else the first that is seen.
-int clip_in_focus(const Workspace& workspace) {
-    if (workspace.selection.kind == Selection::Kind::clip) return workspace.selection.index;
-    if (workspace.selection.on_path()) {
-        if (const auto who = placed_agent_of(workspace.fitted(), workspace.selection.path))
-            return clip_of(workspace, *who);
-    }
-    return clip_of(workspace, workspace.fitted().placed_agents().front());
-}
-
-/// Volume of each level as a bar, and how much of it the disks fill.
-void level_bars(Ui& ui, QueryInspector& queries, int clip) {
-    const auto& figures = queries.figures_of(clip);
-    if (!section(ui, "VOLUME BY LEVEL", ui.workspace.scene().clips[static_cast<std::size_t>(clip)].name)) return;
-    // Free boxes may take more room the finer they are: their fits overlap.
-    double most = 1e-300;
-    for (const mobb::LevelFigures& level : figures) most = std::max(most, level.volume);
-    // The largest has three digits, and all of them its decimals.
-    const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(most))), 0, 9);
-    const ImFont& mono = *ui.style.mono;
-    const float height = ui.px(18);
-    const auto draw_row = [&](int i) {
-        const mobb::LevelFigures& level = figures[static_cast<std::size_t>(i)];
-        const ImVec2 corner = ImGui::GetCursorScreenPos();
-        const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x);
-        const bool clicked = ImGui::InvisibleButton(("level" + std::to_string(i)).c_str(), {width, height});
-        ui.mark("level." + std::to_string(i));
-        if (ui.workspace.view().levels.first == level.level) ui.focus.begin_here();
-        const bool over = ImGui::IsItemHovered();
-        const LevelRange shown = ui.workspace.view().levels;
-        const bool drawn =
-            !shown.leaves && !ui.workspace.view().query && level.level >= shown.first && level.level <= shown.last;
-        const std::string volume = formatted(most < 1e6 ? "%.*f" : "%.*g", most < 1e6 ? decimals : 3, level.volume);
-        const std::string text = volume + (level.tightness ? formatted("  %3.0f%%", 100 * *level.tightness) : "      ");
-        const float label = ui.px(26);
-        const float figure = text_size(mono, "000000  100%").x;
-        const float room = std::max(ui.px(20), width - label - figure - ui.px(8));
-        const float long_bar = room * static_cast<float>(level.volume / most);
-        ImDrawList& draw = *ImGui::GetWindowDrawList();
-        const float y0 = corner.y + ui.px(3);
-        const float y1 = corner.y + height - ui.px(3);
-        const ImVec2 start{corner.x + label, y0};
-        const float text_y = corner.y + 0.5f * (height - mono.FontSize);
-        draw_text(draw, mono, {corner.x, text_y}, drawn || over ? ui.style.text : ui.style.quiet,
-                  "L" + std::to_string(level.level));
-        const Rgba accent = ui.style.palette.accent;
-        draw.AddRectFilled(start, {start.x + std::max(ui.px(1), long_bar), y1},
-                           to_im(with_alpha(accent, drawn || over ? 0.55f : 0.3f)), ui.px(2));
-        // The filled part is what the disks take of the boxes.
-        draw.AddRectFilled(start, {start.x + long_bar * static_cast<float>(level.tightness.value_or(0)), y1},
-                           to_im(accent), ui.px(2));
-        draw_text(draw, mono, {corner.x + width - text_size(mono, text).x, text_y}, ui.style.quiet, text);
-        if (clicked) ui.invoke("view.level", std::to_string(level.level));
-        if (over) {
-            std::string figures_of_level;
-            for (const mobb::LevelColumn& column : mobb::kLevelColumns) {
-                figures_of_level += level_words(column, level) + '\n';
-            }
-            ImGui::SetTooltip("%sclick to show this level", figures_of_level.c_str());
-        }
-    };
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
-    ui.focus.begin_list(ImGui::GetID("levels"), static_cast<int>(figures.size()));
-    for (int i = 0; i < static_cast<int>(figures.size()); ++i) {
-        ui.focus.row(i);
-        draw_row(i);
-    }
-    ui.focus.end_list();
-    ImGui::PopStyleVar();
-    words(ui.style.quiet, "m\u00B2\u00B7s, and how full of disks");
-}
-
 /// How the trees are fitted, and which of their boxes are shown.
 void fit_fields(Ui& ui, Jobs& jobs) {
     const mobb::FitOptions fit = ui.workspace.fitted().options();
@@ -295,11 +208,11 @@ void fit_fields(Ui& ui, Jobs& jobs) {
 
 }  // namespace
 
-void tree_panel(Ui& ui, Jobs& jobs, QueryInspector& queries) {
+void tree_panel(Ui& ui, Jobs& jobs, QueryInspector& queries, FitCosts& costs) {
     if (ui.workspace.empty()) return;
     ImGui::PushID("tree");
     if (section(ui, "TREE")) fit_fields(ui, jobs);
-    level_bars(ui, queries, clip_in_focus(ui.workspace));
+    cost_section(ui, queries, costs, clip_in_focus(ui.workspace));
     ImGui::PopID();
 }
 

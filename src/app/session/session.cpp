@@ -52,6 +52,7 @@ void Session::end_work() {
     maps.end_work();
     sweeps.cancel();
     answers.end_work();
+    fit_costs.end_work();
     for (const auto& each : screens) each->end_work();
 }
 

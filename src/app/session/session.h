@@ -7,6 +7,7 @@
 #include <app/session/cost_inspector.h>
 #include <app/session/excerpts.h>
 #include <app/session/files.h>
+#include <app/session/fit_costs.h>
 #include <app/session/map_inspector.h>
 #include <app/session/query_answers.h>
 #include <app/session/recovery.h>
@@ -88,6 +89,7 @@ class Session {
     MapInspector maps{workspace, notifications, options, desktop};
     QueryAnswers answers{workspace, options, desktop};
     CostInspector costs{workspace, jobs, answers};
+    FitCosts fit_costs{workspace, notifications, options, desktop};
     SweepInspector sweeps{workspace, notifications, options, desktop};
     Excerpts excerpts{workspace, jobs, playback, crowds, counts};
     Files files{{workspace, jobs, edits, imports, dialogs, notifications, playback, settings, settings_file, counts,
@@ -101,7 +103,7 @@ class Session {
     static auto parts(AnySession& s) {
         return std::tie(s.options, s.settings, s.workspace, s.views, s.queries, s.notifications, s.queue, s.keys,
                         s.dialogs, s.jobs, s.playback, s.edits, s.imports, s.crowds, s.maps, s.answers, s.costs,
-                        s.sweeps, s.excerpts, s.files, s.recovery);
+                        s.fit_costs, s.sweeps, s.excerpts, s.files, s.recovery);
     }
 
     /// The screen of a type, which add_screen was given.

@@ -38,7 +38,7 @@ SweepOrder SweepInspector::order() const {
 void SweepInspector::start() {
     auto sweep = std::make_shared<Sweep>();
     sweep->scene = workspace_.document().fitted->shared_scene();
-    sweep->kind = QueryWorkload::Kind::placements;
+    sweep->kind = workspace_.workload();
     running_ = sweep;
     job_ = std::make_unique<Job>(
         "Trying fits",

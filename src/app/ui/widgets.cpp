@@ -279,6 +279,22 @@ bool small_button(Ui& ui, const char* label, const std::string& mark, const char
     return pressed;
 }
 
+int word_choice(Ui& ui, const std::string& mark, std::span<const ChoiceWord> all, int chosen) {
+    int pressed = -1;
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(2), ImGui::GetStyle().ItemSpacing.y});
+    for (int i = 0; i < static_cast<int>(all.size()); ++i) {
+        const ChoiceWord& each = all[static_cast<std::size_t>(i)];
+        const bool is_chosen = i == chosen;
+        if (i > 0) flow(button_width(each.word.c_str()));
+        ImGui::PushStyleColor(ImGuiCol_Text, is_chosen ? ui.style.text : ui.style.quiet);
+        ImGui::PushStyleColor(ImGuiCol_Button, is_chosen ? ui.style.raised : IM_COL32_BLACK_TRANS);
+        if (small_button(ui, each.word.c_str(), mark + '.' + each.name, each.help)) pressed = i;
+        ImGui::PopStyleColor(2);
+    }
+    ImGui::PopStyleVar();
+    return pressed;
+}
+
 void draw_text(ImDrawList& list, const ImFont& font, ImVec2 at, ImU32 color, const std::string& text) {
     list.AddText(&font, font.FontSize, at, color, text.c_str());
 }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -58,6 +59,16 @@ void command_button(Ui& ui, const char* label, const char* command, const std::s
 
 /// A small button with a mark for scripts, and a tooltip; empty: none.
 bool small_button(Ui& ui, const char* label, const std::string& mark, const char* help = "");
+
+/// One of a few words to choose from.
+struct ChoiceWord {
+    std::string name;  ///< for scripts, behind the mark of the choice
+    std::string word;
+    const char* help = "";
+};
+/// Words of which one is chosen, which is lit; in several lines where they have to. Returns the index of one that is
+/// pressed; -1: none is.
+int word_choice(Ui& ui, const std::string& mark, std::span<const ChoiceWord> all, int chosen);
 
 /// Text of a font where it is told, in a picture.
 void draw_text(ImDrawList& list, const ImFont& font, ImVec2 at, ImU32 color, const std::string& text);

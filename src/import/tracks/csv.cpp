@@ -588,7 +588,7 @@ bool looks_like_table(std::string_view text) {
 }
 
 std::string csv_field(std::string_view text) {
-    if (text.find_first_of(",\"") == std::string_view::npos && trimmed(text) == text) return std::string(text);
+    if (text.find_first_of(",\"\r\n") == std::string_view::npos && trimmed(text) == text) return std::string(text);
     std::string out = "\"";
     for (const char c : text) {
         if (c == '"') out += '"';

@@ -1,0 +1,288 @@
+#include <app/panels/panels.h>
+#include <app/ui/widgets.h>
+#include <base/text.h>
+#include <explain/level_columns.h>
+#include <explain/tree_cost.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace mobbscope::app {
+
+namespace {
+
+using Workload = QueryWorkload::Kind;
+
+std::string per_cent(double share) { return formatted("%.0f %%", 100 * share); }
+
+/// "2D boxes": what tests of a kind are about, at the start of a row.
+std::string tested(mobb::TestKind kind) {
+    if (kind.is_box()) return std::string(mobb::info(kind.box()).plural);
+    return kind == mobb::TestKind::samples ? "sample pairs" : "time";
+}
+
+/// The kinds of tests that a query makes, those of boxes first.
+std::vector<mobb::TestKind> kinds_of(const MeanTests& tests) {
+    std::vector<mobb::TestKind> out;
+    for (const mobb::BoxKind box : mobb::kBoxKinds) out.emplace_back(box);
+    out.insert(out.end(), {mobb::TestKind::samples, mobb::TestKind::time});
+    std::erase_if(out, [&](mobb::TestKind kind) { return tests[kind] == 0; });
+    return out;
+}
+
+/// "standard placements: shift over 25.6 m², start within ±2 s"
+std::string workload_words(const TreeCost& cost) {
+    if (cost.workload == Workload::queries)
+        return "the mean of " + counted(cost.queries, "query", "queries") + " of this scene";
+    std::string out =
+        "shift over " + figure(cost.area, 3) + " m\u00B2, start within \u00B1" + brief(cost.offset) + " s";
+    if (cost.queries > 0) {
+        out += ", " + std::to_string(cost.queries) + " counted, seed " + std::to_string(kCountedSeed);
+    } else {
+        out += ", expected";
+    }
+    return out;
+}
+
+/// How the cost is found out: its formula with the numbers that stand in it.
+std::string formula(const TreeCost& cost) {
+    if (cost.workload == Workload::queries)
+        return "Tests of all queries of the scene, counted, times their price, by the number of queries.";
+    if (cost.queries > 0)
+        return "Blocks have no formula: the tests of " + std::to_string(cost.queries) +
+               " standard placements of the clip against itself are counted.";
+    std::string out =
+        "Tests that a query of the clip against itself is expected to make, times their price.\n"
+        "EV* = P + sum over pairs (p, q) of inner nodes and over their children (a, b)\n"
+        "      of max(0, K(p,q) - H)/W * (h_a + h_b)/(2T)\n"
+        "P: the chance that the roots share time\n"
+        "K: the area of the shifts at which two boxes meet, m\u00B2, the least of p, q and those above them;\n"
+        "   of 2D boxes A_p + A_q + L_p L_q/(2 pi), areas A and perimeters L\n"
+        "H: the area of those at which the two have collided before: a hit ends the query\n"
+        "h: how long a node lasts, s";
+    out += "\nW = " + figure(cost.area) + " m\u00B2: all shifts.  T = " + figure(cost.offset) +
+           " s: starts are within \u00B1T";
+    if (cost.bound)
+        out += "\nWithout hits (H = 0) it would be " + figure(cost_of(*cost.bound), 3) + " ns: it is never more.";
+    return out;
+}
+
+/// "13.9 tests x 14 ns = 195 ns, 21 % of the cost"
+std::string price_words(mobb::TestKind kind, const MeanTests& tests, const MeanTests& all) {
+    const double price = kTestPrices[kind];
+    std::string out = figure(tests[kind]) + " tests of " + tested(kind);
+    if (price == 0) return out + ": they have no price";
+    out += " x " + brief(price) + " ns = " + figure(tests[kind] * price) + " ns";
+    if (is_priced(all)) out += ", " + per_cent(tests[kind] * price / cost_of(all)) + " of the cost";
+    return out;
+}
+
+std::string price_lines(const MeanTests& tests, const MeanTests& all) {
+    std::string out;
+    for (const mobb::TestKind kind : kinds_of(tests)) out.append(price_words(kind, tests, all)).append(1, '\n');
+    return out;
+}
+
+ImU32 shade_of(const Ui& ui, std::size_t place) {
+    constexpr std::array kStrengths{1.0f, 0.6f, 0.36f, 0.2f};
+    return to_im(with_alpha(ui.style.palette.accent, kStrengths[std::min(place, kStrengths.size() - 1)]));
+}
+
+/// Tells something where the last item is under the mouse.
+void tell(const std::string& text) {
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text.c_str());
+}
+
+void total(Ui& ui, const TreeCost& cost) {
+    const bool priced = is_priced(cost.tests);
+    const std::string number = priced ? figure(cost_of(cost.tests), 3) + " ns" : figure(cost.tests.all(), 3) + " tests";
+    text_line(ui.style.text, number + " a query", ui.style.title);
+    ui.mark_only("cost.total");
+    std::string how = formula(cost);
+    if (!priced) how += "\nA test of blocks has no price: tests are shown.";
+    tell(how + "\n\n" + price_lines(cost.tests, cost.tests));
+}
+
+/// What the numbers are about, to choose where the scene has queries.
+void workload_choice(Ui& ui, const TreeCost* cost) {
+    const std::size_t count = ui.workspace.crowd() ? 0 : ui.workspace.document().fitted->queries().size();
+    if (count > 0) {
+        const std::array all{ChoiceWord{"placements", "standard placements",
+                                        "The clip against itself, placed at random: these say nothing about any scene"},
+                             ChoiceWord{"queries", counted(count, "query", "queries"), "What this scene asks"}};
+        const int pressed = word_choice(ui, "tree.cost_of", all, static_cast<int>(ui.workspace.workload()));
+        if (pressed >= 0) ui.invoke("tree.cost_of", all[static_cast<std::size_t>(pressed)].name);
+    }
+    if (!cost) return;
+    ImGui::PushFont(ui.style.caption);
+    words(ui.style.quiet, (count > 0 ? "" : "standard placements: ") + workload_words(*cost));
+    ImGui::PopFont();
+    tell(formula(*cost));
+}
+
+/// The tests by kind: a bar of their parts of the cost, and a row for each.
+void kinds(Ui& ui, const MeanTests& tests) {
+    const std::vector<mobb::TestKind> all = kinds_of(tests);
+    const ImFont& mono = *ui.style.mono;
+    const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x);
+    const auto part = [&](mobb::TestKind kind) {
+        MeanTests alone;
+        alone[kind] = tests[kind];
+        return part_of(alone, tests);
+    };
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    ImGui::Dummy({width, ui.px(7)});
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const float end = at.x + width * static_cast<float>(part(all[i]));
+        draw.AddRectFilled(at, {std::max(at.x + 1, end - ui.px(1)), at.y + ui.px(7)}, shade_of(ui, i));
+        at.x = end;
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const ImVec2 corner = ImGui::GetCursorScreenPos();
+        const float height = ui.px(17);
+        ImGui::Dummy({width, height});
+        ui.mark_only("cost.kind." + std::string(name(all[i])));
+        const float y = corner.y + 0.5f * (height - mono.FontSize);
+        const float dot = ui.px(7), top = corner.y + 0.5f * (height - dot);
+        draw.AddRectFilled({corner.x, top}, {corner.x + dot, top + dot}, shade_of(ui, i));
+        const std::string share = per_cent(part(all[i])), count = figure(tests[all[i]], 3);
+        const float right = corner.x + width - text_size(mono, share).x;
+        const float columns = text_size(mono, "0000.0  100 %").x;
+        draw_text(draw, mono, {right, y}, ui.style.quiet, share);
+        draw_text(draw, mono, {corner.x + width - columns + text_size(mono, "0000.0").x - text_size(mono, count).x, y},
+                  ui.style.text, count);
+        const std::string label = fitted_text(tested(all[i]), width - columns - dot - ui.px(10));
+        draw_text(draw, *ui.style.body,
+                  {corner.x + dot + ui.px(6), corner.y + 0.5f * (height - ui.style.body->FontSize)}, ui.style.text,
+                  label);
+        tell(price_words(all[i], tests, tests));
+    }
+}
+
+/// The columns of the table of levels, as pixels from its left edge: where texts end, and where bars are.
+struct LevelLayout {
+    float volume, fill, bar, bar_end, width;
+
+    LevelLayout(const Ui& ui, float width_) : width(width_) {
+        const auto digits = [&](const char* text) { return text_size(*ui.style.mono, text).x; };
+        volume = digits("L00 ") + digits("000000");
+        fill = volume + digits(" 100 %");
+        bar = fill + ui.px(10);
+        bar_end = width - digits(" 100 %");
+    }
+};
+
+void level_headings(Ui& ui, const LevelLayout& at) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImFont& font = *ui.style.caption;
+    const auto ending = [&](float right, const char* text) {
+        draw_text(draw, font, {corner.x + right - text_size(font, text).x, corner.y}, ui.style.quiet, text);
+    };
+    draw_text(draw, font, corner, ui.style.quiet, "level");
+    ending(at.volume, "m\u00B2\u00B7s");
+    ending(at.fill, "fill");
+    ending(at.width, "cost");
+    ImGui::Dummy({at.width, font.FontSize});
+}
+
+std::string level_tooltip(const mobb::LevelFigures* level, const TreeCost* cost, std::size_t i) {
+    std::string out;
+    if (level) {
+        for (const mobb::LevelColumn& column : mobb::kLevelColumns) out += level_words(column, *level) + '\n';
+    } else {
+        out += "of trees that are deeper than this one\n";
+    }
+    if (cost && i < cost->levels.size()) {
+        out += "\nTests of pairs of this level's nodes, a query:\n" + price_lines(cost->levels[i], cost->tests);
+        out += "together " + per_cent(part_of(cost->levels[i], cost->tests)) + " of the cost\n";
+    }
+    return out + "\nclick to show this level";
+}
+
+/// The levels: volume, how much of it the disks fill, and their part of the cost.
+void levels(Ui& ui, const std::vector<mobb::LevelFigures>& figures, const TreeCost* cost) {
+    // Free boxes may take more room the finer they are: their fits overlap.
+    double most = 1e-300, costliest = 1e-300;
+    for (const mobb::LevelFigures& level : figures) most = std::max(most, level.volume);
+    std::vector<double> parts;
+    if (cost) {
+        for (const MeanTests& level : cost->levels) parts.push_back(part_of(level, cost->tests));
+        for (const double part : parts) costliest = std::max(costliest, part);
+    }
+    // The largest has three digits, and all of them its decimals.
+    const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(most))), 0, 9);
+    const ImFont& mono = *ui.style.mono;
+    const float height = ui.px(18);
+    const LevelLayout at(ui, std::max(1.0f, ImGui::GetContentRegionAvail().x));
+    level_headings(ui, at);
+    const auto draw_row = [&](int i) {
+        const auto index = static_cast<std::size_t>(i);
+        const mobb::LevelFigures* level = index < figures.size() ? &figures[index] : nullptr;
+        const ImVec2 corner = ImGui::GetCursorScreenPos();
+        const bool clicked = ImGui::InvisibleButton(("level" + std::to_string(i)).c_str(), {at.width, height});
+        ui.mark("level." + std::to_string(i));
+        const LevelRange shown = ui.workspace.view().levels;
+        if (shown.first == i) ui.focus.begin_here();
+        const bool over = ImGui::IsItemHovered();
+        const bool drawn = !shown.leaves && !ui.workspace.view().query && i >= shown.first && i <= shown.last;
+        const ImU32 color = drawn || over ? ui.style.text : ui.style.quiet;
+        ImDrawList& draw = *ImGui::GetWindowDrawList();
+        const float y = corner.y + 0.5f * (height - mono.FontSize);
+        const auto ending = [&](float right, const std::string& text) {
+            draw_text(draw, mono, {corner.x + right - text_size(mono, text).x, y}, color, text);
+        };
+        draw_text(draw, mono, {corner.x, y}, color, "L" + std::to_string(i));
+        ending(at.volume,
+               level ? formatted(most < 1e6 ? "%.*f" : "%.*g", most < 1e6 ? decimals : 3, level->volume) : "-");
+        ending(at.fill, level && level->tightness ? per_cent(*level->tightness) : "-");
+        ending(at.width, index < parts.size() ? per_cent(parts[index]) : "-");
+        if (index < parts.size() && at.bar_end > at.bar) {
+            const float length = (at.bar_end - at.bar) * static_cast<float>(parts[index] / costliest);
+            draw.AddRectFilled({corner.x + at.bar, corner.y + ui.px(4)},
+                               {corner.x + at.bar + std::max(ui.px(1), length), corner.y + height - ui.px(4)},
+                               to_im(with_alpha(ui.style.palette.accent, drawn || over ? 1.0f : 0.6f)), ui.px(2));
+        }
+        if (clicked) ui.invoke("view.level", std::to_string(i));
+        tell(level_tooltip(level, cost, index));
+    };
+    const int count = static_cast<int>(std::max(figures.size(), parts.size()));
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
+    ui.focus.begin_list(ImGui::GetID("levels"), count);
+    for (int i = 0; i < count; ++i) {
+        ui.focus.row(i);
+        draw_row(i);
+    }
+    ui.focus.end_list();
+    ImGui::PopStyleVar();
+}
+
+/// Instead of a cost that is not known.
+void no_cost_yet(Ui& ui) {
+    if (ui.workspace.workload() == Workload::placements) return text_line(ui.style.quiet, "\u2026", ui.style.title);
+    words(ui.style.quiet, "The tests of all queries are not counted.");
+    if (small_button(ui, "Count them", "cost.count")) ui.later([](CostInspector& costs) { costs.count(); });
+}
+
+}  // namespace
+
+void cost_section(Ui& ui, QueryInspector& queries, FitCosts& costs, int clip) {
+    costs.update(clip);
+    // Not amid a drag, which changes what is asked again and again.
+    if (!ImGui::IsMouseDown(ImGuiMouseButton_Left) && costs.wants_count())
+        ui.later([](CostInspector& all) { all.count(); });
+    if (!section(ui, "COST", ui.workspace.scene().clips[static_cast<std::size_t>(clip)].name)) return;
+    const std::shared_ptr<const TreeCost> cost = ui.workspace.cost_of(clip);
+    cost ? total(ui, *cost) : no_cost_yet(ui);
+    workload_choice(ui, cost.get());
+    if (cost) kinds(ui, cost->tests);
+    ImGui::Dummy({0, ui.px(2)});
+    levels(ui, queries.figures_of(clip), cost.get());
+}
+
+}  // namespace mobbscope::app

@@ -1,0 +1,155 @@
+// What trees cost, in the window: the numbers of `fit --json`, or those counted over the scene's queries.
+#include <app/document/described.h>
+#include <app/window/headless_window.h>
+#include <explain/expected_cost.h>
+#include <explain/tree_cost.h>
+#include <render/gl/gl_context.h>
+
+#include "app/crossing_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <thread>
+
+namespace mobbscope::app {
+namespace {
+
+using testing::CrossingFolder;
+using testing::refusal;
+using Workload = QueryWorkload::Kind;
+
+struct CostWindow {
+    CrossingFolder folder;
+    Session session;
+    HeadlessWindow window;
+
+    explicit CostWindow(bool attended = false)
+        : session(attended), window(GlContext::open(Backend::automatic), session, {1280, 1100}, 1) {
+        session.files.open({folder.scene});
+        window.settle();
+    }
+    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
+    void click(const std::string& mark) {
+        ASSERT_TRUE(has(mark)) << mark;
+        window.shell().feed(MouseMove{window.shell().marks().all().at(mark).center()});
+        window.shell().feed(MouseButton{0, true});
+        window.shell().feed(MouseButton{0, false});
+        window.settle();
+    }
+    void run(const std::string& command, const std::string& argument = "") {
+        run_command(session, command, argument);
+        window.settle();
+    }
+    const mobb::Tree& tree() const { return session.workspace.fitted().tree(0); }
+    std::shared_ptr<const TreeCost> cost() const { return session.workspace.cost_of(0); }
+};
+
+std::string fact_of(const Workspace& workspace, const std::string& key) {
+    for (const auto& [name, value] : describe(workspace, workspace.selection).facts) {
+        if (name == key) return value;
+    }
+    return "";
+}
+
+TEST(Cost, TheWindowHasTheNumbersOfFit) {
+    CostWindow w;
+    for (const char* kind : {"mobb", "umobb", "moving"}) {
+        w.run("tree.kind", kind);
+        const ExpectedCost expected = expected_cost(w.tree(), w.tree()).value();
+        ASSERT_TRUE(w.cost()) << kind;
+        EXPECT_EQ(w.cost()->tests.by_kind, expected.tests.by_kind);
+        EXPECT_EQ(w.cost()->shares, expected.node_shares());
+        EXPECT_TRUE(w.has("cost.total"));
+        EXPECT_TRUE(w.has("cost.kind.samples"));
+        EXPECT_TRUE(w.has("cost.kind.time"));
+        for (int level = 0; level < w.tree().depth(); ++level)
+            EXPECT_TRUE(w.has("level." + std::to_string(level))) << level;
+    }
+    EXPECT_TRUE(w.has("cost.kind.moving"));
+    EXPECT_FALSE(w.has("cost.kind.obb2d"));
+}
+
+TEST(Cost, AClickOnALevelShowsIt) {
+    CostWindow w;
+    w.click("level.2");
+    EXPECT_EQ(w.session.workspace.view().levels, (LevelRange{2, 2, false}));
+}
+
+TEST(Cost, OfTheScenesQueriesIsCounted) {
+    CostWindow w;
+    w.click("tree.cost_of.queries");
+    EXPECT_EQ(w.session.settings.cost_of, Workload::queries);
+    ASSERT_TRUE(w.cost());
+    const FittedScene& fitted = w.session.workspace.fitted();
+    const SceneCosts counted = scene_costs(fitted);
+    EXPECT_EQ(w.cost()->workload, Workload::queries);
+    EXPECT_EQ(w.cost()->queries, fitted.queries().size());
+    EXPECT_EQ(w.cost()->tests.by_kind, cost_in_scene(counted, 0, fitted.shared_tree(0)).tests.by_kind);
+    // Another scene is counted anew.
+    w.run("tree.leaf", "2");
+    ASSERT_TRUE(w.cost());
+    EXPECT_NE(w.cost()->tests.all(), static_cast<double>(counted.kinds.all()) / 3);
+    w.click("tree.cost_of.placements");
+    ASSERT_TRUE(w.cost());
+    EXPECT_EQ(w.cost()->workload, Workload::placements);
+}
+
+TEST(Cost, WithoutQueriesThereAreStandardPlacementsAlone) {
+    CostWindow w;
+    w.run("tree.cost_of", "queries");
+    w.session.files.open({w.folder.file("walk.csv")});
+    w.window.settle();
+    EXPECT_EQ(w.session.workspace.workload(), Workload::placements);
+    ASSERT_TRUE(w.cost());
+    EXPECT_FALSE(w.has("tree.cost_of.queries"));
+    EXPECT_EQ(refusal(w.session, "tree.cost_of", "queries"), "Cost of: there is no query");
+    EXPECT_EQ(w.session.settings.cost_of, Workload::queries) << "it is kept for scenes that ask";
+}
+
+TEST(Cost, ANodeSaysItsPartUnderTheChosenWorkload) {
+    CostWindow w;
+    w.run("go.node", "A 1.0");
+    ASSERT_TRUE(w.cost());
+    EXPECT_EQ(fact_of(w.session.workspace, "cost"),
+              figure(100 * w.cost()->shares[1], 2) + " % of all box tests in standard placements");
+    w.run("tree.cost_of", "queries");
+    ASSERT_TRUE(w.cost());
+    EXPECT_EQ(fact_of(w.session.workspace, "cost"),
+              figure(100 * w.cost()->shares[1], 2) + " % of all box tests in the scene's queries");
+}
+
+TEST(Cost, BlocksAreCounted) {
+    CostWindow w;
+    w.run("tree.kind", "blocks");
+    ASSERT_TRUE(w.cost());
+    EXPECT_EQ(w.cost()->queries, kCountedPlacements);
+    EXPECT_TRUE(w.has("level.0"));
+    EXPECT_EQ(fact_of(w.session.workspace, "cost"), "");
+}
+
+/// Somebody looks: it comes by itself, and once for a tree.
+TEST(Cost, IsFoundOutBesideTheWindowAndKept) {
+    CostWindow w(true);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    const auto wait = [&] {
+        while (!w.cost() && std::chrono::steady_clock::now() < end) {
+            w.window.settle();
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        return w.cost();
+    };
+    const std::shared_ptr<const TreeCost> first = wait();
+    ASSERT_TRUE(first);
+    w.run("tree.kind", "umobb");
+    const std::shared_ptr<const TreeCost> second = wait();
+    ASSERT_TRUE(second);
+    EXPECT_NE(second->tests.by_kind, first->tests.by_kind);
+    w.run("edit.undo");
+    EXPECT_EQ(w.cost(), first) << "it is known still";
+}
+
+}  // namespace
+}  // namespace mobbscope::app
