@@ -41,7 +41,7 @@ ImageDiff compare(const DiffCommandArguments& arguments, const Image& a, const I
 void check_picture_name(const std::optional<std::filesystem::path>& output) {
     if (!output) return;
     check_file_name(*output);
-    check_names({*output, {}, {}});
+    check_extension(*output, ".png", "pictures are written as .png; rename the output");
 }
 
 void check_outputs(const DiffCommandArguments& arguments) {

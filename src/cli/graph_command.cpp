@@ -6,9 +6,8 @@
 #include <cli/program.h>
 #include <crowd/graph/build_graph.h>
 #include <render/drawlist/picture_options.h>
-#include <render/gl/renderer.h>
-#include <render/image/png.h>
 #include <render/pictures/graph_picture.h>
+#include <render/vector/vector_picture.h>
 #include <scene/motion_graph.h>
 
 #include <filesystem>
@@ -139,13 +138,12 @@ int info(const InfoArguments& arguments) {
 
 void draw(const DrawArguments& arguments) {
     check_file_name(arguments.out);
-    check_extension(arguments.out, ".png", "a picture is written as .png; rename the output");
+    check_picture_output(arguments.out);
     const Scene scene = load_graph(arguments.file);
     check_output(arguments.out);
     const DrawList list =
         graph_picture(scene, arguments.drawing.size, arguments.drawing.theme, arguments.drawing.scale);
-    Renderer renderer(arguments.drawing.backend);
-    write_png(arguments.out, renderer.draw(list));
+    write_file(arguments.out, picture_bytes(arguments.out, list, kPictureSamples, arguments.drawing.backend));
 }
 
 /// "1:4" in seconds.
@@ -196,7 +194,7 @@ void add_graph_info_options(Command& command, InfoArguments& arguments) {
 
 void add_draw_options(Command& command, DrawArguments& arguments) {
     add_parsed(command, "GRAPH", arguments.file, parse_file_name, "A scene with a motion graph", "").required();
-    command.add_option("-o,--output", arguments.out, "The picture", "OUT.png").required();
+    command.add_option("-o,--output", arguments.out, "The picture: .png, .svg or .pdf", "OUT.png").required();
     add_drawing_options(command, arguments.drawing);
 }
 

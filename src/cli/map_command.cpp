@@ -6,9 +6,9 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <explain/placement_map.h>
-#include <render/gl/renderer.h>
-#include <render/image/png.h>
+#include <render/drawlist/picture_options.h>
 #include <render/pictures/map_picture.h>
+#include <render/vector/vector_picture.h>
 
 #include <algorithm>
 #include <array>
@@ -101,7 +101,7 @@ void write_map(std::ostream& out, int query, const PlacementMap& map) {
 void run_map(MapCommandArguments& arguments) {
     if (arguments.out.empty() && !arguments.json)
         throw UsageError("map makes a picture or JSON: give -o MAP.png or --json");
-    check_extension(arguments.out, ".png", "a picture is written as .png; rename the output");
+    check_picture_output(arguments.out);
     const FittedScene scene = fitted(load(arguments.file, arguments.import_options), arguments.fit);
     check_asks(scene, arguments.file);
     const std::size_t count = scene.queries().size();
@@ -122,8 +122,7 @@ void run_map(MapCommandArguments& arguments) {
     if (!arguments.out.empty()) {
         const DrawList list =
             map_picture(map, a, b, arguments.drawing.size, arguments.drawing.theme, arguments.drawing.scale);
-        Renderer renderer(arguments.drawing.backend);
-        write_png(arguments.out, renderer.draw(list));
+        write_file(arguments.out, picture_bytes(arguments.out, list, kPictureSamples, arguments.drawing.backend));
     }
     if (arguments.json) {
         write_map(std::cout, arguments.query, map);
@@ -150,7 +149,7 @@ void add_map_options(Command& command, MapCommandArguments& arguments) {
                "answer (whether they collide), clearance (the least, in metres) or tests (of boxes and samples) "
                "(answer)",
                "WHAT");
-    command.add_option("-o,--output", arguments.out, "The picture", "MAP.png");
+    command.add_option("-o,--output", arguments.out, "The picture: .png, .svg or .pdf", "MAP.png");
     add_drawing_options(command, arguments.drawing);
 }
 

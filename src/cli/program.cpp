@@ -2,6 +2,7 @@
 #include <base/file.h>
 #include <base/text.h>
 #include <cli/program.h>
+#include <render/image/picture_names.h>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -34,6 +35,10 @@ namespace fs = std::filesystem;
 
 void check_extension(const fs::path& file, std::string_view extension, const std::string& message) {
     if (!file.empty() && lower_extension(file) != extension) throw InputError(file, message);
+}
+
+void check_picture_output(const fs::path& file) {
+    if (!file.empty() && !is_picture_name(file)) throw InputError(file, std::string(kPictureNames));
 }
 
 void check_output(const fs::path& output) {

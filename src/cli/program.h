@@ -35,6 +35,9 @@ class UsageError : public std::runtime_error {
 /// Throws InputError with this message unless the file has the extension; one that is not named passes.
 void check_extension(const std::filesystem::path& file, std::string_view extension, const std::string& message);
 
+/// Likewise unless it is called as a picture is.
+void check_picture_output(const std::filesystem::path& file);
+
 /// Throws InputError if a file is one that was read, and MachineError, saying why, if it cannot be written there; a
 /// pipe or a device may be. Writes nothing. What writes a file asks this when all is read.
 void check_output(const std::filesystem::path& output);

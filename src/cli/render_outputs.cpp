@@ -37,7 +37,8 @@ std::vector<fs::path> RenderOutputs::all() const {
 }
 
 void check_names(const RenderOutputs& outputs) {
-    check_name(outputs.image, ".png", "pictures");
+    if (!outputs.image.empty()) check_file_name(outputs.image);
+    check_picture_output(outputs.image);
     check_name(outputs.ids, ".png", "object ids");
     check_name(outputs.draw_list, ".json", "draw lists");
 }

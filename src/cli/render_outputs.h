@@ -10,7 +10,7 @@ namespace mobbscope::cli {
 
 /// What is made of one view; an empty name is not asked for.
 struct RenderOutputs {
-    std::filesystem::path image;      ///< the picture, .png
+    std::filesystem::path image;      ///< the picture, .png, .svg or .pdf
     std::filesystem::path ids;        ///< object ids, .png
     std::filesystem::path draw_list;  ///< what is drawn, .json
 

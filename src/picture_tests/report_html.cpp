@@ -1,4 +1,5 @@
 #include <base/base64.h>
+#include <base/markup.h>
 #include <base/text.h>
 #include <cases/case_report.h>
 #include <picture_tests/reports.h>

@@ -56,8 +56,4 @@ std::string update_command(const RunFacts& facts, std::span<const std::string_vi
 /// The same from the page of the run (RunFacts::page).
 std::string accept_command(const RunFacts& facts, std::span<const std::string_view> names);
 
-/// Text fit for content and for attributes in either kind of quotes, in HTML and XML 1.0. Characters that XML does not
-/// allow, or that steer terminals, and bytes that are not UTF-8 become '?'.
-std::string escaped(std::string_view text);
-
 }  // namespace mobbscope::picture_tests

@@ -1,4 +1,5 @@
 #include <base/base64.h>
+#include <base/markup.h>
 #include <base/text.h>
 
 #include <gtest/gtest.h>
@@ -157,6 +158,15 @@ TEST(Base64, ReadsWhatItWrites) {
         bytes += static_cast<char>(i * 37);
     }
     for (const char* bad : {"A", "AB=C", "A===", "====", "AA A", "AAA\n"}) EXPECT_FALSE(from_base64(bad)) << bad;
+}
+
+TEST(Markup, EverythingThatMeansSomethingIsEscaped) {
+    EXPECT_EQ(escaped("<a href=\"x\">'&'"), "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;");
+    EXPECT_EQ(escaped(std::string("a\0b\x1b\n", 5)), R"(a\u0000b\u001b\u000a)");
+    EXPECT_EQ(escaped("a\u202eb"), "a\\u202eb");
+    EXPECT_EQ(escaped("\xff"), "?");
+    EXPECT_EQ(escaped("\xef\xbf\xbe\xef\xbf\xbd\xef\xbf\xbf"), "?\xef\xbf\xbd?");
+    EXPECT_EQ(escaped("\xc3\xa9"), "\xc3\xa9");
 }
 
 }  // namespace

@@ -293,7 +293,7 @@ TEST_F(GraphTest, WhatCannotBeDoneIsSaidInOneLine) {
     expect_refused({"graph", "build", kClips}, "output");
     expect_refused({"graph", "info", path("plain.json")}, "there is no motion graph in it");
     expect_refused({"graph", "draw", path("plain.json"), "-o", path("x.png")}, "there is no motion graph in it");
-    expect_refused({"graph", "draw", graph(), "-o", path("x.jpg")}, "a picture is written as .png");
+    expect_refused({"graph", "draw", graph(), "-o", path("x.jpg")}, "pictures are written as .png, .svg or .pdf");
     expect_refused({"graph"}, "subcommand");
     EXPECT_FALSE(std::filesystem::exists(none));
     EXPECT_FALSE(std::filesystem::exists(path("x.png")));

@@ -124,7 +124,8 @@ TEST(MapCommand, RefusesWhatIsNoMapInOneLine) {
     refused({"--over", good, "--show", "gaps", "--json"}, "not one of answer, clearance, tests");
     refused({"--over", good, "--query", "7", "--json"}, "there is no query 7; 0 is the only one");
     refused({"--over", good, "--query", "-1", "--json"}, "no whole number");
-    refused({"--over", good, "-o", std::string(folder.path() / "map.jpg")}, "a picture is written as .png");
+    refused({"--over", good, "-o", std::string(folder.path() / "map.jpg")},
+            "pictures are written as .png, .svg or .pdf");
     refused({"--over", good, "-o", out, "--size", "10x10"}, "10x10");
 }
 

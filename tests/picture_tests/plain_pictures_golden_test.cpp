@@ -1,12 +1,14 @@
-// What the picture of a motion graph looks like: goldens as of a case (picture_tests/reference.h), though there is no
-// case of it.
+// What motion graphs and charts look like: goldens as of a case (picture_tests/reference.h), though there is no case of
+// them.
 #include <cases/case_file.h>
 #include <picture_tests/reference.h>
 #include <render/image/image_diff.h>
 #include <render/image/png.h>
+#include <render/pictures/chart_picture.h>
 #include <render/pictures/graph_picture.h>
 
 #include "render/backends.h"
+#include "render/small_charts.h"
 #include "render/small_graph.h"
 
 #include <gtest/gtest.h>
@@ -29,24 +31,36 @@ void expect_golden(const Image& drawn, const std::string& file, Tolerance tolera
         << "look at " << actual << "; if it is right, copy it to " << golden;
 }
 
-class GraphPicturePixels : public mobbscope::testing::OnEachBackend {};
-
-TEST_P(GraphPicturePixels, AreTheGoldens) {
-    DrawList list = graph_picture(mobbscope::testing::small_graph(), {640, 360}, Theme::dark);
-    const Image drawn = renderer().draw(list);
-    const auto reference = read_reference(kFolder);
-    ASSERT_TRUE(reference);
-    const std::string other = what_is_other(reference_of(renderer()), *reference);
-    if (other.empty()) {
-        expect_golden(drawn, "motion_graph.png", Tolerance::tight);
-    } else {
-        std::cout << "Pixels of text are not compared: drawn with " << other << '\n';
+class PlainPictures : public mobbscope::testing::OnEachBackend {
+  protected:
+    /// Without words too, as other machines may letter them otherwise.
+    void expect_goldens(DrawList list, const std::string& name) {
+        const Image drawn = renderer().draw(list);
+        const auto reference = read_reference(kFolder);
+        ASSERT_TRUE(reference);
+        const std::string other = what_is_other(reference_of(renderer()), *reference);
+        if (other.empty()) {
+            expect_golden(drawn, name + ".png", Tolerance::tight);
+        } else {
+            std::cout << "Pixels of text are not compared: drawn with " << other << '\n';
+        }
+        list.texts.clear();
+        expect_golden(coarse_picture(renderer().draw(list)), name + ".plain.png", Tolerance::loose);
     }
-    list.texts.clear();
-    expect_golden(coarse_picture(renderer().draw(list)), "motion_graph.plain.png", Tolerance::loose);
+};
+
+TEST_P(PlainPictures, OfAMotionGraphAreTheGoldens) {
+    expect_goldens(graph_picture(mobbscope::testing::small_graph(), {640, 360}, Theme::dark), "motion_graph");
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, GraphPicturePixels, ::testing::Values(Backend::osmesa, Backend::egl),
+TEST_P(PlainPictures, OfChartsAreTheGoldens) {
+    const Chart cost = mobbscope::testing::small_chart();
+    expect_goldens(chart_picture({cost}, {800, 450}, Theme::light).list, "chart");
+    expect_goldens(chart_picture({cost, mobbscope::testing::small_level_chart()}, {1280, 480}, Theme::dark).list,
+                   "charts");
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, PlainPictures, ::testing::Values(Backend::osmesa, Backend::egl),
                          mobbscope::testing::backend_name);
 
 }  // namespace

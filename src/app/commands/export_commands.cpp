@@ -92,7 +92,8 @@ Command command_of(const ExportOption& option) {
 std::vector<Command> export_commands() {
     std::vector<Command> rows{
         Command("file.export_picture", "Export picture...",
-                "Writes the picture in the middle of the window to a PNG file; without a name a dialog asks for more.",
+                "Writes the picture in the middle of the window to a PNG, SVG or PDF file; without a name a dialog "
+                "asks for more.",
                 [](Session& session, const std::string& file) {
                     file.empty() ? open_export_dialog(session.dialogs, session.workspace, session.settings)
                                  : write_and_tell(session, order_of_viewport(session.workspace, session.views), file);

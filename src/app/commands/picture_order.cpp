@@ -4,6 +4,7 @@
 #include <base/file.h>
 #include <base/text.h>
 #include <render/drawlist/view_projection.h>
+#include <render/image/picture_names.h>
 #include <render/image/png.h>
 #include <render/pictures/build_draw_list.h>
 #include <scene/arrangement.h>
@@ -220,10 +221,9 @@ std::string png_of(const Session& session, const PictureOrder& order) {
 std::size_t write_picture(const Session& session, const PictureOrder& order, const std::filesystem::path& file) {
     check_file_name(file);
     session.files.check_may_write(file);
-    if (lower_extension(file) != ".png") {
-        throw InputError(file.string(), "", "pictures are written as .png; rename the output");
-    }
-    const std::string bytes = png_of(session, order);
+    if (!is_picture_name(file)) throw InputError(file.string(), "", std::string(kPictureNames));
+    const std::string bytes =
+        session.picture_maker->file_bytes(file, draw_list_of(session.workspace, order), order.options.samples);
     write_file(file, bytes);
     return bytes.size();
 }

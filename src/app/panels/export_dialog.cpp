@@ -6,6 +6,7 @@
 #include <app/ui/widgets.h>
 #include <base/file.h>
 #include <base/text.h>
+#include <render/image/picture_names.h>
 #include <scene/view_options.h>
 
 #include <imgui_stdlib.h>
@@ -59,8 +60,8 @@ ExportTarget target_of(const Workspace& workspace, const Settings& settings, con
     const auto status = std::filesystem::status(file, ignored);
     if (std::filesystem::is_directory(status)) {
         out.why_not = "This is a folder: give the picture a name in it.";
-    } else if (lower_extension(file) != ".png") {
-        out.why_not = "Pictures are written as .png: rename the file.";
+    } else if (!is_picture_name(file)) {
+        out.why_not = "Pictures are written as .png, .svg or .pdf: rename the file.";
     } else if (!std::filesystem::is_directory(folder, ignored)) {
         out.why_not = "There is no folder " + folder.string() + ".";
     } else if (::access(folder.c_str(), W_OK) != 0) {
@@ -78,7 +79,8 @@ ExportTarget target_of(const Workspace& workspace, const Settings& settings, con
 bool file_field(Ui& ui, Dialogs& dialogs, const ExportTarget& target) {
     const float browse = button_width("Browse...") + ImGui::GetStyle().ItemSpacing.x;
     ImGui::BeginChild("file", {-browse, ImGui::GetFrameHeight()});
-    const FieldEvents events = text_field(ui, "The file to write, a .png", {}, FieldText::file_name);
+    const FieldEvents events =
+        text_field(ui, "The file to write: .png, or for papers .svg or .pdf", {}, FieldText::file_name);
     ui.mark("export.path");
     ImGui::EndChild();
     dialogs.exporting.file = dialogs.input.text;

@@ -4,6 +4,7 @@
 #include <render/drawlist/draw_list.h>
 #include <render/image/image.h>
 
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -41,6 +42,10 @@ class PictureMaker {
     virtual Image draw_coarse(const DrawList& list, int /*divisor*/) { return draw(list, 1); }
     /// Why there cannot be so many samples a pixel; empty: there can.
     virtual std::string why_no_samples(int /*samples*/) { return ""; }
+    /// As picture_bytes (render/vector/vector_picture.h).
+    virtual std::string file_bytes(const std::filesystem::path& /*file*/, const DrawList&, int /*samples*/) {
+        throw std::invalid_argument("there is no window to take a picture of");
+    }
 };
 
 }  // namespace mobbscope::app

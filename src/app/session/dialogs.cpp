@@ -1,14 +1,12 @@
 #include <app/session/dialogs.h>
+#include <render/image/picture_names.h>
 #include <scene/load_files.h>
 
 namespace mobbscope::app {
 
 namespace {
 
-std::span<const std::string_view> picture_extensions() {
-    static constexpr std::array<std::string_view, 1> kPictures{".png"};
-    return kPictures;
-}
+std::span<const std::string_view> picture_extensions() { return kPictureExtensions; }
 
 constexpr FileQuestion kOpen{"Open", "Open", "open", "file.open", openable_extensions};
 constexpr FileQuestion kAdd{"Add files", "Add", "add", "file.add", openable_extensions};

@@ -6,6 +6,7 @@
 #include <app/window/window_gl.h>
 #include <base/error.h>
 #include <render/gl/renderer.h>
+#include <render/vector/vector_picture.h>
 
 #include <imgui_internal.h>
 
@@ -93,6 +94,10 @@ struct Shell::State final : PictureMaker {
     Image draw(const DrawList& list, int samples) override {
         renderer.check_samples(samples);
         return renderer.draw(list, samples);
+    }
+    std::string file_bytes(const std::filesystem::path& file, const DrawList& list, int samples) override {
+        renderer.check_samples(samples);
+        return picture_bytes(file, list, samples, [this]() -> Renderer& { return renderer; });
     }
     Image draw_coarse(const DrawList& list, int divisor) override { return renderer.draw_coarse(list, divisor); }
     std::string why_no_samples(int samples) override {

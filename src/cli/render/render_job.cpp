@@ -9,9 +9,11 @@
 #include <picture_tests/window_picture.h>
 #include <render/drawlist/draw_list_json.h>
 #include <render/gl/renderer.h>
+#include <render/image/picture_names.h>
 #include <render/image/png.h>
 #include <render/layout/follow.h>
 #include <render/pictures/build_draw_list.h>
+#include <render/vector/vector_picture.h>
 #include <scene/step_link.h>
 
 #include <unistd.h>
@@ -100,7 +102,8 @@ void draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* renderer
     std::string image, ids, text;
     std::vector<FileBytes> files;
     if (!outputs.image.empty()) {
-        image = png_bytes(renderer->draw(list, job.arguments.picture.samples));
+        image = picture_bytes(outputs.image, list, job.arguments.picture.samples,
+                              [renderer]() -> Renderer& { return *renderer; });
         files.push_back({outputs.image, image});
     }
     std::optional<IdImage> drawn_ids;
@@ -279,6 +282,8 @@ void render_case(const Command& command, const RenderArguments& arguments) {
         throw InputError(arguments.outputs.image,
                          "is the golden of this case; mobbscope test --update takes it, or give another output");
     }
+    if (is_vector_name(arguments.outputs.image))
+        throw InputError(arguments.outputs.image, "the picture of a case is written as .png; rename the output");
     picture_tests::PictureMaker maker(arguments.backend.value_or(Backend::automatic));
     write_png(arguments.outputs.image, maker.make(drawn.shot));
 }

@@ -6,6 +6,7 @@
 #include <cli/program.h>
 #include <cli/render/render_options.h>
 #include <render/drawlist/view_projection.h>
+#include <render/image/picture_names.h>
 #include <scene/arrangement.h>
 #include <scene/load_files.h>
 #include <scene/view_options.h>
@@ -181,6 +182,8 @@ void check_window(const RenderArguments& arguments) {
     const auto refuse = [](const char* option) {
         contradict("--ui", option, "it is of the scene's picture, not the window's; leave one out");
     };
+    if (is_vector_name(arguments.outputs.image))
+        throw InputError(arguments.outputs.image, "the whole window is written as .png; rename the output");
     if (arguments.picture.background) refuse("--background");
     if (arguments.picture.samples != kPictureSamples) refuse("--samples");
     if (!arguments.outputs.ids.empty()) refuse("--ids");
@@ -248,7 +251,8 @@ Camera camera_over(Camera camera, const ViewArguments& arguments) {
 
 void add_render_options(Command& command, RenderArguments& arguments) {
     command.add_option("FILE", arguments.file, openable_files());
-    add_parsed(command, "-o,--output", arguments.outputs.image, parse_file_name, "The picture, a PNG file", "OUT.png");
+    add_parsed(command, "-o,--output", arguments.outputs.image, parse_file_name,
+               "The picture: .png, or for papers .svg or .pdf", "OUT.png");
     add_parsed(command, "--ids", arguments.outputs.ids, parse_file_name, "What is in each pixel: object ids as colours",
                "OUT.png");
     add_parsed(command, "--draw-list", arguments.outputs.draw_list, parse_file_name,

@@ -11,6 +11,8 @@ constexpr float kHiddenEdge = 0.38f;
 
 }  // namespace
 
+LineStyle edge_style(const BoxInstance& box) { return {box.edge, box.width, box.dash, kHiddenEdge, 0.5f * box.width}; }
+
 void BoxBuffer::keep(const DrawnWorld& world, DrawStatistics& statistics) {
     std::vector<Shape> shapes;
     std::vector<Look> looks;
@@ -24,7 +26,8 @@ void BoxBuffer::keep(const DrawnWorld& world, DrawStatistics& statistics) {
             shape.id[1] = box->id.g();
         }
         shapes.push_back(shape);
-        looks.push_back({box->fill, {box->edge, box->dash, {box->width, 0.5f * box->width, kHiddenEdge}}});
+        const LineStyle edge = edge_style(*box);
+        looks.push_back({box->fill, {edge.color, edge.dash, {edge.width, edge.cap, edge.hidden}}});
         orders_.push_back(box->order);
     }
     if (shapes != shapes_) {

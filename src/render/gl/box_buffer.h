@@ -17,6 +17,9 @@ struct LineLook {
     friend bool operator==(const LineLook&, const LineLook&) = default;
 };
 
+/// How the edges of a box are drawn.
+LineStyle edge_style(const BoxInstance& box);
+
 /// In drawing order. The shapes stay as long as lists have the same; how boxes look may change with every camera.
 class BoxBuffer {
   public:

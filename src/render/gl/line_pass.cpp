@@ -57,18 +57,17 @@ void describe_look(const VertexLayout<Element>& layout, std::size_t look) {
     layout.floats(kColor + 2, 3, look + offsetof(LineLook, shape));
 }
 
-/// How far lines may come forward, in clip space: by a share of their distance from the eye. Where something is drawn
-/// just before the eye, as a plane that it stands in, depths farther off differ so little that lines would come
-/// through all that stands on the floor.
-float most_bias(const ViewProjection& projection) {
+}  // namespace
+
+/// A share of their distance from the eye. Where something is drawn just before the eye, as a plane that it stands in,
+/// depths farther off differ so little that lines would come through all that stands on the floor.
+float most_line_bias(const ViewProjection& projection) {
     if (!projection.perspective) return std::numeric_limits<float>::max();
     constexpr float kMostShare = 4e-3f;
     const float n = projection.near_depth;
     const float f = projection.far_depth;
     return kMostShare * 2 * f * n / (f - n);
 }
-
-}  // namespace
 
 LinePass::LinePass(GlContext& context, const BoxBuffer& boxes) : boxes_(boxes), program_(context, "line") {}
 
@@ -143,9 +142,8 @@ void LinePass::draw_scene(const DrawList& list, std::size_t most_boxes, DrawStat
     }
     statistics.overlay_bytes += upload(scene_lines_, instances);
     begin(list.projection.clip_from_world, list.size);
-    // Edges touch the disks that they bound; they lie in front of them, and the same edge must not be taken for hidden.
-    program_.set("depth_bias", 8e-4f);
-    program_.set("most_bias", most_bias(list.projection));
+    program_.set("depth_bias", kLineDepthBias);
+    program_.set("most_bias", most_line_bias(list.projection));
     glEnable(GL_DEPTH_TEST);
     const auto draw_all = [&] {
         for (const Batch& batch : all) draw(batch, scene_lines_, statistics);

@@ -11,6 +11,11 @@
 
 namespace mobbscope {
 
+/// Edges touch the disks that they bound: lines come forward by so much of depths from -1 to 1, but by no more than
+/// most_line_bias in clip space, so that the same edge is not taken for hidden.
+inline constexpr float kLineDepthBias = 8e-4f;
+float most_line_bias(const ViewProjection& projection);
+
 class LinePass {
   public:
     /// `boxes`: of the lists that are drawn; they outlive this.

@@ -386,23 +386,33 @@ Image Renderer::draw_coarse(const DrawList& list, int divisor) {
                          [&](Rgba ground) { state_->paint_coarse(list, divisor, ground, State::Fewer::refused); });
 }
 
+namespace {
+
+/// Makes the bound IdTarget take what goes to an output: ids of disks to 1, of boxes to 2.
+void write_ids_of(GLsizei output) {
+    std::array<GLenum, 3> outputs{GL_NONE, GL_NONE, GL_NONE};
+    outputs[static_cast<std::size_t>(output)] = GL_COLOR_ATTACHMENT0;
+    glDrawBuffers(output + 1, outputs.data());
+}
+
+void clear_ids() {
+    const std::array<GLuint, 4> nothing{0, 0, 0, 0};
+    const GLfloat farthest = 1;
+    write_ids_of(0);
+    glClearBufferuiv(GL_COLOR, 0, nothing.data());
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+}
+
+}  // namespace
+
 IdImage Renderer::draw_ids(const DrawList& list) {
     State& s = *state_;
     s.begin(list.size);
     const IdTarget target(list.size);
-    const std::array<GLuint, 4> nothing{0, 0, 0, 0};
-    const auto write_output = [](GLsizei output) {
-        std::array<GLenum, 3> outputs{GL_NONE, GL_NONE, GL_NONE};
-        outputs[static_cast<std::size_t>(output)] = GL_COLOR_ATTACHMENT0;
-        glDrawBuffers(output + 1, outputs.data());
-    };
-    write_output(0);
-    glClearBufferuiv(GL_COLOR, 0, nothing.data());
-    const GLfloat farthest = 1;
-    glClearBufferfv(GL_DEPTH, 0, &farthest);
-    write_output(1);
+    clear_ids();
+    write_ids_of(1);
     s.disks.draw(list, Detail::fine, s.statistics);
-    write_output(2);
+    write_ids_of(2);
     s.boxes.keep(list, s.statistics);
     s.faces.draw_ids(list, s.statistics);
 
@@ -412,6 +422,23 @@ IdImage Renderer::draw_ids(const DrawList& list) {
     s.context->check("drawing object ids");
     note_drawn();
     flip_rows(image.rg, image.width, image.height, 2);
+    return image;
+}
+
+DepthImage Renderer::draw_depths(const DrawList& list) {
+    State& s = *state_;
+    s.begin(list.size);
+    const IdTarget target(list.size);
+    clear_ids();
+    write_ids_of(1);
+    s.disks.draw(list, Detail::fine, s.statistics);
+
+    DepthImage image{list.size.width, list.size.height, {}};
+    image.depths.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    glReadPixels(0, 0, image.width, image.height, GL_DEPTH_COMPONENT, GL_FLOAT, image.depths.data());
+    s.context->check("drawing depths");
+    note_drawn();
+    flip_rows(image.depths, image.width, image.height, 1);
     return image;
 }
 

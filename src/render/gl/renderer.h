@@ -7,10 +7,12 @@
 #include <render/gl/gl_objects.h>
 #include <render/image/image.h>
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mobbscope {
 
@@ -18,6 +20,18 @@ namespace mobbscope {
 struct PaintPace {
     const std::function<double()>& clock;
     double seconds;
+};
+
+/// How far the nearest disk is, from 0 (near) to 1 (far, or none), a number a pixel, rows from top to bottom.
+struct DepthImage {
+    int width = 0;
+    int height = 0;
+    std::vector<float> depths;
+
+    /// At pixel (x, y), which must lie in the image.
+    float at(int x, int y) const {
+        return depths[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+    }
 };
 
 /// Holds a context and what it keeps between pictures. Pictures depend on the draw list alone, and not on what others
@@ -88,6 +102,9 @@ class Renderer {
 
     /// What is nearest in each pixel: disks, and the boxes of nodes whether or not their faces are shown.
     IdImage draw_ids(const DrawList& list);
+
+    /// The depths that lines are held against.
+    DepthImage draw_depths(const DrawList& list);
 
   private:
     struct State;
