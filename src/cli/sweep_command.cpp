@@ -1,4 +1,5 @@
 #include <base/error.h>
+#include <base/file.h>
 #include <base/json_writer.h>
 #include <base/text.h>
 #include <cli/command_line.h>
@@ -6,6 +7,9 @@
 #include <cli/program.h>
 #include <explain/fit_sweep.h>
 #include <explain/time_scale_curves.h>
+#include <import/tracks/csv.h>
+#include <render/pictures/sweep_chart.h>
+#include <render/vector/vector_picture.h>
 #include <scene/load_files.h>
 
 #include <algorithm>
@@ -32,6 +36,8 @@ struct SweepCommandArguments : FittedArguments {
     bool csv = false;
     bool of_scene = false;  ///< the scene's own queries
     std::uint64_t seed = 1;
+    std::filesystem::path out;
+    DrawingArguments drawing{.size = {960, 640}};
 };
 
 using Layout = JsonWriter::Layout;
@@ -130,25 +136,13 @@ void print_json(const Scene& scene, const QueryWorkload& workload, const SweepRe
     out.end_object();
 }
 
-/// A cell as CSV has it.
-std::string csv_cell(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string out = "\"";
-    for (const char c : text) {
-        if (c == '"') out += '"';
-        out += c;
-    }
-    out += '"';
-    return out;
-}
-
 void print_csv(const Scene& scene, const SweepResult& result) {
     std::cout << "clip,tree,leaf,axes,time_scale,box_tests,sample_pairs,cost,standard_error,difference,"
                  "difference_error,p95,p99,max,nodes,bytes,queries\n";
     const bool has_quantiles = result.order.cost == SweepCost::price;
     for_each_row(scene, result, [&](const RowFigures& figures) {
         const mobb::FitOptions& fit = figures.row.fit;
-        std::cout << csv_cell(figures.clip.value_or("")) << ',' << mobb::name(fit.tree) << ',' << fit.leaf << ','
+        std::cout << csv_field(figures.clip.value_or("")) << ',' << mobb::name(fit.tree) << ',' << fit.leaf << ','
                   << mobb::name(fit.axes) << ',' << format_double(fit.time_scale);
         const auto number = [](double value, bool known = true) {
             std::cout << ',' << (known ? format_double(value) : "");
@@ -276,7 +270,18 @@ void print_text(const Scene& scene, const QueryWorkload& workload, const SweepRe
     std::cout << "to use it: " << options << ", or in a scene: \"fit\": {" << json << "}\n";
 }
 
+void draw(const SweepCommandArguments& arguments, const Scene& scene, const QueryWorkload& workload,
+          const SweepResult& result) {
+    Chart chart = sweep_chart(result).chart;
+    chart.title = result.why;
+    chart.caption = workload_words(workload, result, scene.clips.size());
+    const DrawingArguments& drawing = arguments.drawing;
+    const DrawList list = chart_picture({chart}, drawing.size, drawing.theme, drawing.scale).list;
+    write_file(arguments.out, picture_bytes(arguments.out, list, kPictureSamples, drawing.backend));
+}
+
 void run_sweep(SweepCommandArguments& arguments) {
+    check_picture_output(arguments.out);
     const Scene scene = load_file_or_folder(arguments.file, arguments.import_options);
     SweepOrder order = arguments.over;
     order.present = arguments.fit.over(scene.fit);
@@ -294,7 +299,9 @@ void run_sweep(SweepCommandArguments& arguments) {
     }
     const QueryWorkload workload =
         arguments.of_scene ? scene_workload(scene) : standard_workload(clips, order.most_queries, arguments.seed);
+    if (!arguments.out.empty()) check_output(arguments.out);
     const SweepResult result = sweep_fits(clips, workload, order, tell("tried", "fits"));
+    if (!arguments.out.empty()) draw(arguments, scene, workload, result);
     if (arguments.csv) {
         print_csv(scene, result);
     } else if (arguments.json) {
@@ -337,8 +344,11 @@ void add_sweep_options(Command& command, SweepCommandArguments& arguments) {
     const Option json = command.add_flag("--json", arguments.json, "Everything as JSON");
     Option csv = command.add_flag("--csv", arguments.csv, "The rows as CSV");
     csv.excludes(json);
+    command.add_option("-o,--output", arguments.out, "Cost over the leaf, as a picture: .png, .svg or .pdf",
+                       "PLOT.png");
     add_fit_options(command, arguments.fit);
     add_import_options(command, arguments.import_options);
+    add_drawing_options(command, arguments.drawing);
 }
 
 }  // namespace
