@@ -236,24 +236,31 @@ std::pair<std::string, std::string> applied(const mobb::FitOptions& fit) {
     return {options, json};
 }
 
+std::vector<std::string> cells_of(const SweepResult& result, std::size_t row) {
+    const SweepRow& of = result.rows[row];
+    const bool is_best = row == result.recommended, has_quantiles = result.order.cost == SweepCost::price;
+    const auto cell = [](double value) { return figure(value, 3); };
+    const auto quantile = [&](double value) { return has_quantiles ? cell(value) : "-"; };
+    const double more = 100 * of.difference / result.rows[result.recommended].cost.mean;
+    return {
+        (is_best ? "* " : "  ") + sweep_words(of.fit, result.order.present) + (row == result.present ? " (now)" : ""),
+        cell(of.cost.mean),
+        cell(of.cost.standard_error),
+        is_best ? "" : formatted("%+.1f %%", more),
+        cell(of.tests.boxes()),
+        cell(of.tests[mobb::TestKind::samples]),
+        quantile(of.cost.p95),
+        quantile(of.cost.p99),
+        quantile(of.cost.max),
+        std::to_string(of.nodes),
+        bytes_text(of.bytes)};
+}
+
 void print_text(const Scene& scene, const QueryWorkload& workload, const SweepResult& result) {
-    const bool has_quantiles = result.order.cost == SweepCost::price;
     std::cout << workload_words(workload, result, scene.clips.size()) << '\n';
     std::vector<std::vector<std::string>> table{
         {"fit", "cost", "+-", "against best", "box tests", "sample pairs", "p95", "p99", "max", "nodes", "memory"}};
-    for (const std::size_t i : lines_of(result)) {
-        const SweepRow& row = result.rows[i];
-        const double best = result.rows[result.recommended].cost.mean;
-        const auto cell = [](double value) { return figure(value, 3); };
-        const auto quantile = [&](double value) { return has_quantiles ? cell(value) : "-"; };
-        table.push_back({(i == result.recommended ? "* " : "  ") + sweep_words(row.fit, result.order.present) +
-                             (i == result.present ? " (now)" : ""),
-                         cell(row.cost.mean), cell(row.cost.standard_error),
-                         i == result.recommended ? "" : formatted("%+.1f %%", 100 * row.difference / best),
-                         cell(row.tests.boxes()), cell(row.tests[mobb::TestKind::samples]), quantile(row.cost.p95),
-                         quantile(row.cost.p99), quantile(row.cost.max), std::to_string(row.nodes),
-                         bytes_text(row.bytes)});
-    }
+    for (const std::size_t i : lines_of(result)) table.push_back(cells_of(result, i));
     const std::size_t shown = table.size() - 1;
     print_table(table);
     std::cout << " cost of a query in " << unit_of(result.order.cost);

@@ -643,8 +643,11 @@ class FitSearch {
         if (!others.empty()) {
             const SweepRow& next =
                 **std::ranges::min_element(others, {}, [](const SweepRow* row) { return row->cost.mean; });
-            text += "; the next kind is " + sweep_words(next.fit, order_.present) + ", which costs " +
-                    figure(100 * next.difference / chosen.cost.mean, 2) + " % more";
+            const double times = next.cost.mean / chosen.cost.mean;
+            text += "; the next kind is " + sweep_words(next.fit, order_.present) + ", which costs ";
+            text += times < 1 + kSame ? "as much within 1 %"
+                    : times < 2       ? figure(100 * (times - 1), 2) + " % more"
+                                      : figure(times, 2) + " times as much";
         }
         return text;
     }

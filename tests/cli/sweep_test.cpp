@@ -113,7 +113,8 @@ TEST(Sweep, TheAdviceHoldsWhenItIsTaken) {
     taken.insert(taken.end(), {"--leaf", first["leaf"].dump(), "--tree", first["tree"].get<std::string>()});
     const json again = json::parse(sweep_of(file, taken).out)["recommended"];
     EXPECT_EQ(again["leaf"], first["leaf"]);
-    EXPECT_EQ(again["present_cost"], first["cost"]);
+    EXPECT_NEAR(again["present_cost"].get<double>(), first["cost"].get<double>(), 0.05 * first["cost"].get<double>())
+        << "more may be asked";
     EXPECT_NE(again["why"].get<std::string>().find(", as now: "), std::string::npos) << again["why"];
 }
 
