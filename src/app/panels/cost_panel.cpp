@@ -38,18 +38,13 @@ std::vector<mobb::TestKind> kinds_of(const MeanTests& tests) {
     return out;
 }
 
-/// "standard placements: shift over 25.6 m², start within ±2 s"
+/// "expected: shift over 25.6 m², start within ±2 s"
 std::string workload_words(const TreeCost& cost) {
     if (cost.workload == Workload::queries)
         return "the mean of " + counted(cost.queries, "query", "queries") + " of this scene";
-    std::string out =
-        "shift over " + figure(cost.area, 3) + " m\u00B2, start within \u00B1" + brief(cost.offset) + " s";
-    if (cost.queries > 0) {
-        out += ", " + std::to_string(cost.queries) + " counted, seed " + std::to_string(kCountedSeed);
-    } else {
-        out += ", expected";
-    }
-    return out;
+    const std::string how =
+        cost.queries > 0 ? std::to_string(cost.queries) + " counted, seed " + std::to_string(kCountedSeed) : "expected";
+    return how + ": shift over " + figure(cost.area, 3) + " m\u00B2, start within \u00B1" + brief(cost.offset) + " s";
 }
 
 /// How the cost is found out: its formula with the numbers that stand in it.
@@ -123,7 +118,7 @@ void workload_choice(Ui& ui, const TreeCost* cost) {
     }
     if (!cost) return;
     ImGui::PushFont(ui.style.caption);
-    words(ui.style.quiet, (count > 0 ? "" : "standard placements: ") + workload_words(*cost));
+    words(ui.style.quiet, (count > 0 ? "" : "standard placements, ") + workload_words(*cost));
     ImGui::PopFont();
     tell(formula(*cost));
 }
@@ -260,7 +255,7 @@ void levels(Ui& ui, const std::vector<mobb::LevelFigures>& figures, const TreeCo
                level ? formatted(most < 1e6 ? "%.*f" : "%.*g", most < 1e6 ? decimals : 3, level->volume) : "-");
         ending(at.fill, level && level->tightness ? per_cent(*level->tightness) : "-");
         ending(at.width, index < parts.size() ? per_cent(parts[index]) : "-");
-        if (index < parts.size() && at.bar_end > at.bar) {
+        if (index < parts.size() && parts[index] > 0 && at.bar_end > at.bar) {
             const float length = (at.bar_end - at.bar) * static_cast<float>(parts[index] / costliest);
             draw.AddRectFilled({corner.x + at.bar, corner.y + ui.px(4)},
                                {corner.x + at.bar + std::max(ui.px(1), length), corner.y + height - ui.px(4)},
