@@ -19,10 +19,14 @@ using Workload = QueryWorkload::Kind;
 
 std::string per_cent(double share) { return formatted("%.0f %%", 100 * share); }
 
-/// "2D boxes": what tests of a kind are about, at the start of a row.
+/// "2D boxes": what tests of a kind are about; and as short as is understood.
 std::string tested(mobb::TestKind kind) {
     if (kind.is_box()) return std::string(mobb::info(kind.box()).plural);
     return kind == mobb::TestKind::samples ? "sample pairs" : "time";
+}
+std::string tested_in_short(mobb::TestKind kind) {
+    if (kind.is_box()) return std::string(mobb::info(kind.box()).heading);
+    return kind == mobb::TestKind::samples ? "pairs" : "time";
 }
 
 /// The kinds of tests that a query makes, those of boxes first.
@@ -34,18 +38,13 @@ std::vector<mobb::TestKind> kinds_of(const MeanTests& tests) {
     return out;
 }
 
-/// "standard placements: shift over 25.6 m², start within ±2 s"
+/// "expected: shift over 25.6 m², start within ±2 s"
 std::string workload_words(const TreeCost& cost) {
     if (cost.workload == Workload::queries)
         return "the mean of " + counted(cost.queries, "query", "queries") + " of this scene";
-    std::string out =
-        "shift over " + figure(cost.area, 3) + " m\u00B2, start within \u00B1" + brief(cost.offset) + " s";
-    if (cost.queries > 0) {
-        out += ", " + std::to_string(cost.queries) + " counted, seed " + std::to_string(kCountedSeed);
-    } else {
-        out += ", expected";
-    }
-    return out;
+    const std::string how =
+        cost.queries > 0 ? std::to_string(cost.queries) + " counted, seed " + std::to_string(kCountedSeed) : "expected";
+    return how + ": shift over " + figure(cost.area, 3) + " m\u00B2, start within \u00B1" + brief(cost.offset) + " s";
 }
 
 /// How the cost is found out: its formula with the numbers that stand in it.
@@ -71,11 +70,11 @@ std::string formula(const TreeCost& cost) {
     return out;
 }
 
-/// "13.9 tests x 14 ns = 195 ns, 21 % of the cost"
+/// "2D boxes: 13.9 tests x 14 ns = 195 ns, 21 % of the cost"
 std::string price_words(mobb::TestKind kind, const MeanTests& tests, const MeanTests& all) {
     const double price = kTestPrices[kind];
-    std::string out = figure(tests[kind]) + " tests of " + tested(kind);
-    if (price == 0) return out + ": they have no price";
+    std::string out = tested(kind) + ": " + figure(tests[kind]) + " tests";
+    if (price == 0) return out + " without a price";
     out += " x " + brief(price) + " ns = " + figure(tests[kind] * price) + " ns";
     if (is_priced(all)) out += ", " + per_cent(tests[kind] * price / cost_of(all)) + " of the cost";
     return out;
@@ -119,7 +118,7 @@ void workload_choice(Ui& ui, const TreeCost* cost) {
     }
     if (!cost) return;
     ImGui::PushFont(ui.style.caption);
-    words(ui.style.quiet, (count > 0 ? "" : "standard placements: ") + workload_words(*cost));
+    words(ui.style.quiet, (count > 0 ? "" : "standard placements, ") + workload_words(*cost));
     ImGui::PopFont();
     tell(formula(*cost));
 }
@@ -142,25 +141,37 @@ void kinds(Ui& ui, const MeanTests& tests) {
         draw.AddRectFilled(at, {std::max(at.x + 1, end - ui.px(1)), at.y + ui.px(7)}, shade_of(ui, i));
         at.x = end;
     }
+    // From the right: the part, the price, the number.
+    const float of_part = text_size(mono, " 100 %").x, of_price = text_size(mono, " x 1.4").x;
+    float of_count = 0, of_label = 0;
+    for (const mobb::TestKind kind : all) {
+        of_count = std::max(of_count, text_size(mono, figure(tests[kind], 3)).x);
+        of_label = std::max(of_label, text_size(*ui.style.body, tested(kind)).x);
+    }
+    const float label_at = ui.px(13), room = width - label_at - ui.px(6) - of_count - of_part;
+    const bool shows_prices = of_label + of_price <= room;
+    const float height = ui.px(17);
     for (std::size_t i = 0; i < all.size(); ++i) {
+        const mobb::TestKind kind = all[i];
         const ImVec2 corner = ImGui::GetCursorScreenPos();
-        const float height = ui.px(17);
         ImGui::Dummy({width, height});
-        ui.mark_only("cost.kind." + std::string(name(all[i])));
+        ui.mark_only("cost.kind." + std::string(name(kind)));
         const float y = corner.y + 0.5f * (height - mono.FontSize);
         const float dot = ui.px(7), top = corner.y + 0.5f * (height - dot);
         draw.AddRectFilled({corner.x, top}, {corner.x + dot, top + dot}, shade_of(ui, i));
-        const std::string share = per_cent(part(all[i])), count = figure(tests[all[i]], 3);
-        const float right = corner.x + width - text_size(mono, share).x;
-        const float columns = text_size(mono, "0000.0  100 %").x;
-        draw_text(draw, mono, {right, y}, ui.style.quiet, share);
-        draw_text(draw, mono, {corner.x + width - columns + text_size(mono, "0000.0").x - text_size(mono, count).x, y},
-                  ui.style.text, count);
-        const std::string label = fitted_text(tested(all[i]), width - columns - dot - ui.px(10));
-        draw_text(draw, *ui.style.body,
-                  {corner.x + dot + ui.px(6), corner.y + 0.5f * (height - ui.style.body->FontSize)}, ui.style.text,
-                  label);
-        tell(price_words(all[i], tests, tests));
+        const auto ending = [&](float right, ImU32 color, const std::string& text) {
+            draw_text(draw, mono, {corner.x + right - text_size(mono, text).x, y}, color, text);
+        };
+        ending(width, ui.style.quiet, per_cent(part(kind)));
+        const float priced = width - of_part;
+        if (shows_prices && kTestPrices[kind] > 0) {
+            const float at_price = corner.x + priced - of_price;
+            draw_text(draw, mono, {at_price, y}, ui.style.quiet, " x " + brief(kTestPrices[kind]));
+        }
+        ending(shows_prices ? priced - of_price : priced, ui.style.text, figure(tests[kind], 3));
+        draw_text(draw, *ui.style.body, {corner.x + label_at, corner.y + 0.5f * (height - ui.style.body->FontSize)},
+                  ui.style.text, of_label <= room ? tested(kind) : tested_in_short(kind));
+        tell(price_words(kind, tests, tests));
     }
 }
 
@@ -214,6 +225,8 @@ void levels(Ui& ui, const std::vector<mobb::LevelFigures>& figures, const TreeCo
     if (cost) {
         for (const MeanTests& level : cost->levels) parts.push_back(part_of(level, cost->tests));
         for (const double part : parts) costliest = std::max(costliest, part);
+        // No query came so deep.
+        if (!parts.empty()) parts.resize(std::max(parts.size(), figures.size()));
     }
     // The largest has three digits, and all of them its decimals.
     const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(most))), 0, 9);
@@ -242,7 +255,7 @@ void levels(Ui& ui, const std::vector<mobb::LevelFigures>& figures, const TreeCo
                level ? formatted(most < 1e6 ? "%.*f" : "%.*g", most < 1e6 ? decimals : 3, level->volume) : "-");
         ending(at.fill, level && level->tightness ? per_cent(*level->tightness) : "-");
         ending(at.width, index < parts.size() ? per_cent(parts[index]) : "-");
-        if (index < parts.size() && at.bar_end > at.bar) {
+        if (index < parts.size() && parts[index] > 0 && at.bar_end > at.bar) {
             const float length = (at.bar_end - at.bar) * static_cast<float>(parts[index] / costliest);
             draw.AddRectFilled({corner.x + at.bar, corner.y + ui.px(4)},
                                {corner.x + at.bar + std::max(ui.px(1), length), corner.y + height - ui.px(4)},

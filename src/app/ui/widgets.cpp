@@ -288,7 +288,9 @@ int word_choice(Ui& ui, const std::string& mark, std::span<const ChoiceWord> all
         if (i > 0) flow(button_width(each.word.c_str()));
         ImGui::PushStyleColor(ImGuiCol_Text, is_chosen ? ui.style.text : ui.style.quiet);
         ImGui::PushStyleColor(ImGuiCol_Button, is_chosen ? ui.style.raised : IM_COL32_BLACK_TRANS);
-        if (small_button(ui, each.word.c_str(), mark + '.' + each.name, each.help)) pressed = i;
+        std::string called = mark;
+        called.append(1, '.').append(each.name);
+        if (small_button(ui, each.word.c_str(), called, each.help)) pressed = i;
         ImGui::PopStyleColor(2);
     }
     ImGui::PopStyleVar();
