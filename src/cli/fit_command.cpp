@@ -1,3 +1,4 @@
+#include <base/error.h>
 #include <cli/columns.h>
 #include <cli/command_line.h>
 #include <cli/options.h>
@@ -11,6 +12,7 @@
 #include <cstddef>
 #include <iostream>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -105,10 +107,14 @@ void print_variants(const FittedScene& fitted, const std::string& node, bool as_
 
 void run_fit(const FitCommandArguments& arguments) {
     const FittedScene scene = fitted(load(arguments.file, arguments.import_options), arguments.fit);
-    if (!arguments.what_if.empty()) {
-        print_variants(scene, arguments.what_if, arguments.json);
-    } else {
+    if (arguments.what_if.empty()) {
         arguments.json ? print_json(scene) : print_trees(scene);
+    } else {
+        try {
+            print_variants(scene, arguments.what_if, arguments.json);
+        } catch (const std::invalid_argument& error) {
+            throw InputError(arguments.file, error.what());
+        }
     }
     flush_results();
 }

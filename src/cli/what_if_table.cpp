@@ -40,7 +40,7 @@ void print_what_if(const ClipWhatIf& of) {
         boxes.push_back(figure(variant.tests.boxes()));
         pairs.push_back(figure(variant.tests[mobb::TestKind::samples]));
         cost.push_back(figure(variant.cost));
-        change.push_back(&variant == &present ? "" : change_in_per_cent(found, variant, " +- "));
+        change.push_back(&variant == &present ? "-" : change_in_per_cent(found, variant, " +- "));
     }
     print_columns({what, volume, children, boxes, pairs, cost, change}, true);
     if (&found.best() == &present) std::cout << "  nothing costs less by more than 3 standard errors\n";
