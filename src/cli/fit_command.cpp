@@ -1,6 +1,9 @@
+#include <base/error.h>
+#include <cli/columns.h>
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
+#include <cli/what_if_table.h>
 #include <explain/expected_cost.h>
 #include <explain/level_columns.h>
 #include <explain/tree_json.h>
@@ -10,6 +13,7 @@
 #include <cstddef>
 #include <iostream>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +24,7 @@ namespace {
 
 struct FitCommandArguments : FittedArguments {
     bool csv = false;
+    std::string what_if;  ///< a node; empty: none
 };
 
 void print_json(const FittedScene& fitted) {
@@ -73,21 +78,6 @@ std::string expected_words(const ExpectedCost& expected) {
            " m^2, start within +-" + brief(expected.placements.offset) + " s)";
 }
 
-/// A heading, and under it a cell for each level.
-using Column = std::vector<std::string>;
-
-void print_columns(const std::vector<Column>& columns) {
-    std::vector<std::string> lines(columns.front().size(), " ");
-    for (const Column& cells : columns) {
-        const std::size_t width = std::ranges::max(cells, {}, &std::string::size).size();
-        const std::string gap(&cells == &columns.front() ? 1 : 3, ' ');
-        for (std::size_t i = 0; i < lines.size(); ++i) {
-            lines[i] += gap + std::string(width - cells[i].size(), ' ') + cells[i];
-        }
-    }
-    for (const std::string& line : lines) std::cout << line << '\n';
-}
-
 void print_levels(const mobb::Tree& tree, const std::optional<ExpectedCost>& expected) {
     const std::vector<mobb::LevelFigures> levels = mobb::level_figures(tree);
     std::vector<Column> columns;
@@ -131,16 +121,46 @@ void print_trees(const FittedScene& fitted) {
     }
 }
 
+/// Of every clip.
+void print_variants(const FittedScene& fitted, const std::string& node, bool as_json) {
+    JsonWriter out(std::cout);
+    if (as_json) {
+        out.begin_object();
+        out.begin_array("what_if");
+    }
+    for (int i = 0; i < static_cast<int>(fitted.scene().clips.size()); ++i) {
+        const std::string& clip = fitted.scene().clips[static_cast<std::size_t>(i)].name;
+        const ClipWhatIf found = what_if_of(clip, fitted.shared_tree(i), node);
+        as_json ? write_what_if(out, found) : print_what_if(found);
+    }
+    if (as_json) {
+        out.end_array();
+        out.end_object();
+    }
+}
+
 void run_fit(const FitCommandArguments& arguments) {
     const FittedScene scene = fitted(load(arguments.file, arguments.import_options), arguments.fit);
-    const auto print = arguments.csv ? print_csv : arguments.json ? print_json : print_trees;
-    print(scene);
+    if (arguments.what_if.empty()) {
+        const auto print = arguments.csv ? print_csv : arguments.json ? print_json : print_trees;
+        print(scene);
+    } else {
+        try {
+            print_variants(scene, arguments.what_if, arguments.json);
+        } catch (const std::invalid_argument& error) {
+            throw InputError(arguments.file, error.what());
+        }
+    }
     flush_results();
 }
 
 void add_options_of_fit(Command& command, FitCommandArguments& arguments) {
     const Option json = add_fitted_options(command, arguments, "Levels and nodes as JSON");
-    command.add_flag("--csv", arguments.csv, "Nodes as CSV, a row each").excludes(json);
+    const Option csv = command.add_flag("--csv", arguments.csv, "Nodes as CSV, a row each").excludes(json);
+    command
+        .add_option("--what-if", arguments.what_if,
+                    "What queries would cost if that node, such as 12 or 2.1, had another box or split", "NODE")
+        .excludes(csv);
 }
 
 }  // namespace

@@ -42,18 +42,23 @@ std::size_t node_count(int samples, const FitOptions& options) {
 
 }  // namespace
 
-Tree::Tree(ClipPtr clip, const FitOptions& options) : clip_(std::move(clip)), options_(options) {
+Tree::Tree(ClipPtr clip, const FitOptions& options) : Tree(std::move(clip), options, NodeChange{}) {}
+
+Tree::Tree(ClipPtr clip, const FitOptions& options, const NodeChange& change)
+    : clip_(std::move(clip)), options_(options) {
     if (!clip_) throw std::invalid_argument("a tree needs a clip");
     check(options_);
     if (info(options_.tree).has_blocks()) {
+        if (change.node >= 0) throw std::invalid_argument("blocks are all of one make: no node can be changed");
         build_blocks();
     } else {
         const std::size_t nodes = node_count(clip_->count(), options_);
         nodes_.reserve(nodes);
         places_.reserve(nodes);
         if (!is_upright(info(options_.tree).below)) boxes_.reserve(nodes);
-        build({0, clip_->count()}, -1, 0);
-        assert(nodes_.size() == nodes);
+        build({0, clip_->count()}, -1, 0, change);
+        assert(change.split || nodes_.size() == nodes);
+        if (change.node >= static_cast<int>(nodes_.size())) throw std::invalid_argument("there is no node to change");
     }
     // Depth-first order is within a level the order of time.
     std::vector<int> counts(static_cast<std::size_t>(depth_), 0);
@@ -71,20 +76,26 @@ Box Tree::box(int i) const {
                               : stored_box(i);
 }
 
-int Tree::build(SampleRange range, int parent, int level) {
+int Tree::build(SampleRange range, int parent, int level, const NodeChange& change) {
     const int index = static_cast<int>(nodes_.size());
     nodes_.push_back({{}, range.first, range.count});
     places_.push_back({parent, level, 0});
     depth_ = std::max(depth_, level + 1);
     const bool is_last_level = level + 1 == options_.levels;
-    if (range.count > options_.leaf && !is_last_level) {
-        // Split at the middle sample: the reading of "(t_max - t_min) / 2" in Section 3.
-        const int half = (range.count + 1) / 2;
-        build({range.first, half}, index, level + 1);
-        const int second_child = build({range.first + half, range.count - half}, index, level + 1);
+    // Split at the middle sample: the reading of "(t_max - t_min) / 2" in Section 3.
+    int first_count = range.count > options_.leaf && !is_last_level ? (range.count + 1) / 2 : 0;
+    if (index == change.node && change.split) {
+        first_count = *change.split;
+        if (first_count < 0 || first_count >= range.count || (first_count > 0 && is_last_level))
+            throw std::invalid_argument("the node cannot be split there");
+    }
+    if (first_count > 0) {
+        build({range.first, first_count}, index, level + 1, change);
+        const int second_child =
+            build({range.first + first_count, range.count - first_count}, index, level + 1, change);
         nodes_[static_cast<std::size_t>(index)].second_child = second_child;
     }
-    fit_box(index, level);
+    fit_box(index, level, change);
     return index;
 }
 
@@ -126,16 +137,23 @@ int Tree::child_with(int i, int sample) const {
     return child;
 }
 
-void Tree::fit_box(int index, int level) {
+void Tree::fit_box(int index, int level, const NodeChange& change) {
     const TreeInfo& kinds = info(options_.tree);
-    const BoxKind kind = level == 0 ? kinds.root : kinds.below;
+    BoxKind kind = level == 0 ? kinds.root : kinds.below;
+    Axes axes = options_.axes;
+    if (index == change.node) {
+        kind = change.kind.value_or(kind);
+        axes = change.axes.value_or(axes);
+        if (info(kind).of_blocks) throw std::invalid_argument("a block is no box of a single node");
+    }
     Node& node = nodes_[static_cast<std::size_t>(index)];
-    if (is_upright(kind) && is_upright(kinds.below)) {
+    // A node that is not upright has no rectangle that bounds it: those above the change look at all samples.
+    if (is_upright(kind) && is_upright(kinds.below) && !change.kind) {
         node.kind = kind;
-        node.rectangle = fit_node(kind, *clip_, nodes_, index, options_.axes);
+        node.rectangle = fit_node(kind, *clip_, nodes_, index, axes);
         return;
     }
-    const Box box = fit(kind, *clip_, {node.first, node.count}, options_.axes, options_.time_scale);
+    const Box box = fit(kind, *clip_, {node.first, node.count}, axes, options_.time_scale);
     node.kind = box.kind;
     node.rectangle = rectangle_of(box);
     if (is_upright(box.kind)) return;

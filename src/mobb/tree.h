@@ -38,6 +38,16 @@ std::span<const std::string_view> tree_kind_names();
 /// Throws std::invalid_argument, naming the option, if one is out of range.
 void check(const FitOptions& options);
 
+/// What is other at one node of a tree than its options say: to find out what that would cost. Answers stay the same.
+struct NodeChange {
+    int node = -1;
+    std::optional<BoxKind> kind{};  ///< of its box; one that has no test in common with those it meets prunes nothing
+    std::optional<Axes> axes{};     ///< of its box
+    /// How many of its samples the first child gets, where the options take half; 0: it is a leaf. What is below splits
+    /// as the options say. The nodes up to this one keep their numbers.
+    std::optional<int> split{};
+};
+
 /// What a query reads of a node: one cache line.
 struct alignas(64) Node {
     Rectangle rectangle;  ///< of an upright box, in the clip's own frame; of others see Tree::box
@@ -57,6 +67,8 @@ class Tree {
   public:
     /// Throws std::invalid_argument if there is no clip or an option is out of range.
     Tree(ClipPtr clip, const FitOptions& options);
+    /// With a change, too. Throws std::invalid_argument if it cannot be made: no tree of blocks takes one.
+    Tree(ClipPtr clip, const FitOptions& options, const NodeChange& change);
 
     const Clip& clip() const { return *clip_; }
     const ClipPtr& shared_clip() const { return clip_; }
@@ -99,9 +111,9 @@ class Tree {
         int in_level;
     };
 
-    int build(SampleRange range, int parent, int level);
+    int build(SampleRange range, int parent, int level, const NodeChange& change);
     void build_blocks();
-    void fit_box(int index, int level);
+    void fit_box(int index, int level, const NodeChange& change);
 
     ClipPtr clip_;
     FitOptions options_;

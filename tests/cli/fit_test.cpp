@@ -3,12 +3,14 @@
 #include <base/text.h>
 #include <explain/expected_cost.h>
 #include <explain/level_columns.h>
+#include <explain/what_if.h>
 #include <scene/fitted_scene.h>
 #include <support/json_keys.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -210,6 +212,56 @@ TEST(Fit, TheTableHasTheColumnsOfALevel) {
     root >> shown;
     EXPECT_EQ(shown, figure(100 * cost_of(expected.levels[0]) / cost_of(expected.tests), 3));
     EXPECT_EQ(line.size(), headings.size());
+}
+
+TEST(Fit, WhatIfANodeWereOther) {
+    const Result run = run_program({"fit", kFitScenes + "crossing.json", "--what-if", "1.0", "--json"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const json clips = json::parse(run.out)["what_if"];
+    const FittedScene fitted(load_scene(kFitScenes + "crossing.json"), {});
+    ASSERT_EQ(clips.size(), fitted.scene().clips.size());
+    for (std::size_t i = 0; i < clips.size(); ++i) {
+        const json& of = clips[i];
+        EXPECT_EQ(keys(of), (std::set<std::string>{"clip", "node", "tree", "queries", "workload", "area", "offset",
+                                                   "seed", "best", "variants"}));
+        EXPECT_EQ(of["node"], 1);
+        EXPECT_EQ(of["workload"], "placements");
+        const auto tree = fitted.shared_tree(static_cast<int>(i));
+        const QueryWorkload workload =
+            standard_workload(std::array{tree->shared_clip()}, of["queries"].get<std::size_t>(), of["seed"]);
+        EXPECT_EQ(of["area"], workload.area);
+        const WhatIf found = what_if(workload, std::array{tree}, 0, 1);
+        ASSERT_EQ(of["variants"].size(), found.variants.size());
+        EXPECT_EQ(of["best"], &found.best() - found.variants.data());
+        for (std::size_t k = 0; k < found.variants.size(); ++k) {
+            const json& variant = of["variants"][k];
+            EXPECT_EQ(variant["cost"], found.variants[k].cost);
+            EXPECT_EQ(variant["difference"], found.variants[k].difference.mean);
+            EXPECT_EQ(variant["error"], found.variants[k].difference.standard_error);
+            EXPECT_EQ(variant["box_tests"], found.variants[k].tests.boxes());
+            EXPECT_EQ(variant["volume"], found.variants[k].volume);
+        }
+        EXPECT_TRUE(of["variants"][0]["axes"].is_null());
+        EXPECT_EQ(of["variants"][1]["axes"], "covariance");
+        EXPECT_EQ(of["variants"][3]["kind"], "obb3d");
+        EXPECT_TRUE(of["variants"][4]["split"].is_number_integer());
+    }
+}
+
+TEST(Fit, WhatIfIsATable) {
+    const Result run = run_program({"fit", kFitScenes + "crossing.json", "--what-if", "1"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_NE(run.out.find(", node 1 (level 1): samples 0.."), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("volume m^2*s   children m^2*s   box tests   sample pairs   cost ns"), std::string::npos);
+    for (const char* what : {"as it is ", "axes covariance ", "axes minarea ", "3D box ", "split "}) {
+        EXPECT_NE(run.out.find(what), std::string::npos) << what;
+    }
+    const Result none = run_program({"fit", kFitScenes + "crossing.json", "--what-if", "9999"});
+    EXPECT_NE(none.status, 0);
+    EXPECT_NE(none.err.find("the node"), std::string::npos) << none.err;
+    const Result blocks = run_program({"fit", kFitScenes + "crossing.json", "--what-if", "0", "--tree", "blocks"});
+    EXPECT_NE(blocks.status, 0);
+    EXPECT_NE(blocks.err.find("blocks are all of one make"), std::string::npos) << blocks.err;
 }
 
 TEST(Fit, ColumnsStayApartWhereNumbersAreWiderThanHeadings) {

@@ -112,6 +112,36 @@ TEST(Query, EveryTreeGivesTheDirectSearchsAnswerAndContact) {
     EXPECT_LT(hits, asked * 9 / 10);
 }
 
+TEST(Query, ANodeThatIsOtherChangesNoAnswer) {
+    const int budget = query_budget() / 10;
+    Random random(15);
+    int asked = 0, hits = 0;
+    while (asked < budget) {
+        const ClipPtr a = test::random_motion(random, test::random_clip(random));
+        const ClipPtr b = test::random_motion(random, test::random_partner(random, *a));
+        const FitOptions fit_a = test::random_fit(random);
+        FitOptions fit_b = test::random_partner_fit(random, fit_a);
+        fit_b.time_scale = fit_a.time_scale;
+        const NodeChange change = test::random_change(random, Tree(a, fit_a));
+        const Tree tree_a(a, fit_a, change), tree_b(b, fit_b);
+        for (int k = 0; k < 50; ++k, ++asked) {
+            Placement place_a, place_b;
+            test::random_placements(random, *a, *b, place_a, place_b);
+            const PlacedTree placed_a(tree_a, place_a), placed_b(tree_b, place_b);
+            const std::optional<Contact> expected = direct_search(placed_a.placed_clip(), placed_b.placed_clip());
+            ASSERT_EQ(query(placed_a, placed_b), expected) << asked << ", node " << change.node;
+            ASSERT_EQ(contact_intervals(placed_a, placed_b),
+                      direct_contact_intervals(placed_a.placed_clip(), placed_b.placed_clip()));
+            // A clip against itself meets the change with the change.
+            const PlacedTree other(tree_a, place_b);
+            ASSERT_EQ(query(placed_a, other), direct_search(placed_a.placed_clip(), other.placed_clip())) << asked;
+            hits += expected.has_value();
+        }
+    }
+    EXPECT_GT(hits, asked / 10);
+    EXPECT_LT(hits, asked * 9 / 10);
+}
+
 TEST(Query, EveryLeafSizeFrom1To50) {
     Random random(12);
     for (int leaf = 1; leaf <= 50; ++leaf) {

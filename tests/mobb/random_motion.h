@@ -162,6 +162,16 @@ inline FitOptions random_any_fit(Random& random) {
     return fit;
 }
 
+/// A change at some node of a tree of boxes.
+inline NodeChange random_change(Random& random, const Tree& tree) {
+    NodeChange change{random.integer(0, static_cast<int>(tree.nodes().size()) - 1)};
+    if (random.chance(0.5)) change.axes = static_cast<Axes>(random.integer(0, 2));
+    if (random.chance(0.5)) change.kind = static_cast<BoxKind>(random.integer(0, static_cast<int>(BoxKind::aabb)));
+    const bool on_last_level = tree.level(change.node) + 1 == tree.options().levels;
+    if (random.chance(0.5)) change.split = on_last_level ? 0 : random.integer(0, tree.node(change.node).count - 1);
+    return change;
+}
+
 /// For a second tree: as often as not of the first one's kind, as trees of different kinds prune little.
 inline FitOptions random_partner_fit(Random& random, const FitOptions& first) {
     FitOptions fit = random_fit(random);

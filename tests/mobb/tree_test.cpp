@@ -214,6 +214,49 @@ TEST(Tree, BoxesOfLongClipsAreThoseFittedToTheirRanges) {
     }
 }
 
+TEST(Tree, ANodeCanBeOther) {
+    Random random(33);
+    for (int round = 0; round < 400; ++round) {
+        const ClipPtr clip = test::random_motion(random, test::random_clip(random, 900));
+        const FitOptions options = test::random_fit(random);
+        const Tree plain(clip, options);
+        const NodeChange change = test::random_change(random, plain);
+        const Tree tree(clip, options, change);
+        EXPECT_EQ(tree.options(), options);
+        for (int i = 0; i < static_cast<int>(tree.nodes().size()); ++i) {
+            const Node& node = tree.node(i);
+            const bool changed = i == change.node;
+            const BoxKind plain_kind = i == 0 ? info(options.tree).root : info(options.tree).below;
+            const BoxKind kind = changed ? change.kind.value_or(plain_kind) : plain_kind;
+            const Axes axes = changed ? change.axes.value_or(options.axes) : options.axes;
+            ASSERT_TRUE(same_bits(tree.box(i), fit(kind, *clip, {node.first, node.count}, axes, options.time_scale)));
+            const bool splits = node.count > options.leaf && tree.level(i) + 1 != options.levels;
+            int first_count = splits ? (node.count + 1) / 2 : 0;
+            if (changed) first_count = change.split.value_or(first_count);
+            ASSERT_EQ(node.is_leaf(), first_count == 0);
+            if (first_count > 0) {
+                ASSERT_EQ(tree.node(tree.children(i)[0]).count, first_count);
+                ASSERT_EQ(tree.node(tree.children(i)[1]).first, node.first + first_count);
+                ASSERT_EQ(tree.node(tree.children(i)[1]).end(), node.end());
+            }
+            if (i > change.node) continue;
+            ASSERT_EQ(node.first, plain.node(i).first);
+            ASSERT_EQ(node.count, plain.node(i).count);
+        }
+    }
+}
+
+TEST(Tree, RefusesChangesThatCannotBeMade) {
+    const auto clip = std::make_shared<const Clip>(1, std::vector<Disk>(40, {0, 0, 1}));
+    EXPECT_THROW(Tree(clip, {.tree = TreeKind::blocks}, {.node = 0, .axes = Axes::minarea}), std::invalid_argument);
+    EXPECT_THROW(Tree(clip, {}, {.node = 7}), std::invalid_argument);
+    EXPECT_THROW(Tree(clip, {}, {.node = 0, .kind = BoxKind::block}), std::invalid_argument);
+    EXPECT_THROW(Tree(clip, {}, {.node = 0, .split = -1}), std::invalid_argument);
+    EXPECT_THROW(Tree(clip, {}, {.node = 0, .split = 40}), std::invalid_argument);
+    EXPECT_THROW(Tree(clip, {.levels = 2}, {.node = 1, .split = 5}), std::invalid_argument);
+    EXPECT_NO_THROW(Tree(clip, {.levels = 2}, {.node = 1, .split = 0}));
+}
+
 TEST(Tree, RefusesOptionsOutOfRange) {
     const auto clip = std::make_shared<const Clip>(1, std::vector<Disk>{{0, 0, 1}});
     EXPECT_THROW(Tree(nullptr, {}), std::invalid_argument);

@@ -108,6 +108,14 @@ std::vector<Command> tree_commands() {
                      },
                  .chosen = [](const Workspace& workspace,
                               const std::string& kind) { return name(workspace.workload()) == kind; }}),
+        Command("tree.what_if", "What if this node were other?",
+                "Measures what queries would cost if the selected node had other axes, another box or another split.",
+                [](WhatIfInspector& what_if, Keys& keys) {
+                    keys.section = kWhatIfSection;
+                    what_if.measure();
+                },
+                {.enabled = {[](const WhatIfInspector& what_if) { return what_if.why_not().empty(); },
+                             [](const WhatIfInspector& what_if) { return what_if.why_not(); }}}),
     };
     return in_menu("Tree", rows);
 }

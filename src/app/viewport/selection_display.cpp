@@ -5,6 +5,8 @@
 #include <render/parts/highlights.h>
 #include <scene/arrangement.h>
 
+#include <cstddef>
+#include <optional>
 #include <utility>
 
 namespace mobbscope::app {
@@ -20,14 +22,37 @@ bool is_hidden(const Workspace& workspace, const PlacedAgent& who) {
     return are_hidden(workspace, {name_in_view(workspace.fitted().scene(), who)});
 }
 
-void add_highlight_of(DrawList& list, const Session& session, const Selection& what, Role role, float scale) {
-    if (!what.on_path() || !index_in_view(session.workspace.fitted(), session.workspace.view(), what.path)) return;
+/// Whose a selection is, under another tree if one is given; none if it is not in the picture.
+std::optional<DrawnAgent> owner_in_view(const Session& session, const Selection& what,
+                                        const mobb::Tree* tree = nullptr) {
     const FittedScene& fitted = session.workspace.fitted();
+    if (!what.on_path() || !index_in_view(fitted, session.workspace.view(), what.path)) return std::nullopt;
     const auto who = placed_agent_of(fitted, what.path);
-    if (!who || is_hidden(session.workspace, *who)) return;
+    if (!who || is_hidden(session.workspace, *who)) return std::nullopt;
     DrawnAgent drawn = drawn_agent_of(fitted, *who);
-    drawn.placed = {fitted.tree(who->clip), shown_placement(fitted, session.workspace.view(), *who)};
-    add_highlight(list, drawn, what.part(), role, scale);
+    drawn.placed = {tree ? *tree : fitted.tree(who->clip), shown_placement(fitted, session.workspace.view(), *who)};
+    return drawn;
+}
+
+void add_highlight_of(DrawList& list, const Session& session, const Selection& what, Role role, float scale) {
+    if (const auto owner = owner_in_view(session, what)) add_highlight(list, *owner, what.part(), role, scale);
+}
+
+/// The box that is tried in place of the selected node's, or those of its children where it is split otherwise.
+void add_variant(DrawList& list, const Session& session, float scale) {
+    const WhatIf* found = session.what_if.found();
+    const auto pointed = static_cast<std::size_t>(session.what_if.pointed);  // of none beyond all
+    if (!found || pointed >= found->variants.size()) return;
+    const NodeVariant& variant = found->variants[pointed];
+    const auto owner = owner_in_view(session, session.workspace.selection, variant.tree.get());
+    if (!owner) return;
+    if (variant.change.split.value_or(0) == 0) {
+        add_highlight(list, *owner, {AgentPart::Kind::node, found->node}, Role::ghost, scale);
+        return;
+    }
+    for (const int child : variant.tree->children(found->node)) {
+        add_highlight(list, *owner, {AgentPart::Kind::node, child}, Role::ghost, scale);
+    }
 }
 
 /// The two nodes of the event that is under the mouse in another panel.
@@ -72,6 +97,7 @@ void add_highlights(DrawList& list, const Session& session, float scale) {
         add_highlight_of(list, session, session.workspace.hovered, Role::hover, scale);
     }
     add_hovered_event(list, session, scale);
+    add_variant(list, session, scale);
     add_candidate(list, session, scale);
     add_other_of_conflict(list, session, scale);
 }
