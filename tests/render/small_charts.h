@@ -28,7 +28,7 @@ inline Chart small_chart() {
             const double away = std::log10(leaf / tree.best);
             double cost = tree.level + tree.curve * away * away * (away < 0 ? 1 : 1.4);
             if (tree.name == "MOBB" && leaf == 10) cost = 938;
-            series.points.push_back({leaf, std::round(cost), 14});
+            series.points.push_back({leaf, std::round(cost), 45});
         }
         chart.series.push_back(series);
     }

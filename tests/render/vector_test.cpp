@@ -123,6 +123,7 @@ DrawList plane() {
     list.size = {200, 100};
     list.projection.size = list.size;
     list.projection.clip_from_world = glm::mat4(1);
+    list.palette = palette(Theme::dark);
     return list;
 }
 

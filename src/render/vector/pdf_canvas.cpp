@@ -103,19 +103,16 @@ class PdfCanvas : public VectorCanvas {
         cairo_surface_finish(source.get());
     }
 
-    void panel(const OverlayPanel& panel) override {
-        // A border lies within the rectangle, a stroke half outside.
-        const bool bordered = panel.border_width > 0 && panel.border.a > 0;
-        const float half = bordered ? 0.5F * panel.border_width : 0;
-        outline(panel.rect.grown(-half), std::max(0.0F, panel.radius - half));
+    void rectangle(const Rect& rect, float radius, Rgba fill, Rgba line, float width) override {
+        outline(rect, radius);
         cairo_t* c = context_.get();
-        if (panel.fill.a > 0) {
-            set(panel.fill);
+        if (fill.a > 0) {
+            set(fill);
             cairo_fill_preserve(c);
         }
-        if (bordered) {
-            set(panel.border);
-            cairo_set_line_width(c, panel.border_width);
+        if (line.a > 0) {
+            set(line);
+            cairo_set_line_width(c, width);
             cairo_set_dash(c, nullptr, 0, 0);
             cairo_stroke_preserve(c);
         }
@@ -141,11 +138,10 @@ class PdfCanvas : public VectorCanvas {
         const Font& font = Font::of(text.face);
         std::vector<cairo_glyph_t> glyphs;
         std::vector<cairo_text_cluster_t> clusters;
-        float pen = text.baseline.x;
-        std::string utf8;
-        const std::vector<char32_t> codes = code_points(cleaned(text.text));
+        const std::string utf8 = cleaned(text.text);
+        const std::vector<char32_t> codes = code_points(utf8);
         std::size_t at = 0;
-        utf8 = cleaned(text.text);
+        float pen = text.baseline.x;
         for (std::size_t i = 0; i < codes.size(); ++i) {
             const std::size_t begin = at;
             read_code_point(utf8, at);

@@ -38,38 +38,37 @@ class SvgCanvas : public VectorCanvas {
         attribute(out_, "width", width);
         attribute(out_, "height", height);
         attribute(out_, "viewBox", "0 0 " + width + ' ' + height);
-        out_ += ">\n";
+        attribute(out_, "xml:space", "preserve");
+        // Inter would write "64 x 64" with a cross.
+        out_ += ">\n<style>text{font-variant-ligatures:none;white-space:pre}</style>\n";
         if (!title.empty()) out_ += "<title>" + escaped(title) + "</title>\n";
     }
 
     void fill(Rgba color) override {
         if (color.a <= 0) return;
         out_ += "<rect";
-        rectangle({{0, 0}, {size_.width, size_.height}});
+        place({{0, 0}, {size_.width, size_.height}});
         paint(out_, "fill", color);
         out_ += "/>\n";
     }
 
     void image(const Image& image) override {
         out_ += "<image";
-        rectangle({{0, 0}, {size_.width, size_.height}});
+        place({{0, 0}, {size_.width, size_.height}});
         attribute(out_, "xlink:href", "data:image/png;base64," + base64(png_bytes(image)));
         out_ += "/>\n";
     }
 
-    void panel(const OverlayPanel& panel) override {
-        // A border lies within the rectangle, a stroke half outside.
-        const float half = 0.5F * panel.border_width;
-        const bool bordered = panel.border_width > 0 && panel.border.a > 0;
-        if (!bordered && panel.fill.a <= 0) return;
+    void rectangle(const Rect& rect, float radius, Rgba fill, Rgba line, float width) override {
+        if (fill.a <= 0 && line.a <= 0) return;
         out_ += "<rect";
-        rectangle(bordered ? panel.rect.grown(-half) : panel.rect);
-        if (panel.radius > 0) attribute(out_, "rx", number(std::max(0.0F, panel.radius - (bordered ? half : 0))));
-        paint(out_, "fill", panel.fill);
-        if (bordered) {
-            paint(out_, "stroke", panel.border);
-            attribute(out_, "stroke-width", number(panel.border_width));
-        } else if (panel.radius <= 0) {
+        place(rect);
+        if (radius > 0) attribute(out_, "rx", number(radius));
+        paint(out_, "fill", fill);
+        if (line.a > 0) {
+            paint(out_, "stroke", line);
+            attribute(out_, "stroke-width", number(width));
+        } else if (radius <= 0) {
             // Neighbours leave no seam.
             attribute(out_, "shape-rendering", "crispEdges");
         }
@@ -88,7 +87,8 @@ class SvgCanvas : public VectorCanvas {
         attribute(out_, "d", path);
         attribute(out_, "fill", "none");
         paint(out_, "stroke", stroke.color);
-        attribute(out_, "stroke-width", number(stroke.width));
+        // Of one pixel it would be a hairline to browsers, which they draw unevenly.
+        attribute(out_, "stroke-width", number(stroke.width == 1 ? 1.01F : stroke.width));
         attribute(out_, "stroke-linejoin", "round");
         if (stroke.dash != kSolid) {
             const Dash& dash = stroke.dash;
@@ -112,7 +112,6 @@ class SvgCanvas : public VectorCanvas {
         // As wide as here, also where the face is another.
         const float width = Font::of(text.face).width(text.text, text.size);
         if (width > 0) attribute(out_, "textLength", number(width));
-        attribute(out_, "xml:space", "preserve");
         paint(out_, "fill", text.color);
         out_ += '>' + escaped(text.text) + "</text>\n";
     }
@@ -120,7 +119,7 @@ class SvgCanvas : public VectorCanvas {
     std::string finish() override { return std::move(out_) + "</svg>\n"; }
 
   private:
-    void rectangle(const Rect& rect) {
+    void place(const Rect& rect) {
         attribute(out_, "x", number(rect.min.x));
         attribute(out_, "y", number(rect.min.y));
         attribute(out_, "width", number(rect.size().x));

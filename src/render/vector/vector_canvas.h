@@ -30,12 +30,16 @@ class VectorCanvas {
     virtual ~VectorCanvas() = default;
     virtual void fill(Rgba color) = 0;           ///< all of the picture
     virtual void image(const Image& image) = 0;  ///< over all of the picture, of whatever size it is
-    virtual void panel(const OverlayPanel& panel) = 0;
+    /// With round corners, and a line along its edge, half outside; what has opacity 0 is not drawn.
+    virtual void rectangle(const Rect& rect, float radius, Rgba fill, Rgba line, float width) = 0;
     virtual void stroke(const VectorStroke& stroke) = 0;
     virtual void text(const TextRun& text) = 0;
     /// The bytes of the file; nothing may be drawn after that.
     virtual std::string finish() = 0;
 };
+
+/// A panel of the overlay: its border lies within it.
+void draw_panel(VectorCanvas& canvas, const OverlayPanel& panel);
 
 /// `title`: what the file says it shows. The same calls give the same bytes.
 std::unique_ptr<VectorCanvas> svg_canvas(PictureSize size, const std::string& title);

@@ -54,7 +54,7 @@ void draw_world(VectorCanvas& canvas, const DrawList& list, int samples, const s
 
 void draw_overlay(VectorCanvas& canvas, const DrawList& list) {
     for (const VectorStroke& stroke : highlight_lines(list)) canvas.stroke(stroke);
-    for (const OverlayPanel& panel : list.panels) canvas.panel(panel);
+    for (const OverlayPanel& panel : list.panels) draw_panel(canvas, panel);
     std::vector<VectorStroke> strokes;
     for (const OverlayLine& line : list.overlay_lines) {
         LineStyle style;
@@ -64,7 +64,7 @@ void draw_overlay(VectorCanvas& canvas, const DrawList& list) {
         add_line(strokes, line.from, line.to, style);
     }
     for (const VectorStroke& stroke : strokes) canvas.stroke(stroke);
-    for (const OverlayPanel& mark : list.marks) canvas.panel(mark);
+    for (const OverlayPanel& mark : list.marks) draw_panel(canvas, mark);
     for (const TextRun& text : list.texts) canvas.text(text);
 }
 
