@@ -66,7 +66,7 @@ void for_each_row(const Scene& scene, const SweepResult& result, Write write) {
     }
 }
 
-void write_fit(JsonWriter& out, const mobb::FitOptions& fit) {
+void write_options(JsonWriter& out, const mobb::FitOptions& fit) {
     out.members("tree", mobb::name(fit.tree), "leaf", fit.leaf, "axes", mobb::name(fit.axes), "time_scale",
                 fit.time_scale);
 }
@@ -74,7 +74,7 @@ void write_fit(JsonWriter& out, const mobb::FitOptions& fit) {
 void write_row(JsonWriter& out, const RowFigures& figures, bool has_quantiles) {
     out.begin_object(Layout::row);
     out.member("clip", figures.clip);
-    write_fit(out, figures.row.fit);
+    write_options(out, figures.row.fit);
     out.members("box_tests", figures.tests.boxes(), "sample_pairs", figures.tests[mobb::TestKind::samples]);
     out.members("cost", figures.cost.mean, "standard_error", figures.cost.standard_error);
     const auto if_known = [&](double quantile) { return has_quantiles ? std::optional(quantile) : std::nullopt; };
@@ -92,7 +92,7 @@ void write_curves(JsonWriter& out, const std::vector<LevelCurve>& curves) {
     out.begin_array("levels");
     for (const LevelCurve& curve : curves) {
         out.begin_object(Layout::row);
-        write_fit(out, curve.fit);
+        write_options(out, curve.fit);
         out.begin_array("levels");
         for (std::size_t i = 0; i < curve.levels.size(); ++i) {
             out.row("level", i, "volume", curve.levels[i].volume, "cost", curve.levels[i].cost);
@@ -120,14 +120,14 @@ void print_json(const Scene& scene, const QueryWorkload& workload, const SweepRe
     out.end_array();
     const SweepRow& chosen = result.rows[result.recommended];
     out.begin_object("recommended");
-    write_fit(out, chosen.fit);
+    write_options(out, chosen.fit);
     out.members("cost", chosen.cost.mean, "present_cost", result.rows[result.present].cost.mean, "why", result.why);
     out.end_object();
     out.begin_array("exceptions");
     for (const SweepException& exception : result.exceptions) {
         out.begin_object(Layout::row);
         out.member("clip", scene.clips[static_cast<std::size_t>(exception.clip)].name);
-        write_fit(out, result.rows[exception.row].fit);
+        write_options(out, result.rows[exception.row].fit);
         out.member("saving", exception.saving);
         out.end_object();
     }
