@@ -2,6 +2,7 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <explain/expected_cost.h>
+#include <explain/fit_findings.h>
 #include <explain/level_columns.h>
 #include <explain/tree_json.h>
 
@@ -86,6 +87,7 @@ void print_tree(const std::string& clip, const mobb::Tree& tree) {
     const std::optional<ExpectedCost> expected = expected_cost(tree, tree);
     if (expected) std::cout << "  " << expected_words(*expected) << '\n';
     print_levels(tree, expected);
+    for (const FitFinding& found : fit_findings(tree, expected)) std::cout << "  notice: " << found.text << '\n';
 }
 
 void print_trees(const FittedScene& fitted) {
