@@ -305,8 +305,8 @@ std::optional<OddSample> radius_spike_of(const mobb::Clip& clip) {
     return out;
 }
 
-/// What the boxes around an odd sample lose by it, if some do: those of samples `first` to the odd one.
-std::optional<FitFinding> spoiling(const mobb::Tree& tree, const Trials& trials, const OddSample& odd, int first,
+/// What the boxes around an odd sample lose by it, if some do.
+std::optional<FitFinding> spoiling(const mobb::Tree& tree, const Trials& trials, const OddSample& odd,
                                    FitFinding found) {
     const mobb::Clip& clip = tree.clip();
     // The nodes are the same, as they follow from the number of samples.
@@ -315,7 +315,7 @@ std::optional<FitFinding> spoiling(const mobb::Tree& tree, const Trials& trials,
     std::size_t around = 0, spoiled = 0;
     double now = 0, then = 0;
     for (int i = 0; i < static_cast<int>(tree.nodes().size()); ++i) {
-        if (tree.node(i).first > first || tree.node(i).end() <= odd.sample) continue;
+        if (tree.node(i).first > odd.sample || tree.node(i).end() <= odd.sample) continue;
         ++around;
         const double with = mobb::volume(tree.box(i), tree.time_scale());
         const double spared = mobb::volume(without->box(i), tree.time_scale());
@@ -342,7 +342,7 @@ std::optional<FitFinding> jump(const mobb::Tree& tree, const Trials& trials) {
     const auto odd = jump_of(tree.clip());
     if (!odd) return std::nullopt;
     const double dt = tree.clip().dt();
-    return spoiling(tree, trials, *odd, odd->sample - 1,
+    return spoiling(tree, trials, *odd,
                     {.kind = Kind::jump,
                      .text = sample_words(tree.clip(), odd->sample) + " jumps " + figure(odd->size, 3) + " m (" +
                              figure(odd->size / dt, 3) + " m/s, usual is up to " + figure(odd->usual / dt, 2) + ")"});
@@ -351,7 +351,7 @@ std::optional<FitFinding> jump(const mobb::Tree& tree, const Trials& trials) {
 std::optional<FitFinding> radius_spike(const mobb::Tree& tree, const Trials& trials) {
     const auto odd = radius_spike_of(tree.clip());
     if (!odd) return std::nullopt;
-    return spoiling(tree, trials, *odd, odd->sample,
+    return spoiling(tree, trials, *odd,
                     {.kind = Kind::radius_spike,
                      .text = sample_words(tree.clip(), odd->sample) + " has a radius of " + figure(odd->size, 3) +
                              " m where " + figure(odd->usual, 3) + " is usual"});
