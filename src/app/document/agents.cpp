@@ -4,6 +4,7 @@
 #include <crowd/simulation/choice.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
+#include <scene/motion_graph.h>
 #include <scene/scene_edits.h>
 
 #include <algorithm>
@@ -90,6 +91,35 @@ int index_of_name(const std::vector<std::string>& names, std::string_view name, 
         throw std::invalid_argument("there is no " + what + ' ' + in_quotes(name) + did_you_mean(name, names));
     }
     return static_cast<int>(at - names.begin());
+}
+
+int clip_played(const Workspace& workspace, const PlacedAgent& who) {
+    if (!workspace.crowd()) return who.clip;
+    const Agent& agent = workspace.fitted().scene().agents[static_cast<std::size_t>(who.agent)];
+    const CrowdAgent& person = workspace.crowd()->agents[static_cast<std::size_t>(agent.run_agent)];
+    const int move = person.plays[static_cast<std::size_t>(agent.play)].move;
+    return workspace.scene().graph->moves[static_cast<std::size_t>(move)].clip;
+}
+
+int clip_in_focus(const Workspace& workspace) {
+    if (workspace.selection.kind == Selection::Kind::clip) return workspace.selection.index;
+    if (workspace.selection.on_path()) {
+        if (const auto who = placed_agent_of(workspace.fitted(), workspace.selection.path))
+            return clip_played(workspace, *who);
+    }
+    return clip_played(workspace, workspace.fitted().placed_agents().front());
+}
+
+std::optional<AgentRef> player_of(const Workspace& workspace, int clip) {
+    const auto plays = [&](const AgentRef& path) {
+        const auto who = placed_agent_of(workspace.fitted(), path);
+        return who && clip_played(workspace, *who) == clip;
+    };
+    if (workspace.selection.on_path() && plays(workspace.selection.path)) return workspace.selection.path;
+    for (int i = 0; i < static_cast<int>(workspace.fitted().placed_agents().size()); ++i) {
+        if (const AgentRef path{i, -1, 0}; plays(path)) return path;
+    }
+    return std::nullopt;
 }
 
 std::string current_agent(const Workspace& workspace) {

@@ -52,6 +52,15 @@ NameList names_of_agents(const FittedScene& fitted);
 /// is none; `what` they name: "agent".
 int index_of_name(const std::vector<std::string>& names, std::string_view name, const std::string& what);
 
+/// The clip of the document that one plays: of a run that of the play, which is drawn as one that runs on.
+int clip_played(const Workspace& workspace, const PlacedAgent& who);
+
+/// The clip whose tree panels are about: of what is selected, else of the first that is seen. Requires a scene.
+int clip_in_focus(const Workspace& workspace);
+
+/// Who plays that clip: the selected agent if it does, else the first; none if nobody in the picture does.
+std::optional<AgentRef> player_of(const Workspace& workspace, int clip);
+
 // The current agent: the selected one, else the one that the view follows.
 
 /// Its name; empty if there is none.

@@ -13,10 +13,13 @@
 namespace mobbscope::app {
 
 void menu_bar(Ui& ui);
-void scene_panel(Ui& ui, QueryInspector& queries);             ///< agents, clips, queries
-float placement_height(const Ui& ui, Settings& settings);      ///< pixels; 0: nobody is selected who can be placed
-void placement_panel(Ui& ui);                                  ///< the selected agent by numbers; else nothing
-void tree_panel(Ui& ui, Jobs& jobs, QueryInspector& queries);  ///< how trees are fitted and how tight they are
+void scene_panel(Ui& ui, QueryInspector& queries);         ///< agents, clips, queries
+float placement_height(const Ui& ui, Settings& settings);  ///< pixels; 0: nobody is selected who can be placed
+void placement_panel(Ui& ui);                              ///< the selected agent by numbers; else nothing
+void tree_panel(Ui& ui, Jobs& jobs, QueryInspector& queries,
+                FitNotices& notices);  ///< how trees are fitted, how tight they are, and what stands out
+/// What stands out in the tree of a clip; nothing where nothing does.
+void findings_panel(Ui& ui, FitNotices& notices, int clip);
 void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures);  ///< the answer, and why
 /// How high the map of placements is, and its side; pixels.
 struct MapLayout {

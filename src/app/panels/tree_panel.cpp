@@ -1,11 +1,10 @@
 #include <app/commands/command.h>
+#include <app/document/agents.h>
 #include <app/panels/panels.h>
 #include <app/ui/widgets.h>
 #include <base/text.h>
 #include <explain/level_columns.h>
 #include <render/parts/node_boxes.h>
-#include <scene/crowd_run.h>
-#include <scene/motion_graph.h>
 
 #include <algorithm>
 #include <cmath>
@@ -192,25 +191,6 @@ void shown_levels(Ui& ui, int depth) {
     ui.mark("view.leaves");
 }
 
-/// The clip of the document that one plays: of a run that of the play, which is drawn as one that runs on.
-int clip_of(const Workspace& workspace, const PlacedAgent& who) {
-    if (!workspace.crowd()) return who.clip;
-    const Agent& agent = workspace.fitted().scene().agents[static_cast<std::size_t>(who.agent)];
-    const CrowdAgent& person = workspace.crowd()->agents[static_cast<std::size_t>(agent.run_agent)];
-    const int move = person.plays[static_cast<std::size_t>(agent.play)].move;
-    return workspace.scene().graph->moves[static_cast<std::size_t>(move)].clip;
-}
-
-/// The tree that the bars are about: of what is selected, else the first that is seen.
-int clip_in_focus(const Workspace& workspace) {
-    if (workspace.selection.kind == Selection::Kind::clip) return workspace.selection.index;
-    if (workspace.selection.on_path()) {
-        if (const auto who = placed_agent_of(workspace.fitted(), workspace.selection.path))
-            return clip_of(workspace, *who);
-    }
-    return clip_of(workspace, workspace.fitted().placed_agents().front());
-}
-
 /// Volume of each level as a bar, and how much of it the disks fill.
 void level_bars(Ui& ui, QueryInspector& queries, int clip) {
     const auto& figures = queries.figures_of(clip);
@@ -295,11 +275,12 @@ void fit_fields(Ui& ui, Jobs& jobs) {
 
 }  // namespace
 
-void tree_panel(Ui& ui, Jobs& jobs, QueryInspector& queries) {
+void tree_panel(Ui& ui, Jobs& jobs, QueryInspector& queries, FitNotices& notices) {
     if (ui.workspace.empty()) return;
     ImGui::PushID("tree");
     if (section(ui, "TREE")) fit_fields(ui, jobs);
     level_bars(ui, queries, clip_in_focus(ui.workspace));
+    findings_panel(ui, notices, clip_in_focus(ui.workspace));
     ImGui::PopID();
 }
 

@@ -41,6 +41,7 @@ double Session::ui_scale() const {
 void Session::poll() {
     for (const auto& each : screens) each->poll();
     jobs.poll();
+    notices.poll();
     imports.ask_for_offer();
 }
 
@@ -50,6 +51,7 @@ void Session::end_work() {
     dialogs.preview.end();
     maps.end_work();
     answers.end_work();
+    notices.end_work();
     for (const auto& each : screens) each->end_work();
 }
 

@@ -7,6 +7,7 @@
 #include <app/session/cost_inspector.h>
 #include <app/session/excerpts.h>
 #include <app/session/files.h>
+#include <app/session/fit_notices.h>
 #include <app/session/map_inspector.h>
 #include <app/session/query_answers.h>
 #include <app/session/recovery.h>
@@ -87,6 +88,7 @@ class Session {
     MapInspector maps{workspace, notifications, options, desktop};
     QueryAnswers answers{workspace, options, desktop};
     CostInspector costs{workspace, jobs, answers};
+    FitNotices notices{workspace, notifications, options, desktop};
     Excerpts excerpts{workspace, jobs, playback, crowds, counts};
     Files files{{workspace, jobs, edits, imports, dialogs, notifications, playback, settings, settings_file, counts,
                  options, screen}};
@@ -99,7 +101,7 @@ class Session {
     static auto parts(AnySession& s) {
         return std::tie(s.options, s.settings, s.workspace, s.views, s.queries, s.notifications, s.queue, s.keys,
                         s.dialogs, s.jobs, s.playback, s.edits, s.imports, s.crowds, s.maps, s.answers, s.costs,
-                        s.excerpts, s.files, s.recovery);
+                        s.notices, s.excerpts, s.files, s.recovery);
     }
 
     /// The screen of a type, which add_screen was given.
