@@ -5,6 +5,7 @@
 #include <cli/program.h>
 #include <cli/what_if_table.h>
 #include <explain/expected_cost.h>
+#include <explain/fit_findings.h>
 #include <explain/level_columns.h>
 #include <explain/tree_json.h>
 #include <import/tracks/csv.h>
@@ -113,6 +114,7 @@ void print_tree(const std::string& clip, const mobb::Tree& tree) {
     const std::optional<ExpectedCost> expected = expected_cost(tree, tree);
     if (expected) std::cout << "  " << expected_words(*expected) << '\n';
     print_levels(tree, expected);
+    for (const FitFinding& found : fit_findings(tree, expected)) std::cout << "  notice: " << found.text << '\n';
 }
 
 void print_trees(const FittedScene& fitted) {

@@ -1,6 +1,8 @@
 #include <explain/expected_cost.h>
+#include <explain/fit_findings.h>
 #include <explain/tree_json.h>
 #include <mobb/level_figures.h>
+#include <scene/scene_json.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -68,6 +70,18 @@ void write_expected(JsonWriter& out, const std::optional<ExpectedCost>& expected
             expected->placements.area(), "offset", expected->placements.offset);
 }
 
+void write_finding(JsonWriter& out, const FitFinding& found) {
+    out.begin_object(Layout::row);
+    out.members("kind", name(found.kind), "text", found.text);
+    const auto place = [](int at) { return at < 0 ? std::nullopt : std::optional<std::int64_t>(at); };
+    out.member("level", place(found.level));
+    out.member("node", place(found.node));
+    out.member("sample", place(found.sample));
+    out.key("mend");
+    found.mend ? write_fit(out, *found.mend) : out.null();
+    out.end_object();
+}
+
 }  // namespace
 
 void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree) {
@@ -85,6 +99,7 @@ void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree
         write_node(out, tree, i, expected ? std::optional(shares[static_cast<std::size_t>(i)]) : std::nullopt);
     }
     out.end_array();
+    out.list("findings", fit_findings(tree, expected), [&](const FitFinding& found) { write_finding(out, found); });
     out.end_object();
 }
 

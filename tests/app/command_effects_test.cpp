@@ -584,6 +584,27 @@ std::vector<Case> cases() {
          },
          true});
 
+    // The walk of 2 s in free boxes: its levels grow, and its leaves of 4 samples are too small.
+    const std::pair<std::string, std::string> in_free_boxes{"tree.kind", "umobb"};
+    add({"tree.next_finding", "", {in_free_boxes}, [](CommandWorld& w) {
+             const int last = w.session.workspace.fitted().tree(0).depth() - 1;
+             EXPECT_EQ(w.view().levels, (LevelRange{last, last, false}));
+             EXPECT_NE(all_messages(w.session).find("Boxes grow below level 0"), std::string::npos);
+         }});
+    add({"tree.see_finding", "1", {in_free_boxes}, [](CommandWorld& w) {
+             EXPECT_EQ(w.session.notices.of(0)->seen, 1);
+         }});
+    add({"tree.mend",
+         "0",
+         {in_free_boxes},
+         [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.scene().fit.tree, mobb::TreeKind::mobb); },
+         true});
+    add({"tree.mend",
+         "",
+         {in_free_boxes, {"tree.see_finding", "1"}},
+         [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.scene().fit.leaf, 64); },
+         true});
+
     // Query
     look("query.select", "2", [](CommandWorld& w) {
         EXPECT_EQ(w.view().query, 2);

@@ -41,8 +41,8 @@ TEST(Fit, JsonIsTheTree) {
                              {mobb::TreeKind::umobb, 7, 4, mobb::Axes::covariance, 1.5});
     const mobb::Tree& tree = fitted.tree(1);
     const json& printed = trees[1];
-    EXPECT_EQ(keys(printed),
-              (std::set<std::string>{"clip", "tree", "axes", "leaf", "time_scale", "expected", "levels", "nodes"}));
+    EXPECT_EQ(keys(printed), (std::set<std::string>{"clip", "tree", "axes", "leaf", "time_scale", "expected", "levels",
+                                                    "nodes", "findings"}));
     EXPECT_EQ(printed["clip"], "bend");
     EXPECT_EQ(printed["tree"], "umobb");
     EXPECT_EQ(printed["axes"], "covariance");
@@ -328,10 +328,31 @@ TEST(Fit, AnAabbIsAFlatBoxAlongXAndY) {
     }
 }
 
+TEST(Fit, SaysWhatStandsOut) {
+    const std::vector<std::string> fit{"fit", kFitScenes + "circles.json", "--tree", "umobb", "--leaf", "7"};
+    const Result text = run_program(fit);
+    std::vector<std::string> in_json = fit;
+    in_json.emplace_back("--json");
+    const json findings = json::parse(run_program(in_json).out)["trees"][0]["findings"];
+    ASSERT_FALSE(findings.empty());
+    const json& loose = findings[0];
+    EXPECT_EQ(keys(loose), (std::set<std::string>{"kind", "text", "level", "node", "sample", "mend"}));
+    EXPECT_EQ(loose["kind"], "loose_levels");
+    EXPECT_GT(loose["level"], 5);
+    EXPECT_TRUE(loose["node"].is_null());
+    EXPECT_TRUE(loose["sample"].is_null());
+    EXPECT_EQ(loose["mend"]["tree"], "mobb");
+    EXPECT_EQ(loose["mend"]["leaf"], 7);
+    const std::string notice = "\n  notice: " + loose["text"].get<std::string>() + '\n';
+    EXPECT_NE(text.out.find(notice), std::string::npos) << text.out;
+    EXPECT_EQ(run_program({"fit", kFitScenes + "circles.json"}).out.find("notice:"), std::string::npos);
+}
+
 TEST(Fit, TextHasALineForEachLevel) {
     const Result run = run_program({"fit", kFitScenes + "circles.json", "--levels", "3"});
     ASSERT_EQ(run.status, 0) << run.err;
-    EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 6);
+    // One of what stands out, too.
+    EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 7);
     EXPECT_TRUE(run.out.starts_with("circles: 1260 samples in 42 s; mobb tree of 7 nodes"));
 }
 

@@ -1,12 +1,15 @@
 #include <app/commands/arguments.h>
 #include <app/commands/command.h>
+#include <app/document/agents.h>
 #include <base/text.h>
 #include <scene/scene_json.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace mobbscope::app {
@@ -60,6 +63,61 @@ constexpr std::array<std::string_view, 2> kCostOf{"placements", "queries"};
 
 void choose_cost(Settings& settings, const std::string& text) {
     settings.cost_of = choice_named<QueryWorkload::Kind>(kCostOf, text, "the queries");
+}
+
+// --- what stands out
+
+/// Does something with what was noticed about the tree in focus, once that is known.
+template <class Use>
+void with_noticed(Session& session, const Use& use) {
+    const int clip = clip_in_focus(session.workspace);
+    session.notices.look(clip, [&session, clip, use] {
+        FitNotices::Noticed* const noticed = session.notices.of(clip);
+        if (!noticed) return;  // the tree is another by now
+        if (noticed->findings.empty())
+            return session.notifications.tell(MessageLevel::info, "Nothing stands out in this fit");
+        use(session, clip, *noticed);
+    });
+}
+
+int finding_in(const std::string& text, const FitNotices::Noticed& noticed) {
+    return whole_number_in(text, "the number", 0, static_cast<int>(noticed.findings.size()) - 1);
+}
+
+void see_finding(Session& session, int clip, FitNotices::Noticed& noticed, int index) {
+    noticed.seen = index;
+    const FitFinding found = noticed.findings[static_cast<std::size_t>(index)];
+    if (found.level >= 0) return run_command(session, "view.level", std::to_string(found.level));
+    const auto path = player_of(session.workspace, clip);
+    if (!path) throw std::invalid_argument("nobody plays that clip now");
+    const std::string name = placed_agent_of(session.workspace.fitted(), *path)->name + ' ';
+    found.node >= 0 ? run_command(session, "go.node", name + std::to_string(found.node))
+                    : run_command(session, "go.sample", name + std::to_string(found.sample));
+    run_command(session, "view.frame");
+}
+
+void see_finding_number(Session& session, const std::string& text) {
+    with_noticed(session, [text](Session& at, int clip, FitNotices::Noticed& noticed) {
+        see_finding(at, clip, noticed, finding_in(text, noticed));
+    });
+}
+
+void next_finding(Session& session) {
+    with_noticed(session, [](Session& at, int clip, FitNotices::Noticed& noticed) {
+        const int next = (noticed.seen + 1) % static_cast<int>(noticed.findings.size());
+        at.notifications.tell(MessageLevel::info, noticed.findings[static_cast<std::size_t>(next)].text);
+        see_finding(at, clip, noticed, next);
+    });
+}
+
+void mend_finding(Session& session, const std::string& text) {
+    with_noticed(session, [text](Session& at, int, FitNotices::Noticed& noticed) {
+        const int index = text.empty() ? std::max(noticed.seen, 0) : finding_in(text, noticed);
+        const std::optional<mobb::FitOptions> mend = noticed.findings[static_cast<std::size_t>(index)].mend;
+        if (!mend) throw std::invalid_argument("no other fit mends that: the clip itself would have to change");
+        at.edits.refit({"mending the fit: " + mend_words(*mend, noticed.tree->options()), ""},
+                       [mend](mobb::FitOptions& options) { options = *mend; });
+    });
 }
 
 }  // namespace
@@ -116,6 +174,13 @@ std::vector<Command> tree_commands() {
                 },
                 {.enabled = {[](const WhatIfInspector& what_if) { return what_if.why_not().empty(); },
                              [](const WhatIfInspector& what_if) { return what_if.why_not(); }}}),
+        Command("tree.next_finding", "Next finding",
+                "Says what stands out in the tree in focus, one after the other, and shows where.", next_finding),
+        Command("tree.see_finding", "See a finding", "Shows where something stands out, by its number from 0.",
+                see_finding_number, {.menu = kNoMenu, .argument = "N"}),
+        Command("tree.mend", "Mend the fit",
+                "Fits the trees as what was noticed suggests: the finding of that number, else the one seen last.",
+                mend_finding, {.argument = "[N]"}),
     };
     return in_menu("Tree", rows);
 }

@@ -92,6 +92,18 @@ int index_of_name(const std::vector<std::string>& names, std::string_view name, 
     return static_cast<int>(at - names.begin());
 }
 
+std::optional<AgentRef> player_of(const Workspace& workspace, int clip) {
+    const auto plays = [&](const AgentRef& path) {
+        const auto who = placed_agent_of(workspace.fitted(), path);
+        return who && clip_played(workspace, *who) == clip;
+    };
+    if (workspace.selection.on_path() && plays(workspace.selection.path)) return workspace.selection.path;
+    for (int i = 0; i < static_cast<int>(workspace.fitted().placed_agents().size()); ++i) {
+        if (const AgentRef path{i, -1, 0}; plays(path)) return path;
+    }
+    return std::nullopt;
+}
+
 std::string current_agent(const Workspace& workspace) {
     if (workspace.selection.on_path() && workspace.selection.path.agent >= 0) {
         const auto index = static_cast<std::size_t>(workspace.selection.path.agent);

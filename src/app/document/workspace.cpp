@@ -18,15 +18,6 @@ namespace {
 constexpr std::size_t kFewAgents = 12;
 constexpr std::size_t kKeptCosts = 32;  // of trees that were looked at
 
-/// The clip of the document that one plays: of a run that of the play, which is drawn as one that runs on.
-int clip_of(const Workspace& workspace, const PlacedAgent& who) {
-    if (!workspace.crowd()) return who.clip;
-    const Agent& agent = workspace.fitted().scene().agents[static_cast<std::size_t>(who.agent)];
-    const CrowdAgent& person = workspace.crowd()->agents[static_cast<std::size_t>(agent.run_agent)];
-    const int move = person.plays[static_cast<std::size_t>(agent.play)].move;
-    return workspace.scene().graph->moves[static_cast<std::size_t>(move)].clip;
-}
-
 }  // namespace
 
 std::shared_ptr<const FittedScene> ShownRun::at(const SceneView& seen) {
@@ -307,13 +298,21 @@ mobb::Interval time_span(const Workspace& workspace) {
     return span.t0 <= span.t1 ? span : mobb::Interval{0, 0};
 }
 
+int clip_played(const Workspace& workspace, const PlacedAgent& who) {
+    if (!workspace.crowd()) return who.clip;
+    const Agent& agent = workspace.fitted().scene().agents[static_cast<std::size_t>(who.agent)];
+    const CrowdAgent& person = workspace.crowd()->agents[static_cast<std::size_t>(agent.run_agent)];
+    const int move = person.plays[static_cast<std::size_t>(agent.play)].move;
+    return workspace.scene().graph->moves[static_cast<std::size_t>(move)].clip;
+}
+
 int clip_in_focus(const Workspace& workspace) {
     if (workspace.selection.kind == Selection::Kind::clip) return workspace.selection.index;
     if (workspace.selection.on_path()) {
         if (const auto who = placed_agent_of(workspace.fitted(), workspace.selection.path))
-            return clip_of(workspace, *who);
+            return clip_played(workspace, *who);
     }
-    return clip_of(workspace, workspace.fitted().placed_agents().front());
+    return clip_played(workspace, workspace.fitted().placed_agents().front());
 }
 
 const std::vector<ClipGroup>& clip_groups(const Workspace& workspace) {

@@ -263,6 +263,8 @@ class Workspace {
 bool is_crowd(const Workspace& workspace);
 /// First and last moment of the paths in view, global seconds; 0..0 for an empty scene.
 mobb::Interval time_span(const Workspace& workspace);
+/// The clip of the document that one plays: of a run that of the play, which is drawn as one that runs on.
+int clip_played(const Workspace& workspace, const PlacedAgent& who);
 /// The clip whose tree panels are about: of what is selected, else the first that is seen. Requires clips.
 int clip_in_focus(const Workspace& workspace);
 /// The document's clips by folder and rig; kept until the scene changes.

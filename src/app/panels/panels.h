@@ -17,9 +17,12 @@ void scene_panel(Ui& ui, QueryInspector& queries);         ///< agents, clips, q
 float placement_height(const Ui& ui, Settings& settings);  ///< pixels; 0: nobody is selected who can be placed
 void placement_panel(Ui& ui);                              ///< the selected agent by numbers; else nothing
 void sweep_panel(Ui& ui, SweepInspector& sweeps);          ///< which tree to ship
-void tree_panel(Ui& ui, Jobs& jobs, QueryInspector& queries, FitCosts& costs);  ///< how trees are fitted
+/// How trees are fitted, what they cost, and what stands out in them.
+void tree_panel(Ui& ui, Jobs& jobs, QueryInspector& queries, FitCosts& costs, FitNotices& notices);
 /// What a query of a clip's tree costs, by kind of test and by level, and how tight its levels are.
 void cost_section(Ui& ui, QueryInspector& queries, FitCosts& costs, int clip);
+/// What stands out in the tree of a clip; nothing where nothing does.
+void findings_panel(Ui& ui, FitNotices& notices, int clip);
 void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures);  ///< the answer, and why
 /// How high the map of placements is, and its side; pixels.
 struct MapLayout {

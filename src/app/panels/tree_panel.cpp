@@ -1,4 +1,5 @@
 #include <app/commands/command.h>
+#include <app/document/agents.h>
 #include <app/panels/panels.h>
 #include <app/ui/widgets.h>
 #include <base/text.h>
@@ -208,11 +209,12 @@ void fit_fields(Ui& ui, Jobs& jobs) {
 
 }  // namespace
 
-void tree_panel(Ui& ui, Jobs& jobs, QueryInspector& queries, FitCosts& costs) {
+void tree_panel(Ui& ui, Jobs& jobs, QueryInspector& queries, FitCosts& costs, FitNotices& notices) {
     if (ui.workspace.empty()) return;
     ImGui::PushID("tree");
     if (section(ui, "TREE")) fit_fields(ui, jobs);
     cost_section(ui, queries, costs, clip_in_focus(ui.workspace));
+    findings_panel(ui, notices, clip_in_focus(ui.workspace));
     ImGui::PopID();
 }
 

@@ -42,6 +42,7 @@ void Session::poll() {
     for (const auto& each : screens) each->poll();
     jobs.poll();
     sweeps.update();
+    notices.poll();
     imports.ask_for_offer();
 }
 
@@ -53,6 +54,7 @@ void Session::end_work() {
     sweeps.cancel();
     answers.end_work();
     fit_costs.end_work();
+    notices.end_work();
     for (const auto& each : screens) each->end_work();
 }
 

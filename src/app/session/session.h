@@ -8,6 +8,7 @@
 #include <app/session/excerpts.h>
 #include <app/session/files.h>
 #include <app/session/fit_costs.h>
+#include <app/session/fit_notices.h>
 #include <app/session/map_inspector.h>
 #include <app/session/query_answers.h>
 #include <app/session/recovery.h>
@@ -93,6 +94,7 @@ class Session {
     FitCosts fit_costs{workspace, notifications, options, desktop};
     SweepInspector sweeps{workspace, notifications, options, desktop};
     WhatIfInspector what_if{workspace, jobs};
+    FitNotices notices{workspace, notifications, options, desktop};
     Excerpts excerpts{workspace, jobs, playback, crowds, counts};
     Files files{{workspace, jobs, edits, imports, dialogs, notifications, playback, settings, settings_file, counts,
                  options, screen}};
@@ -105,7 +107,7 @@ class Session {
     static auto parts(AnySession& s) {
         return std::tie(s.options, s.settings, s.workspace, s.views, s.queries, s.notifications, s.queue, s.keys,
                         s.dialogs, s.jobs, s.playback, s.edits, s.imports, s.crowds, s.maps, s.answers, s.costs,
-                        s.fit_costs, s.sweeps, s.what_if, s.excerpts, s.files, s.recovery);
+                        s.fit_costs, s.sweeps, s.what_if, s.notices, s.excerpts, s.files, s.recovery);
     }
 
     /// The screen of a type, which add_screen was given.

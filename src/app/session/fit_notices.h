@@ -1,0 +1,48 @@
+/// What stands out in the fits that are looked at: found beside the window, and kept for the last few trees.
+#pragma once
+
+#include <app/document/workspace.h>
+#include <app/session/desktop.h>
+#include <app/session/notifications.h>
+#include <app/session/session_options.h>
+#include <explain/fit_findings.h>
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace mobbscope::app {
+
+class FitNotices {
+  public:
+    FitNotices(Workspace& workspace, Notifications& notifications, const SessionOptions& options, Desktop*& desktop)
+        : workspace_(workspace), notifications_(notifications), options_(options), desktop_(desktop) {}
+    ~FitNotices() { end_work(); }
+    FitNotices(const FitNotices&) = delete;
+    FitNotices& operator=(const FitNotices&) = delete;
+
+    struct Noticed {
+        std::shared_ptr<const mobb::Tree> tree;
+        std::vector<FitFinding> findings;
+        int seen = -1;  ///< that was gone to last; -1: none
+    };
+    /// Of the tree of a clip of the document; null: not known yet.
+    Noticed* of(int clip);
+    /// Begins to find it out, one tree after the other, and calls `then` once it is known; at once if it is.
+    void look(int clip, std::function<void()> then = {});
+    /// Takes in what was found.
+    void poll();
+    void end_work() { job_.reset(); }
+
+  private:
+    Workspace& workspace_;
+    Notifications& notifications_;
+    const SessionOptions& options_;
+    Desktop*& desktop_;
+    std::deque<Noticed> known_;  ///< the latest last
+    std::function<void()> then_;
+    std::unique_ptr<Job> job_;
+};
+
+}  // namespace mobbscope::app

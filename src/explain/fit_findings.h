@@ -1,0 +1,42 @@
+/// What stands out in a fit, and what would mend it: each finding is measured, not guessed.
+#pragma once
+
+#include <explain/expected_cost.h>
+#include <mobb/tree.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope {
+
+struct FitFinding {
+    enum class Kind {
+        loose_levels,  ///< boxes grow from a level to those below it
+        small_leaves,
+        large_leaves,
+        costly_node,   ///< much more than its part of the tests
+        jump,          ///< a step of the path that spoils the boxes around it
+        radius_spike,  ///< likewise of the radius
+    };
+    Kind kind = Kind::loose_levels;
+    std::string text;  ///< one sentence with its numbers
+    double cost = 0;   ///< the part of a query's cost that goes with it
+    // Where to look; -1: nowhere of that kind.
+    int level = -1, node = -1, sample = -1;
+    std::optional<mobb::FitOptions> mend{};  ///< a fit without it; none: the clip itself would have to change
+};
+
+/// As in files: "loose_levels", "small_leaves", ...
+std::string_view name(FitFinding::Kind kind);
+
+/// What a mend changes, in short: "MOBB", "leaf 40", "8 m/s".
+std::string mend_words(const mobb::FitOptions& mend, const mobb::FitOptions& now);
+
+/// One of each kind at most, the most costly first. Costs are counted (tests times price), of the fit and of what would
+/// mend it, on the same standard placements of the clip against itself. `expected`: of the tree against itself; without
+/// it no node is found costly.
+std::vector<FitFinding> fit_findings(const mobb::Tree& tree, const std::optional<ExpectedCost>& expected);
+
+}  // namespace mobbscope
