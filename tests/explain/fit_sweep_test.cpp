@@ -213,17 +213,17 @@ TEST(FitSweep, DependsOnNothingButItsOrder) {
 
 TEST(FitSweep, MoreIsAskedUntilFitsAreToldApart) {
     const std::vector<mobb::ClipPtr> clips{walk(2, 400)};
-    const QueryWorkload workload = standard_workload(clips, 64'000, 1);
+    const QueryWorkload workload = standard_workload(clips, 16'000, 1);
     SweepOrder order = sweep_over({"leaf=1,200"});
-    order.most_queries = 64'000;
-    EXPECT_LT(sweep_fits(clips, workload, order).queries, 64'000u) << "far apart";
+    order.most_queries = 16'000;
+    EXPECT_LT(sweep_fits(clips, workload, order).queries, 16'000u) << "far apart";
     // Two fits between 1 % and what few queries tell.
     order = sweep_over({"leaf=1:200", "tree=mobb,hybrid1,aabb"});
-    order.most_queries = 64'000;
+    order.most_queries = 16'000;
     const SweepResult close = sweep_fits(clips, workload, order);
     const SweepRow& best = close.rows[close.recommended];
     for (const SweepRow& row : close.rows) {
-        EXPECT_TRUE(close.queries == 64'000 || row.difference < 0.02 * best.cost.mean ||
+        EXPECT_TRUE(close.queries == 16'000 || row.difference < 0.02 * best.cost.mean ||
                     row.difference >= 3 * row.difference_error);
     }
     order.most_queries = 500;
