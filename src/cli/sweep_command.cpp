@@ -103,8 +103,8 @@ void write_curves(JsonWriter& out, const std::vector<LevelCurve>& curves) {
     out.end_array();
 }
 
-void print_json(const Scene& scene, const QueryWorkload& workload, const SweepResult& result,
-                const std::vector<LevelCurve>& curves) {
+void print_sweep_json(const Scene& scene, const QueryWorkload& workload, const SweepResult& result,
+                      const std::vector<LevelCurve>& curves) {
     JsonWriter out(std::cout);
     out.begin_object();
     const bool placed = workload.kind == QueryWorkload::Kind::placements;
@@ -136,7 +136,7 @@ void print_json(const Scene& scene, const QueryWorkload& workload, const SweepRe
     out.end_object();
 }
 
-void print_csv(const Scene& scene, const SweepResult& result) {
+void print_sweep_csv(const Scene& scene, const SweepResult& result) {
     std::cout << "clip,tree,leaf,axes,time_scale,box_tests,sample_pairs,cost,standard_error,difference,"
                  "difference_error,p95,p99,max,nodes,bytes,queries\n";
     const bool has_quantiles = result.order.cost == SweepCost::price;
@@ -164,7 +164,7 @@ void print_csv(const Scene& scene, const SweepResult& result) {
 
 /// The rows that are worth a line: the best of each kind and axes, the present one, and the next best of other trees;
 /// the best first.
-std::vector<std::size_t> lines_of(const SweepResult& result) {
+std::vector<std::size_t> shown_rows(const SweepResult& result) {
     std::vector<std::size_t> order(result.rows.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     const auto cost = [&](std::size_t i) { return result.rows[i].cost.mean; };
@@ -256,11 +256,11 @@ std::vector<std::string> cells_of(const SweepResult& result, std::size_t row) {
         bytes_text(of.bytes)};
 }
 
-void print_text(const Scene& scene, const QueryWorkload& workload, const SweepResult& result) {
+void print_sweep_text(const Scene& scene, const QueryWorkload& workload, const SweepResult& result) {
     std::cout << workload_words(workload, result, scene.clips.size()) << '\n';
     std::vector<std::vector<std::string>> table{
         {"fit", "cost", "+-", "against best", "box tests", "sample pairs", "p95", "p99", "max", "nodes", "memory"}};
-    for (const std::size_t i : lines_of(result)) table.push_back(cells_of(result, i));
+    for (const std::size_t i : shown_rows(result)) table.push_back(cells_of(result, i));
     const std::size_t shown = table.size() - 1;
     print_table(table);
     std::cout << " cost of a query in " << unit_of(result.order.cost);
@@ -277,8 +277,8 @@ void print_text(const Scene& scene, const QueryWorkload& workload, const SweepRe
     std::cout << "to use it: " << options << ", or in a scene: \"fit\": {" << json << "}\n";
 }
 
-void draw(const SweepCommandArguments& arguments, const Scene& scene, const QueryWorkload& workload,
-          const SweepResult& result) {
+void draw_sweep(const SweepCommandArguments& arguments, const Scene& scene, const QueryWorkload& workload,
+                const SweepResult& result) {
     Chart chart = sweep_chart(result).chart;
     chart.title = result.why;
     chart.caption = workload_words(workload, result, scene.clips.size());
@@ -308,16 +308,16 @@ void run_sweep(SweepCommandArguments& arguments) {
         arguments.of_scene ? scene_workload(scene) : standard_workload(clips, order.most_queries, arguments.seed);
     if (!arguments.out.empty()) check_output(arguments.out);
     const SweepResult result = sweep_fits(clips, workload, order, tell("tried", "fits"));
-    if (!arguments.out.empty()) draw(arguments, scene, workload, result);
+    if (!arguments.out.empty()) draw_sweep(arguments, scene, workload, result);
     if (arguments.csv) {
-        print_csv(scene, result);
+        print_sweep_csv(scene, result);
     } else if (arguments.json) {
         const bool has_curves = !order.time_scale.values.empty();
-        print_json(scene, workload, result,
-                   has_curves ? time_scale_curves(clips, result, tell("worked out", "time scales"))
-                              : std::vector<LevelCurve>{});
+        print_sweep_json(scene, workload, result,
+                         has_curves ? time_scale_curves(clips, result, tell("worked out", "time scales"))
+                                    : std::vector<LevelCurve>{});
     } else {
-        print_text(scene, workload, result);
+        print_sweep_text(scene, workload, result);
     }
     flush_results();
 }

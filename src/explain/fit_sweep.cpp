@@ -711,7 +711,7 @@ SweepValues parse_values(std::string_view option, std::string_view text, const s
     return out;
 }
 
-void check(const SweepValues& values, std::string_view option, double least, double most, bool whole) {
+void check_values(const SweepValues& values, std::string_view option, double least, double most, bool whole) {
     for (const double value : values.values) {
         if (!(value >= least && value <= most) || (whole && value != std::round(value)))
             refuse(option, brief(value),
@@ -761,8 +761,8 @@ void set_over(SweepOrder& order, std::string_view text) {
 
 void check(const SweepOrder& order) {
     mobb::check(order.present);
-    check(order.leaf, "leaf", 1, kMostLeaf, true);
-    check(order.time_scale, "time_scale", 1 / mobb::kMaxTimeScale, mobb::kMaxTimeScale, false);
+    check_values(order.leaf, "leaf", 1, kMostLeaf, true);
+    check_values(order.time_scale, "time_scale", 1 / mobb::kMaxTimeScale, mobb::kMaxTimeScale, false);
 }
 
 SweepResult sweep_fits(std::span<const mobb::ClipPtr> clips, const QueryWorkload& workload, const SweepOrder& order,

@@ -1,7 +1,6 @@
 #include <explain/expected_cost.h>
 #include <explain/tree_cost.h>
 
-#include <algorithm>
 #include <array>
 #include <span>
 #include <utility>
@@ -57,16 +56,9 @@ TreeCost cost_in_scene(const SceneCosts& costs, int clip, const std::shared_ptr<
     return out;
 }
 
-bool is_priced(const MeanTests& tests) {
-    return std::ranges::none_of(mobb::kTestKinds,
-                                [&](mobb::TestKind kind) { return tests[kind] > 0 && kTestPrices[kind] == 0; });
-}
-
-double part_of(const MeanTests& some, const MeanTests& all) {
-    const auto size = [priced = is_priced(all)](const MeanTests& tests) {
-        return priced ? cost_of(tests) : tests.all();
-    };
-    return size(all) > 0 ? size(some) / size(all) : 0;
+double TreeCost::part(const MeanTests& some) const {
+    const double all = ns(tests);
+    return all > 0 ? ns(some) / all : 0;
 }
 
 }  // namespace mobbscope

@@ -28,6 +28,12 @@ struct TreeCost {
     std::optional<MeanTests> bound{};  ///< of what is worked out: as if no query hit, so never less
     std::vector<MeanTests> levels{};   ///< by the level of the pair of nodes; empty: not known
     std::vector<double> shares{};      ///< by node of the tree: its part of all box tests; empty: not known
+
+    const MeanTests& prices() const { return prices_of(tree->options().tree); }
+    /// ns, of some tests of the tree
+    double ns(const MeanTests& some) const { return cost_of(some, prices()); }
+    /// The part of the cost that some of its tests are, 0 to 1.
+    double part(const MeanTests& some) const;
 };
 
 /// Expected, or counted where there is no formula.
@@ -35,11 +41,5 @@ TreeCost standard_cost(const std::shared_ptr<const mobb::Tree>& tree, const Prog
 
 /// The mean of a scene's queries. `tree`: that of the clip, whose nodes get their shares.
 TreeCost cost_in_scene(const SceneCosts& costs, int clip, const std::shared_ptr<const mobb::Tree>& tree);
-
-/// Whether all its tests have a price.
-bool is_priced(const MeanTests& tests);
-
-/// The part of the cost that some of its tests are, 0 to 1: of their price, or where not all have one of their number.
-double part_of(const MeanTests& some, const MeanTests& all);
 
 }  // namespace mobbscope

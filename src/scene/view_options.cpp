@@ -456,6 +456,13 @@ std::vector<ViewOption> all_view_options() {
              .draws = DrawnPart::surroundings,
              .may_be_seen =
                  [](const ViewState& view) { return view.query.has_value() && view.show == Show::space_time; }}),
+        toggle<&ViewState::cost>(
+            {.key = "cost",
+             .what = "In the caption: the tests of boxes that a query of these trees makes in standard placements",
+             .title = "Cost in the caption",
+             .menu = "View/Show",
+             .draws = DrawnPart::surroundings,
+             .may_be_seen = [](const ViewState& view) { return view.boxes && !view.query; }}),
         toggle<&ViewState::time_axis>({.key = "time_axis",
                                        .what = "The upright scale in seconds",
                                        .title = "Time axis",

@@ -126,6 +126,7 @@ struct ViewState {
     Theme theme = Theme::dark;
     bool disks = true;
     bool boxes = true;
+    bool cost = false;      ///< in the caption of trees: the tests of boxes that a query of them makes
     bool boundary = false;  ///< with a query, on the floor: within it B's path may not begin, or the two collide
     bool floor = true;      ///< grid in metres, and the paths' traces on it
     bool time_axis = true;  ///< ticks in seconds

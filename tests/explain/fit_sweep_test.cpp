@@ -25,7 +25,7 @@ using mobb::TreeKind;
 using mobb::test::Random;
 
 /// A walk that turns and stands, in other proportions for every seed.
-mobb::ClipPtr walk(std::uint64_t seed, int count) {
+mobb::ClipPtr made_up_walk(std::uint64_t seed, int count) {
     Random random(seed);
     const double turning = random.real(0.02, 0.3), radius = random.real(0.25, 0.5);
     double speed = random.real(0.3, 1.5), x = 0, y = 0, heading = 0;
@@ -42,7 +42,7 @@ mobb::ClipPtr walk(std::uint64_t seed, int count) {
 
 std::vector<mobb::ClipPtr> walks(int count, int samples) {
     std::vector<mobb::ClipPtr> out;
-    for (int i = 0; i < count; ++i) out.push_back(walk(static_cast<std::uint64_t>(i) + 1, samples * (i + 1)));
+    for (int i = 0; i < count; ++i) out.push_back(made_up_walk(static_cast<std::uint64_t>(i) + 1, samples * (i + 1)));
     return out;
 }
 
@@ -88,7 +88,7 @@ const std::vector<TreeKind> kOwnTests{TreeKind::mobb, TreeKind::umobb, TreeKind:
 
 TEST(FitSweep, RecommendsTheBestOfMadeUpWalks) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-        EXPECT_LT(regret({walk(seed, 120 * static_cast<int>(seed))}, kOwnTests, 100), 0.03) << "walk " << seed;
+        EXPECT_LT(regret({made_up_walk(seed, 120 * static_cast<int>(seed))}, kOwnTests, 100), 0.03) << "walk " << seed;
     }
     EXPECT_LT(regret(walks(3, 120), {mobb::kTreeKinds.begin(), mobb::kTreeKinds.end()}, 60), 0.03);
 }
@@ -107,7 +107,7 @@ TEST(FitSweep, RecommendsTheBestOfRecordings) {
 }
 
 TEST(FitSweep, OptionsThatDoNotMatterAreNotVaried) {
-    const std::vector<mobb::ClipPtr> clips{walk(1, 200)};
+    const std::vector<mobb::ClipPtr> clips{made_up_walk(1, 200)};
     const SweepOrder order = sweep_over({"tree=mobb,umobb,aabb,blocks", "leaf=5,20", "axes=all", "time_scale=0.5,2"});
     const SweepResult result = sweep_fits(clips, standard_workload(clips, 200, 1), order);
     const auto rows_of = [&](TreeKind kind) {
@@ -150,7 +150,7 @@ TEST(FitSweep, ARangeIsRefinedAroundTheBest) {
 }
 
 TEST(FitSweep, TwoRangesAreBothSearched) {
-    const std::vector<mobb::ClipPtr> clips{walk(7, 600)};
+    const std::vector<mobb::ClipPtr> clips{made_up_walk(7, 600)};
     const QueryWorkload workload = standard_workload(clips, 2000, 1);
     const SweepResult result =
         sweep_fits(clips, workload, sweep_over({"leaf=1:200", "time_scale=0.1:30"}, {.tree = TreeKind::umobb}));
@@ -212,7 +212,7 @@ TEST(FitSweep, DependsOnNothingButItsOrder) {
 }
 
 TEST(FitSweep, MoreIsAskedUntilFitsAreToldApart) {
-    const std::vector<mobb::ClipPtr> clips{walk(2, 400)};
+    const std::vector<mobb::ClipPtr> clips{made_up_walk(2, 400)};
     const QueryWorkload workload = standard_workload(clips, 16'000, 1);
     SweepOrder order = sweep_over({"leaf=1,200"});
     order.most_queries = 16'000;
@@ -231,7 +231,7 @@ TEST(FitSweep, MoreIsAskedUntilFitsAreToldApart) {
 }
 
 TEST(FitSweep, ThePresentFitStaysWhereNoneIsBetter) {
-    const std::vector<mobb::ClipPtr> clips{walk(3, 300)};
+    const std::vector<mobb::ClipPtr> clips{made_up_walk(3, 300)};
     const QueryWorkload workload = standard_workload(clips, 2000, 1);
     const SweepResult first = sweep_fits(clips, workload, sweep_over({"leaf=1:200"}));
     const SweepRow& best = first.rows[first.recommended];
@@ -260,7 +260,7 @@ TEST(FitSweep, AClipThatAnotherFitServesBetterIsNamed) {
     for (int i = 0; i < 6; ++i) {
         clips.push_back(std::make_shared<const mobb::Clip>(1.0 / 30, std::vector<mobb::Disk>(40, {0, 0, 0.3})));
     }
-    clips.push_back(walk(5, 3000));
+    clips.push_back(made_up_walk(5, 3000));
     const SweepResult result = sweep_fits(clips, standard_workload(clips, 4000, 1), sweep_over({"leaf=1,4,10,40"}));
     for (const SweepException& exception : result.exceptions) {
         const auto clip = static_cast<std::size_t>(exception.clip);
@@ -272,7 +272,7 @@ TEST(FitSweep, AClipThatAnotherFitServesBetterIsNamed) {
 }
 
 TEST(FitSweep, ItEndsWhenProgressThrows) {
-    const std::vector<mobb::ClipPtr> clips{walk(1, 200)};
+    const std::vector<mobb::ClipPtr> clips{made_up_walk(1, 200)};
     const QueryWorkload workload = standard_workload(clips, 2000, 1);
     std::size_t told = 0;
     const auto stop = [&told](std::size_t done, std::size_t all) {
@@ -283,7 +283,7 @@ TEST(FitSweep, ItEndsWhenProgressThrows) {
 }
 
 TEST(FitSweep, TimeIsMeasured) {
-    const std::vector<mobb::ClipPtr> clips{walk(1, 200)};
+    const std::vector<mobb::ClipPtr> clips{made_up_walk(1, 200)};
     SweepOrder order = sweep_over({"leaf=1,10,50"});
     order.cost = SweepCost::time;
     const SweepResult result = sweep_fits(clips, standard_workload(clips, 1000, 1), order);
@@ -321,13 +321,13 @@ TEST(FitSweep, WhatIsNoOrderIsRefused) {
     SweepOrder order;
     EXPECT_NO_THROW(set_over(order, " leaf = 5 , 10 "));
     EXPECT_EQ(order.leaf.values, (std::vector<double>{5, 10}));
-    const std::vector<mobb::ClipPtr> clips{walk(1, 20)};
+    const std::vector<mobb::ClipPtr> clips{made_up_walk(1, 20)};
     for (int i = 1; i < 6000; ++i) order.leaf.values.push_back(i);
     EXPECT_THROW(sweep_fits(clips, standard_workload(clips, 10, 1), order), std::invalid_argument);
 }
 
 TEST(TimeScaleCurves, AreOfTheTrees) {
-    const std::vector<mobb::ClipPtr> clips{walk(4, 300)};
+    const std::vector<mobb::ClipPtr> clips{made_up_walk(4, 300)};
     const std::vector<double> scales{0.5, 4};
     const auto curves = time_scale_curves(clips, {.leaf = 20}, scales);
     ASSERT_EQ(curves.size(), 4u);

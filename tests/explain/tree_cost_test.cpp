@@ -36,10 +36,9 @@ TEST(TreeCost, IsWhatIsExpected) {
     EXPECT_EQ(cost.shares, expected.node_shares());
     ASSERT_EQ(cost.levels.size(), expected.levels.size());
     double parts = 0;
-    for (const MeanTests& level : cost.levels) parts += part_of(level, cost.tests);
+    for (const MeanTests& level : cost.levels) parts += cost.part(level);
     EXPECT_NEAR(parts, 1, 1e-12);
-    EXPECT_TRUE(is_priced(cost.tests));
-    EXPECT_NEAR(part_of(cost.levels[0], cost.tests), cost_of(cost.levels[0]) / cost_of(cost.tests), 1e-12);
+    EXPECT_NEAR(cost.part(cost.levels[0]), cost_of(cost.levels[0]) / cost_of(cost.tests), 1e-12);
 }
 
 TEST(TreeCost, BlocksAreCounted) {
@@ -52,10 +51,10 @@ TEST(TreeCost, BlocksAreCounted) {
     EXPECT_EQ(cost.tests.by_kind, mean_tests(count_tests(workload, std::span(&tree, 1))).by_kind);
     EXPECT_TRUE(cost.levels.empty());
     EXPECT_TRUE(cost.shares.empty());
-    EXPECT_FALSE(is_priced(cost.tests)) << "a test of blocks has no price";
+    EXPECT_EQ(cost.ns(cost.tests), cost_of(cost.tests, kBlockTestPrices)) << "blocks have prices of their own";
     MeanTests half = cost.tests;
     for (double& tests : half.by_kind) tests /= 2;
-    EXPECT_NEAR(part_of(half, cost.tests), 0.5, 1e-12) << "so tests count alike";
+    EXPECT_NEAR(cost.part(half), 0.5, 1e-12);
 }
 
 TEST(TreeCost, OfASceneIsTheMeanOfItsQueries) {

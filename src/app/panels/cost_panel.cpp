@@ -66,23 +66,21 @@ std::string formula(const TreeCost& cost) {
     out += "\nW = " + figure(cost.area) + " m\u00B2: all shifts.  T = " + figure(cost.offset) +
            " s: starts are within \u00B1T";
     if (cost.bound)
-        out += "\nWithout hits (H = 0) it would be " + figure(cost_of(*cost.bound), 3) + " ns: it is never more.";
+        out += "\nWithout hits (H = 0) it would be " + figure(cost.ns(*cost.bound), 3) + " ns: it is never more.";
     return out;
 }
 
 /// "2D boxes: 13.9 tests x 14 ns = 195 ns, 21 % of the cost"
-std::string price_words(mobb::TestKind kind, const MeanTests& tests, const MeanTests& all) {
-    const double price = kTestPrices[kind];
-    std::string out = tested(kind) + ": " + figure(tests[kind]) + " tests";
-    if (price == 0) return out + " without a price";
-    out += " x " + brief(price) + " ns = " + figure(tests[kind] * price) + " ns";
-    if (is_priced(all)) out += ", " + per_cent(tests[kind] * price / cost_of(all)) + " of the cost";
-    return out;
+std::string price_words(mobb::TestKind kind, const MeanTests& tests, const TreeCost& cost) {
+    MeanTests alone;
+    alone[kind] = tests[kind];
+    return tested(kind) + ": " + figure(tests[kind]) + " tests x " + brief(cost.prices()[kind]) +
+           " ns = " + figure(cost.ns(alone)) + " ns, " + per_cent(cost.part(alone)) + " of the cost";
 }
 
-std::string price_lines(const MeanTests& tests, const MeanTests& all) {
+std::string price_lines(const MeanTests& tests, const TreeCost& cost) {
     std::string out;
-    for (const mobb::TestKind kind : kinds_of(tests)) out.append(price_words(kind, tests, all)).append(1, '\n');
+    for (const mobb::TestKind kind : kinds_of(tests)) out.append(price_words(kind, tests, cost)).append(1, '\n');
     return out;
 }
 
@@ -97,13 +95,9 @@ void tell(const std::string& text) {
 }
 
 void total(Ui& ui, const TreeCost& cost) {
-    const bool priced = is_priced(cost.tests);
-    const std::string number = priced ? figure(cost_of(cost.tests), 3) + " ns" : figure(cost.tests.all(), 3) + " tests";
-    text_line(ui.style.text, number + " a query", ui.style.title);
+    text_line(ui.style.text, figure(cost.ns(cost.tests), 3) + " ns a query", ui.style.title);
     ui.mark_only("cost.total");
-    std::string how = formula(cost);
-    if (!priced) how += "\nA test of blocks has no price: tests are shown.";
-    tell(how + "\n\n" + price_lines(cost.tests, cost.tests));
+    tell(formula(cost) + "\n\n" + price_lines(cost.tests, cost));
 }
 
 /// What the numbers are about, to choose where the scene has queries.
@@ -124,14 +118,15 @@ void workload_choice(Ui& ui, const TreeCost* cost) {
 }
 
 /// The tests by kind: a bar of their parts of the cost, and a row for each.
-void kinds(Ui& ui, const MeanTests& tests) {
+void kinds(Ui& ui, const TreeCost& cost) {
+    const MeanTests& tests = cost.tests;
     const std::vector<mobb::TestKind> all = kinds_of(tests);
     const ImFont& mono = *ui.style.mono;
     const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x);
     const auto part = [&](mobb::TestKind kind) {
         MeanTests alone;
         alone[kind] = tests[kind];
-        return part_of(alone, tests);
+        return cost.part(alone);
     };
     ImVec2 at = ImGui::GetCursorScreenPos();
     ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -164,14 +159,14 @@ void kinds(Ui& ui, const MeanTests& tests) {
         };
         ending(width, ui.style.quiet, per_cent(part(kind)));
         const float priced = width - of_part;
-        if (shows_prices && kTestPrices[kind] > 0) {
+        if (shows_prices) {
             const float at_price = corner.x + priced - of_price;
-            draw_text(draw, mono, {at_price, y}, ui.style.quiet, " x " + brief(kTestPrices[kind]));
+            draw_text(draw, mono, {at_price, y}, ui.style.quiet, " x " + brief(cost.prices()[kind]));
         }
         ending(shows_prices ? priced - of_price : priced, ui.style.text, figure(tests[kind], 3));
         draw_text(draw, *ui.style.body, {corner.x + label_at, corner.y + 0.5f * (height - ui.style.body->FontSize)},
                   ui.style.text, of_label <= room ? tested(kind) : tested_in_short(kind));
-        tell(price_words(kind, tests, tests));
+        tell(price_words(kind, tests, cost));
     }
 }
 
@@ -210,8 +205,8 @@ std::string level_tooltip(const mobb::LevelFigures* level, const TreeCost* cost,
         out += "of trees that are deeper than this one\n";
     }
     if (cost && i < cost->levels.size()) {
-        out += "\nTests of pairs of this level's nodes, a query:\n" + price_lines(cost->levels[i], cost->tests);
-        out += "together " + per_cent(part_of(cost->levels[i], cost->tests)) + " of the cost\n";
+        out += "\nTests of pairs of this level's nodes, a query:\n" + price_lines(cost->levels[i], *cost);
+        out += "together " + per_cent(cost->part(cost->levels[i])) + " of the cost\n";
     }
     return out + "\nclick to show this level";
 }
@@ -223,7 +218,7 @@ void levels(Ui& ui, const std::vector<mobb::LevelFigures>& figures, const TreeCo
     for (const mobb::LevelFigures& level : figures) most = std::max(most, level.volume);
     std::vector<double> parts;
     if (cost) {
-        for (const MeanTests& level : cost->levels) parts.push_back(part_of(level, cost->tests));
+        for (const MeanTests& level : cost->levels) parts.push_back(cost->part(level));
         for (const double part : parts) costliest = std::max(costliest, part);
         // No query came so deep.
         if (!parts.empty()) parts.resize(std::max(parts.size(), figures.size()));
@@ -293,7 +288,7 @@ void cost_section(Ui& ui, QueryInspector& queries, FitCosts& costs, int clip) {
     const std::shared_ptr<const TreeCost> cost = ui.workspace.cost_of(clip);
     cost ? total(ui, *cost) : no_cost_yet(ui);
     workload_choice(ui, cost.get());
-    if (cost) kinds(ui, cost->tests);
+    if (cost) kinds(ui, *cost);
     ImGui::Dummy({0, ui.px(2)});
     levels(ui, queries.figures_of(clip), cost.get());
 }

@@ -6,6 +6,7 @@
 #include <render/drawlist/draw_list.h>
 #include <scene/drawn_agent.h>
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,7 +23,9 @@ struct Caption {
 };
 
 /// What the scene is and which boxes are shown, with their volume.
-Caption scene_caption(const FittedScene& fitted, std::span<const DrawnAgent> agents, const ViewState& view);
+/// `box_tests`: of a query of the trees; none: they are not told.
+Caption scene_caption(const FittedScene& fitted, std::span<const DrawnAgent> agents, const ViewState& view,
+                      std::optional<double> box_tests = {});
 
 /// What a step of a query shows.
 Caption query_caption(const Palette& palette, std::span<const DrawnAgent> sides, const RecordedQuery& recorded,

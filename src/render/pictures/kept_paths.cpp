@@ -1,3 +1,4 @@
+#include <explain/tree_cost.h>
 #include <render/layout/annotations.h>
 #include <render/pictures/kept_paths.h>
 #include <scene/crowd_scene.h>
@@ -49,6 +50,16 @@ const FloorLines& KeptPaths::boundary(const ViewState& view) {
     if (!boundary_ || boundary_->first != query)
         boundary_.emplace(query, floor_boundary(*fitted_, fitted_->queries()[static_cast<std::size_t>(query)]));
     return boundary_->second;
+}
+
+double KeptPaths::box_tests() {
+    if (!box_tests_) {
+        const auto& trees = fitted_->fits()[fitted_->fit_in_use()]->trees;
+        double sum = 0;
+        for (const auto& tree : trees) sum += standard_cost(tree).tests.boxes();
+        box_tests_ = sum / static_cast<double>(trees.size());
+    }
+    return *box_tests_;
 }
 
 /// Where everybody is hidden, the picture still has its place.

@@ -67,6 +67,7 @@ class SpaceTimePicture final : public Picture {
         if (view_.boxes && test()) add_query_boxes(list_, agents_, *test(), pair_outline(view_), metrics_.scale);
         const bool levels = view_.boxes && !view_.query;
         if (levels) add_level_boxes(list_, agents_, view_.levels, view_.color_by, metrics_.scale);
+        if (levels && view_.cost) box_tests_ = kept.box_tests();
         const bool behind = levels && view_.color_by == ColorBy::level;
         framed_ = kept.add_disks_of(list_, agents_, view_, foci_of(agents_, emphasis_, test(), behind));
         if (!view_.disks) list_.disks = {};
@@ -114,7 +115,7 @@ class SpaceTimePicture final : public Picture {
         OverlayContents out;
         out.caption = replaces_test_ ? proof_caption(list_.palette, agents_, *recorded_, *walls_)
                       : recorded_    ? query_caption(list_.palette, agents_, *recorded_, *progress_)
-                                     : scene_caption(fitted_, agents_, view_);
+                                     : scene_caption(fitted_, agents_, view_, box_tests_);
         if (view_.time && !emphasis_.cursor) {
             mention_cursor_outside(out.caption, *view_.time, floor_extent_.t0, floor_extent_.t1);
         }
@@ -198,6 +199,7 @@ class SpaceTimePicture final : public Picture {
     bool replaces_test_ = false;               ///< the walls stand alone
     std::vector<WallGap> gaps_;
     FloorLines boundary_;
+    std::optional<double> box_tests_;  ///< for the caption
     Emphasis emphasis_;
 };
 
