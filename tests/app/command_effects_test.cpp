@@ -1,6 +1,7 @@
 // What each command does to the session, and that undo takes it back where it edits.
 #include <app/commands/picture_order.h>
 #include <render/drawlist/view_projection.h>
+#include <render/image/png.h>
 #include <render/pictures/build_draw_list.h>
 #include <review/review_screen.h>
 
@@ -37,6 +38,9 @@ struct CommandWorld {
             drawn = list;
             samples = wanted;
             return Image(list.size.width, list.size.height);
+        }
+        std::string file_bytes(const std::filesystem::path& /*file*/, const DrawList& list, int wanted) override {
+            return png_bytes(draw(list, wanted));
         }
     } maker;
 

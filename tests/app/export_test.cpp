@@ -94,6 +94,13 @@ TEST_F(ExportTest, TheCommandLineDrawsTheSameBytes) {
     expect_the_line_does_the_same("run query.none\nrun view.moment\nrun time.at 0.4\nrun picture.without none");
 }
 
+TEST_F(ExportTest, VectorFilesAreThoseOfTheCommandLine) {
+    for (const char* name : {"a picture's.svg", "a picture's.pdf"}) {
+        file = folder.file(name);
+        expect_the_line_does_the_same("run picture.file " + file.string() + "\nrun go.node A 2");
+    }
+}
+
 TEST_F(ExportTest, TheLineOfASceneThatNoFileHoldsNamesATemporaryOne) {
     run("run go.agent A\nrun agent.nudge 1 0");
     ASSERT_TRUE(session.workspace.modified());

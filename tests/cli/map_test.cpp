@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -87,6 +88,21 @@ TEST(MapCommand, DrawsAPictureAndSaysHowManyCollide) {
         EXPECT_EQ(picture.width, 480);
         EXPECT_EQ(picture.height, 400);
         std::filesystem::remove(out);
+    }
+}
+
+TEST(MapCommand, AVectorFileNeedsNoOpenGl) {
+    const TempFolder folder;
+    for (const char* name : {"map.svg", "map.pdf"}) {
+        const std::string out = folder.path() / name;
+        const Result run = map_of({"--over", "dx=-5:5,dy=-5:5", "--cells", "8x8", "--backend", "egl", "-o", out});
+        ASSERT_EQ(run.status, 0) << run.err;
+        std::ifstream file(out);
+        const std::string text{std::istreambuf_iterator<char>(file), {}};
+        EXPECT_TRUE(text.starts_with("<?xml") || text.starts_with("%PDF-"));
+        if (out.ends_with(".svg")) {
+            EXPECT_NE(text.find(">B now</text>"), std::string::npos);
+        }
     }
 }
 

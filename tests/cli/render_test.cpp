@@ -116,7 +116,29 @@ TEST(Render, NothingThatItReadsIsReplaced) {
     EXPECT_TRUE(slurp(clip).starts_with("t,x,y,r"));
 }
 
-TEST(Render, OnlyPngIsWritten) {
+TEST_F(RenderTest, AVectorFileHoldsTheSamePictureEveryTime) {
+    const std::string svg = folder.path() / "a.svg", pdf = folder.path() / "a.pdf";
+    for (const std::string& file : {svg, pdf}) {
+        ASSERT_EQ(run_program(arguments(kCrossing, file)).status, 0);
+        const std::string first = slurp(file);
+        ASSERT_EQ(run_program(arguments(kCrossing, file)).status, 0);
+        EXPECT_TRUE(first == slurp(file)) << file;
+    }
+    const std::string text = slurp(svg);
+    EXPECT_NE(text.find(">crossing</text>"), std::string::npos);
+    EXPECT_NE(text.find("data:image/png;base64,"), std::string::npos);
+    EXPECT_TRUE(slurp(pdf).starts_with("%PDF-"));
+}
+
+TEST(Render, TheWholeWindowIsPngAlone) {
+    const TempFolder folder;
+    std::vector<std::string> window = arguments(kCrossing, folder.path() / "a.svg");
+    window.emplace_back("--ui");
+    expect_refused(run_program(window), 2, "the whole window is written as .png");
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Render, OnlyPicturesAreWritten) {
     const TempFolder folder;
     const std::string scene = folder.path() / "scene.json";
     std::filesystem::copy_file(kCrossing, scene);
