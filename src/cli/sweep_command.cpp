@@ -280,7 +280,7 @@ void print_sweep_text(const Scene& scene, const QueryWorkload& workload, const S
 void draw_sweep(const SweepCommandArguments& arguments, const Scene& scene, const QueryWorkload& workload,
                 const SweepResult& result) {
     Chart chart = sweep_chart(result).chart;
-    chart.title = result.why;
+    chart.title = result.why.substr(0, result.why.find(';'));  // all of it does not fit
     chart.caption = workload_words(workload, result, scene.clips.size());
     const DrawingArguments& drawing = arguments.drawing;
     const DrawList list = chart_picture({chart}, drawing.size, drawing.theme, drawing.scale).list;
