@@ -93,6 +93,7 @@ TEST(FitNotices, NothingIsShownWhereNothingStandsOut) {
 
 TEST(FitNotices, OneThatOnlyTheClipCouldMendSaysSo) {
     NoticesWindow w;
+    EXPECT_EQ(testing::refusal(w.session, "tree.see_finding", "1"), "the last finding is 0");
     EXPECT_EQ(testing::refusal(w.session, "tree.mend"),
               "no other fit mends that: the clip itself would have to change");
 }

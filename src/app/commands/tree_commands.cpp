@@ -72,21 +72,30 @@ template <class Use>
 void with_noticed(Session& session, const Use& use) {
     const int clip = clip_in_focus(session.workspace);
     session.notices.look(clip, [&session, clip, use] {
+        // It may be another by now.
+        if (session.workspace.empty() || clip_in_focus(session.workspace) != clip) return;
         FitNotices::Noticed* const noticed = session.notices.of(clip);
-        if (!noticed) return;  // the tree is another by now
+        if (!noticed) return;
         if (noticed->findings.empty())
             return session.notifications.tell(MessageLevel::info, "Nothing stands out in this fit");
         use(session, clip, *noticed);
     });
 }
 
-int finding_in(const std::string& text, const FitNotices::Noticed& noticed) {
-    return whole_number_in(text, "the number", 0, static_cast<int>(noticed.findings.size()) - 1);
+int number_of_finding(const std::string& text) {
+    return whole_number_in(text, "the number", 0, std::numeric_limits<int>::max());
+}
+
+/// Requires that there are findings; throws std::invalid_argument if it is none of them.
+const FitFinding& finding_at(const FitNotices::Noticed& noticed, int index) {
+    if (index >= static_cast<int>(noticed.findings.size()))
+        throw std::invalid_argument("the last finding is " + std::to_string(noticed.findings.size() - 1));
+    return noticed.findings[static_cast<std::size_t>(index)];
 }
 
 void see_finding(Session& session, int clip, FitNotices::Noticed& noticed, int index) {
+    const FitFinding found = finding_at(noticed, index);
     noticed.seen = index;
-    const FitFinding found = noticed.findings[static_cast<std::size_t>(index)];
     if (found.level >= 0) return run_command(session, "view.level", std::to_string(found.level));
     const auto path = player_of(session.workspace, clip);
     if (!path) throw std::invalid_argument("nobody plays that clip now");
@@ -97,23 +106,24 @@ void see_finding(Session& session, int clip, FitNotices::Noticed& noticed, int i
 }
 
 void see_finding_number(Session& session, const std::string& text) {
-    with_noticed(session, [text](Session& at, int clip, FitNotices::Noticed& noticed) {
-        see_finding(at, clip, noticed, finding_in(text, noticed));
+    with_noticed(session, [index = number_of_finding(text)](Session& at, int clip, FitNotices::Noticed& noticed) {
+        see_finding(at, clip, noticed, index);
     });
 }
 
 void next_finding(Session& session) {
     with_noticed(session, [](Session& at, int clip, FitNotices::Noticed& noticed) {
         const int next = (noticed.seen + 1) % static_cast<int>(noticed.findings.size());
-        at.notifications.tell(MessageLevel::info, noticed.findings[static_cast<std::size_t>(next)].text);
+        at.notifications.tell(MessageLevel::info, finding_at(noticed, next).text);
         see_finding(at, clip, noticed, next);
     });
 }
 
 void mend_finding(Session& session, const std::string& text) {
-    with_noticed(session, [text](Session& at, int, FitNotices::Noticed& noticed) {
-        const int index = text.empty() ? std::max(noticed.seen, 0) : finding_in(text, noticed);
-        const std::optional<mobb::FitOptions> mend = noticed.findings[static_cast<std::size_t>(index)].mend;
+    const std::optional<int> given = text.empty() ? std::nullopt : std::optional(number_of_finding(text));
+    with_noticed(session, [given](Session& at, int, FitNotices::Noticed& noticed) {
+        const std::optional<mobb::FitOptions> mend =
+            finding_at(noticed, given.value_or(std::max(noticed.seen, 0))).mend;
         if (!mend) throw std::invalid_argument("no other fit mends that: the clip itself would have to change");
         at.edits.refit({"mending the fit: " + mend_words(*mend, noticed.tree->options()), ""},
                        [mend](mobb::FitOptions& options) { options = *mend; });

@@ -22,7 +22,7 @@ FitNotices::Noticed* FitNotices::of(int clip) {
 
 void FitNotices::look(int clip, std::function<void()> then) {
     if (of(clip)) return then ? then() : void();
-    if (then) then_ = std::move(then);
+    if (options_.attended && then) then_ = std::move(then);
     if (job_) return;
     job_ = std::make_unique<Job>(
         "Looking at a fit",
@@ -37,6 +37,7 @@ void FitNotices::look(int clip, std::function<void()> then) {
     if (options_.attended) return;
     job_->wait(std::chrono::hours(24));
     poll();
+    if (then && of(clip)) then();
 }
 
 void FitNotices::poll() {
