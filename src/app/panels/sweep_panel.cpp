@@ -19,7 +19,7 @@ namespace {
 
 // Pixels at scale 1.
 constexpr float kChart = 190;
-constexpr float kNear = 14;  // of the mouse to a point
+constexpr float kNearPoint = 14;  // of the mouse to a point
 
 /// "938 ns"
 std::string cost_text(double cost) { return figure(cost, 3) + " ns"; }
@@ -49,7 +49,7 @@ void tell_row(const SweepResult& result, const SweepRow& row) {
     ImGui::SetTooltip("%sclick to fit the trees so", text.c_str());
 }
 
-void apply(const Ui& ui, const SweepRow& row) {
+void apply_row(const Ui& ui, const SweepRow& row) {
     ui.invoke("tree.fit", fit_text(row.fit, ui.workspace.fitted().options()));
 }
 
@@ -100,7 +100,7 @@ void cost_chart(Ui& ui, const SweepResult& result) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     std::optional<std::size_t> nearest;
     ImVec2 nearest_at{};
-    float least = ui.px(kNear);
+    float least = ui.px(kNearPoint);
     for (std::size_t series = 0; series < chart.rows.size(); ++series) {
         for (std::size_t i = 0; i < chart.rows[series].size(); ++i) {
             if (!points[series][i]) continue;
@@ -117,7 +117,7 @@ void cost_chart(Ui& ui, const SweepResult& result) {
     if (!hovered || !nearest) return;
     ImGui::GetWindowDrawList()->AddCircle(nearest_at, ui.px(6), ui.style.text, 0, ui.px(1.4f));
     tell_row(result, result.rows[*nearest]);
-    if (clicked) apply(ui, result.rows[*nearest]);
+    if (clicked) apply_row(ui, result.rows[*nearest]);
 }
 
 /// The level that is shown, over the time scale.
@@ -158,7 +158,7 @@ void best_rows(Ui& ui, const SweepResult& result) {
                      .name = sweep_words(fit.fit, result.order.present),
                      .remark = cost_text(fit.cost.mean) + "  " + change_text(result, fit),
                      .selected = fit.fit == ui.workspace.fitted().options()}))
-            apply(ui, fit);
+            apply_row(ui, fit);
         if (ImGui::IsItemHovered()) tell_row(result, fit);
     });
 }
@@ -178,7 +178,7 @@ void recommendation(Ui& ui, const SweepInspector::Shown& shown) {
     });
 }
 
-std::string workload_words(const SweepInspector::Shown& shown) {
+std::string asked_words(const SweepInspector::Shown& shown) {
     const std::string count = counted(shown.rows->queries, "query", "queries");
     if (shown.workload == QueryWorkload::Kind::queries) return count + " of this scene";
     return count + ": shift over " + figure(shown.area, 3) + " m\u00B2, start within \u00B1" + brief(shown.offset) +
@@ -198,7 +198,7 @@ void sweep_panel(Ui& ui, SweepInspector& sweeps) {
     if (shown && !shown->rows->rows.empty()) {
         cost_chart(ui, *shown->rows);
         best_rows(ui, *shown->rows);
-        words(ui.style.quiet, workload_words(*shown));
+        words(ui.style.quiet, asked_words(*shown));
         if (shown->curves) curves_chart(ui, sweeps, *shown->curves);
     } else if (!sweeps.is_running()) {
         words(ui.style.quiet,

@@ -9,7 +9,6 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr std::size_t kMostQueries = 16'000;
 constexpr std::uint64_t kSeed = 1;
 
 std::vector<mobb::ClipPtr> clips_of(const Scene& scene) {
@@ -31,7 +30,6 @@ SweepOrder SweepInspector::order() const {
     SweepOrder out = usual_sweep(workspace_.fitted().options());
     if (over_axes) set_over(out, "axes=all");
     if (over_time_scale) set_over(out, "time_scale=0.1:30");
-    out.most_queries = kMostQueries;
     return out;
 }
 

@@ -65,8 +65,8 @@ std::vector<ImportedClip> csv_clips(const CsvTable& table, const std::filesystem
 /// What a file has for each option; see ParsedFile::offer (import/import.h).
 ImportOffer csv_offer(const CsvTable& table, const std::filesystem::path& file, const ImportOptions& options);
 
-/// A field as it must stand in a file (RFC 4180): quoted where it holds a comma, a quote, a line break, or a blank at an
-/// end.
+/// A field as it must stand in a file (RFC 4180): quoted where it holds a comma, a quote, a line break, or a blank at
+/// an end.
 std::string csv_field(std::string_view text);
 
 }  // namespace mobbscope
