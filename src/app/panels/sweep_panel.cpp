@@ -166,14 +166,14 @@ void best_rows(Ui& ui, const SweepResult& result) {
 /// What is recommended, and the way to it.
 void recommendation(Ui& ui, const SweepInspector::Shown& shown) {
     const SweepResult& result = *shown.rows;
-    const bool keeps = result.recommended == result.present;
     framed(ui, to_im(with_alpha(ui.style.palette.separated, 0.14f)), to_im(ui.style.palette.separated), [&] {
+        // "moving boxes, leaf 34: 30 % less than MOBB, leaf 10, now" and ", over 4000 placements; ..."
+        const std::size_t end = std::min(result.why.find(", over "), result.why.size());
         ImGui::PushFont(ui.style.title);
-        const std::string name = sweep_words(result.rows[result.recommended].fit, result.order.present);
-        words(to_im(readable(ui.style.palette.separated, ui.style.palette)), keeps ? "keep " + name : name);
+        words(to_im(readable(ui.style.palette.separated, ui.style.palette)), result.why.substr(0, end));
         ImGui::PopFont();
-        words(ui.style.text, result.why);
         ui.mark_only("sweep.why");
+        words(ui.style.text, result.why.substr(std::min(end + 2, result.why.size())));
         command_button(ui, "Apply", "tree.sweep_apply", "sweep.apply");
     });
 }
