@@ -461,7 +461,7 @@ std::vector<ViewOption> all_view_options() {
              .what = "In the caption: the tests of boxes that a query of these trees makes in standard placements",
              .title = "Cost in the caption",
              .menu = "View/Show",
-             .draws = DrawnPart::surroundings,
+             .draws = DrawnPart::words,
              .may_be_seen = [](const ViewState& view) { return view.boxes && !view.query; }}),
         toggle<&ViewState::time_axis>({.key = "time_axis",
                                        .what = "The upright scale in seconds",
