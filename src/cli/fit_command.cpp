@@ -25,7 +25,7 @@ namespace {
 
 struct FitCommandArguments : FittedArguments {
     bool csv = false;
-    std::string what_if;  ///< a node; empty: none
+    std::optional<std::string> what_if;  ///< a node
 };
 
 void print_json(const FittedScene& fitted) {
@@ -123,32 +123,31 @@ void print_trees(const FittedScene& fitted) {
     }
 }
 
-/// Of every clip.
+/// Of every clip. Prints nothing if one has no such node.
 void print_variants(const FittedScene& fitted, const std::string& node, bool as_json) {
-    JsonWriter out(std::cout);
-    if (as_json) {
-        out.begin_object();
-        out.begin_array("what_if");
-    }
+    std::vector<ClipWhatIf> all;
     for (int i = 0; i < static_cast<int>(fitted.scene().clips.size()); ++i) {
         const std::string& clip = fitted.scene().clips[static_cast<std::size_t>(i)].name;
-        const ClipWhatIf found = what_if_of(clip, fitted.shared_tree(i), node);
-        as_json ? write_what_if(out, found) : print_what_if(found);
+        all.push_back(what_if_of(clip, fitted.shared_tree(i), node));
     }
-    if (as_json) {
-        out.end_array();
-        out.end_object();
+    if (!as_json) {
+        std::ranges::for_each(all, print_what_if);
+        return;
     }
+    JsonWriter out(std::cout);
+    out.begin_object();
+    out.list("what_if", all, [&out](const ClipWhatIf& found) { write_what_if(out, found); });
+    out.end_object();
 }
 
 void run_fit(const FitCommandArguments& arguments) {
     const FittedScene scene = fitted(load(arguments.file, arguments.import_options), arguments.fit);
-    if (arguments.what_if.empty()) {
+    if (!arguments.what_if) {
         const auto print = arguments.csv ? print_csv : arguments.json ? print_json : print_trees;
         print(scene);
     } else {
         try {
-            print_variants(scene, arguments.what_if, arguments.json);
+            print_variants(scene, *arguments.what_if, arguments.json);
         } catch (const std::invalid_argument& error) {
             throw InputError(arguments.file, error.what());
         }
@@ -160,8 +159,9 @@ void add_options_of_fit(Command& command, FitCommandArguments& arguments) {
     const Option json = add_fitted_options(command, arguments, "Levels and nodes as JSON");
     const Option csv = command.add_flag("--csv", arguments.csv, "Nodes as CSV, a row each").excludes(json);
     command
-        .add_option("--what-if", arguments.what_if,
-                    "What queries would cost if that node, such as 12 or 2.1, had another box or split", "NODE")
+        .add_option(
+            "--what-if", [&arguments](const std::string& node) { arguments.what_if = node; },
+            "What queries would cost if that node, such as 12 or 2.1, had another box or split", "NODE")
         .excludes(csv);
 }
 

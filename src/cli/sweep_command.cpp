@@ -2,6 +2,7 @@
 #include <base/file.h>
 #include <base/json_writer.h>
 #include <base/text.h>
+#include <cli/columns.h>
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
@@ -13,14 +14,13 @@
 #include <scene/load_files.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -52,7 +52,7 @@ struct RowFigures {
     bool all;  ///< over all queries
 };
 
-/// Calls `write` with each row over all clips; where there are several, also over each one.
+/// Calls `write` with each row over all clips; if there are several, also over each one that takes part in a query.
 template <class Write>
 void for_each_row(const Scene& scene, const SweepResult& result, Write write) {
     const bool single = scene.clips.size() == 1;
@@ -61,6 +61,7 @@ void for_each_row(const Scene& scene, const SweepResult& result, Write write) {
                          row.cost, true});
         for (std::size_t i = 0; i < row.clips.size(); ++i) {
             const SweepClip& clip = row.clips[i];
+            if (clip.queries == 0) continue;
             write(RowFigures{row, scene.clips[i].name, clip.queries, clip.tests, clip.cost, false});
         }
     }
@@ -69,6 +70,11 @@ void for_each_row(const Scene& scene, const SweepResult& result, Write write) {
 void write_options(JsonWriter& out, const mobb::FitOptions& fit) {
     out.members("tree", mobb::name(fit.tree), "leaf", fit.leaf, "axes", mobb::name(fit.axes), "time_scale",
                 fit.time_scale);
+}
+
+void write_options(JsonWriter& out, const mobb::FitOptions& fit) {
+    write_options(out, fit);
+    out.member("levels", fit.levels);
 }
 
 void write_row(JsonWriter& out, const RowFigures& figures, bool has_quantiles) {
@@ -137,15 +143,15 @@ void print_sweep_json(const Scene& scene, const QueryWorkload& workload, const S
 }
 
 void print_sweep_csv(const Scene& scene, const SweepResult& result) {
-    std::cout << "clip,tree,leaf,axes,time_scale,box_tests,sample_pairs,cost,standard_error,difference,"
+    std::cout << "clip,tree,leaf,axes,time_scale,levels,box_tests,sample_pairs,cost,standard_error,difference,"
                  "difference_error,p95,p99,max,nodes,bytes,queries\n";
     const bool has_quantiles = result.order.cost == SweepCost::price;
     for_each_row(scene, result, [&](const RowFigures& figures) {
         const mobb::FitOptions& fit = figures.row.fit;
         std::cout << csv_field(figures.clip.value_or("")) << ',' << mobb::name(fit.tree) << ',' << fit.leaf << ','
-                  << mobb::name(fit.axes) << ',' << format_double(fit.time_scale);
+                  << mobb::name(fit.axes) << ',' << format_double(fit.time_scale) << ',' << fit.levels;
         const auto number = [](double value, bool known = true) {
-            std::cout << ',' << (known ? format_double(value) : "");
+            std::cout << ',' << (known && std::isfinite(value) ? format_double(value) : "");
         };
         number(figures.tests.boxes());
         number(figures.tests[mobb::TestKind::samples]);
@@ -190,25 +196,14 @@ std::vector<std::size_t> shown_rows(const SweepResult& result) {
     return lines;
 }
 
-/// Cells under each other: the first column to the left, the others to the right.
-void print_table(const std::vector<std::vector<std::string>>& lines) {
-    std::vector<std::size_t> widths(lines.front().size());
-    for (const std::vector<std::string>& line : lines) {
-        for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
-    }
-    for (const std::vector<std::string>& line : lines) {
-        std::cout << ' ' << line[0] << std::string(widths[0] - line[0].size(), ' ');
-        for (std::size_t i = 1; i < line.size(); ++i) {
-            std::cout << "   " << std::string(widths[i] - line[i].size(), ' ') << line[i];
-        }
-        std::cout << '\n';
-    }
-}
-
-std::string workload_words(const QueryWorkload& workload, const SweepResult& result, std::size_t clips) {
+std::string workload_words(const Scene& scene, const QueryWorkload& workload, const SweepResult& result) {
+    const std::size_t clips = scene.clips.size();
     std::string out = counted(clips, "clip", "clips") + ", ";
-    if (workload.kind == QueryWorkload::Kind::queries)
-        return out + counted(result.queries, "query", "queries") + " of the scene";
+    if (workload.kind == QueryWorkload::Kind::queries) {
+        const std::size_t all = query_count(scene);
+        if (result.queries < all) out += std::to_string(result.queries) + " of ";
+        return out + counted(all, "query", "queries") + " of the scene";
+    }
     out += counted(result.queries, "standard placement", "standard placements");
     out += clips == 1 ? " of it against itself" : " of each against each and itself";
     return out + " (shift over " + figure(workload.area, 3) + " m^2, start within +-" + figure(workload.offset, 3) +
@@ -225,6 +220,10 @@ std::pair<std::string, std::string> applied(const mobb::FitOptions& fit) {
         options += " --leaf " + leaf;
         json += ", \"leaf\": " + leaf;
     }
+    if (kind.splits() && fit.levels != 0) {
+        options += " --levels " + std::to_string(fit.levels);
+        json += ", \"levels\": " + std::to_string(fit.levels);
+    }
     if (kind.chooses_axes()) {
         options += " --axes " + axes;
         json += ", \"axes\": \"" + axes + '"';
@@ -239,7 +238,7 @@ std::pair<std::string, std::string> applied(const mobb::FitOptions& fit) {
 std::vector<std::string> cells_of(const SweepResult& result, std::size_t row) {
     const SweepRow& of = result.rows[row];
     const bool is_best = row == result.recommended, has_quantiles = result.order.cost == SweepCost::price;
-    const auto cell = [](double value) { return figure(value, 3); };
+    const auto cell = [](double value) { return std::isfinite(value) ? figure(value, 3) : "-"; };
     const auto quantile = [&](double value) { return has_quantiles ? cell(value) : "-"; };
     const double more = 100 * of.difference / result.rows[result.recommended].cost.mean;
     return {
@@ -257,14 +256,17 @@ std::vector<std::string> cells_of(const SweepResult& result, std::size_t row) {
 }
 
 void print_sweep_text(const Scene& scene, const QueryWorkload& workload, const SweepResult& result) {
-    std::cout << workload_words(workload, result, scene.clips.size()) << '\n';
-    std::vector<std::vector<std::string>> table{
-        {"fit", "cost", "+-", "against best", "box tests", "sample pairs", "p95", "p99", "max", "nodes", "memory"}};
-    for (const std::size_t i : shown_rows(result)) table.push_back(cells_of(result, i));
-    const std::size_t shown = table.size() - 1;
-    print_table(table);
+    std::cout << workload_words(scene, workload, result) << '\n';
+    std::vector<Column> table{{"fit"}, {"cost"}, {"+-"},  {"against *"}, {"box tests"}, {"sample pairs"},
+                              {"p95"}, {"p99"},  {"max"}, {"nodes"},     {"memory"}};
+    const std::vector<std::size_t> shown = shown_rows(result);
+    for (const std::size_t row : shown) {
+        const std::vector<std::string> cells = cells_of(result, row);
+        for (std::size_t i = 0; i < cells.size(); ++i) table[i].push_back(cells[i]);
+    }
+    print_columns(table, true);
     std::cout << " cost of a query in " << unit_of(result.order.cost);
-    if (shown < result.rows.size())
+    if (shown.size() < result.rows.size())
         std::cout << "; " << result.rows.size() << " fits were tried, --csv and --json have them all";
     std::cout << '\n' << result.why << '\n';
     for (const SweepException& exception : result.exceptions) {
@@ -279,9 +281,9 @@ void print_sweep_text(const Scene& scene, const QueryWorkload& workload, const S
 
 void draw_sweep(const SweepCommandArguments& arguments, const Scene& scene, const QueryWorkload& workload,
                 const SweepResult& result) {
-    Chart chart = sweep_chart(result).chart;
+    Chart chart = sweep_chart(result, result.present).chart;
     chart.title = result.why.substr(0, result.why.find(';'));  // all of it does not fit
-    chart.caption = workload_words(workload, result, scene.clips.size());
+    chart.caption = workload_words(scene, workload, result);
     const DrawingArguments& drawing = arguments.drawing;
     const DrawList list = chart_picture({chart}, drawing.size, drawing.theme, drawing.scale).list;
     write_file(arguments.out, picture_bytes(arguments.out, list, kPictureSamples, drawing.backend));
@@ -304,10 +306,11 @@ void run_sweep(SweepCommandArguments& arguments) {
         throw InputError(arguments.file,
                          "there is nothing to ask; add queries, or two agents at least, or leave out --queries scene");
     }
-    const QueryWorkload workload =
-        arguments.of_scene ? scene_workload(scene) : standard_workload(clips, order.most_queries, arguments.seed);
+    const QueryWorkload workload = arguments.of_scene ? scene_workload(scene, order.most_queries)
+                                                      : standard_workload(clips, order.most_queries, arguments.seed);
     if (!arguments.out.empty()) check_output(arguments.out);
-    const SweepResult result = sweep_fits(clips, workload, order, tell("tried", "fits"));
+    const SweepResult result =
+        at_place(arguments.file, "", [&] { return sweep_fits(clips, workload, order, tell("tried", "fits")); });
     if (!arguments.out.empty()) draw_sweep(arguments, scene, workload, result);
     if (arguments.csv) {
         print_sweep_csv(scene, result);
@@ -328,7 +331,7 @@ void add_sweep_options(Command& command, SweepCommandArguments& arguments) {
     command.add_repeated_option(
         "--over", [&arguments](const std::string& text) { set_over(arguments.over, text); },
         "What is varied, one option each time: tree=all or mobb,umobb; leaf=1:200 or 5,10,20; axes=all; "
-        "time_scale=0.1:30. Of a range A:B as many values as needed (tree=all and leaf=1:200)",
+        "time_scale=0.1:30. A range A:B is tried at as many values as needed (tree=all and leaf=1:200)",
         "NAME=VALUES");
     const auto set_queries = [&arguments](const std::string& text) {
         arguments.of_scene = text == "scene";
@@ -344,7 +347,7 @@ void add_sweep_options(Command& command, SweepCommandArguments& arguments) {
                        "scene, for the scene's own queries; or how many standard placements of its clips at most "
                        "(16000)",
                        "scene|N");
-    add_parsed(command, "--seed", arguments.seed, parse_seed, "Of the placements (1)", "S");
+    add_parsed(command, "--seed", arguments.seed, parse_seed, "Seed of the placements (1)", "S");
     add_parsed(command, "--cost", arguments.over.cost, one_of(sweep_cost_from_name, "price, time"),
                "price (tests times what each costs: the same everywhere) or time (measured on one thread) (price)",
                "WHAT");

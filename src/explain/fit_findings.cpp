@@ -51,18 +51,19 @@ std::string seconds(double time) { return figure(time, 3) + " s"; }
 /// Other fits, and other clips, asked the queries that the tree is asked.
 class Trials {
   public:
-    Trials(const mobb::Tree& tree, QueryWorkload workload)
+    Trials(const mobb::Tree& tree, QueryWorkload workload, const Progress& progress)
         : tree_(tree),
           workload_(std::move(workload)),
+          progress_(progress),
           // The tree is the caller's.
           now_(costs_of(std::shared_ptr<const mobb::Tree>(std::shared_ptr<void>(), &tree))) {}
 
-    /// The part of the cost that the other one saves; 0 or less where it may be chance.
+    /// The part of the cost that the other one saves; 0 where it saves nothing, or where that may be chance.
     double saved_by(std::shared_ptr<const mobb::Tree> other) const {
         std::vector<double> saved = costs_of(std::move(other));
         for (std::size_t i = 0; i < saved.size(); ++i) saved[i] = now_[i] - saved[i];
         const Spread spread = spread_of(saved);
-        if (spread.mean < kSureErrors * spread.standard_error) return std::min(0.0, spread.mean);
+        if (spread.mean <= kSureErrors * spread.standard_error) return 0;
         return spread.mean / spread_of(now_).mean;
     }
     double saved_by(const mobb::FitOptions& other) const {
@@ -71,14 +72,16 @@ class Trials {
 
   private:
     std::vector<double> costs_of(std::shared_ptr<const mobb::Tree> tree) const {
+        const MeanTests& prices = prices_of(tree->options().tree);
         std::vector<double> out;
-        for (const mobb::TestCounts& tests : count_tests(workload_, std::array{std::move(tree)}))
-            out.push_back(cost_of(tests));
+        for (const mobb::TestCounts& tests : count_tests(workload_, std::array{std::move(tree)}, 0, progress_))
+            out.push_back(cost_of(tests, prices));
         return out;
     }
 
     const mobb::Tree& tree_;
     QueryWorkload workload_;
+    const Progress& progress_;
     std::vector<double> now_;
 };
 
@@ -115,8 +118,8 @@ std::optional<FitFinding> loose_levels(const mobb::Tree& tree, const Trials& tri
     if (const auto steeper = steeper_fit(tree)) {
         out.text += " at " + figure(now.time_scale, 3) + " m/s they lean too far, at " +
                     figure(steeper->options.time_scale, 3) + " m/s they end at " + figure(steeper->volume, 3) + ';';
-        out.mend = steeper->options;
         out.cost = trials.saved_by(steeper->options);
+        if (out.cost > 0) out.mend = steeper->options;
     }
     std::optional<mobb::FitOptions> other;
     for (const mobb::TreeKind kind : {mobb::TreeKind::moving, mobb::TreeKind::mobb}) {
@@ -329,7 +332,7 @@ std::optional<FitFinding> spoiling(const mobb::Tree& tree, const Trials& trials,
     found.text += ": without " + std::string(odd.of > 1 ? "them " : "it ") + counted(spoiled, "box", "boxes") +
                   " around it would take " + figure(then, 3) + " rather than " + volume_words(now) + '.';
     found.sample = odd.sample;
-    found.cost = std::max(0.0, trials.saved_by(without));
+    found.cost = trials.saved_by(without);
     return found;
 }
 
@@ -360,14 +363,19 @@ std::optional<FitFinding> radius_spike(const mobb::Tree& tree, const Trials& tri
 }  // namespace
 
 std::string mend_words(const mobb::FitOptions& mend, const mobb::FitOptions& now) {
-    if (mend.tree != now.tree) return std::string(mobb::info(mend.tree).label);
-    if (mend.time_scale != now.time_scale) return figure(mend.time_scale, 3) + " m/s";
-    return "leaf " + std::to_string(mend.leaf);
+    std::string out;
+    const auto say = [&out](const std::string& what) { out += (out.empty() ? "" : ", ") + what; };
+    if (mend.tree != now.tree) say(std::string(mobb::info(mend.tree).label));
+    if (mend.time_scale != now.time_scale) say(figure(mend.time_scale, 3) + " m/s");
+    if (mend.leaf != now.leaf) say("leaf " + std::to_string(mend.leaf));
+    if (mend.levels != now.levels) say(mend.levels == 0 ? "all levels" : "levels " + std::to_string(mend.levels));
+    return out;
 }
 
 std::string_view name(FitFinding::Kind kind) { return kKindNames[static_cast<std::size_t>(kind)]; }
 
-std::vector<FitFinding> fit_findings(const mobb::Tree& tree, const std::optional<ExpectedCost>& expected) {
+std::vector<FitFinding> fit_findings(const mobb::Tree& tree, const std::optional<ExpectedCost>& expected,
+                                     const Progress& progress) {
     std::vector<FitFinding> out;
     const auto add = [&](std::optional<FitFinding> found) {
         if (found) out.push_back(std::move(*found));
@@ -375,7 +383,7 @@ std::vector<FitFinding> fit_findings(const mobb::Tree& tree, const std::optional
     QueryWorkload workload = standard_workload(std::array{tree.shared_clip()}, kPlacements, 0);
     // Around clips at the end of the world nothing can be placed.
     if (!std::ranges::all_of(workload.queries, mobb::is_valid, &ClipQuery::place_b)) return {};
-    const Trials trials(tree, std::move(workload));
+    const Trials trials(tree, std::move(workload), progress);
     if (mobb::info(tree.options().tree).splits()) {
         add(loose_levels(tree, trials));
         add(leaves(tree, trials));

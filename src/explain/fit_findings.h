@@ -31,12 +31,14 @@ struct FitFinding {
 /// As in files: "loose_levels", "small_leaves", ...
 std::string_view name(FitFinding::Kind kind);
 
-/// What a mend changes, in short: "MOBB", "leaf 40", "8 m/s".
+/// What a mend changes, in short: "MOBB", "leaf 40, all levels", "8 m/s".
 std::string mend_words(const mobb::FitOptions& mend, const mobb::FitOptions& now);
 
 /// One of each kind at most, the most costly first. Costs are counted (tests times price), of the fit and of what would
 /// mend it, on the same standard placements of the clip against itself. `expected`: of the tree against itself; without
-/// it no node is found costly.
-std::vector<FitFinding> fit_findings(const mobb::Tree& tree, const std::optional<ExpectedCost>& expected);
+/// it no node is found costly. `progress` is told of the placements of each fit that is tried; it may throw to end the
+/// work.
+std::vector<FitFinding> fit_findings(const mobb::Tree& tree, const std::optional<ExpectedCost>& expected,
+                                     const Progress& progress = {});
 
 }  // namespace mobbscope

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <iterator>
@@ -26,20 +27,27 @@ namespace mobbscope {
 namespace {
 
 constexpr std::size_t kFirstValues = 12;     // of a range
-constexpr std::size_t kFirstQueries = 4000;  // of placements; a scene's are all asked
+constexpr std::size_t kFirstQueries = 4096;  // of placements; a scene's are all asked
+constexpr std::size_t kStretch = 64;         // queries that are measured together, at least
 constexpr std::size_t kMostRows = 5000;
 constexpr double kMostLeaf = 1e6;
-constexpr double kSame = 0.01;       // costs nearer than this share are as good as equal
-constexpr double kContender = 0.05;  // kinds within this share of the best are looked at as closely
-constexpr double kException = 0.05;  // a clip that would be served better by this share is named
-constexpr double kTold = 3;          // standard errors that tell two fits apart
-constexpr double kNextScale = 1.02;  // time scales nearer than this factor are neighbours
+constexpr double kSame = 0.01;                 // costs nearer than this share are as good as equal
+constexpr double kContender = 0.05;            // kinds within this share of the best are looked at as closely
+constexpr double kException = 0.05;            // a clip that would be served better by this share is named
+constexpr std::size_t kExceptionQueries = 30;  // fewer say too little of a clip
+constexpr double kTold = 3;                    // standard errors that tell two fits apart
+constexpr double kNextScale = 1.02;            // time scales nearer than this factor are neighbours
 
 constexpr std::array<std::string_view, 2> kCostNames{"price", "time"};
 constexpr std::array<std::string_view, 4> kOptions{"tree", "leaf", "axes", "time_scale"};
 
 /// Three significant digits.
 double rounded(double value) { return parse_double(formatted("%.3g", value)).value_or(value); }
+
+/// For people; whole numbers in full.
+std::string in_full(double value) {
+    return value == std::round(value) && std::abs(value) < 1e15 ? formatted("%.0f", value) : brief(value);
+}
 
 double middle(double low, double high, bool whole) {
     const double factor = std::sqrt(low * high);
@@ -58,7 +66,8 @@ std::vector<double> spread_over(double from, double to, bool whole) {
     for (std::size_t i = 0; i < kFirstValues; ++i) {
         const double share = static_cast<double>(i) / static_cast<double>(kFirstValues - 1);
         const double value = from * std::pow(to / from, share);
-        out.push_back(i == 0 ? from : i + 1 == kFirstValues ? to : whole ? std::round(value) : rounded(value));
+        const double near = std::clamp(whole ? std::round(value) : rounded(value), from, to);
+        out.push_back(i == 0 ? from : i + 1 == kFirstValues ? to : near);
     }
     out.erase(std::unique(out.begin(), out.end()), out.end());
     return out;
@@ -102,12 +111,22 @@ struct Difference {
     double mean = 0, error = 0;
 };
 
+/// Of two fits on the same queries.
 Difference difference(const std::vector<double>& costs, const std::vector<double>& from) {
-    std::vector<double> differences(costs.size());
-    for (std::size_t i = 0; i < costs.size(); ++i) differences[i] = costs[i] - from[i];
-    const Spread spread = spread_of(differences);
-    return {spread.mean, spread.standard_error};
+    assert(costs.size() == from.size());
+    const auto count = static_cast<double>(costs.size());
+    double sum = 0, squares = 0;
+    for (std::size_t i = 0; i < costs.size(); ++i) sum += costs[i] - from[i];
+    const double mean = sum / count;
+    for (std::size_t i = 0; i < costs.size(); ++i) {
+        const double off = costs[i] - from[i] - mean;
+        squares += off * off;
+    }
+    return {mean, standard_error(squares, costs.size())};
 }
+
+/// Whether a fit costs more than another for sure. A single number does not say.
+bool is_sure(const Difference& more) { return more.mean >= kTold * more.error; }
 
 /// Fits that differ by what is searched as a range alone.
 struct Family {
@@ -123,13 +142,10 @@ class FitSearch {
     FitSearch(std::span<const mobb::ClipPtr> clips, const QueryWorkload& workload, const SweepOrder& order,
               const Progress& progress, const SweepPass& pass)
         : clips_(clips), order_(order), progress_(progress), pass_(pass), sizes_(node_sizes(clips)) {
-        const std::size_t count = workload.queries.size(), most = std::max<std::size_t>(order.most_queries, 1);
-        // Of a scene's queries that are too many, such as a crowd's, evenly many of all.
-        const bool thin = workload.kind == QueryWorkload::Kind::queries && count > most;
-        const std::size_t taken = std::min(count, most);
-        for (std::size_t i = 0; i < taken; ++i) queries_.push_back(workload.queries[thin ? i * count / taken : i]);
-        asked_ = workload.kind == QueryWorkload::Kind::queries ? taken : std::min(kFirstQueries, taken);
+        const std::size_t most = std::max<std::size_t>(order.most_queries, 1);
+        queries_ = std::span(workload.queries).first(std::min(workload.queries.size(), most));
         placements_ = workload.kind == QueryWorkload::Kind::placements;
+        asked_ = to_ask(placements_ ? kFirstQueries : queries_.size());
     }
 
     SweepResult run() {
@@ -147,6 +163,21 @@ class FitSearch {
   private:
     const Measured& at(std::size_t point) const { return *measured_[point]; }
 
+    /// All queries are divided into stretches of equal size, give or take one query. So a fit that is measured in parts
+    /// has the same stretches as one that is measured at once.
+    std::size_t stretch_count() const { return std::max<std::size_t>(queries_.size() / kStretch, 1); }
+    std::size_t stretch_begin(std::size_t stretch) const { return stretch * queries_.size() / stretch_count(); }
+    /// The first that begins at that query or later.
+    std::size_t stretch_from(std::size_t query) const {
+        return (query * stretch_count() + queries_.size() - 1) / queries_.size();
+    }
+
+    /// About so many queries, of which measured time has whole stretches.
+    std::size_t to_ask(std::size_t count) const {
+        const std::size_t some = std::min(count, queries_.size());
+        return order_.cost == SweepCost::time ? stretch_begin(stretch_from(some)) : some;
+    }
+
     /// The options that matter to a kind; the others as they are now.
     mobb::FitOptions that_matter(mobb::FitOptions fit) const {
         const mobb::TreeInfo& kind = mobb::info(fit.tree);
@@ -162,6 +193,7 @@ class FitSearch {
     void add(Family& family, const mobb::FitOptions& fit) {
         const std::pair<double, int> place{fit.time_scale, fit.leaf};
         if (family.points.contains(place)) return;
+        if (is_full()) throw std::invalid_argument(too_many());
         const int size = *std::prev(std::ranges::upper_bound(sizes_, std::max(fit.leaf, 1)));
         const auto [known, is_new] =
             same_trees_.try_emplace({fit.tree, fit.axes, fit.time_scale, size}, measured_.size());
@@ -169,8 +201,10 @@ class FitSearch {
         family.points.emplace(place, known->second);
         family.leaves.insert(fit.leaf);
         family.scales.insert(fit.time_scale);
-        if (++rows_ > kMostRows) throw std::invalid_argument(too_many());
+        ++rows_;
     }
+
+    bool is_full() const { return rows_ >= kMostRows; }
 
     static std::string too_many() {
         return "a sweep has " + std::to_string(kMostRows) + " fits at most; give fewer values, or a range A:B";
@@ -215,6 +249,8 @@ class FitSearch {
         }
         for (auto& [key, family] : families) families_.push_back(std::move(family));
         add_present();
+        const auto searched = static_cast<std::size_t>(std::ranges::count_if(families_, &Family::scale_range));
+        if (rows_ + searched * kFirstValues > kMostRows) throw std::invalid_argument(too_many());
     }
 
     static std::set<double> values_of(const SweepValues& range, bool whole) {
@@ -222,22 +258,27 @@ class FitSearch {
         return {values.begin(), values.end()};
     }
 
+    /// The present fit joins the family whose list or range has it. Otherwise it stands alone, so that no search leaves
+    /// its range.
     void add_present() {
-        for (Family& family : families_) {
+        const mobb::FitOptions& present = order_.present;
+        const auto is_in = [](const SweepValues& range, double value) {
+            return range.values[0] <= value && value <= range.values[1];
+        };
+        const auto takes = [&](const Family& family) {
             const auto& [place, first] = *family.points.begin();
             mobb::FitOptions fit = at(first).fit;
-            fit.leaf = order_.present.leaf;
-            fit.time_scale = order_.present.time_scale;
-            // Only of ranges, or where it is among the points.
-            const bool leaf_fits = family.leaf_range || family.points.begin()->first.second == fit.leaf;
-            const bool scale_fits = family.scale_range || place.first == fit.time_scale;
-            if (fit == order_.present && leaf_fits && scale_fits) {
-                add(family, fit);
-                return;
-            }
-        }
-        families_.emplace_back();
-        add(families_.back(), order_.present);
+            fit.leaf = present.leaf;
+            fit.time_scale = present.time_scale;
+            return fit == present &&
+                   (family.leaf_range ? is_in(order_.leaf, present.leaf) : place.second == present.leaf) &&
+                   (family.scale_range ? is_in(order_.time_scale, present.time_scale)
+                                       : place.first == present.time_scale);
+        };
+        auto family = std::ranges::find_if(families_, takes);
+        if (family == families_.end()) family = families_.insert(families_.end(), Family{});
+        add(*family, present);
+        present_ = family->points.at({present.time_scale, present.leaf});
     }
 
     /// Of two ranges the second is tried at the best of the first.
@@ -259,12 +300,15 @@ class FitSearch {
         for (std::size_t i = 0; i < measured_.size(); ++i) {
             if (at(i).costs.empty()) fresh.push_back(i);
         }
+        // The present fit comes first: what is shown is compared with it.
+        const auto present = std::ranges::find(fresh, present_);
+        if (present != fresh.end()) std::rotate(fresh.begin(), present, present + 1);
         measure(fresh, 0);
     }
 
     void ask_more() {
         const std::size_t first = asked_;
-        asked_ = std::min(2 * asked_, queries_.size());
+        asked_ = to_ask(2 * asked_);
         std::vector<std::size_t> all(measured_.size());
         for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
         done_ = 0;
@@ -329,7 +373,6 @@ class FitSearch {
     }
 
     void time_in_turns(std::span<const std::size_t> points, const std::vector<Trees>& trees, std::size_t first) {
-        constexpr std::size_t kStretch = 64;
         constexpr int kRounds = 5;
         std::vector<Measured> more;
         for (std::size_t i = 0; i < points.size(); ++i) {
@@ -341,15 +384,16 @@ class FitSearch {
             }
             tell(0);
         }
-        const std::size_t stretches = (asked_ - first + kStretch - 1) / kStretch;
-        std::vector<std::vector<double>> least(points.size(),
-                                               std::vector<double>(stretches, std::numeric_limits<double>::infinity()));
+        const std::size_t begin = stretch_from(first), end = stretch_from(asked_);
+        std::vector<std::vector<double>> least(
+            points.size(), std::vector<double>(end - begin, std::numeric_limits<double>::infinity()));
         for (int round = 0; round < kRounds; ++round) {
-            for (std::size_t stretch = 0; stretch < stretches; ++stretch) {
-                const std::size_t from = first + stretch * kStretch, to = std::min(from + kStretch, asked_);
+            for (std::size_t stretch = begin; stretch < end; ++stretch) {
+                const std::size_t from = stretch_begin(stretch), count = stretch_begin(stretch + 1) - from;
                 for (std::size_t i = 0; i < points.size(); ++i) {
-                    const double taken = time_queries(trees[i], std::span(queries_).subspan(from, to - from));
-                    least[i][stretch] = std::min(least[i][stretch], taken / static_cast<double>(to - from));
+                    const double taken = time_queries(trees[i], queries_.subspan(from, count));
+                    double& of = least[i][stretch - begin];
+                    of = std::min(of, taken / static_cast<double>(count));
                 }
                 tell(0);
             }
@@ -369,7 +413,7 @@ class FitSearch {
                 placed.push_back(place(asked.clip_b, asked.place_b));
             }
             const auto begin = ThreadClock::now();
-            for (std::size_t i = 0; i < placed.size(); i += 2) hits_ += mobb::query(placed[i], placed[i + 1]) ? 1 : 0;
+            for (std::size_t i = 0; i < placed.size(); i += 2) hits_ += mobb::query(placed[i], placed[i + 1]) ? 1U : 0U;
             return nanoseconds(ThreadClock::now() - begin);
         };
         const auto tree = [&](int clip) -> const mobb::Tree& { return *trees[static_cast<std::size_t>(clip)]; };
@@ -386,7 +430,8 @@ class FitSearch {
         measured_[point] = std::move(ready);
         tell_locked(1);
         // While more queries are asked, rows cannot be compared.
-        if (show && Clock::now() - shown_ > kBetweenPasses) tell_rows();
+        const bool can_compare = show && !at(present_).costs.empty();
+        if (can_compare && Clock::now() - shown_ > kBetweenPasses) tell_rows();
     }
 
     void tell(std::size_t more) {
@@ -399,8 +444,8 @@ class FitSearch {
     }
 
     void tell_rows() {
-        shown_ = Clock::now();
         if (pass_) pass_(std::make_shared<const SweepResult>(result(false)));
+        shown_ = Clock::now();
     }
 
     struct Place {
@@ -467,6 +512,7 @@ class FitSearch {
         };
         const auto look_at = [&](double next) {
             const auto known = family.points.find({with(next).time_scale, with(next).leaf});
+            if (is_full()) return;
             if (known == family.points.end()) {
                 add(family, with(next));
                 return;
@@ -489,12 +535,12 @@ class FitSearch {
         return std::ranges::all_of(leading(), [this](std::size_t leader) {
             return std::ranges::none_of(measured_, [&](const auto& other) {
                 const Difference apart = difference(other->costs, at(leader).costs);
-                return apart.mean > kSame * at(leader).mean() && apart.mean < kTold * apart.error;
+                return apart.mean > kSame * at(leader).mean() && !is_sure(apart);
             });
         });
     }
 
-    /// The rows that are known.
+    /// The rows that are known; the present one is among them.
     SweepResult result(bool is_last) const {
         SweepResult out{.order = order_};
         out.queries = asked_;
@@ -512,18 +558,14 @@ class FitSearch {
             const mobb::FitOptions& fit = row.first;
             return std::tuple(fit.tree, fit.axes, fit.time_scale, fit.leaf);
         });
-        const mobb::FitOptions present = that_matter(order_.present);
-        std::size_t best = 0, now = rows.size();
+        std::size_t best = 0;
         for (std::size_t i = 0; i < rows.size(); ++i) {
-            if (rows[i].first == present) now = i;
+            if (rows[i].first == order_.present) out.present = i;
             if (at(rows[i].second).mean() < at(rows[best].second).mean()) best = i;
         }
-        if (rows.empty()) return out;
-        const bool has_present = now < rows.size();
-        out.present = has_present ? now : best;
         const double least = at(rows[best].second).mean();
-        const bool stays = has_present && at(rows[now].second).mean() <= least * (1 + kSame);
-        out.recommended = stays ? now : best;
+        const bool stays = at(rows[out.present].second).mean() <= least * (1 + kSame);
+        out.recommended = stays ? out.present : best;
         const Measured& chosen = at(rows[out.recommended].second);
         for (const auto& [fit, point] : rows) {
             const Measured& of = at(point);
@@ -598,10 +640,10 @@ class FitSearch {
             for (std::size_t row = 0; row < rows.size(); ++row) {
                 if (out.rows[row].clips[clip].cost.mean < out.rows[best].clips[clip].cost.mean) best = row;
             }
-            if (best == out.recommended) continue;
+            if (best == out.recommended || queries.size() < kExceptionQueries) continue;
             const double chosen = out.rows[out.recommended].clips[clip].cost.mean;
             const Difference saved = difference(costs(out.recommended), costs(best));
-            if (saved.mean > kException * chosen && saved.mean >= kTold * saved.error)
+            if (saved.mean > kException * chosen && is_sure(saved))
                 out.exceptions.push_back({static_cast<int>(clip), best, saved.mean / chosen});
         }
     }
@@ -623,10 +665,12 @@ class FitSearch {
         } else {
             const auto percent = [&](double cost) { return figure(100 * cost / now.cost.mean, 2) + " %"; };
             text += ": " + percent(now.difference);
-            if (now.difference < kTold * now.difference_error) {
+            if (std::isnan(now.difference_error)) {
+                text += asked_ == 1 ? " (of one query)" : " (of one measurement)";
+            } else if (!is_sure({now.difference, now.difference_error})) {
                 text += " (+-" + percent(now.difference_error) + ")";
             }
-            text += " less than " + sweep_words(now.fit, order_.present) + ", now" + over;
+            text += " less than " + sweep_words(now.fit, order_.present) + " (now)" + over;
         }
         if (out.flat_from != out.flat_to) {
             const mobb::FitOptions &from = out.rows[out.flat_from].fit, &to = out.rows[out.flat_to].fit;
@@ -660,17 +704,18 @@ class FitSearch {
     const Progress& progress_;
     const SweepPass& pass_;
     std::vector<int> sizes_;
-    std::vector<ClipQuery> queries_;
+    std::span<const ClipQuery> queries_;
     bool placements_ = true;
     std::size_t asked_ = 0;  ///< of the queries
     std::vector<Family> families_;
     std::size_t rows_ = 0;
     std::vector<std::shared_ptr<const Measured>> measured_;
+    std::size_t present_ = 0;  ///< what was measured of the present fit
     std::map<std::tuple<mobb::TreeKind, mobb::Axes, double, int>, std::size_t> same_trees_;
     std::mutex telling_;
     std::size_t done_ = 0;
     Clock::time_point shown_ = Clock::now();
-    int hits_ = 0;  // what measured queries answer is used, or they would not be asked
+    std::size_t hits_ = 0;  // what measured queries answer is used, or they would not be asked
 };
 
 [[noreturn]] void refuse(std::string_view option, std::string_view value, const std::string& give) {
@@ -714,11 +759,11 @@ SweepValues parse_values(std::string_view option, std::string_view text, const s
 void check_values(const SweepValues& values, std::string_view option, double least, double most, bool whole) {
     for (const double value : values.values) {
         if (!(value >= least && value <= most) || (whole && value != std::round(value)))
-            refuse(option, brief(value),
-                   (whole ? "whole numbers from " : "numbers from ") + brief(least) + " to " + brief(most));
+            refuse(option, in_full(value),
+                   (whole ? "whole numbers from " : "numbers from ") + in_full(least) + " to " + in_full(most));
     }
     if (values.is_range && values.values[0] > values.values[1])
-        refuse(option, brief(values.values[0]) + ':' + brief(values.values[1]), "the smaller end of a range first");
+        refuse(option, in_full(values.values[0]) + ':' + in_full(values.values[1]), "the smaller end of a range first");
 }
 
 constexpr const char* kLeafValues = "numbers such as 5,10,20, or a range such as 1:200";
@@ -741,17 +786,23 @@ SweepOrder usual_sweep(const mobb::FitOptions& present) {
 }
 
 void set_over(SweepOrder& order, std::string_view text) {
+    const auto set = [](auto& values, std::string_view option, auto parsed) {
+        if (values != decltype(parsed){}) {
+            throw std::invalid_argument(std::string(option) + " is varied already; give all of its values at once");
+        }
+        values = std::move(parsed);
+    };
     const std::size_t equals = std::min(text.find('='), text.size());
     const std::string_view option = trimmed(text.substr(0, equals));
     const std::string_view values = equals == text.size() ? "" : trimmed(text.substr(equals + 1));
     if (option == "tree") {
-        order.trees = parse_names(option, values, mobb::tree_kind_names(), find_tree_kind);
+        set(order.trees, option, parse_names(option, values, mobb::tree_kind_names(), find_tree_kind));
     } else if (option == "axes") {
-        order.axes = parse_names(option, values, mobb::axes_names(), mobb::axes_from_name);
+        set(order.axes, option, parse_names(option, values, mobb::axes_names(), mobb::axes_from_name));
     } else if (option == "leaf") {
-        order.leaf = parse_values(option, values, kLeafValues);
+        set(order.leaf, option, parse_values(option, values, kLeafValues));
     } else if (option == "time_scale") {
-        order.time_scale = parse_values(option, values, kScaleValues);
+        set(order.time_scale, option, parse_values(option, values, kScaleValues));
     } else {
         throw std::invalid_argument(in_quotes(option) + " is no option to sweep over; write one of " +
                                     listed(kOptions) + ", such as leaf=1:200");
@@ -768,6 +819,10 @@ void check(const SweepOrder& order) {
 SweepResult sweep_fits(std::span<const mobb::ClipPtr> clips, const QueryWorkload& workload, const SweepOrder& order,
                        const Progress& progress, const SweepPass& pass) {
     check(order);
+    for (const ClipQuery& query : workload.queries) {
+        mobb::checked(query.place_a);
+        mobb::checked(query.place_b);
+    }
     return FitSearch(clips, workload, order, progress, pass).run();
 }
 
@@ -775,6 +830,7 @@ std::string sweep_words(const mobb::FitOptions& fit, const mobb::FitOptions& bas
     const mobb::TreeInfo& kind = mobb::info(fit.tree);
     std::string out(kind.title);
     if (kind.splits()) out += ", leaf " + std::to_string(fit.leaf);
+    if (kind.splits() && fit.levels != 0) out += ", levels " + std::to_string(fit.levels);
     if (kind.chooses_axes() && (fit.axes != base.axes || fit.axes != mobb::FitOptions{}.axes)) {
         out += ", axes ";
         out += mobb::name(fit.axes);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <numbers>
@@ -90,13 +91,13 @@ QueryWorkload standard_workload(std::span<const mobb::ClipPtr> clips, std::size_
     return out;
 }
 
-QueryWorkload scene_workload(const Scene& scene) {
+QueryWorkload scene_workload(const Scene& scene, std::size_t most) {
     QueryWorkload out;
     out.kind = QueryWorkload::Kind::queries;
-    const std::size_t count = query_count(scene);
-    out.queries.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const SceneQuery query = query_at(scene, i);
+    const std::size_t count = query_count(scene), taken = std::min(count, most);
+    out.queries.reserve(taken);
+    for (std::size_t i = 0; i < taken; ++i) {
+        const SceneQuery query = query_at(scene, i * count / taken);
         out.queries.push_back({query.a.clip, query.b.clip, query.a.placement, query.b.placement});
     }
     return out;
@@ -156,15 +157,19 @@ double cost_of(const mobb::TestCounts& tests, const MeanTests& prices) {
     return cost_of(mean_tests(std::span(&tests, 1)), prices);
 }
 
+double standard_error(double squares, std::size_t count) {
+    const auto numbers = static_cast<double>(count);
+    return count > 1 ? std::sqrt(squares / (numbers - 1) / numbers) : std::numeric_limits<double>::quiet_NaN();
+}
+
 Spread spread_of(std::span<const double> numbers) {
     std::vector<double> sorted(numbers.begin(), numbers.end());
     std::ranges::sort(sorted);
-    const auto count = static_cast<double>(sorted.size());
     Spread out;
-    out.mean = std::accumulate(sorted.begin(), sorted.end(), 0.0) / count;
+    out.mean = std::accumulate(sorted.begin(), sorted.end(), 0.0) / static_cast<double>(sorted.size());
     double squares = 0;
     for (const double number : sorted) squares += (number - out.mean) * (number - out.mean);
-    if (sorted.size() > 1) out.standard_error = std::sqrt(squares / (count - 1) / count);
+    out.standard_error = standard_error(squares, sorted.size());
     out.p95 = quantile(sorted, 0.95);
     out.p99 = quantile(sorted, 0.99);
     out.max = sorted.back();

@@ -58,8 +58,11 @@ std::string_view name(QueryWorkload::Kind kind);
 /// Standard placements of clips against each other and themselves: every pair as often as every other. Requires clips,
 /// of which none is null.
 QueryWorkload standard_workload(std::span<const mobb::ClipPtr> clips, std::size_t count, std::uint64_t seed);
-/// The queries of a scene; its clips are the list. There may be none.
-QueryWorkload scene_workload(const Scene& scene);
+/// As many queries as fits are judged by, where nobody says otherwise.
+inline constexpr std::size_t kMostJudgedBy = 16'000;
+/// The queries of a scene; its clips are the list. Of more than `most`, such as a crowd's, evenly many of all. There
+/// may be none.
+QueryWorkload scene_workload(const Scene& scene, std::size_t most = kMostJudgedBy);
 
 /// The tests that a query makes. `trees`: by clip, none null. Throws std::invalid_argument if a placement is none that
 /// may be.
@@ -102,9 +105,12 @@ double cost_of(const mobb::TestCounts& tests, const MeanTests& prices = kTestPri
 /// How numbers spread, one for each query. Of the differences between two fits, query by query, the standard error is
 /// that of the paired difference.
 struct Spread {
-    double mean = 0, standard_error = 0;  ///< of the mean; 0 of a single number
+    double mean = 0, standard_error = 0;  ///< of the mean
     double p95 = 0, p99 = 0, max = 0;     ///< at least that share of the numbers is not above
 };
+/// Of a mean of `count` numbers, from the sum of the squares of their distances to it. NaN of a single number, which
+/// says nothing of its error.
+double standard_error(double squares, std::size_t count);
 /// Requires numbers.
 Spread spread_of(std::span<const double> numbers);
 

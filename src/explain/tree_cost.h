@@ -13,7 +13,7 @@
 
 namespace mobbscope {
 
-/// Of trees without a formula so many standard placements are counted.
+/// The standard placements that are counted for trees without a formula.
 inline constexpr std::size_t kCountedPlacements = 4096;
 inline constexpr std::uint64_t kCountedSeed = 0;
 

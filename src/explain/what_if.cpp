@@ -59,8 +59,7 @@ void add_splits(std::vector<mobb::NodeChange>& out, const mobb::Tree& tree, int 
     }
     std::erase_if(splits, [&](int split) { return split == present || split == 0 || split == count; });
     std::ranges::sort(splits);
-    const auto doubles = std::ranges::unique(splits);
-    splits.erase(doubles.begin(), doubles.end());
+    splits.erase(std::unique(splits.begin(), splits.end()), splits.end());
     const std::array<int, 2> children = tree.children(index);
     if (present > 0 && tree.is_leaf(children[0]) && tree.is_leaf(children[1])) splits.push_back(0);
     for (const int split : splits) out.push_back({.node = index, .split = split});
@@ -121,7 +120,7 @@ WhatIf what_if(const QueryWorkload& workload, std::span<const std::shared_ptr<co
     std::vector<std::shared_ptr<const mobb::Tree>> asked(trees.begin(), trees.end());
     auto& changed = asked[static_cast<std::size_t>(clip)];
     const std::shared_ptr<const mobb::Tree> present = changed;
-    if (present->blocks()) throw std::invalid_argument("blocks are all of one make: no node of them can be other");
+    if (present->blocks()) throw std::invalid_argument("all blocks are built alike: no node of them can be other");
     if (node < 0 || static_cast<std::size_t>(node) >= present->nodes().size()) {
         throw std::invalid_argument("there is no node " + std::to_string(node) + ": give 0 to " +
                                     std::to_string(present->nodes().size() - 1));

@@ -49,7 +49,7 @@ Tree::Tree(ClipPtr clip, const FitOptions& options, const NodeChange& change)
     if (!clip_) throw std::invalid_argument("a tree needs a clip");
     check(options_);
     if (info(options_.tree).has_blocks()) {
-        if (change.node >= 0) throw std::invalid_argument("blocks are all of one make: no node can be changed");
+        if (change.node >= 0) throw std::invalid_argument("all blocks are built alike: no node can be changed");
         build_blocks();
     } else {
         const std::size_t nodes = node_count(clip_->count(), options_);

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <filesystem>
+#include <stdexcept>
 #include <string>
 
 namespace mobbscope::app {
@@ -115,6 +117,22 @@ TEST(Sweep, CanBeEnded) {
     run_command(session, "tree.sweep_cancel");
     EXPECT_FALSE(session.sweeps.is_running());
     EXPECT_FALSE(session.sweeps.result());
+}
+
+TEST(Sweep, EndsWhereAnotherSceneIsOpened) {
+    CrossingFolder folder;
+    Session session{true};
+    const auto open = [&](const std::filesystem::path& file) {
+        session.files.open({file});
+        while (session.jobs.job()) session.poll();
+    };
+    open(folder.scene);
+    run_command(session, "tree.sweep");
+    EXPECT_TRUE(session.sweeps.is_running());
+    open(folder.file("walk.csv"));
+    session.poll();
+    EXPECT_FALSE(session.sweeps.is_running());
+    EXPECT_FALSE(session.sweeps.is_of_scene());
 }
 
 TEST(FitCommand, SetsSeveralOptionsAsOneEdit) {

@@ -109,7 +109,7 @@ TEST(WhatIfWindow, TheCommandSaysWhyItCannotBeDone) {
     WhatIfWindow w;
     EXPECT_EQ(w.why_not(), "no node is selected");
     w.run("run tree.kind blocks\nrun go.node B 1.0");
-    EXPECT_EQ(w.why_not(), "blocks are all of one make");
+    EXPECT_EQ(w.why_not(), "all blocks are built alike");
     w.unfold();
     EXPECT_FALSE(w.has("what_if.measure"));
 }

@@ -261,7 +261,21 @@ TEST(Fit, WhatIfIsATable) {
     EXPECT_NE(none.err.find("the node"), std::string::npos) << none.err;
     const Result blocks = run_program({"fit", kFitScenes + "crossing.json", "--what-if", "0", "--tree", "blocks"});
     EXPECT_NE(blocks.status, 0);
-    EXPECT_NE(blocks.err.find("blocks are all of one make"), std::string::npos) << blocks.err;
+    EXPECT_NE(blocks.err.find("no node of them can be other"), std::string::npos) << blocks.err;
+}
+
+TEST(Fit, WhatIfIsRefusedWholeWhereAClipHasNoSuchNode) {
+    const testing::TempFolder folder;
+    const auto file = folder.write("two.json", R"({"clips": {
+        "long": {"dt": 1, "samples": [[0, 0, 1], [3, 1, 1], [4, 9, 1]]},
+        "short": {"dt": 1, "samples": [[0, 0, 1]]}}, "fit": {"leaf": 1}})");
+    const Result run = run_program({"fit", file.string(), "--what-if", "1", "--json"});
+    EXPECT_NE(run.status, 0);
+    EXPECT_EQ(run.out, "");
+    const Result empty = run_program({"fit", file.string(), "--what-if", ""});
+    EXPECT_NE(empty.status, 0);
+    EXPECT_EQ(empty.out, "");
+    EXPECT_NE(empty.err.find("the node"), std::string::npos) << empty.err;
 }
 
 TEST(Fit, ColumnsStayApartWhereNumbersAreWiderThanHeadings) {

@@ -13,6 +13,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -63,33 +64,70 @@ TEST(Sweep, JsonHasEveryRow) {
     EXPECT_EQ(clips, (std::set<std::string>{"null", "\"bend\"", "\"straight\""}));
     const json& recommended = sweep["recommended"];
     EXPECT_EQ(keys(recommended),
-              (std::set<std::string>{"tree", "leaf", "axes", "time_scale", "cost", "present_cost", "why"}));
+              (std::set<std::string>{"tree", "leaf", "axes", "time_scale", "levels", "cost", "present_cost", "why"}));
     EXPECT_EQ(recommended["cost"], least);
     EXPECT_LT(recommended["cost"], recommended["present_cost"]);
     EXPECT_NE(recommended["why"].get<std::string>().find("over 500 placements"), std::string::npos);
 }
 
 TEST(Sweep, CsvHasTheRowsOfJson) {
-    const std::vector<std::string> order{"--over", "leaf=1:50", "--queries", "300"};
-    std::vector<std::string> as_json = order, as_csv = order;
-    as_json.emplace_back("--json");
-    as_csv.emplace_back("--csv");
-    const json rows = json::parse(sweep_of(kSweptScene, as_json).out)["rows"];
-    std::istringstream csv(sweep_of(kSweptScene, as_csv).out);
-    std::string line;
-    std::getline(csv, line);
-    EXPECT_TRUE(line.starts_with("clip,tree,leaf,axes,time_scale,box_tests,sample_pairs,cost,standard_error,")) << line;
-    const auto columns = std::ranges::count(line, ',');
-    std::size_t count = 0;
-    for (; std::getline(csv, line); ++count) {
-        EXPECT_EQ(std::ranges::count(line, ','), columns) << line;
-        ASSERT_LT(count, rows.size());
-        const json& row = rows[count];
-        const std::string begin = (row["clip"].is_null() ? "" : row["clip"].get<std::string>()) + ",mobb," +
-                                  row["leaf"].dump() + ",endpoints,";
-        EXPECT_TRUE(line.starts_with(begin)) << line << " is not " << row;
+    const auto cells_of = [](const std::string& line) {
+        std::vector<std::string> out(1);
+        for (const char letter : line) {
+            if (letter == ',') {
+                out.emplace_back();
+            } else {
+                out.back() += letter;
+            }
+        }
+        return out;
+    };
+    for (const char* cost : {"price", "time"}) {
+        // Measured time is another each time, so of it only what is null counts.
+        const bool same = std::string(cost) == "price";
+        std::vector<std::string> order{"--over", same ? "leaf=1:50" : "leaf=5,50", "--queries", "300", "--cost", cost};
+        order.emplace_back("--json");
+        const json rows = json::parse(sweep_of(kSweptScene, order).out)["rows"];
+        order.back() = "--csv";
+        std::istringstream csv(sweep_of(kSweptScene, order).out);
+        std::string line;
+        std::getline(csv, line);
+        const std::vector<std::string> names = cells_of(line);
+        EXPECT_EQ(std::set<std::string>(names.begin(), names.end()), keys(rows.at(0)));
+        std::size_t count = 0;
+        for (; std::getline(csv, line); ++count) {
+            ASSERT_LT(count, rows.size());
+            const std::vector<std::string> cells = cells_of(line);
+            ASSERT_EQ(cells.size(), names.size()) << line;
+            for (std::size_t i = 0; i < names.size(); ++i) {
+                const json value = rows[count].contains(names[i]) ? rows[count][names[i]] : json();
+                if (value.is_null() || cells[i].empty()) {
+                    EXPECT_TRUE(value.is_null() && cells[i].empty()) << names[i] << " of " << line;
+                } else if (value.is_string()) {
+                    EXPECT_EQ(cells[i], value.get<std::string>());
+                } else if (same) {
+                    EXPECT_EQ(std::stod(cells[i]), value.get<double>()) << names[i];
+                }
+            }
+        }
+        EXPECT_EQ(count, rows.size());
+        EXPECT_GT(count, 0u);
     }
-    EXPECT_EQ(count, rows.size());
+}
+
+TEST(Sweep, LevelsOfThePresentFitAreKept) {
+    const std::vector<std::string> order{"--leaf", "200", "--levels", "4", "--over", "leaf=2,4", "--queries", "300"};
+    const Result run = sweep_of(kSweptScene, order);
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_NE(run.out.find("leaf 200, levels 4 (now)"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("\nto use it: --tree mobb --leaf "), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find(" --levels 4"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("\"levels\": 4"), std::string::npos) << run.out;
+    std::vector<std::string> as_json = order;
+    as_json.emplace_back("--json");
+    const json sweep = json::parse(sweep_of(kSweptScene, as_json).out);
+    EXPECT_EQ(sweep["recommended"]["levels"], 4);
+    for (const json& row : sweep["rows"]) EXPECT_EQ(row["levels"], 4);
 }
 
 TEST(Sweep, TextSaysWhichToTakeAndHow) {
@@ -99,7 +137,7 @@ TEST(Sweep, TextSaysWhichToTakeAndHow) {
     EXPECT_NE(run.out.find(" standard placements of each against each and itself (shift over "), std::string::npos);
     EXPECT_NE(run.out.find(", seed 1)"), std::string::npos);
     EXPECT_NE(run.out.find("MOBB, leaf 10 (now)"), std::string::npos);
-    EXPECT_NE(run.out.find(" less than MOBB, leaf 10, now, over "), std::string::npos);
+    EXPECT_NE(run.out.find(" less than MOBB, leaf 10 (now), over "), std::string::npos);
     EXPECT_NE(run.out.find("\nto use it: --tree "), std::string::npos);
     EXPECT_LT(std::ranges::count(run.out, '\n'), 30);
     EXPECT_EQ(run.out, sweep_of(kSweepAssets + "clips", {}).out) << "the same again";
@@ -126,6 +164,30 @@ TEST(Sweep, OfTheScenesQueriesAllAreAsked) {
     EXPECT_EQ(workload["queries"], 1);
     EXPECT_TRUE(workload["area"].is_null());
     EXPECT_TRUE(workload["seed"].is_null());
+    // One query says nothing of its error.
+    for (const json& row : json::parse(run.out)["rows"]) EXPECT_TRUE(row["standard_error"].is_null());
+    EXPECT_EQ(sweep_of(kSweptScene, {"--queries", "scene"}).out.find("nan"), std::string::npos);
+    EXPECT_EQ(sweep_of(kSweptScene, {"--queries", "scene", "--csv"}).out.find("nan"), std::string::npos);
+}
+
+TEST(Sweep, OfACrowdSomeQueriesAreAskedAndIdleClipsHaveNoRow) {
+    const TempFolder folder;
+    const std::string file = folder.path() / "crowd.json";
+    std::ostringstream agents;
+    for (int i = 0; i < 200; ++i) {
+        agents << (i == 0 ? "" : ", ") << R"({"name": "a)" << i << R"(", "clip": "walk", "start": )" << i % 7 << '}';
+    }
+    std::ofstream(file) << R"({"mobbscope": 1, "clips": {
+        "walk": {"dt": 0.5, "samples": [[0, 0, 0.4], [0.3, 0, 0.4], [0.6, 0, 0.4], [0.9, 0, 0.4]]},
+        "idle": {"dt": 0.5, "samples": [[0, 0, 0.3], [0, 0, 0.3]]}}, "agents": [)"
+                        << agents.str() << "]}";
+    const Result text = sweep_of(file, {"--queries", "scene", "--over", "leaf=1,2"});
+    ASSERT_EQ(text.status, 0) << text.err;
+    EXPECT_TRUE(text.out.starts_with("2 clips, 16000 of 19900 queries of the scene\n")) << text.out;
+    const json rows = json::parse(sweep_of(file, {"--queries", "scene", "--over", "leaf=1,2", "--json"}).out)["rows"];
+    std::set<std::string> clips;
+    for (const json& row : rows) clips.insert(row["clip"].dump());
+    EXPECT_EQ(clips, (std::set<std::string>{"null", "\"walk\""}));
 }
 
 TEST(Sweep, TimeScalesComeWithTheirLevels) {
@@ -147,6 +209,7 @@ TEST(Sweep, TimeIsMeasured) {
     ASSERT_EQ(run.status, 0) << run.err;
     const json sweep = json::parse(run.out);
     EXPECT_EQ(sweep["unit"], "ns, measured");
+    EXPECT_EQ(sweep["rows"].size(), 3u) << "and the present one";
     for (const json& row : sweep["rows"]) {
         EXPECT_GT(row["cost"], 0);
         EXPECT_TRUE(row["p99"].is_null());
@@ -155,28 +218,47 @@ TEST(Sweep, TimeIsMeasured) {
 
 TEST(Sweep, WhatIsNoOrderIsOneLine) {
     const TempFolder folder;
-    for (const std::vector<std::string>& bad : std::vector<std::vector<std::string>>{{"--over", "leaf=200:1"},
-                                                                                     {"--over", "leaf=0"},
-                                                                                     {"--over", "leaf="},
-                                                                                     {"--over", "leaf=nan"},
-                                                                                     {"--over", "leaf=1:1000000000"},
-                                                                                     {"--over", "tree=oak"},
-                                                                                     {"--over", "axes=x"},
-                                                                                     {"--over", "time_scale=nan:1"},
-                                                                                     {"--over", "time_scale=0:1"},
-                                                                                     {"--over", "levels=1:3"},
-                                                                                     {"--over"},
-                                                                                     {"--queries", "1000000000"},
-                                                                                     {"--queries", "0"},
-                                                                                     {"--queries", "some"},
-                                                                                     {"--seed", "-1"},
-                                                                                     {"--cost", "money"},
-                                                                                     {"--json", "--csv"},
-                                                                                     {"--leaf", "0"}}) {
+    for (const std::vector<std::string>& bad :
+         std::vector<std::vector<std::string>>{{"--over", "leaf=200:1"},
+                                               {"--over", "leaf=5", "--over", "leaf=10"},
+                                               {"--over", "leaf=0"},
+                                               {"--over", "leaf="},
+                                               {"--over", "leaf=nan"},
+                                               {"--over", "leaf=1:1000000000"},
+                                               {"--over", "tree=oak"},
+                                               {"--over", "axes=x"},
+                                               {"--over", "time_scale=nan:1"},
+                                               {"--over", "time_scale=0:1"},
+                                               {"--over", "levels=1:3"},
+                                               {"--over"},
+                                               {"--queries", "1000000000"},
+                                               {"--queries", "0"},
+                                               {"--queries", "some"},
+                                               {"--seed", "-1"},
+                                               {"--cost", "money"},
+                                               {"--json", "--csv"},
+                                               {"--leaf", "0"}}) {
         const Result run = sweep_of(kSweptScene, bad);
         EXPECT_EQ(run.status, 2) << bad.back();
         EXPECT_TRUE(is_one_line(run.err)) << run.err;
         EXPECT_EQ(run.out, "");
+    }
+    std::string many = "leaf=1";
+    for (int i = 2; i < 6000; ++i) {
+        many += ',';
+        many += std::to_string(i);
+    }
+    const std::string far = folder.path() / "far.json";
+    std::ofstream(far)
+        << R"({"mobbscope": 1, "clips": {"far": {"dt": 0.5, "samples": [[9e8, 9e8, 0.4], [9e8, 9e8, 0.4]]}}})";
+    for (const auto& [file, over] : {std::pair(kSweptScene, many), std::pair(far, std::string("leaf=1:20"))}) {
+        for (const char* cost : {"price", "time"}) {
+            const Result run = sweep_of(file, {"--over", over, "--cost", cost});
+            EXPECT_EQ(run.status, 2) << file;
+            EXPECT_TRUE(is_one_line(run.err)) << run.err;
+            EXPECT_NE(run.err.find(file), std::string::npos) << run.err;
+            EXPECT_EQ(run.out, "");
+        }
     }
     const std::string alone = kSweepAssets + "clips/wander.glb", empty = folder.path() / "empty";
     std::filesystem::create_directory(empty);

@@ -291,7 +291,7 @@ TEST(CountedTests, SpreadIsThatOfTheNumbers) {
     EXPECT_EQ(spread.p95, 190);
     EXPECT_EQ(spread.p99, 198);
     EXPECT_EQ(spread.max, 200);
-    EXPECT_EQ(spread_of(std::vector{7.0}).standard_error, 0);
+    EXPECT_TRUE(std::isnan(spread_of(std::vector{7.0}).standard_error)) << "nothing is known of it";
 }
 
 TEST(ExpectedCost, OfRootsAloneIsExact) {

@@ -8,9 +8,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -112,6 +114,7 @@ TEST(FitFindings, LeavesAreTooLargeWhereTheyHoldHalfAWalk) {
     const auto cut = found(Kind::large_leaves, findings_in(clip, {.levels = 2}));
     ASSERT_TRUE(cut);
     EXPECT_EQ(cut->mend->levels, 0);
+    EXPECT_TRUE(mend_words(*cut->mend, {.levels = 2}).ends_with("all levels"));
     EXPECT_FALSE(found(Kind::large_leaves, findings_in(clip, *large->mend)));
 }
 
@@ -188,6 +191,39 @@ TEST(FitFindings, TheMostCostlyComesFirst) {
     EXPECT_TRUE(found(Kind::loose_levels, all));
     EXPECT_TRUE(found(Kind::jump, all));
     EXPECT_TRUE(std::ranges::is_sorted(all, std::ranges::greater(), &FitFinding::cost));
+}
+
+/// The boxes around it are spoiled.
+mobb::Disk walking_with_a_far_jump(int i) {
+    mobb::Disk at = walking(i);
+    if (i == 300) at.y += 40;
+    return at;
+}
+
+TEST(FitFindings, OfBlocksCostWhatTestsOfBlocksDo) {
+    const mobb::ClipPtr clip = motion(walking_with_a_far_jump);
+    const mobb::FitOptions blocks{.tree = mobb::TreeKind::blocks};
+    const auto jump = found(Kind::jump, findings_in(clip, blocks));
+    ASSERT_TRUE(jump);
+    // Without the jump, asked the placements of the clip that has it.
+    const QueryWorkload workload = standard_workload(std::array{clip}, 2048, 0);
+    const auto cost = [&](const mobb::ClipPtr& of) {
+        const std::array<std::shared_ptr<const mobb::Tree>, 1> tree{std::make_shared<const mobb::Tree>(of, blocks)};
+        return cost_of(mean_tests(count_tests(workload, tree)), kBlockTestPrices);
+    };
+    // The steps to the sample and back are left out.
+    const mobb::ClipPtr without = motion([](int i) {
+        if (i < 300) return walking(i);
+        const mobb::Disk back = walking(std::max(i, 301)), gone = walking(301), last = walking(299);
+        return mobb::Disk{last.x + back.x - gone.x, last.y + back.y - gone.y, back.r};
+    });
+    EXPECT_NEAR(jump->cost, 1 - cost(without) / cost(clip), 1e-6);
+}
+
+TEST(FitFindings, EndWhereProgressThrows) {
+    const mobb::Tree tree(motion(walking), {});
+    const auto cancel = [](std::size_t, std::size_t) { throw std::runtime_error("cancelled"); };
+    EXPECT_THROW(fit_findings(tree, std::nullopt, cancel), std::runtime_error);
 }
 
 TEST(FitFindings, OfBlocksAreOfTheClipAlone) {

@@ -8,11 +8,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -139,6 +141,8 @@ TEST(FitSweep, ARangeIsRefinedAroundTheBest) {
     EXPECT_EQ(leaves.back().first, 200);
     EXPECT_LT(leaves.size(), 30u) << "not all of 200";
     const auto best = std::ranges::min_element(leaves, {}, [](const auto& leaf) { return leaf.second; });
+    ASSERT_NE(best, leaves.begin());
+    ASSERT_NE(best + 1, leaves.end());
     for (const auto& next : {best - 1, best + 1}) {
         EXPECT_TRUE(std::abs(next->first - best->first) == 1 || next->second <= 1.01 * best->second)
             << best->first << " and " << next->first;
@@ -147,6 +151,105 @@ TEST(FitSweep, ARangeIsRefinedAroundTheBest) {
     EXPECT_TRUE(std::ranges::is_sorted(passes)) << "rows come, none goes";
     EXPECT_EQ(passes.back(), result.rows.size());
     EXPECT_LE(passes.front(), 13u) << "12 of the range, and the present one";
+}
+
+TEST(FitSweep, ASearchStaysInItsRange) {
+    const std::vector<mobb::ClipPtr> clips{made_up_walk(7, 600)};
+    const QueryWorkload workload = standard_workload(clips, 1000, 1);
+    // A present fit outside, on either side, and ranges too narrow for three digits.
+    for (const mobb::FitOptions& present :
+         {mobb::FitOptions{.tree = TreeKind::umobb, .leaf = 10}, mobb::FitOptions{.tree = TreeKind::umobb, .leaf = 300},
+          mobb::FitOptions{.tree = TreeKind::umobb, .leaf = 50, .time_scale = 100}}) {
+        for (const auto& [text, from, to] :
+             {std::tuple("time_scale=5:30", 5.0, 30.0), std::tuple("time_scale=0.12345:0.12345", 0.12345, 0.12345),
+              std::tuple("time_scale=0.12345:0.12348", 0.12345, 0.12348)}) {
+            const SweepResult result = sweep_fits(clips, workload, sweep_over({"leaf=20:200", text}, present));
+            EXPECT_EQ(result.rows[result.present].fit, present);
+            EXPECT_GT(result.rows.size(), 3u);
+            for (std::size_t i = 0; i < result.rows.size(); ++i) {
+                const mobb::FitOptions& fit = result.rows[i].fit;
+                EXPECT_TRUE(i == result.present || (fit.leaf >= 20 && fit.leaf <= 200)) << text << ' ' << fit.leaf;
+                EXPECT_TRUE(i == result.present || (fit.time_scale >= from && fit.time_scale <= to))
+                    << text << ' ' << fit.time_scale;
+            }
+        }
+    }
+}
+
+TEST(FitSweep, EveryPassHasThePresentFit) {
+    const std::vector<mobb::ClipPtr> clips = walks(4, 800);
+    const mobb::FitOptions present{.tree = TreeKind::umobb, .leaf = 150};
+    for (const SweepCost cost : {SweepCost::price, SweepCost::time}) {
+        SweepOrder order = sweep_over({"tree=all", "leaf=1:40"}, present);
+        order.cost = cost;
+        order.most_queries = 500;
+        std::size_t passes = 0;
+        sweep_fits(clips, standard_workload(clips, 500, 1), order, {}, [&](const auto& result) {
+            ++passes;
+            EXPECT_EQ(result->rows.at(result->present).fit, present);
+        });
+        EXPECT_GT(passes, 0u);
+    }
+}
+
+TEST(FitSweep, ASearchEndsWhereThereAreTooManyFits) {
+    const std::vector<mobb::ClipPtr> clips = walks(4, 130);
+    SweepOrder order = sweep_over({"leaf=1:200"}, {.tree = TreeKind::umobb});
+    for (int i = 0; i < 415; ++i) order.time_scale.values.push_back(1 + 0.0001 * i);  // 12 leaves each: 4980 fits
+    EXPECT_EQ(sweep_fits(clips, standard_workload(clips, 400, 1), order).rows.size(), 5000u);
+}
+
+TEST(FitSweep, LevelsAreThoseOfThePresentFit) {
+    const std::vector<mobb::ClipPtr> clips{made_up_walk(1, 300)};
+    const mobb::FitOptions present{.leaf = 10, .levels = 3};
+    const SweepResult result =
+        sweep_fits(clips, standard_workload(clips, 200, 1), sweep_over({"leaf=5,20", "tree=mobb,umobb"}, present));
+    EXPECT_EQ(result.rows[result.present].fit, present);
+    for (const SweepRow& row : result.rows) EXPECT_EQ(row.fit.levels, 3);
+    EXPECT_NE(result.why.find(", levels 3"), std::string::npos) << result.why;
+    EXPECT_EQ(sweep_words({.tree = TreeKind::blocks, .levels = 3}, {}).find("levels"), std::string::npos);
+}
+
+TEST(FitSweep, OneQueryIsNotCertain) {
+    const std::vector<mobb::ClipPtr> clips{made_up_walk(1, 300)};
+    SweepOrder order = sweep_over({"leaf=1,10"}, {.leaf = 300});
+    order.most_queries = 1;
+    SweepResult result;
+    // Of some a query ends at the roots, and all fits cost the same.
+    for (std::uint64_t seed = 1; seed < 50 && result.recommended == result.present; ++seed)
+        result = sweep_fits(clips, standard_workload(clips, 1, seed), order);
+    EXPECT_EQ(result.queries, 1u);
+    for (const SweepRow& row : result.rows) {
+        EXPECT_TRUE(std::isnan(row.cost.standard_error));
+        EXPECT_TRUE(std::isnan(row.difference_error));
+    }
+    ASSERT_NE(result.recommended, result.present);
+    EXPECT_NE(result.why.find(" % (of one query) less than MOBB, leaf 300 (now), over 1 placement"), std::string::npos)
+        << result.why;
+}
+
+TEST(FitSweep, AClipInFewQueriesIsNoException) {
+    // As AClipThatAnotherFitServesBetterIsNamed, but the scene asks the long walk just once, and one clip never.
+    std::vector<mobb::ClipPtr> clips;
+    for (int i = 0; i < 3; ++i) {
+        clips.push_back(std::make_shared<const mobb::Clip>(1.0 / 30, std::vector<mobb::Disk>(40, {0, 0, 0.3})));
+    }
+    clips.push_back(made_up_walk(5, 3000));
+    QueryWorkload workload = standard_workload(clips, 200, 1);
+    const auto takes_part = [](const ClipQuery& query, int clip) {
+        return query.clip_a == clip || query.clip_b == clip;
+    };
+    std::erase_if(workload.queries,
+                  [&](const ClipQuery& query) { return takes_part(query, 2) || takes_part(query, 3); });
+    workload.queries.push_back({0, 3, {}, {}});
+    workload.kind = QueryWorkload::Kind::queries;
+    const SweepResult result = sweep_fits(clips, workload, sweep_over({"leaf=1,4,10,40"}));
+    for (const SweepRow& row : result.rows) {
+        EXPECT_EQ(row.clips[2].queries, 0u);
+        EXPECT_EQ(row.clips[3].queries, 1u);
+        EXPECT_TRUE(std::isnan(row.clips[3].cost.standard_error));
+    }
+    for (const SweepException& exception : result.exceptions) EXPECT_LT(exception.clip, 2);
 }
 
 TEST(FitSweep, TwoRangesAreBothSearched) {
@@ -236,7 +339,7 @@ TEST(FitSweep, ThePresentFitStaysWhereNoneIsBetter) {
     const SweepResult first = sweep_fits(clips, workload, sweep_over({"leaf=1:200"}));
     const SweepRow& best = first.rows[first.recommended];
     EXPECT_NE(first.recommended, first.present);
-    EXPECT_NE(first.why.find(" less than MOBB, leaf 10, now, over "), std::string::npos) << first.why;
+    EXPECT_NE(first.why.find(" less than MOBB, leaf 10 (now), over "), std::string::npos) << first.why;
     const SweepResult again = sweep_fits(clips, workload, sweep_over({"leaf=1:200"}, best.fit));
     EXPECT_EQ(again.recommended, again.present);
     EXPECT_NE(again.why.find(", as now: no other fit costs "), std::string::npos) << again.why;
@@ -252,6 +355,25 @@ TEST(FitSweep, OfAScenesQueriesAllAreAsked) {
     const SweepResult result = sweep_fits(clips, workload, sweep_over({"leaf=1:200"}));
     EXPECT_EQ(result.queries, workload.queries.size());
     EXPECT_NE(result.why.find("over " + std::to_string(result.queries) + " quer"), std::string::npos) << result.why;
+}
+
+TEST(FitSweep, OfACrowdsPairsEvenlyManyAreTaken) {
+    Scene scene;
+    scene.clips.emplace_back();
+    scene.clips.back().clip = made_up_walk(1, 20);
+    for (int i = 0; i < 300; ++i) {
+        Agent agent;
+        agent.placement.start = i;
+        scene.agents.push_back(agent);
+    }
+    EXPECT_EQ(scene_workload(scene).queries.size(), 16'000u);
+    const QueryWorkload some = scene_workload(scene, 1000);
+    ASSERT_EQ(some.queries.size(), 1000u);
+    for (std::size_t i = 0; i < some.queries.size(); ++i) {
+        const SceneQuery query = query_at(scene, i * query_count(scene) / 1000);
+        EXPECT_EQ(some.queries[i].place_a, query.a.placement);
+        EXPECT_EQ(some.queries[i].place_b, query.b.placement);
+    }
 }
 
 TEST(FitSweep, AClipThatAnotherFitServesBetterIsNamed) {
@@ -294,6 +416,25 @@ TEST(FitSweep, TimeIsMeasured) {
     }
 }
 
+TEST(FitSweep, TimeOfMoreQueriesIsMeasuredInTheSameStretches) {
+    const std::vector<mobb::ClipPtr> clips{made_up_walk(2, 400)};
+    std::size_t asked_more = 0;
+    // Counts that do not divide into stretches of 64. Close fits make it ask more, then new ones are measured at once.
+    for (const std::size_t count : {65u, 300u, 4097u, 5003u, 9001u}) {
+        SweepOrder order = sweep_over({"leaf=1:100", "tree=mobb,moving,aabb,hybrid1", "axes=all"});
+        order.cost = SweepCost::time;
+        order.most_queries = count;
+        const SweepResult result = sweep_fits(clips, standard_workload(clips, count, 1), order);
+        EXPECT_TRUE(result.queries == count || (result.queries >= 4096 && result.queries < count)) << result.queries;
+        if (result.queries > 4200) ++asked_more;
+        for (const SweepRow& row : result.rows) {
+            EXPECT_TRUE(std::isfinite(row.cost.mean) && std::isfinite(row.difference));
+            EXPECT_EQ(std::isnan(row.difference_error), count == 65) << "a single stretch";
+        }
+    }
+    EXPECT_GT(asked_more, 0u);
+}
+
 TEST(FitSweep, WhatIsNoOrderIsRefused) {
     for (const char* text : {"leaf=0",
                              "leaf=1.5",
@@ -321,9 +462,21 @@ TEST(FitSweep, WhatIsNoOrderIsRefused) {
     SweepOrder order;
     EXPECT_NO_THROW(set_over(order, " leaf = 5 , 10 "));
     EXPECT_EQ(order.leaf.values, (std::vector<double>{5, 10}));
+    EXPECT_THROW(set_over(order, "leaf=20"), std::invalid_argument) << "twice";
+    EXPECT_EQ(order.leaf.values, (std::vector<double>{5, 10}));
+    try {
+        SweepOrder other;
+        set_over(other, "leaf=2000000");
+        FAIL();
+    } catch (const std::invalid_argument& error) {
+        EXPECT_STREQ(error.what(), "leaf cannot be '2000000': give whole numbers from 1 to 1000000");
+    }
     const std::vector<mobb::ClipPtr> clips{made_up_walk(1, 20)};
     for (int i = 1; i < 6000; ++i) order.leaf.values.push_back(i);
     EXPECT_THROW(sweep_fits(clips, standard_workload(clips, 10, 1), order), std::invalid_argument);
+    const std::vector<mobb::ClipPtr> far{
+        std::make_shared<const mobb::Clip>(1.0, std::vector<mobb::Disk>{{9e8, 9e8, 1}, {9e8, 9e8, 1}})};
+    EXPECT_THROW(sweep_fits(far, standard_workload(far, 100, 1), sweep_over({"leaf=1,2"})), std::invalid_argument);
 }
 
 TEST(TimeScaleCurves, AreOfTheTrees) {

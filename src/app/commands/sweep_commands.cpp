@@ -43,7 +43,7 @@ std::vector<Command> sweep_commands() {
                 [](SweepInspector& sweeps, Settings& settings, Keys& keys) {
                     settings.folded[std::string(kSweepSection)] = false;
                     keys.section = kSweepSection;
-                    sweeps.start();
+                    if (!sweeps.is_running()) sweeps.start();
                 },
                 {.enabled = {[](const Workspace& workspace) { return !workspace.scene().clips.empty(); },
                              [] { return std::string_view("there is no clip"); }}}),

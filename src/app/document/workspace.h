@@ -158,11 +158,11 @@ class Workspace {
     std::string title() const;
     /// What is asked in the view, recorded; null if no query is in the view.
     const RecordedQuery* recorded() const;
-    /// Whom the queries blame for avoidable overlaps; null if nobody has counted since the scene or its fit changed.
     /// Which queries costs are about: those that settings choose, where the scene asks any.
     QueryWorkload::Kind workload() const;
     /// What the tree of a clip costs in these; null: it is not known yet.
     std::shared_ptr<const TreeCost> cost_of(int clip) const;
+    /// Whom the queries blame for avoidable overlaps; null if nobody has counted since the scene or its fit changed.
     const BlameInScene* blame() const { return blame_counted_in == document().fitted ? counted_blame.get() : nullptr; }
     /// The event of the trace that the view shows; requires recorded().
     int step() const;

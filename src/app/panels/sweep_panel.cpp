@@ -21,32 +21,54 @@ namespace {
 constexpr float kChart = 190;
 constexpr float kNearPoint = 14;  // of the mouse to a point
 
+bool has_ended(const SweepResult& result) { return !result.why.empty(); }
+
+/// "UMOBB 34, minarea, 4 m/s": what matters to its kind and is not as in `base`, and the samples of a leaf.
+std::string short_words(const mobb::FitOptions& fit, const mobb::FitOptions& base) {
+    const mobb::TreeInfo& kind = mobb::info(fit.tree);
+    std::string out(kind.label);
+    if (kind.splits()) out += ' ' + std::to_string(fit.leaf);
+    if (kind.chooses_axes() && fit.axes != base.axes) out += ", " + std::string(mobb::name(fit.axes));
+    if (kind.uses_time_scale() && fit.time_scale != base.time_scale) out += ", " + brief(fit.time_scale) + " m/s";
+    return out;
+}
+
 /// "938 ns"
 std::string cost_text(double cost) { return figure(cost, 3) + " ns"; }
 
-/// "-30 %", to the present fit; of that "now"
-std::string change_text(const SweepResult& result, const SweepRow& row) {
-    if (&row == &result.rows[result.present]) return "now";
-    const double change = 100 * (row.cost.mean / result.rows[result.present].cost.mean - 1);
+/// The row that the trees are fitted as now; none: that was not tried.
+std::optional<std::size_t> row_of_now(const Ui& ui, const SweepResult& result) {
+    const auto at = std::ranges::find(result.rows, ui.workspace.fitted().options(), &SweepRow::fit);
+    if (at == result.rows.end()) return std::nullopt;
+    return static_cast<std::size_t>(at - result.rows.begin());
+}
+
+/// "-30 %", to the fit of now, or of when the sweep was begun; of that itself "now".
+std::string change_text(const Ui& ui, const SweepResult& result, const SweepRow& row) {
+    const std::optional<std::size_t> now = row_of_now(ui, result);
+    const SweepRow& to = result.rows[now.value_or(result.present)];
+    if (&row == &to) return now ? "now" : "before";
+    const double change = 100 * (row.cost.mean / to.cost.mean - 1);
     return formatted("%+.*f %%", std::abs(change) < 9.95 ? 1 : 0, change);
 }
 
 void tell_row(const SweepResult& result, const SweepRow& row) {
     std::string text = sweep_words(row.fit, result.order.present) + '\n';
-    text += cost_text(row.cost.mean) + " a query, \u00B1 " + figure(row.cost.standard_error, 2) + ", over " +
-            counted(result.queries, "query", "queries") + '\n';
+    text += cost_text(row.cost.mean) + " a query, ";
+    if (result.queries > 1) text += "\u00B1 " + figure(row.cost.standard_error, 2) + ", ";
+    text += "over " + counted(result.queries, "query", "queries") + '\n';
     text += figure(row.tests.boxes(), 3) + " box tests, " + figure(row.tests[mobb::TestKind::samples], 3) +
             " sample pairs, " + figure(row.tests[mobb::TestKind::time], 3) + " tests of time\n";
     if (row.cost.max > 0) {
         text += "95 % of queries cost at most " + cost_text(row.cost.p95) + ", 99 % " + cost_text(row.cost.p99) +
                 ", all " + cost_text(row.cost.max) + '\n';
     }
-    if (!result.why.empty() && &row != &result.rows[result.recommended]) {
+    if (has_ended(result) && result.queries > 1 && &row != &result.rows[result.recommended]) {
         text += formatted("%+.3g", row.difference) + " ns to the recommended one, \u00B1 " +
                 figure(row.difference_error, 2) + " (standard error of the paired difference)\n";
     }
     text += counted(row.nodes, "node", "nodes") + ", " + figure(static_cast<double>(row.bytes) / 1024, 3) + " KiB\n";
-    ImGui::SetTooltip("%sclick to fit the trees so", text.c_str());
+    ImGui::SetTooltip("%s%s", text.c_str(), has_ended(result) ? "click to fit the trees so" : "sweeping");
 }
 
 void apply_row(const Ui& ui, const SweepRow& row) {
@@ -93,7 +115,7 @@ void series_names(Ui& ui, const Chart& chart) {
 
 /// Costs over the samples of a leaf. The point next to the mouse tells of its fit, and a click applies it.
 void cost_chart(Ui& ui, const SweepResult& result) {
-    const SweepChart chart = sweep_chart(result);
+    const SweepChart chart = sweep_chart(result, row_of_now(ui, result));
     const auto points = draw_chart(ui, chart.chart, "sweep.chart");
     const bool hovered = ImGui::IsItemHovered(), clicked = ImGui::IsItemClicked();
     series_names(ui, chart.chart);
@@ -117,7 +139,7 @@ void cost_chart(Ui& ui, const SweepResult& result) {
     if (!hovered || !nearest) return;
     ImGui::GetWindowDrawList()->AddCircle(nearest_at, ui.px(6), ui.style.text, 0, ui.px(1.4f));
     tell_row(result, result.rows[*nearest]);
-    if (clicked) apply_row(ui, result.rows[*nearest]);
+    if (clicked && has_ended(result)) apply_row(ui, result.rows[*nearest]);
 }
 
 /// The level that is shown, over the time scale.
@@ -135,7 +157,7 @@ void curves_chart(Ui& ui, const SweepInspector& sweeps, const std::vector<LevelC
 }
 
 /// The cheapest fit of each kind, the cheapest first, and the present one.
-std::vector<std::size_t> best_of_kinds(const SweepResult& result) {
+std::vector<std::size_t> best_of_kinds(const SweepResult& result, std::size_t now) {
     std::map<mobb::TreeKind, std::size_t> best;
     const auto cost = [&](std::size_t i) { return result.rows[i].cost.mean; };
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
@@ -144,20 +166,22 @@ std::vector<std::size_t> best_of_kinds(const SweepResult& result) {
     }
     std::vector<std::size_t> out;
     for (const auto& [kind, row] : best) out.push_back(row);
-    if (std::ranges::find(out, result.present) == out.end()) out.push_back(result.present);
+    if (std::ranges::find(out, now) == out.end()) out.push_back(now);
     std::ranges::stable_sort(out, {}, cost);
     return out;
 }
 
 void best_rows(Ui& ui, const SweepResult& result) {
-    const std::vector<std::size_t> best = best_of_kinds(result);
+    const std::vector<std::size_t> best = best_of_kinds(result, row_of_now(ui, result).value_or(result.present));
     const int count = static_cast<int>(best.size());
+    heading(ui, "KIND, SAMPLES A LEAF", "COST, TO NOW");
     rows(ui, "sweep rows", count, count, [&](int k) {
         const SweepRow& fit = result.rows[best[static_cast<std::size_t>(k)]];
         if (row(ui, {.mark = "sweep.row." + std::to_string(k),
-                     .name = sweep_words(fit.fit, result.order.present),
-                     .remark = cost_text(fit.cost.mean) + "  " + change_text(result, fit),
-                     .selected = fit.fit == ui.workspace.fitted().options()}))
+                     .name = short_words(fit.fit, result.order.present),
+                     .remark = cost_text(fit.cost.mean) + "  " + change_text(ui, result, fit),
+                     .selected = fit.fit == ui.workspace.fitted().options()}) &&
+            has_ended(result))
             apply_row(ui, fit);
         if (ImGui::IsItemHovered()) tell_row(result, fit);
     });
@@ -167,13 +191,17 @@ void best_rows(Ui& ui, const SweepResult& result) {
 void recommendation(Ui& ui, const SweepInspector::Shown& shown) {
     const SweepResult& result = *shown.rows;
     framed(ui, to_im(with_alpha(ui.style.palette.separated, 0.14f)), to_im(ui.style.palette.separated), [&] {
-        // "moving boxes, leaf 34: 30 % less than MOBB, leaf 10, now" and ", over 4000 placements; ..."
-        const std::size_t end = std::min(result.why.find(", over "), result.why.size());
+        // "moving boxes, leaf 34: 30 % less than MOBB, leaf 10 (now)" and ", over 4096 placements; ..."
+        std::string why = result.why;
+        const bool is_as_then = row_of_now(ui, result) == result.present;
+        if (const std::size_t now = why.find(" (now)"); now != std::string::npos && !is_as_then)
+            why.replace(now, 6, " (before)");
+        const std::size_t end = std::min(why.find(", over "), why.size());
         ImGui::PushFont(ui.style.title);
-        words(to_im(readable(ui.style.palette.separated, ui.style.palette)), result.why.substr(0, end));
+        words(to_im(readable(ui.style.palette.separated, ui.style.palette)), why.substr(0, end));
         ImGui::PopFont();
         ui.mark_only("sweep.why");
-        words(ui.style.text, result.why.substr(std::min(end + 2, result.why.size())));
+        words(ui.style.text, why.substr(std::min(end + 2, why.size())));
         command_button(ui, "Apply", "tree.sweep_apply", "sweep.apply");
     });
 }
@@ -188,22 +216,25 @@ std::string asked_words(const SweepInspector::Shown& shown) {
 }  // namespace
 
 void sweep_panel(Ui& ui, SweepInspector& sweeps) {
-    if (ui.workspace.empty() || !section(ui, "WHICH TREE TO SHIP", "", true)) return;
+    if (ui.workspace.empty()) return;
+    // What it recommends is at the top of the section.
+    if (sweeps.take_news()) ui.later([](Keys& keys) { keys.section = kSweepSection; });
+    if (!section(ui, "WHICH TREE TO SHIP", "", true)) return;
     const auto shown = sweeps.result();
-    if (shown && !shown->rows->why.empty() && sweeps.is_of_scene()) recommendation(ui, *shown);
-    if (shown && !sweeps.is_of_scene()) {
-        words(ui.style.warning, "The clips or queries have changed since these were tried.");
+    if (!shown) {
+        const bool placed = ui.workspace.workload() == QueryWorkload::Kind::placements;
+        words(ui.style.quiet, std::string("Tries all kinds of trees with leaves of 1 to 200 samples on the same ") +
+                                  (placed ? "standard placements of all clips" : "queries of this scene") +
+                                  ", and says which costs least.");
+    } else if (!sweeps.is_of_scene()) {
+        words(ui.style.warning, "The clips or queries have changed since fits were tried.");
         ui.mark_only("sweep.stale");
-    }
-    if (shown && !shown->rows->rows.empty()) {
+    } else if (!shown->rows->rows.empty()) {
+        if (has_ended(*shown->rows)) recommendation(ui, *shown);
         cost_chart(ui, *shown->rows);
         best_rows(ui, *shown->rows);
         words(ui.style.quiet, asked_words(*shown));
         if (shown->curves) curves_chart(ui, sweeps, *shown->curves);
-    } else if (!sweeps.is_running()) {
-        words(ui.style.quiet,
-              "Tries all kinds of trees with leaves of 1 to 200 samples on the same queries, and says which costs "
-              "least.");
     }
     if (sweeps.is_running()) {
         command_button(ui, "Cancel", "tree.sweep_cancel", "sweep.cancel");

@@ -25,8 +25,6 @@ class FitCosts {
     void end_work();
 
   private:
-    struct Made;
-
     Workspace& workspace_;
     Notifications& notifications_;
     const SessionOptions& options_;

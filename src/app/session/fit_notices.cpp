@@ -22,12 +22,19 @@ FitNotices::Noticed* FitNotices::of(int clip) {
 
 void FitNotices::look(int clip, std::function<void()> then) {
     if (of(clip)) return then ? then() : void();
-    if (options_.attended && then) then_ = std::move(then);
+    const std::shared_ptr<const mobb::Tree> tree = workspace_.fitted().shared_tree(clip);
+    if (!then && tree == failed_) return;
+    if (options_.attended && then) {
+        then_ = std::move(then);
+        then_for_ = clip;
+    }
     if (job_) return;
+    of_ = tree;
+    failed_.reset();
     job_ = std::make_unique<Job>(
         "Looking at a fit",
-        [this, tree = workspace_.fitted().shared_tree(clip)](JobControl&) -> Job::Finish {
-            std::vector<FitFinding> found = fit_findings(*tree, expected_cost(*tree, *tree));
+        [this, tree](JobControl& control) -> Job::Finish {
+            std::vector<FitFinding> found = fit_findings(*tree, expected_cost(*tree, *tree), progress_of(control));
             return [this, tree, found = std::move(found)]() mutable {
                 if (known_.size() == kTreesKept) known_.pop_front();
                 known_.push_back({tree, std::move(found)});
@@ -43,13 +50,28 @@ void FitNotices::look(int clip, std::function<void()> then) {
 void FitNotices::poll() {
     if (!job_ || !job_->done()) return;
     const std::unique_ptr<Job> job = std::move(job_);
-    const std::function<void()> then = std::exchange(then_, nullptr);
     try {
         job->finish();
-        if (then) then();
+    } catch (const std::exception& error) {
+        failed_ = of_;
+        notifications_.tell(MessageLevel::error, error.what());
+    }
+    std::function<void()> then = std::exchange(then_, nullptr);
+    const FittedScene& fitted = workspace_.fitted();
+    if (!then || then_for_ >= static_cast<int>(fitted.scene().clips.size())) return;
+    // It said so already.
+    if (failed_ == of_ && fitted.shared_tree(then_for_) == of_) return;
+    try {
+        // The job was for another clip, or the clip was fitted anew meanwhile.
+        look(then_for_, std::move(then));
     } catch (const std::exception& error) {
         notifications_.tell(MessageLevel::error, error.what());
     }
+}
+
+void FitNotices::end_work() {
+    job_.reset();
+    then_ = nullptr;
 }
 
 }  // namespace mobbscope::app

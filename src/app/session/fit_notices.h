@@ -33,15 +33,18 @@ class FitNotices {
     void look(int clip, std::function<void()> then = {});
     /// Takes in what was found.
     void poll();
-    void end_work() { job_.reset(); }
+    void end_work();
 
   private:
     Workspace& workspace_;
     Notifications& notifications_;
     const SessionOptions& options_;
     Desktop*& desktop_;
-    std::deque<Noticed> known_;  ///< the latest last
+    std::deque<Noticed> known_;                 ///< the latest last
+    std::shared_ptr<const mobb::Tree> of_;      ///< the job's
+    std::shared_ptr<const mobb::Tree> failed_;  ///< is looked at again only for a command
     std::function<void()> then_;
+    int then_for_ = -1;  ///< the clip that it waits for
     std::unique_ptr<Job> job_;
 };
 

@@ -77,10 +77,12 @@ void SweepInspector::cancel() {
 }
 
 void SweepInspector::update() {
+    if (job_ && !is_same(*running_->scene, workspace_.scene(), running_->kind)) cancel();
     if (!job_ || !job_->done()) return;
     try {
         job_->finish();
         ended_ = running_;
+        has_news_ = true;
         compared_ = {};
     } catch (const std::exception& error) {
         notifications_.tell(MessageLevel::error, error.what());
@@ -108,8 +110,8 @@ bool SweepInspector::is_of_scene() const {
     const auto sweep = shown();
     const std::shared_ptr<const Scene>& now = workspace_.document().fitted->shared_scene();
     if (!sweep) return false;
-    if (compared_ != std::pair(sweep->scene, now)) {
-        compared_ = {sweep->scene, now};
+    if (compared_.first != sweep || compared_.second != now) {
+        compared_ = {sweep, now};
         is_same_ = is_same(*sweep->scene, *now, sweep->kind);
     }
     return is_same_;

@@ -44,6 +44,9 @@ class SweepInspector {
     /// Takes in what a sweep has found. Call it before each frame.
     void update();
 
+    /// Whether a sweep has ended since this was asked last.
+    bool take_news() { return std::exchange(has_news_, false); }
+
     bool is_running() const { return job_ != nullptr; }
     const Job* job() const { return job_.get(); }  ///< null: none is under way
     struct Shown {
@@ -77,9 +80,10 @@ class SweepInspector {
     Desktop*& desktop_;
     std::shared_ptr<Sweep> running_, ended_;
     std::unique_ptr<Job> job_;
-    /// What was compared last: scenes of a sweep and of the document.
-    mutable std::pair<std::shared_ptr<const Scene>, std::shared_ptr<const Scene>> compared_;
+    /// What was compared last: a sweep with the scene of the document.
+    mutable std::pair<std::shared_ptr<const Sweep>, std::shared_ptr<const Scene>> compared_;
     mutable bool is_same_ = false;
+    bool has_news_ = false;
 };
 
 }  // namespace mobbscope::app

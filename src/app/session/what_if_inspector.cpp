@@ -22,14 +22,16 @@ std::shared_ptr<const mobb::Tree> WhatIfInspector::tree() const {
 std::string_view WhatIfInspector::why_not() const {
     const auto of = tree();
     if (!of) return "no node is selected";
-    return of->blocks() ? "blocks are all of one make" : "";
+    return of->blocks() ? "all blocks are built alike" : "";
 }
 
 void WhatIfInspector::measure() {
     // One for another node could end after this one.
     std::erase_if(workspace_.jobs, [](const RunningJob& running) { return running.job->title() == kTrying; });
     if (found()) return;
-    jobs_.start(kTrying, [this, of = tree(), node = workspace_.selection.index](JobControl& control) -> Job::Finish {
+    tried_tree_ = tree();
+    tried_node_ = workspace_.selection.index;
+    jobs_.start(kTrying, [this, of = tried_tree_, node = tried_node_](JobControl& control) -> Job::Finish {
         const QueryWorkload workload = standard_workload(std::array{of->shared_clip()}, kWhatIfQueries, kWhatIfSeed);
         WhatIf measured = what_if(workload, std::array{of}, 0, node, progress_of(control));
         return [this, measured = std::move(measured)]() mutable { found_ = std::move(measured); };
@@ -37,6 +39,7 @@ void WhatIfInspector::measure() {
 }
 
 bool WhatIfInspector::is_under_way() const {
+    if (tried_node_ != workspace_.selection.index || tried_tree_ != tree()) return false;
     return std::ranges::any_of(workspace_.jobs,
                                [](const RunningJob& running) { return running.job->title() == kTrying; });
 }

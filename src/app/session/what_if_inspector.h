@@ -26,6 +26,7 @@ class WhatIfInspector {
     /// Tries all that there is to try in place of the selected node, in the background where that takes long. Requires
     /// that why_not() is empty.
     void measure();
+    /// For the selected node.
     bool is_under_way() const;
     /// Of the selected node; null until it was measured.
     const WhatIf* found() const;
@@ -36,6 +37,8 @@ class WhatIfInspector {
     Workspace& workspace_;
     Jobs& jobs_;
     std::optional<WhatIf> found_;
+    std::shared_ptr<const mobb::Tree> tried_tree_;  ///< the job's, or the last one's
+    int tried_node_ = -1;                           ///< likewise
 };
 
 }  // namespace mobbscope::app

@@ -428,7 +428,8 @@ class ChartDrawing {
 }  // namespace
 
 Rgba series_color(const Chart& chart, std::size_t series, const Palette& palette) {
-    if (chart.colors == Chart::Colors::categories) return category_color(series, palette);
+    if (chart.colors == Chart::Colors::categories)
+        return category_color(chart.series[series].color.value_or(series), palette);
     const std::size_t steps = std::max<std::size_t>(chart.series.size() - 1, 1);
     return quantity_color(static_cast<float>(series) / static_cast<float>(steps), palette);
 }

@@ -29,6 +29,7 @@ struct Chart {
     struct Series {
         std::string name;
         std::vector<Point> points;
+        std::optional<std::size_t> color{};  ///< of the categories; none: that of its place among the series
     };
     /// A place that matters.
     struct Mark {

@@ -1,6 +1,7 @@
 #include <render/pictures/sweep_chart.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -26,9 +27,14 @@ bool varies(Over over, const SweepResult& result) {
     });
 }
 
+/// Kinds have the same colours in all charts.
+Chart::Series series_of(mobb::TreeKind kind) {
+    return {std::string(mobb::info(kind).label), {}, static_cast<std::size_t>(kind)};
+}
+
 }  // namespace
 
-SweepChart sweep_chart(const SweepResult& result) {
+SweepChart sweep_chart(const SweepResult& result, std::optional<std::size_t> now) {
     SweepChart out;
     const Over over = !varies(Over::leaf, result) && varies(Over::time_scale, result) ? Over::time_scale : Over::leaf;
     out.chart.x = over == Over::leaf ? Chart::Axis{"samples of a leaf", "", Chart::Scale::factors}
@@ -48,7 +54,7 @@ SweepChart sweep_chart(const SweepResult& result) {
         if (row.cost.mean < result.rows[at->second].cost.mean) at->second = i;
     }
     for (const auto& [kind, rows] : cheapest) {
-        Chart::Series series{std::string(mobb::info(kind).label), {}};
+        Chart::Series series = series_of(kind);
         out.rows.emplace_back();
         const auto add = [&](double value, std::size_t row) {
             series.points.push_back({value, result.rows[row].cost.mean});
@@ -66,12 +72,13 @@ SweepChart sweep_chart(const SweepResult& result) {
     }
     const auto mark = [&](const char* text, std::size_t row, bool recommended) {
         const mobb::FitOptions& fit = result.rows[row].fit;
-        out.chart.marks.push_back(
-            {text, matters(over, fit.tree) ? value_of(over, fit) : most, result.rows[row].cost.mean, recommended});
+        out.chart.marks.push_back({text, matters(over, fit.tree) ? value_of(over, fit) : std::sqrt(least * most),
+                                   result.rows[row].cost.mean, recommended});
     };
     const bool ended = !result.why.empty();
-    if (!ended || result.recommended != result.present) mark("now", result.present, false);
-    if (ended) mark(result.recommended == result.present ? "now, and best" : "best", result.recommended, true);
+    const bool is_best = ended && now == result.recommended;
+    if (now && !is_best) mark("now", *now, false);
+    if (ended) mark(is_best ? "now, and best" : "best", result.recommended, true);
     return out;
 }
 
@@ -90,12 +97,13 @@ Chart time_scale_chart(const std::vector<LevelCurve>& curves, std::size_t level,
     for (const LevelCurve& curve : curves) {
         const LevelCurve::Level& at = curve.levels[std::min(level, curve.levels.size() - 1)];
         const double value = of == CurveOf::volume ? at.volume : at.cost;
-        const std::string name(mobb::info(curve.fit.tree).label);
+        Chart::Series series = series_of(curve.fit.tree);
         if (!mobb::info(curve.fit.tree).uses_time_scale()) {
-            out.series.push_back({name, {{least, value}, {most, value}}});
+            series.points = {{least, value}, {most, value}};
+            out.series.push_back(std::move(series));
             continue;
         }
-        if (out.series.empty() || out.series.back().name != name) out.series.push_back({name, {}});
+        if (out.series.empty() || out.series.back().name != series.name) out.series.push_back(std::move(series));
         out.series.back().points.push_back({curve.fit.time_scale, value});
     }
     return out;

@@ -16,8 +16,9 @@ struct SweepChart {
 };
 
 /// Each line has the cheapest fits of its kind; where leaves are not varied but time scales are, over these. A kind to
-/// which neither matters is a level line. The present fit is marked, and once the sweep has ended the recommended one.
-SweepChart sweep_chart(const SweepResult& result);
+/// which neither matters is a level line. The row `now` is marked, if there is one, and once the sweep has ended the
+/// recommended one.
+SweepChart sweep_chart(const SweepResult& result, std::optional<std::size_t> now);
 
 /// What a level of trees does over the time scale of UMOBB, beside MOBB and moving boxes, which have none.
 enum class CurveOf { volume, cost };

@@ -17,8 +17,8 @@ namespace mobbscope {
 
 namespace {
 
-constexpr float kLookStep = 0.5F;     // pixels from one look at the depths to the next
-constexpr float kShortestRun = 1.5F;  // pixels; what is hidden for less is taken for seen
+constexpr float kLookStep = 0.5F;  // pixels from one look at the depths to the next
+constexpr int kShortGap = 3;       // looks; what is hidden for no more is taken for seen
 
 /// A line on the screen, with depths from 0 to 1 as the renderer compares them.
 struct SeenLine {
@@ -114,8 +114,9 @@ class Clipper {
         return line.depth_at(along) <= depths_->at(at.x, at.y);
     }
     bool is_short_gap(const SeenLine& line, float at, float end) const {
-        for (float ahead = kLookStep; ahead <= kShortestRun; ahead += kLookStep) {
-            if (at + ahead < end && sees(line, at + ahead)) return true;
+        for (int i = 1; i <= kShortGap; ++i) {
+            const float ahead = at + static_cast<float>(i) * kLookStep;
+            if (ahead < end && sees(line, ahead)) return true;
         }
         return false;
     }
