@@ -72,7 +72,7 @@ void write_options(JsonWriter& out, const mobb::FitOptions& fit) {
                 fit.time_scale);
 }
 
-void write_options(JsonWriter& out, const mobb::FitOptions& fit) {
+void write_all_options(JsonWriter& out, const mobb::FitOptions& fit) {
     write_options(out, fit);
     out.member("levels", fit.levels);
 }
@@ -80,7 +80,7 @@ void write_options(JsonWriter& out, const mobb::FitOptions& fit) {
 void write_row(JsonWriter& out, const RowFigures& figures, bool has_quantiles) {
     out.begin_object(Layout::row);
     out.member("clip", figures.clip);
-    write_options(out, figures.row.fit);
+    write_all_options(out, figures.row.fit);
     out.members("box_tests", figures.tests.boxes(), "sample_pairs", figures.tests[mobb::TestKind::samples]);
     out.members("cost", figures.cost.mean, "standard_error", figures.cost.standard_error);
     const auto if_known = [&](double quantile) { return has_quantiles ? std::optional(quantile) : std::nullopt; };
@@ -126,14 +126,14 @@ void print_sweep_json(const Scene& scene, const QueryWorkload& workload, const S
     out.end_array();
     const SweepRow& chosen = result.rows[result.recommended];
     out.begin_object("recommended");
-    write_options(out, chosen.fit);
+    write_all_options(out, chosen.fit);
     out.members("cost", chosen.cost.mean, "present_cost", result.rows[result.present].cost.mean, "why", result.why);
     out.end_object();
     out.begin_array("exceptions");
     for (const SweepException& exception : result.exceptions) {
         out.begin_object(Layout::row);
         out.member("clip", scene.clips[static_cast<std::size_t>(exception.clip)].name);
-        write_options(out, result.rows[exception.row].fit);
+        write_all_options(out, result.rows[exception.row].fit);
         out.member("saving", exception.saving);
         out.end_object();
     }
