@@ -99,7 +99,9 @@ void print_warnings(const Scene& scene, const std::string& name) {
                         : "of " + std::to_string(scene.clips.size()) + " clips " + std::to_string(each.clips) +
                               ", such as " + in_quotes(each.first->name) + ": ";
         }
-        warn(name + ": " + whose + said(each.warning));
+        std::string line = name;
+        line.append(": ").append(whose).append(said(each.warning));
+        warn(line);
     }
 }
 

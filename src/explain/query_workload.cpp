@@ -85,9 +85,12 @@ QueryWorkload standard_workload(std::span<const mobb::ClipPtr> clips, std::size_
         for (; k > b; ++b) k -= b + 1;
         const auto at = placements.try_emplace({k, b}, *clips[k], *clips[b]).first;
         out.queries.push_back({static_cast<int>(k), static_cast<int>(b), {}, at->second.b(seed, i)});
-        out.area += at->second.area() / static_cast<double>(count);
-        out.offset += at->second.offset / static_cast<double>(count);
+        out.area += at->second.area();
+        out.offset += at->second.offset;
     }
+    const auto asked = static_cast<double>(std::max<std::size_t>(count, 1));
+    out.area /= asked;
+    out.offset /= asked;
     return out;
 }
 

@@ -25,7 +25,7 @@ void FitNotices::look(int clip, std::function<void()> then) {
     const std::shared_ptr<const mobb::Tree> tree = workspace_.fitted().shared_tree(clip);
     if (!then && tree == failed_) return;
     if (options_.attended && then) {
-        then_ = std::move(then);
+        then_ = then;
         then_for_ = clip;
     }
     if (job_) return;
