@@ -20,7 +20,7 @@ FitNotices::Noticed* FitNotices::of(int clip) {
     return known == known_.end() ? nullptr : &*known;
 }
 
-void FitNotices::look(int clip, std::function<void()> then) {
+void FitNotices::look(int clip, const std::function<void()>& then) {
     if (of(clip)) return then ? then() : void();
     const std::shared_ptr<const mobb::Tree> tree = workspace_.fitted().shared_tree(clip);
     if (!then && tree == failed_) return;
@@ -56,14 +56,14 @@ void FitNotices::poll() {
         failed_ = of_;
         notifications_.tell(MessageLevel::error, error.what());
     }
-    std::function<void()> then = std::exchange(then_, nullptr);
+    const std::function<void()> then = std::exchange(then_, nullptr);
     const FittedScene& fitted = workspace_.fitted();
     if (!then || then_for_ >= static_cast<int>(fitted.scene().clips.size())) return;
     // It said so already.
     if (failed_ == of_ && fitted.shared_tree(then_for_) == of_) return;
     try {
         // The job was for another clip, or the clip was fitted anew meanwhile.
-        look(then_for_, std::move(then));
+        look(then_for_, then);
     } catch (const std::exception& error) {
         notifications_.tell(MessageLevel::error, error.what());
     }

@@ -30,7 +30,7 @@ class FitNotices {
     /// Of the tree of a clip of the document; null: not known yet.
     Noticed* of(int clip);
     /// Begins to find it out, one tree after the other, and calls `then` once it is known; at once if it is.
-    void look(int clip, std::function<void()> then = {});
+    void look(int clip, const std::function<void()>& then = {});
     /// Takes in what was found.
     void poll();
     void end_work();
