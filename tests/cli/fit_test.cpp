@@ -136,16 +136,16 @@ TEST(Fit, CsvHasARowForEachNode) {
                 ASSERT_EQ(rows[row].size(), names.size());
                 std::map<std::string, std::string> cells;
                 for (std::size_t i = 0; i < names.size(); ++i) cells[names[i]] = rows[row][i];
-                EXPECT_EQ(cells["clip"], tree["clip"]);
+                EXPECT_EQ(cells["clip"], tree["clip"].get<std::string>());
                 EXPECT_EQ(cells["tree"], kind);
                 EXPECT_EQ(cells["leaf"], "7");
-                EXPECT_EQ(cells["axes"], tree["axes"]);
+                EXPECT_EQ(cells["axes"], tree["axes"].get<std::string>());
                 EXPECT_EQ(cells["time_scale"], format_double(tree["time_scale"]));
                 for (const char* whole : {"index", "parent", "level", "first", "count"})
                     EXPECT_EQ(cells[whole], node[whole].dump()) << whole;
                 for (const char* number : {"t0", "t1"}) EXPECT_EQ(cells[number], format_double(node[number]));
                 EXPECT_EQ(cells["is_leaf"], node["leaf"] ? "true" : "false");
-                EXPECT_EQ(cells["kind"], node["kind"]);
+                EXPECT_EQ(cells["kind"], node["kind"].get<std::string>());
                 EXPECT_EQ(cells["share"], node["share"].is_null() ? "" : format_double(node["share"]));
                 if (!cells["box_tests"].empty()) box_tests += std::stod(cells["box_tests"]);
                 const auto level = static_cast<std::size_t>(node["level"]);
