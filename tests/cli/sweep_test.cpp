@@ -159,13 +159,13 @@ TEST(Sweep, TheAdviceHoldsWhenItIsTaken) {
 TEST(Sweep, OfTheScenesQueriesAllAreAsked) {
     const Result run = sweep_of(kSweptScene, {"--queries", "scene", "--json"});
     ASSERT_EQ(run.status, 0) << run.err;
-    const json workload = json::parse(run.out)["workload"];
+    const json swept = json::parse(run.out), &workload = swept["workload"];
     EXPECT_EQ(workload["kind"], "queries");
     EXPECT_EQ(workload["queries"], 1);
     EXPECT_TRUE(workload["area"].is_null());
     EXPECT_TRUE(workload["seed"].is_null());
     // One query says nothing of its error.
-    for (const json& row : json::parse(run.out)["rows"]) EXPECT_TRUE(row["standard_error"].is_null());
+    for (const json& row : swept["rows"]) EXPECT_TRUE(row["standard_error"].is_null());
     EXPECT_EQ(sweep_of(kSweptScene, {"--queries", "scene"}).out.find("nan"), std::string::npos);
     EXPECT_EQ(sweep_of(kSweptScene, {"--queries", "scene", "--csv"}).out.find("nan"), std::string::npos);
 }
