@@ -64,6 +64,8 @@ class PdfCanvas : public VectorCanvas {
   public:
     PdfCanvas(PictureSize size, const std::string& title)
         : size_(size), surface_(cairo_pdf_surface_create_for_stream(&PdfCanvas::take, this, size.width, size.height)) {
+        // What every journal takes: later versions pack their objects, too.
+        cairo_pdf_surface_restrict_to_version(surface_.get(), CAIRO_PDF_VERSION_1_4);
         // No dates: the same picture is the same file.
         cairo_pdf_surface_set_metadata(surface_.get(), CAIRO_PDF_METADATA_TITLE, cleaned(title).c_str());
         cairo_pdf_surface_set_metadata(surface_.get(), CAIRO_PDF_METADATA_CREATE_DATE, "");
