@@ -54,6 +54,10 @@ TEST_P(PlainPictures, OfAMotionGraphAreTheGoldens) {
 }
 
 TEST_P(PlainPictures, OfChartsAreTheGoldens) {
+    const auto reference = read_reference(kFolder);
+    ASSERT_TRUE(reference);
+    if (const std::string other = what_is_other(reference_of(renderer()), *reference); !other.empty())
+        GTEST_SKIP() << "how wide words are decides where lines stand, and it is drawn with " << other;
     const Chart cost = mobbscope::testing::small_chart();
     expect_goldens(chart_picture({cost}, {800, 450}, Theme::light).list, "chart");
     expect_goldens(chart_picture({cost, mobbscope::testing::small_level_chart()}, {1280, 480}, Theme::dark).list,
