@@ -6,6 +6,7 @@
 
 #include <base/json.h>
 #include <base/json_writer.h>
+#include <scene/view_state.h>
 
 #include <cstddef>
 #include <string>
@@ -35,10 +36,18 @@ struct Bookmark {
     friend bool operator==(const Bookmark&, const Bookmark&) = default;
 };
 
+/// How the scene is seen, to come back to.
+struct NamedView {
+    std::string name;  ///< not empty; no two have the same
+    ViewState view;
+    friend bool operator==(const NamedView&, const NamedView&) = default;
+};
+
 struct DebugState {
     std::vector<NamedFilter> filters;
     std::vector<Breakpoint> breakpoints;
     std::vector<Bookmark> bookmarks;
+    std::vector<NamedView> views;
     friend bool operator==(const DebugState&, const DebugState&) = default;
 };
 

@@ -48,6 +48,17 @@ DiskProjection read_projection(const JsonPlace& place) {
     return projection;
 }
 
+DrawnNode read_drawn_node(const JsonPlace& place) {
+    place.allow_only({"participant", "node"});
+    return {place.require("participant").integer(0, kMaxInt), place.require("node").integer(0, kMaxInt)};
+}
+
+ValueRange read_range(const JsonPlace& place) {
+    const auto ends = place.vector<glm::dvec2>(mobb::kMaxTime, "[least, most]");
+    if (!(ends.x <= ends.y)) place.fail("the first must not be more than the second");
+    return {ends.x, ends.y};
+}
+
 /// A whole number, or text that `parse` understands.
 template <class Parse>
 auto read_number_or_text(const JsonPlace& place, const Parse& parse) {
@@ -104,6 +115,20 @@ ViewOption text_or_number(ViewOption row) {
     row.read = [](const JsonPlace& place, ViewState& view) { view.*member = read_number_or_text(place, read); };
     row.write = [](JsonWriter& out, const ViewState& view) { out.value(to_string(view.*member)); };
     row.text = [](const ViewState& view) { return to_string(view.*member); };
+    return field<member>(std::move(row));
+}
+
+/// A row about a range of numbers, or none; `none`: as the command line calls that.
+template <auto member>
+ViewOption range(ViewOption row, const char* none) {
+    row.schema =
+        R"("anyOf": [{"type": "null"}, {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2}])";
+    row.read = [](const JsonPlace& place, ViewState& view) {
+        view.*member = place.is_null() ? std::nullopt : std::optional(read_range(place));
+    };
+    row.write = [](JsonWriter& out, const ViewState& view) { out.tuple((view.*member)->least, (view.*member)->most); };
+    row.parse = [](const std::string& text, ViewState& view) { view.*member = parse_value_range(text); };
+    row.text = [none](const ViewState& view) { return view.*member ? to_string(*(view.*member)) : std::string(none); };
     return field<member>(std::move(row));
 }
 
@@ -180,10 +205,11 @@ std::vector<ViewOption> all_view_options() {
     return {
         choice<&ViewState::show, show_from_name>(
             {.key = "show",
-             .what = "Stacks and boxes in space-time, or the floor at one moment (time)",
+             .what = "Stacks and boxes in space-time, the floor at one moment (time), or its plan with the sections of "
+                     "boxes",
              .option = "--show",
              .placeholder = "WHAT",
-             .choices = {"space-time", "moment"},
+             .choices = {"space-time", "moment", "plan"},
              .refused_in_file = "a picture cannot show {}"}),
         field<&ViewState::camera>(
             {.key = "camera",
@@ -364,16 +390,53 @@ std::vector<ViewOption> all_view_options() {
                  }}),
         choice<&ViewState::color_by, color_by_from_name>(
             {.key = "color_by",
-             .what = "What the colour of boxes says: agent (whose they are) or level",
+             .what = "What the colour of boxes says: agent (whose they are), level, or another figure of their node",
              .option = "--color-by",
              .placeholder = "WHAT",
              .command = "view.color_by",
              .title = "Colour boxes by",
              .menu = "View",
              .shortcut = "C",
-             .choices = {"agent", "level"},
+             .choices = {"agent", "level", "volume", "empty", "fill", "floor", "overhang", "share", "tests",
+                         "avoidable"},
              .refused_in_file = "boxes cannot be coloured by {}",
              .refused_in_window = "colours cannot be by {}"}),
+        range<&ViewState::color_range>(
+            {.key = "color_range",
+             .what = "The figures from the first colour to the last, where boxes are coloured by one; or auto",
+             .option = "--color-range",
+             .placeholder = "LEAST:MOST"},
+            "auto"),
+        range<&ViewState::slab>({.key = "slab",
+                                 .what = "From when to when it is shown, global seconds: what is outside is cut away; "
+                                         "or none",
+                                 .option = "--slab",
+                                 .placeholder = "T0:T1"},
+                                "none"),
+        field<&ViewState::subtree>(
+            {.key = "subtree",
+             .what = "A node of an agent's tree: only its box and those below are drawn of that agent, or none",
+             .schema = R"("anyOf": [
+            {"type": "null"},
+            {
+              "type": "object",
+              "additionalProperties": false,
+              "required": ["participant", "node"],
+              "properties": {
+                "participant": {"description": "Index into what is drawn", "type": "integer", "minimum": 0},
+                "node": {"type": "integer", "minimum": 0}
+              }
+            }
+          ]
+        )",
+             .read =
+                 [](const JsonPlace& place, ViewState& view) {
+                     view.subtree = place.is_null() ? std::nullopt : std::optional(read_drawn_node(place));
+                 },
+             .write =
+                 [](JsonWriter& out, const ViewState& view) {
+                     out.row("participant", view.subtree->agent, "node", view.subtree->node);
+                 }}),
         choice<&ViewState::theme, theme_from_name>({.key = "theme",
                                                     .what = "The colours of the window and its pictures: dark or light",
                                                     .option = "--theme",
@@ -425,6 +488,33 @@ std::vector<ViewOption> all_view_options() {
                                    .menu = "View/Show",
                                    .shortcut = "B",
                                    .at_hand = true}),
+        toggle<&ViewState::heat>({.key = "heat",
+                                  .what = "The disks in the colour of how many tests of boxes hold them",
+                                  .title = "Heat of tests on the disks",
+                                  .menu = "View/Show",
+                                  .may_be_seen = [](const ViewState& view) { return view.disks && !view.query; }}),
+        toggle<&ViewState::cut_boxes>(
+            {.key = "cut_boxes",
+             .what = "Where a slab in time is shown, boxes cut at its planes; else they stay whole",
+             .title = "Cut boxes at the slab",
+             .menu = "View/Slab",
+             .may_be_seen = [](const ViewState& view) { return view.boxes && view.slab.has_value(); }}),
+        toggle<&ViewState::slice>({.key = "slice",
+                                   .what = "At the time cursor, the cross-sections of boxes on its plane",
+                                   .title = "Sections at the time cursor",
+                                   .menu = "View/Show",
+                                   .draws = DrawnPart::surroundings,
+                                   .may_be_seen = [](const ViewState& view) { return view.time.has_value(); }}),
+        toggle<&ViewState::ancestors>({.key = "ancestors",
+                                       .what = "The boxes above the selected node, as ghosts",
+                                       .title = "Ancestors",
+                                       .menu = "View/Show",
+                                       .draws = DrawnPart::surroundings}),
+        toggle<&ViewState::frame_boxes>({.key = "frame_boxes",
+                                         .what = "The boxes too, where the camera frames the scene",
+                                         .title = "Frame boxes too",
+                                         .menu = "View/Camera",
+                                         .draws = DrawnPart::surroundings}),
         toggle<&ViewState::proof>({.key = "proof",
                                    .what = "The lines that keep the two of a query apart: as walls at its last step, "
                                            "of a miss in place of the pair tested last, and at an overlap that is "

@@ -17,10 +17,11 @@ std::optional<int> level(std::string_view text) {
 // In the order of their enumerations.
 constexpr std::array<std::string_view, 5> kPresets{"iso", "top", "front", "side", "free"};
 constexpr std::array<std::string_view, 2> kThemes{"dark", "light"};
-constexpr std::array<std::string_view, 2> kColorings{"agent", "level"};
+constexpr std::array<std::string_view, 10> kColorings{"agent", "level",    "volume", "empty", "fill",
+                                                      "floor", "overhang", "share",  "tests", "avoidable"};
 constexpr std::array<std::string_view, 4> kPasts{"pair", "ancestors", "siblings", "all"};
 constexpr std::array<std::string_view, 2> kArrangements{"none", "grid"};
-constexpr std::array<std::string_view, 2> kShows{"space-time", "moment"};
+constexpr std::array<std::string_view, 3> kShows{"space-time", "moment", "plan"};
 constexpr std::array<std::string_view, 9> kStepUnits{"",    "",          "end",  "separated", "overlap",
                                                      "hit", "avoidable", "leaf", "depth"};
 
@@ -57,6 +58,17 @@ LevelRange parse_level_range(const std::string& text) {
     return {*first, *last, false};
 }
 
+std::optional<ValueRange> parse_value_range(const std::string& text) {
+    if (text == "auto" || text == "none") return std::nullopt;
+    const std::size_t colon = text.find(':');
+    const std::optional<double> least = parse_double(std::string_view(text).substr(0, colon));
+    const std::optional<double> most =
+        colon == std::string::npos ? std::nullopt : parse_double(std::string_view(text).substr(colon + 1));
+    if (!least || !most || !(*least <= *most))
+        throw std::invalid_argument(in_quotes(text) + " is no range: give the least and the most, as 0:2.5");
+    return ValueRange{*least, *most};
+}
+
 Step parse_step(const std::string& text) {
     if (text == "end") return {Step::Unit::end, 0};
     if (text.ends_with('%')) {
@@ -77,6 +89,8 @@ std::string to_string(const LevelRange& levels) {
     const std::string first = std::to_string(levels.first);
     return levels.first == levels.last ? first : first + ':' + std::to_string(levels.last);
 }
+
+std::string to_string(const ValueRange& range) { return format_double(range.least) + ':' + format_double(range.most); }
 
 std::string to_string(const Step& step) {
     switch (step.unit) {

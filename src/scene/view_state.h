@@ -16,12 +16,18 @@ namespace mobbscope {
 
 enum class CameraPreset { iso, top, front, side, free };
 enum class Theme { dark, light };
-/// What the colour of a level's boxes says: whose they are, or which level.
-enum class ColorBy { agent, level };
+/// What the colour of a level's boxes says: whose they are, or a figure of their node.
+enum class ColorBy { agent, level, volume, empty, fill, floor, overhang, share, tests, avoidable };
 
-/// What a picture is of: the stacks and boxes in space-time, or the floor at one moment, with people in their
-/// cylinders.
-enum class Show { space_time, moment };
+/// What a picture is of: the stacks and boxes in space-time; the floor at one moment, with people in their cylinders;
+/// or a plan of it, the disks and the cross-sections of boxes at that moment.
+enum class Show { space_time, moment, plan };
+
+/// From one number to another that is not less.
+struct ValueRange {
+    double least = 0, most = 0;
+    friend bool operator==(const ValueRange&, const ValueRange&) = default;
+};
 
 /// With a query, which tests before the present one are drawn too.
 enum class Past {
@@ -40,6 +46,13 @@ struct DiskProjection {
     int node = 0;    ///< of its tree
     int sample = 0;  ///< of its clip
     friend bool operator==(const DiskProjection&, const DiskProjection&) = default;
+};
+
+/// A node of what is drawn.
+struct DrawnNode {
+    int agent = 0;  ///< index into what is drawn
+    int node = 0;   ///< of its tree
+    friend bool operator==(const DrawnNode&, const DrawnNode&) = default;
 };
 
 /// Seconds.
@@ -123,15 +136,24 @@ struct ViewState {
     bool candidates = true;  ///< of a run's followed agent: the moves of its last choice, and what became of each
     double time_height = 0;  ///< metres drawn per second; 0: chosen so that the scene is about as tall as wide
     ColorBy color_by = ColorBy::agent;  ///< of the boxes of levels; those of a query have their states' colours
+    std::optional<ValueRange>
+        color_range;                   ///< of the figure, from the first colour to the last; none: of what is shown
+    std::optional<DrawnNode> subtree;  ///< of its agent the boxes of that node and below it alone
+    std::optional<ValueRange> slab;    ///< global seconds: what is outside is cut away, disks cleanly
+    bool cut_boxes = false;            ///< at the planes of the slab; else those that reach into it stay whole
     Theme theme = Theme::dark;
     bool disks = true;
+    bool heat = false;  ///< disks have the colour of the tests of boxes that hold them
     bool boxes = true;
-    bool cost = false;      ///< in the caption of trees: the tests of boxes that a query of them makes
-    bool boundary = false;  ///< with a query, on the floor: within it B's path may not begin, or the two collide
-    bool floor = true;      ///< grid in metres, and the paths' traces on it
-    bool time_axis = true;  ///< ticks in seconds
-    bool labels = true;     ///< all text
-    bool caption = true;    ///< the sentences at the top; where a title says it they are not needed
+    bool slice = false;        ///< at the time cursor, the cross-sections of boxes on its plane
+    bool ancestors = false;    ///< of the node of `subtree`, or one that is selected, as ghosts
+    bool frame_boxes = false;  ///< a camera that frames the scene by itself has the boxes in it too
+    bool cost = false;         ///< in the caption of trees: the tests of boxes that a query of them makes
+    bool boundary = false;     ///< with a query, on the floor: within it B's path may not begin, or the two collide
+    bool floor = true;         ///< grid in metres, and the paths' traces on it
+    bool time_axis = true;     ///< ticks in seconds
+    bool labels = true;        ///< all text
+    bool caption = true;       ///< the sentences at the top; where a title says it they are not needed
     bool legend = true;
     bool inset = true;        ///< the small map of the floor
     bool proof = true;        ///< at the last step of a query: the lines that keep the two apart, as walls
@@ -167,6 +189,9 @@ std::string_view name(Arrange arrange);
 std::optional<Arrange> arrange_from_name(std::string_view name);
 /// What parse_level_range and parse_step read.
 std::string to_string(const LevelRange& levels);
+/// "0:2.5", "auto" or "none". Throws std::invalid_argument.
+std::optional<ValueRange> parse_value_range(const std::string& text);
+std::string to_string(const ValueRange& range);
 std::string to_string(const Step& step);
 
 /// A view names something that its scene does not have. what() says so, and what there is.
