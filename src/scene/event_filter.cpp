@@ -1,21 +1,14 @@
-#include <base/text.h>
 #include <mobb/trace.h>
 #include <scene/event_filter.h>
 
-#include <algorithm>
-#include <array>
-#include <cctype>
-#include <cmath>
-#include <limits>
-#include <optional>
-#include <utility>
+#include <string_view>
+#include <vector>
 
 namespace mobbscope {
 
 namespace {
 
 using mobb::Outcome;
-using Term = EventFilter::Term;
 
 /// In the order of mobb::Outcome.
 const std::vector<std::string_view>& event_outcome_names() {
@@ -37,464 +30,78 @@ const std::vector<std::string_view>& event_test_names() {
     return names;
 }
 
-std::vector<EventFieldInfo> all_event_fields() {
-    using enum EventField;
+std::vector<TableField> all_event_fields() {
     return {
-        {.field = step, .name = "step", .words = "the step", .doc = "Number of the event, from 0"},
-        {.field = time,
-         .name = "time",
+        {.name = "step", .words = "the step", .doc = "Number of the event, from 0"},
+        {.name = "time",
          .kind = FieldKind::range,
          .unit = "s",
          .words = "a moment of the pair",
          .doc = "The time that both nodes share: `time = 2.3` holds if 2.3 s is in it"},
-        {.field = shared,
-         .name = "shared",
+        {.name = "shared",
          .unit = "s",
          .words = "the time that both nodes share",
          .doc = "How long the time that both nodes share is; 0 of nodes apart in time"},
-        {.field = depth, .name = "depth", .words = "the depth", .doc = "Pairs above this one; 0 at the root"},
-        {.field = parent,
-         .name = "parent",
+        {.name = "depth", .words = "the depth", .doc = "Pairs above this one; 0 at the root"},
+        {.name = "parent",
          .words = "the step that led to it",
          .doc = "Last event of the pair that called this one; none at the root"},
-        {.field = node,
-         .name = "node",
+        {.name = "node",
          .kind = FieldKind::node,
          .of_side = true,
          .words = "A's node",
          .doc = "A node by its level and place (2.1) or by its index"},
-        {.field = level,
-         .name = "level",
-         .of_side = true,
-         .words = "the level of A's node",
-         .doc = "Level of the node; 0 is the root"},
-        {.field = sample,
-         .name = "sample",
+        {.name = "level", .of_side = true, .words = "the level of A's node", .doc = "Level of the node; 0 is the root"},
+        {.name = "sample",
          .kind = FieldKind::range,
          .of_side = true,
          .words = "a sample of A's node",
          .doc = "The samples in the node: `sample(a) = 113` holds if 113 is one of them"},
-        {.field = leaf,
-         .name = "leaf",
-         .kind = FieldKind::flag,
-         .of_side = true,
-         .words = "A's node is a leaf",
-         .doc = "Leaves"},
-        {.field = test,
-         .name = "test",
+        {.name = "leaf", .kind = FieldKind::flag, .of_side = true, .words = "A's node is a leaf", .doc = "Leaves"},
+        {.name = "test",
          .kind = FieldKind::word,
          .words = "the test",
          .doc = "What was tested",
          .values = event_test_names()},
-        {.field = outcome,
-         .name = "outcome",
+        {.name = "outcome",
          .kind = FieldKind::word,
          .words = "the outcome",
          .doc = "What the test found",
          .values = event_outcome_names()},
-        {.field = axis,
-         .name = "axis",
-         .words = "the separating axis",
-         .doc = "Number of the axis that separated two boxes"},
-        {.field = gap,
-         .name = "gap",
+        {.name = "axis", .words = "the separating axis", .doc = "Number of the axis that separated two boxes"},
+        {.name = "gap",
          .unit = "m",
          .words = "the gap",
          .doc = "Between two boxes that are separated, along that axis"},
-        {.field = clearance,
-         .name = "clearance",
+        {.name = "clearance",
          .unit = "m",
          .words = "the clearance",
          .doc = "Between the disks of the nearest pair of samples that was measured; below 0: they overlap"},
-        {.field = pairs,
-         .name = "pairs",
-         .words = "the number of measured pairs",
-         .doc = "Pairs of samples that were measured"},
-        {.field = tests_below,
-         .name = "tests_below",
-         .words = "the number of tests below",
-         .doc = "Tests of all pairs below this one"},
-        {.field = hit_below,
-         .name = "hit_below",
+        {.name = "pairs", .words = "the number of measured pairs", .doc = "Pairs of samples that were measured"},
+        {.name = "tests_below", .words = "the number of tests below", .doc = "Tests of all pairs below this one"},
+        {.name = "hit_below",
          .kind = FieldKind::flag,
          .words = "a hit was found in it or below it",
          .doc = "Pairs that led to the hit"},
-        {.field = avoidable,
-         .name = "avoidable",
+        {.name = "avoidable",
          .kind = FieldKind::flag,
          .words = "the overlap was avoidable",
          .doc = "Overlaps of boxes whose disks one line keeps apart, of those that were judged"},
     };
 }
 
-// --- tokens
-
-struct Unit {
-    std::string_view name, of;
-    double factor;
-};
-constexpr std::array kUnits{Unit{"m", "m", 1}, Unit{"cm", "m", 0.01}, Unit{"mm", "m", 0.001}, Unit{"s", "s", 1},
-                            Unit{"ms", "s", 0.001}};
-
-struct Sign {
-    std::string_view text;
-    Comparison comparison;
-    std::string_view words;
-};
-/// Longer ones first. Of those that mean the same, the first has the words.
-constexpr std::array kSigns{Sign{"<=", Comparison::at_most, "at most"}, Sign{">=", Comparison::at_least, "at least"},
-                            Sign{"!=", Comparison::not_equal, "not"},   Sign{"==", Comparison::equal, ""},
-                            Sign{"=", Comparison::equal, ""},           Sign{"<", Comparison::less, "below"},
-                            Sign{">", Comparison::greater, "above"},    Sign{"\u2264", Comparison::at_most, ""},
-                            Sign{"\u2265", Comparison::at_least, ""},   Sign{"\u2260", Comparison::not_equal, ""}};
-
-bool begins_word(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-bool in_word(char c) { return begins_word(c) || std::isdigit(static_cast<unsigned char>(c)) != 0; }
-bool in_number(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.'; }
-
-constexpr int kMostNesting = 100;
-constexpr int kMostComparisons = 1000;
-
-class FilterParser {
-  public:
-    explicit FilterParser(std::string_view text) : text_(text) { skip_blanks(); }
-
-    std::vector<Term> parse() {
-        alternatives();
-        if (at_ < text_.size()) fail_expecting("'and' or 'or' is missing", {"and", "or"});
-        return std::move(terms_);
-    }
-
-    /// What may follow a text that is a filter as it stands.
-    static std::vector<std::string> joiners() { return {"and", "or"}; }
-
-  private:
-    [[noreturn]] void fail_expecting(const std::string& message, std::vector<std::string> expected) const {
-        throw FilterError(message, at_, std::move(expected));
-    }
-
-    void skip_blanks() {
-        while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
-    }
-
-    /// The word that begins here; empty: none does.
-    std::string_view peeked_word() const {
-        std::size_t end = at_;
-        if (end < text_.size() && begins_word(text_[end])) {
-            while (end < text_.size() && in_word(text_[end])) ++end;
-        }
-        return text_.substr(at_, end - at_);
-    }
-
-    void pass(std::size_t bytes) {
-        at_ += bytes;
-        skip_blanks();
-    }
-
-    bool take_word(std::string_view word) {
-        if (lower(peeked_word()) != word) return false;
-        pass(word.size());
-        return true;
-    }
-
-    bool take(char c) {
-        if (at_ >= text_.size() || text_[at_] != c) return false;
-        pass(1);
-        return true;
-    }
-
-    int add(const Term& term) {
-        terms_.push_back(term);
-        return static_cast<int>(terms_.size()) - 1;
-    }
-
-    int alternatives() {
-        int left = conjunction();
-        while (take_word("or")) {
-            const int right = conjunction();
-            left = add({.kind = Term::Kind::one_of, .left = left, .right = right});
-        }
-        return left;
-    }
-
-    int conjunction() {
-        int left = part();
-        while (take_word("and")) {
-            const int right = part();
-            left = add({.kind = Term::Kind::all_of, .left = left, .right = right});
-        }
-        return left;
-    }
-
-    int part() {
-        if (++nesting_ > kMostNesting) fail_expecting("it is nested too deep", {});
-        int out = 0;
-        if (take_word("not")) {
-            const int left = part();
-            out = add({.kind = Term::Kind::none_of, .left = left});
-        } else if (take('(')) {
-            out = alternatives();
-            if (!take(')')) fail_expecting("')' is missing", {")", "and", "or"});
-        } else {
-            out = add(comparison());
-        }
-        --nesting_;
-        return out;
-    }
-
-    Term comparison() {
-        // Each is one level deeper for whoever walks the tree.
-        if (++comparisons_ > kMostComparisons)
-            fail_expecting("it has too many parts: at most " + std::to_string(kMostComparisons), {});
-        const std::string word = lower(peeked_word());
-        std::vector<std::string> names;
-        for (const EventFieldInfo& field : event_fields()) {
-            const std::string name(field.name);
-            if (field.of_side) {
-                names.push_back(name + "(a)");
-                names.push_back(name + "(b)");
-            } else {
-                names.push_back(name);
-            }
-        }
-        names.insert(names.end(), {"not", "("});
-        const auto fields = event_fields();
-        const auto found = std::ranges::find(fields, word, &EventFieldInfo::name);
-        if (found == fields.end()) {
-            if (word.empty())
-                fail_expecting(at_ < text_.size() ? "a field must stand here" : "a field is missing", names);
-            std::vector<std::string> plain;
-            for (const EventFieldInfo& field : fields) plain.emplace_back(field.name);
-            fail_expecting(in_quotes(word) + " is no field" + did_you_mean(word, plain), names);
-        }
-        Term term{.field = found->field};
-        pass(word.size());
-        if (found->of_side) term.side = side(*found);
-        if (found->kind == FieldKind::flag) {
-            term.value = 1;
-            return term;
-        }
-        term.comparison = sign(*found);
-        value(*found, term);
-        return term;
-    }
-
-    int side(const EventFieldInfo& field) {
-        const std::string name(field.name);
-        if (!take('(')) fail_expecting("whose? Give " + name + "(a) or " + name + "(b)", {"(a)", "(b)"});
-        const std::string word = lower(peeked_word());
-        if (word != "a" && word != "b") fail_expecting("a or b must stand here", {"a)", "b)"});
-        pass(1);
-        if (!take(')')) fail_expecting("')' is missing", {")"});
-        return word == "a" ? 0 : 1;
-    }
-
-    Comparison sign(const EventFieldInfo& field) {
-        const bool equality = field.kind == FieldKind::word || field.kind == FieldKind::node;
-        std::vector<std::string> signs{"=", "!="};
-        if (!equality) signs.insert(signs.end(), {"<", "<=", ">", ">="});
-        for (const Sign& sign : kSigns) {
-            if (!text_.substr(at_).starts_with(sign.text)) continue;
-            if (equality && sign.comparison != Comparison::equal && sign.comparison != Comparison::not_equal)
-                fail_expecting("only = and != compare " + std::string(field.name), signs);
-            pass(sign.text.size());
-            return sign.comparison;
-        }
-        fail_expecting("a comparison is missing: =, !=" + std::string(equality ? "" : ", <, <=, > or >="), signs);
-    }
-
-    void value(const EventFieldInfo& field, Term& term) {
-        if (field.kind == FieldKind::word) {
-            const std::string word = lower(peeked_word());
-            const auto at = std::ranges::find(field.values, word);
-            std::vector<std::string> words(field.values.begin(), field.values.end());
-            if (at == field.values.end()) {
-                fail_expecting((word.empty() ? "a word is missing" : in_quotes(word) + " is not one of them") + ": " +
-                                   listed(field.values),
-                               words);
-            }
-            term.value = static_cast<double>(at - field.values.begin());
-            return pass(word.size());
-        }
-        const std::size_t begin = at_;
-        std::size_t end = at_;
-        if (end < text_.size() && (text_[end] == '-' || text_[end] == '+')) ++end;
-        while (end < text_.size() && in_number(text_[end])) ++end;
-        // A power: 1e-3.
-        if (end > begin && end < text_.size() && (text_[end] == 'e' || text_[end] == 'E')) {
-            std::size_t power = end + 1;
-            if (power < text_.size() && (text_[power] == '-' || text_[power] == '+')) ++power;
-            if (power < text_.size() && in_number(text_[power])) {
-                while (power < text_.size() && in_number(text_[power])) ++power;
-                end = power;
-            }
-        }
-        const std::string_view number = text_.substr(begin, end - begin);
-        refuse_comma(number);
-        if (field.kind == FieldKind::node) {
-            node(number, term);
-            unit(field);
-            return;
-        }
-        const auto parsed = parse_double(number);
-        if (!parsed) fail_expecting(number.empty() ? "a number is missing" : in_quotes(number) + " is no number", {});
-        const bool equality = term.comparison == Comparison::equal || term.comparison == Comparison::not_equal;
-        if (equality && field.unit.empty() && *parsed != std::floor(*parsed))
-            fail_expecting("the " + std::string(field.name) + " is a whole number", {});
-        pass(number.size());
-        term.value = *parsed * unit(field);
-    }
-
-    /// "0,5" for 0.5.
-    void refuse_comma(std::string_view number) {
-        const std::string_view behind = text_.substr(at_ + number.size());
-        if (number.empty() || number.find('.') != std::string_view::npos || !behind.starts_with(',')) return;
-        std::size_t digits = 0;
-        while (1 + digits < behind.size() && std::isdigit(static_cast<unsigned char>(behind[1 + digits])) != 0)
-            ++digits;
-        if (digits == 0) return;
-        at_ += number.size();
-        fail_expecting("write " + std::string(number) + '.' + std::string(behind.substr(1, digits)) + " with a point",
-                       {});
-    }
-
-    /// Whether a word behind a value goes on with the filter, well written or nearly.
-    static bool goes_on(const std::string& word) {
-        const std::vector<std::string> joins = joiners();
-        const auto begun = [&](const std::string& joiner) { return joiner.starts_with(word); };
-        return word == "not" || std::ranges::any_of(joins, begun) || !did_you_mean(word, joins).empty() ||
-               std::ranges::find(event_fields(), word, &EventFieldInfo::name) != event_fields().end();
-    }
-
-    void node(std::string_view number, Term& term) {
-        const std::size_t point = number.find('.');
-        const auto whole = [&](std::string_view text) {
-            const auto value = parse_int(text);
-            if (!value || *value < 0) fail_expecting("a node is missing: its level and place (2.1) or its index", {});
-            return *value;
-        };
-        if (point == std::string_view::npos) {
-            term.value = whole(number);
-        } else {
-            term.level = whole(number.substr(0, point));
-            term.value = whole(number.substr(point + 1));
-        }
-        pass(number.size());
-    }
-
-    /// What the number is multiplied by.
-    double unit(const EventFieldInfo& field) {
-        const std::string word = lower(peeked_word());
-        const auto known = std::ranges::find(kUnits, word, &Unit::name);
-        if (known == kUnits.end() && goes_on(word)) return 1;
-        if (known == kUnits.end() || known->of != field.unit) {
-            std::vector<std::string_view> names;
-            for (const Unit& unit : kUnits) {
-                if (unit.of == field.unit) names.push_back(unit.name);
-            }
-            const std::string what = "the " + std::string(field.name);
-            fail_expecting(names.empty() ? what + " has no unit"
-                                         : in_quotes(word) + " is no unit of " + what + ": " + either(names),
-                           {names.begin(), names.end()});
-        }
-        pass(word.size());
-        return known->factor;
-    }
-
-    std::string_view text_;
-    std::size_t at_ = 0;
-    int nesting_ = 0;
-    int comparisons_ = 0;
-    std::vector<Term> terms_;
-};
-
-/// "the level of B's node" from "the level of A's node".
-std::string of_side(std::string_view words, int side) {
-    std::string out(words);
-    if (side == 1) {
-        const std::size_t at = out.find("A's");
-        if (at != std::string::npos) out[at] = 'B';
-    }
-    return out;
-}
-
-std::string compared_words(const Term& term) {
-    const EventFieldInfo& field = info(term.field);
-    std::string what = field.of_side ? of_side(field.words, term.side) : std::string(field.words);
-    if (field.kind == FieldKind::flag) return what;
-    std::string out = what + " is ";
-    const auto sign = std::ranges::find(kSigns, term.comparison, &Sign::comparison);
-    if (!sign->words.empty()) out += std::string(sign->words) + ' ';
-    if (field.kind == FieldKind::word) {
-        std::string word(field.values[static_cast<std::size_t>(term.value)]);
-        std::ranges::replace(word, '_', ' ');
-        return out + word;
-    }
-    if (term.level >= 0) out += std::to_string(term.level) + '.';
-    out += format_double(term.value);
-    return field.unit.empty() ? out : out + ' ' + std::string(field.unit);
-}
-
-std::string term_words(std::span<const Term> terms, int index) {
-    const Term& term = terms[static_cast<std::size_t>(index)];
-    const auto of = [&](int part) {
-        const bool joins = terms[static_cast<std::size_t>(part)].kind == Term::Kind::one_of;
-        const std::string words = term_words(terms, part);
-        return joins && term.kind != Term::Kind::one_of ? '(' + words + ')' : words;
-    };
-    switch (term.kind) {
-        case Term::Kind::all_of:
-            return of(term.left) + ", and " + of(term.right);
-        case Term::Kind::one_of:
-            return of(term.left) + ", or " + of(term.right);
-        case Term::Kind::none_of: {
-            const bool plain = terms[static_cast<std::size_t>(term.left)].kind == Term::Kind::compare;
-            const std::string words = term_words(terms, term.left);
-            return "it is not so that " + (plain ? words : '(' + words + ')');
-        }
-        case Term::Kind::compare:
-            break;
-    }
-    return compared_words(term);
-}
-
 }  // namespace
 
-std::span<const EventFieldInfo> event_fields() {
-    static const std::vector<EventFieldInfo> fields = all_event_fields();
+std::span<const TableField> event_fields() {
+    static const std::vector<TableField> fields = all_event_fields();
     return fields;
 }
 
-const EventFieldInfo& info(EventField field) { return event_fields()[static_cast<std::size_t>(field)]; }
+const TableField& info(EventField field) { return event_fields()[static_cast<std::size_t>(field)]; }
 
-EventFilter::EventFilter(std::string_view text) : text_(text), terms_(FilterParser(text).parse()) {}
-
-std::string EventFilter::words() const { return term_words(terms_, static_cast<int>(terms_.size()) - 1); }
-
-std::string with_caret(std::string_view text, const FilterError& error) {
-    // Characters, not bytes, stand before the caret.
-    const std::size_t before = code_points(text.substr(0, error.at())).size();
-    return cleaned(text) + '\n' + std::string(before, ' ') + '^';
-}
-
-FilterCompletion completion_of(std::string_view text) {
-    std::size_t from = text.size();
-    while (from > 0 && in_word(text[from - 1])) --from;
-    const std::string begun = lower(text.substr(from));
-    FilterCompletion out{from, {}};
-    const std::string_view before = text.substr(0, from);
-    std::vector<std::string> expected;
-    try {
-        const EventFilter whole(before);
-        expected = FilterParser::joiners();
-    } catch (const FilterError& error) {
-        // What is wrong earlier is mended there.
-        if (trimmed(before.substr(error.at())).empty()) expected = error.expected();
-    }
-    for (const std::string& word : expected) {
-        if (word.starts_with(begun) && word != begun) out.words.push_back(word);
-    }
-    return out;
+FieldTable event_field_table() {
+    static const std::vector<const TableField*> fields = pointers_to(event_fields());
+    return fields;
 }
 
 }  // namespace mobbscope

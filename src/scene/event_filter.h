@@ -1,20 +1,11 @@
-/// Filters of a query's events as text: `gap < 0.05 and level(a) >= 3 and outcome = overlap`.
-///
-///     filter     = all of { "or" all of };  all of = part { "and" part }
-///     part       = "not" part | "(" filter ")" | flag | field comparison value
-///     field      = name, or name(a) and name(b) of what each side has
-///     comparison = "=" | "!=" | "<" | "<=" | ">" | ">="
-///     value      = number with a unit (m, cm, mm, s, ms) or without, a word, or a node ("2.1", or its index)
-///
-/// It has at most 1000 comparisons. What is counted equals whole numbers alone.
+/// What is known of the events of a query, and filters of them: `gap < 0.05 and level(a) >= 3 and outcome = overlap`.
 #pragma once
+
+#include <scene/table_filter.h>
 
 #include <cstdint>
 #include <span>
-#include <stdexcept>
-#include <string>
 #include <string_view>
-#include <vector>
 
 namespace mobbscope {
 
@@ -40,105 +31,16 @@ enum class EventField : std::uint8_t {
     avoidable,
 };
 
-enum class FieldKind : std::uint8_t {
-    number,
-    range,  ///< from one number to another: a comparison holds if it does of a number in it
-    node,   ///< by its level and place ("2.1") or its index
-    word,
-    flag,  ///< stands alone, without comparison
-};
-
-struct EventFieldInfo {
-    EventField field;
-    std::string_view name;  ///< as a filter writes it
-    FieldKind kind = FieldKind::number;
-    bool of_side = false;  ///< each side has its own: name(a), name(b)
-    std::string_view unit = "";
-    std::string_view words;  ///< in sentences: "the gap"; of a side: "the level of A's node", with A where the side is
-    std::string_view doc;    ///< for help
-    std::span<const std::string_view> values{};  ///< of words, in the order of their numbers
-};
-
 /// In the order of the enumeration.
-std::span<const EventFieldInfo> event_fields();
-const EventFieldInfo& info(EventField field);
+std::span<const TableField> event_fields();
+const TableField& info(EventField field);
+FieldTable event_field_table();
 
-/// Text that is no filter. what() says why in one line.
-class FilterError : public std::invalid_argument {
+class EventFilter : public TableFilter {
   public:
-    FilterError(const std::string& message, std::size_t at, std::vector<std::string> expected)
-        : std::invalid_argument(message), at_(at), expected_(std::move(expected)) {}
-    std::size_t at() const { return at_; }  ///< the byte of the text at which it is wrong
-    /// What could stand there.
-    const std::vector<std::string>& expected() const { return expected_; }
-
-  private:
-    std::size_t at_;
-    std::vector<std::string> expected_;
-};
-
-enum class Comparison : std::uint8_t { equal, not_equal, less, at_most, greater, at_least };
-
-/// A filter that was parsed: its terms, each behind those that it joins; the last one is the whole.
-class EventFilter {
-  public:
-    struct Term {
-        enum class Kind : std::uint8_t { compare, all_of, one_of, none_of };
-        Kind kind = Kind::compare;
-        int left = -1, right = -1;  ///< of all_of and one_of both, of none_of the left one
-        EventField field = EventField::step;
-        int side = 0;  ///< 0: a, 1: b
-        Comparison comparison = Comparison::equal;
-        double value = 0;  ///< of a flag 1; of a node its index, or its place in the level
-        int level = -1;    ///< of a node that is named by its level and place
-    };
-
     /// Throws FilterError.
-    explicit EventFilter(std::string_view text);
-
-    const std::string& text() const { return text_; }
-    std::span<const Term> terms() const { return terms_; }
-
-    /// "the gap is below 0.05 m, and the level of A's node is at least 3".
-    std::string words() const;
-
-    /// Whether an event passes; `holds(term)` says whether a comparison does.
-    template <class Holds>
-    bool passes(const Holds& holds) const {
-        return passes(static_cast<int>(terms_.size()) - 1, holds);
-    }
-
-    friend bool operator==(const EventFilter& a, const EventFilter& b) { return a.text_ == b.text_; }
-
-  private:
-    template <class Holds>
-    bool passes(int index, const Holds& holds) const {
-        const Term& term = terms_[static_cast<std::size_t>(index)];
-        switch (term.kind) {
-            case Term::Kind::all_of:
-                return passes(term.left, holds) && passes(term.right, holds);
-            case Term::Kind::one_of:
-                return passes(term.left, holds) || passes(term.right, holds);
-            case Term::Kind::none_of:
-                return !passes(term.left, holds);
-            case Term::Kind::compare:
-                break;
-        }
-        return holds(term);
-    }
-
-    std::string text_;
-    std::vector<Term> terms_;
+    explicit EventFilter(std::string_view text) : TableFilter(event_field_table(), text) {}
+    static EventField field(const Term& term) { return static_cast<EventField>(term.field); }
 };
-
-/// The text, and below it a caret where it is wrong: "gap < ?\n      ^".
-std::string with_caret(std::string_view text, const FilterError& error);
-
-/// How the word at the end of a text may go on, and where that word begins.
-struct FilterCompletion {
-    std::size_t from = 0;  ///< byte of the text
-    std::vector<std::string> words;
-};
-FilterCompletion completion_of(std::string_view text);
 
 }  // namespace mobbscope

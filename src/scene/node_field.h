@@ -1,8 +1,9 @@
 /// What is known of a node of a fitted tree: the columns of the table of nodes, and what boxes are coloured by.
 #pragma once
 
-#include <scene/event_filter.h>
+#include <scene/table_filter.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -27,20 +28,24 @@ enum class NodeField : std::uint8_t {
 };
 inline constexpr std::size_t kNodeFieldCount = 14;
 
-struct NodeFieldInfo {
+struct NodeFieldInfo : TableField {
     NodeField field;
-    std::string_view name;  ///< as filters, files and commands have it
-    FieldKind kind = FieldKind::number;
-    std::string_view heading;    ///< of a column, as short as is understood
-    std::string_view unit = "";  ///< "%": the value is a part, 0 to 1
-    std::string_view words;      ///< in sentences: "the volume"
-    std::string_view doc;        ///< for help
-    bool low_is_worse = false;   ///< what wastes most has the least of it
-    bool colors = false;         ///< boxes can be coloured by it
+    std::string_view heading;   ///< of a column, as short as is understood
+    bool colors = false;        ///< boxes can be coloured by it
+    bool low_is_worse = false;  ///< what wastes most has the least of it
 };
 
 /// In the order of the enumeration.
 std::span<const NodeFieldInfo> node_fields();
 const NodeFieldInfo& info(NodeField field);
+FieldTable node_field_table();
+
+/// `empty > 0.5 and not leaf`: which nodes are listed.
+class NodeFilter : public TableFilter {
+  public:
+    /// Throws FilterError.
+    explicit NodeFilter(std::string_view text) : TableFilter(node_field_table(), text) {}
+    static NodeField field(const Term& term) { return static_cast<NodeField>(term.field); }
+};
 
 }  // namespace mobbscope
