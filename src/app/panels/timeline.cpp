@@ -1,5 +1,6 @@
 #include <app/commands/command.h>
 #include <app/document/agents.h>
+#include <app/panels/bottom_tabs.h>
 #include <app/panels/panels.h>
 #include <app/panels/query_parts.h>
 #include <app/panels/ruler.h>
@@ -128,15 +129,18 @@ void time_bars(Ui& ui, float width, float height) {
     draw.AddRect(corner, {corner.x + width, corner.y + height}, ui.style.border, ui.px(3));
 }
 
-/// The first clock. `tall`: nothing stands below it.
+/// The first clock. `tall`: nothing stands below it but the tabs, at its left.
 void time_row(Ui& ui, Playback& playback, QueryInspector& queries, bool tall) {
     const mobb::Interval span = time_span(ui.workspace);
+    ImGui::BeginGroup();
     command_button(ui, playback.playing() ? "Pause" : "Play", "time.play", "timeline.time.play");
     ImGui::SameLine();
     const auto time = ui.workspace.view().time;
     ImGui::AlignTextToFramePadding();
     text_line(time ? ui.style.text : ui.style.quiet, time ? formatted("%7.3f s", *time) : "   off   ", ui.style.mono);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("The time cursor: who is where at this moment");
+    if (tall) bottom_tabs(ui);
+    ImGui::EndGroup();
     const float clear = ImGui::GetFrameHeight();
     // Of a narrow window the bars have a line of their own.
     flow(ui.px(kLeastBars) + clear + ui.px(8));
@@ -189,6 +193,16 @@ void step_row(Ui& ui, QueryInspector& queries, QueryPictures& pictures) {
     pictures.strip(ui, queries, std::max(least, ImGui::GetContentRegionAvail().x), ImGui::GetFrameHeight());
 }
 
+/// Beside the tabs the way to the present pair, and below them the recursion.
+void recursion(Ui& ui, QueryInspector& queries, QueryPictures& pictures) {
+    const std::shared_ptr<const QueryFindings> findings = queries.findings();
+    if (findings->recursion.pairs.empty()) return;
+    ImGui::SameLine(0, ui.px(18));
+    way_to_pair(ui, *findings);
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    if (room.y > ui.px(24)) pictures.icicle(ui, queries, room);
+}
+
 /// A bar, a triangle or both, on the last button.
 void draw_icon(Ui& ui, bool forward, bool to_end, bool enabled) {
     const ImVec2 min = ImGui::GetItemRectMin();
@@ -232,19 +246,24 @@ void timeline(Ui& ui, Playback& playback, QueryInspector& queries, QueryPictures
     if (ui.workspace.empty()) return;
     ImGui::PushID("timeline");
     const bool steps = ui.workspace.recorded() != nullptr;
-    time_row(ui, playback, queries, !steps);
-    if (steps) {
-        step_row(ui, queries, pictures);
-        event_tabs(ui);
-        const std::shared_ptr<const QueryFindings> findings = queries.findings();
-        if (shows_event_list(ui, queries)) {
+    const BottomTab tab = shown_tab(ui);
+    const bool tall = !steps && tab == BottomTab::recursion;
+    time_row(ui, playback, queries, tall);
+    if (steps) step_row(ui, queries, pictures);
+    if (!tall) bottom_tabs(ui);
+    switch (tab) {
+        case BottomTab::recursion:
+            if (steps) recursion(ui, queries, pictures);
+            break;
+        case BottomTab::events:
             pictures.events.draw(ui, queries);
-        } else if (!findings->recursion.pairs.empty()) {
-            ImGui::SameLine(0, ui.px(18));
-            way_to_pair(ui, *findings);
-            const ImVec2 room = ImGui::GetContentRegionAvail();
-            if (room.y > ui.px(24)) pictures.icicle(ui, queries, room);
-        }
+            break;
+        case BottomTab::nodes:
+            node_list(ui);
+            break;
+        case BottomTab::curves:
+            curves(ui);
+            break;
     }
     ImGui::PopID();
 }

@@ -1,0 +1,7 @@
+#include <app/panels/bottom_tabs.h>
+
+namespace mobbscope::app {
+
+void curves(Ui&) {}
+
+}  // namespace mobbscope::app
