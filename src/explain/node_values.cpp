@@ -98,8 +98,10 @@ NodeValues::NodeValues(std::shared_ptr<const mobb::Tree> tree, std::span<const d
         if (leans)
             of(NodeField::overhang)[at] = overhang_in_time(box, tree_->time_scale(), tree_->t0(node), tree_->t1(node));
     }
-    if (!shares.empty()) std::ranges::copy(shares, of(NodeField::share).begin());
+    add_shares(shares);
 }
+
+void NodeValues::add_shares(std::span<const double> shares) { std::ranges::copy(shares, of(NodeField::share).begin()); }
 
 void NodeValues::add_tests(const SceneCosts& costs, int clip) {
     std::ranges::fill(of(NodeField::tests), 0.0);
@@ -113,6 +115,8 @@ void NodeValues::add_avoidable(const BlameInScene& blame, int clip) {
     for (int i = 0; i < size(); ++i)
         of(NodeField::avoidable)[static_cast<std::size_t>(i)] = static_cast<double>(blame.of(clip, i));
 }
+
+void NodeValues::forget(NodeField field) { std::ranges::fill(of(field), kNone); }
 
 bool NodeValues::has(NodeField field) const {
     return std::ranges::any_of(column(field), [](double value) { return !std::isnan(value); });

@@ -27,9 +27,13 @@ class NodeValues {
     /// `shares`: its part of all box tests by node; empty: not known.
     NodeValues(std::shared_ptr<const mobb::Tree> tree, std::span<const double> shares);
 
+    /// Its part of all box tests by node, where the constructor did not know.
+    void add_shares(std::span<const double> shares);
     /// What the queries of the scene found of the trees of `clip`, too.
     void add_tests(const SceneCosts& costs, int clip);
     void add_avoidable(const BlameInScene& blame, int clip);
+    /// ... of which a column is not known any more.
+    void forget(NodeField field);
 
     const mobb::Tree& tree() const { return *tree_; }
     int size() const { return static_cast<int>(tree_->nodes().size()); }

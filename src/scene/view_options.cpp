@@ -201,6 +201,16 @@ ViewOption name_list(ViewOption row) {
     return field<member>(std::move(row));
 }
 
+/// Of another figure the same range would mean something else.
+ViewOption with_its_own_range(ViewOption row) {
+    row.parse = [parse = row.parse](const std::string& text, ViewState& view) {
+        const ColorBy before = view.color_by;
+        parse(text, view);
+        if (view.color_by != before) view.color_range.reset();
+    };
+    return row;
+}
+
 std::vector<ViewOption> all_view_options() {
     return {
         choice<&ViewState::show, show_from_name>(
@@ -388,7 +398,7 @@ std::vector<ViewOption> all_view_options() {
                  [](const ViewState& view) {
                      return view.time_height > 0 ? format_double(view.time_height) : "auto";
                  }}),
-        choice<&ViewState::color_by, color_by_from_name>(
+        with_its_own_range(choice<&ViewState::color_by, color_by_from_name>(
             {.key = "color_by",
              .what = "What the colour of boxes says: agent (whose they are), level, or another figure of their node",
              .option = "--color-by",
@@ -399,11 +409,14 @@ std::vector<ViewOption> all_view_options() {
              .shortcut = "C",
              .choices = {"agent", "level", "volume", "empty", "fill", "floor", "overhang", "share", "tests",
                          "avoidable"},
+             .choice_titles = {"agent", "level", "volume", "empty space", "fill", "area on the floor",
+                               "overhang in time", "part of the cost", "tests", "avoidable overlaps"},
              .refused_in_file = "boxes cannot be coloured by {}",
-             .refused_in_window = "colours cannot be by {}"}),
+             .refused_in_window = "colours cannot be by {}"})),
         range<&ViewState::color_range>(
             {.key = "color_range",
-             .what = "The figures from the first colour to the last, where boxes are coloured by one; or auto",
+             .what = "The figures at both ends of the colours, of parts in per cent, where boxes are coloured by one: "
+                     "what is outside steps back; or auto",
              .option = "--color-range",
              .placeholder = "LEAST:MOST"},
             "auto"),

@@ -194,6 +194,11 @@ void set_shown_levels(Workspace& workspace, const std::string& levels) {
     show_levels(workspace, parse_level_range(levels));
 }
 
+void set_color_range(Workspace& workspace, const std::string& range) {
+    const std::optional<ValueRange> wanted = parse_value_range(range);
+    workspace.change_view([&](ViewState& view) { view.color_range = wanted; });
+}
+
 void set_time_height(Workspace& workspace, const std::string& metres) {
     const double height = metres == "auto" ? 0 : number_in(metres, "the height of a second", 1e-6, 1e6);
     workspace.change_view([&](ViewState& view) { view.time_height = height; });
@@ -395,6 +400,14 @@ std::vector<Command> show_commands() {
 std::vector<Command> level_commands() {
     const std::vector<Command> rows{
         option_command(view_option("color_by")),
+        Command(
+            "view.color_range", "Range of the boxes' colours",
+            "Chooses the figures at both ends of the colours, of parts in per cent, where boxes are coloured by one: "
+            "boxes outside step back; auto takes the range of the boxes in the picture.",
+            set_color_range,
+            {.menu = kNoMenu,
+             .argument = "A:B|auto",
+             .present = [](const Workspace& workspace) { return view_option("color_range").text(workspace.view()); }}),
         Command("view.level", "Show levels",
                 "Shows the boxes of a level, of a range of levels, or the leaves; leaves the query in view.",
                 set_shown_levels,

@@ -1,5 +1,6 @@
 #include <app/panels/panels.h>
 #include <app/ui/swatch.h>
+#include <app/ui/value_histogram.h>
 #include <app/ui/widgets.h>
 #include <base/text.h>
 #include <render/query/map_colors.h>
@@ -18,9 +19,6 @@ namespace {
 // Pixels at scale 1.
 constexpr float kLeastSide = 96;
 constexpr float kMostSide = 520;
-constexpr float kHistogram = 26;
-constexpr float kColorBar = 8;   // of colours
-constexpr float kHandle = 5;     // half its width
 constexpr float kHatch = 7;      // between lines
 constexpr float kLowRoom = 860;  // windows with less keep the map folded at first
 constexpr std::size_t kImageSlot = 40;
@@ -127,61 +125,33 @@ void MapPicture::draw(Ui& ui, const PlacementMap& map, const Rect& area) const {
 
 namespace {
 
-/// How many cells have which value, the colours below, and a handle at either end of them.
+/// How many cells have which value, and the range of the colours.
 void histogram(Ui& ui, const MapInspector& maps, const PlacementMap& map, float width) {
     const MapColors whole = usual_colors(map), colors = colors_of(maps, map);
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float height = ui.px(kHistogram), bar = ui.px(kColorBar);
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    const ChartAxis x{whole.from, whole.to, at.x, at.x + width};
-    const std::vector<std::size_t> counts = value_counts(map, whole, kBars);
-    // Few cells of one value are seen beside many of another.
-    const auto share = [&](std::size_t count) { return std::sqrt(static_cast<float>(count)); };
-    const float most = std::max(1.0f, share(*std::ranges::max_element(counts)));
-    for (int i = 0; i < kBars; ++i) {
-        const auto edge = [&](int k) { return at.x + width * static_cast<float>(k) / kBars; };
-        const double value = whole.from + (i + 0.5) / kBars * (whole.to - whole.from);
-        const ImU32 color = to_im(value_color(map.order.show, value, colors, ui.style.palette));
-        const float top = at.y + height * (1 - share(counts[static_cast<std::size_t>(i)]) / most);
-        list.AddRectFilled({edge(i), top}, {edge(i + 1), at.y + height}, color);
-        list.AddRectFilled({edge(i), at.y + height + ui.px(2)}, {edge(i + 1), at.y + height + ui.px(2) + bar}, color);
-    }
-    const auto handle = [&](const char* mark, double value, auto changed) {
-        const float px = std::clamp(x.pixel(value), at.x, at.x + width);
-        ImGui::SetCursorScreenPos({px - ui.px(kHandle), at.y});
-        ImGui::InvisibleButton(mark, {2 * ui.px(kHandle), height + bar + ui.px(6)});
-        ui.mark_only(mark);
-        const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
-        const ImU32 color = lit ? ui.style.accent : ui.style.text;
-        const float foot = at.y + height + ui.px(3) + bar;
-        list.AddLine({px, at.y}, {px, foot}, color, ui.px(1));
-        list.AddTriangleFilled({px, foot - ui.px(3)}, {px + ui.px(kHandle), foot + ui.px(4)},
-                               {px - ui.px(kHandle), foot + ui.px(4)}, color);
-        if (lit) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-        if (ImGui::IsItemActive() && ImGui::GetIO().MouseDelta.x != 0) {
-            const MapColors wanted = changed(x.value(ImGui::GetIO().MousePos.x));
-            ui.later([wanted](MapInspector& now) { now.choice.colors = {wanted.from, wanted.to}; });
-        }
-    };
-    const double least = (whole.to - whole.from) / 100;
-    handle("map.range.from", colors.from, [&](double value) {
-        return MapColors{std::clamp(value, whole.from, std::max(whole.from, colors.to - least)), colors.to};
-    });
-    handle("map.range.to", colors.to, [&](double value) {
-        return MapColors{colors.from, std::clamp(value, std::min(whole.to, colors.from + least), whole.to)};
-    });
-    ImGui::SetCursorScreenPos({at.x, at.y + height + bar + ui.px(8)});
     const char* unit = map.order.show == MapShow::clearance ? " m" : " tests";
-    const std::string from = brief(std::round(colors.from * 100) / 100) + unit;
-    const std::string to = brief(std::round(colors.to * 100) / 100) + unit;
-    text_line(ui.style.quiet, from, ui.style.caption);
-    if (maps.choice.colors) {
-        ImGui::SameLine(0, ui.px(8));
-        if (small_button(ui, "auto", "map.range.auto", "All values that there are")) ui.invoke("map.range", "auto");
-    }
-    ImGui::SameLine();
-    ImGui::SetCursorScreenPos({at.x + width - text_size(*ui.style.caption, to).x, ImGui::GetCursorScreenPos().y});
-    text_line(ui.style.quiet, to, ui.style.caption);
+    const auto text = [unit](double value) { return brief(std::round(value * 100) / 100) + unit; };
+    const auto value_at = [&](float place) {
+        return whole.from + static_cast<double>(place) * (whole.to - whole.from);
+    };
+    const auto place_of = [&](double value) {
+        return static_cast<float>((value - whole.from) / (whole.to - whole.from));
+    };
+    const HistogramChange change = value_histogram(
+        ui,
+        {.mark = "map.range",
+         .counts = value_counts(map, whole, kBars),
+         .color = [&](float place) { return value_color(map.order.show, value_at(place), colors, ui.style.palette); },
+         .from = place_of(colors.from),
+         .to = place_of(colors.to),
+         .at = [&](float place) { return text(value_at(place)); },
+         .from_text = text(colors.from),
+         .to_text = text(colors.to),
+         .chosen = maps.choice.colors.has_value()},
+        width);
+    if (change.kind == HistogramChange::Kind::automatic) ui.invoke("map.range", "auto");
+    if (change.kind != HistogramChange::Kind::dragged) return;
+    const std::pair wanted(value_at(change.ends.first), value_at(change.ends.second));
+    ui.later([wanted](MapInspector& now) { now.choice.colors = wanted; });
 }
 
 /// The mouse in the map: what is there, and B goes where it is pressed.
@@ -236,8 +206,8 @@ MapLayout map_layout(const Ui& ui, ImVec2 room) {
     out.height = around;
     if (is_folded(ui.session.settings, std::string(kMapSection), out.folded_at_first)) return out;
     const float line = ui.style.caption->FontSize;
-    const float below = ui.session.maps.choice.show == MapShow::answer ? ImGui::GetTextLineHeight()
-                                                                       : ui.px(kHistogram + kColorBar + 8) + line;
+    const float below =
+        ui.session.maps.choice.show == MapShow::answer ? ImGui::GetTextLineHeight() : histogram_height(ui);
     const float parts = ImGui::GetFrameHeight() + ui.px(8) + 2 * (line + ui.px(4)) + ui.px(6) + below +
                         ImGui::GetFrameHeight() + ui.px(10);
     const float width = room.x - 2 * ImGui::GetStyle().WindowPadding.x;

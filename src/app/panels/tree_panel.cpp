@@ -1,8 +1,10 @@
 #include <app/commands/command.h>
 #include <app/document/agents.h>
 #include <app/panels/panels.h>
+#include <app/ui/value_histogram.h>
 #include <app/ui/widgets.h>
 #include <base/text.h>
+#include <render/drawlist/color_scale.h>
 
 #include <algorithm>
 #include <limits>
@@ -38,8 +40,17 @@ ChoiceWords choice_words(mobb::Axes axes) {
 }
 
 ChoiceWords choice_words(ColorBy color_by) {
-    return color_by == ColorBy::level ? ChoiceWords{"level", "Boxes by their level, from dark to bright"}
-                                      : ChoiceWords{"agent", "Boxes in their agent's colour"};
+    const std::string label = title_of_choice(*find_command("view.color_by"), std::string(name(color_by)));
+    const NodeFieldInfo* field = figure_of(color_by);
+    if (!field) return {label, "Boxes in their agent's colour"};
+    return {label, std::string(field->doc) + (field->field == NodeField::level ? "" : ". The brighter, the worse")};
+}
+
+/// The choices are in groups: what begins one.
+bool begins_group(ColorBy color_by) { return color_by == ColorBy::volume || color_by == ColorBy::share; }
+template <class Enum>
+bool begins_group(Enum) {
+    return false;
 }
 
 /// The choices of a command, which are those of an enumeration in its order.
@@ -51,6 +62,7 @@ void choose(Ui& ui, const char* label, const char* id, Enum now, const char* hel
     for (const std::string& choice : find_command(id)->choices(ui.session)) {
         const auto value = static_cast<Enum>(index++);
         const ChoiceWords words = choice_words(value);
+        if (begins_group(value)) ImGui::Separator();
         if (ImGui::Selectable(words.label.c_str(), value == now)) ui.invoke(id, choice);
         ui.mark(std::string(id) + "." + choice, OwnKeys::none, words.label);
         if (value == now) ui.focus.begin_here();
@@ -187,6 +199,57 @@ void shown_levels(Ui& ui, int depth) {
     ui.mark("view.leaves");
 }
 
+/// Of a figure that has to be counted and is not: a button that does.
+void count_figure(Ui& ui, NodeField field) {
+    const bool blame = field == NodeField::avoidable;
+    if (!blame && field != NodeField::tests) return;
+    if (ui.workspace.fitted().queries().empty()) return;
+    const char* help = blame ? "Asks all queries of the scene, and whom to blame for avoidable overlaps"
+                             : "Asks all queries of the scene, and counts the tests of each box";
+    if (!small_button(ui, "Count them", "view.color_by.count", help)) return;
+    if (blame) return ui.invoke("query.blame");
+    ui.later([](CostInspector& costs) { costs.count(); });
+}
+
+/// How the figures of the boxes in the picture are spread, and the range of the colours.
+void figures_of_boxes(Ui& ui) {
+    const std::shared_ptr<const ColoredValues>& boxes = ui.session.figures.boxes;
+    const NodeFieldInfo* field = figure_of(ui.workspace.view().color_by);
+    if (!boxes || !field || boxes->scale.figure != colored_figure(*field)) return;
+    const ColorScale& scale = boxes->scale;
+    if (!scale.known) {
+        words(ui.style.quiet, scale.figure.title + ": " + boxes->unknown);
+        return count_figure(ui, field->field);
+    }
+    // All of them have a place there.
+    ColoredFigure all = scale.figure;
+    all.whole_range = true;
+    const ColorScale whole = color_scale(all, boxes->values);
+    constexpr int kBars = 48;
+    const HistogramChange change =
+        value_histogram(ui,
+                        {.mark = "view.color_range",
+                         .counts = value_counts(whole, boxes->values, kBars),
+                         .color = [&](float place) { return scale.color(whole.value_at(place), ui.style.palette); },
+                         .from = whole.share(scale.least),
+                         .to = whole.share(scale.most),
+                         .at = [&](float place) { return whole.text(whole.value_at(place)); },
+                         .from_text = scale.text(scale.least),
+                         .to_text = scale.text(scale.most),
+                         .chosen = scale.chosen},
+                        std::max(1.0f, ImGui::GetContentRegionAvail().x));
+    if (change.kind == HistogramChange::Kind::automatic) ui.invoke("view.color_range", "auto");
+    if (change.kind != HistogramChange::Kind::dragged) return;
+    // The end that stays keeps its value.
+    const auto [from, to] = change.ends;
+    const auto shown = [&](double value) {
+        return *parse_double(figure((scale.figure.unit == "%" ? 100 : 1) * value));
+    };
+    const double least = from == whole.share(scale.least) ? scale.least : whole.value_at(from);
+    const double most = to == whole.share(scale.most) ? scale.most : whole.value_at(to);
+    ui.invoke("view.color_range", to_string(ValueRange{shown(least), shown(most)}));
+}
+
 /// How the trees are fitted, and which of their boxes are shown.
 void fit_fields(Ui& ui, Jobs& jobs) {
     const mobb::FitOptions fit = ui.workspace.fitted().options();
@@ -205,6 +268,7 @@ void fit_fields(Ui& ui, Jobs& jobs) {
     time_scale(ui, jobs);
     shown_levels(ui, ui.workspace.fitted().tree(clip_in_focus(ui.workspace)).depth());
     choose(ui, "Colour by", "view.color_by", ui.workspace.view().color_by, "What the boxes' colours mean");
+    figures_of_boxes(ui);
 }
 
 }  // namespace

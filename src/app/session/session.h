@@ -2,6 +2,7 @@
 /// neither.
 #pragma once
 
+#include <app/document/node_figures.h>
 #include <app/document/query_inspector.h>
 #include <app/document/views.h>
 #include <app/session/cost_inspector.h>
@@ -79,6 +80,7 @@ class Session {
     Workspace workspace{settings};
     Views views{workspace};
     QueryInspector queries{workspace};
+    NodeFigures figures{workspace};
     Notifications notifications;
     CommandQueue queue{notifications};
     Keys keys;
@@ -105,7 +107,7 @@ class Session {
     /// All parts, for what takes some of them (OfParts).
     template <class AnySession>
     static auto parts(AnySession& s) {
-        return std::tie(s.options, s.settings, s.workspace, s.views, s.queries, s.notifications, s.queue, s.keys,
+        return std::tie(s.options, s.settings, s.workspace, s.views, s.queries, s.figures, s.notifications, s.queue, s.keys,
                         s.dialogs, s.jobs, s.playback, s.edits, s.imports, s.crowds, s.maps, s.answers, s.costs,
                         s.fit_costs, s.sweeps, s.what_if, s.notices, s.excerpts, s.files, s.recovery);
     }

@@ -165,7 +165,7 @@ std::string standing_out(const Workspace& workspace) {
 // --- the picture
 
 KeptPaths& Viewport::paths_of(const Key& key) {
-    if (!paths_ || paths_->fitted() != key.fitted) paths_.emplace(key.fitted);
+    if (!paths_ || paths_->fitted() != key.fitted) paths_.emplace(key.fitted, figures_);
     return *paths_;
 }
 
@@ -216,7 +216,8 @@ Viewport::Key Viewport::wanted(const Ui& ui, PictureSize size, const FollowedCho
             size,
             words,
             choice ? std::pair(choice->agent, choice->play) : std::pair(-1, -1),
-            is_active(ui) ? standing_out(ui.workspace) : ""};
+            is_active(ui) ? standing_out(ui.workspace) : "",
+            seen.view.heat || figure_of(seen.view.color_by) ? figures_->revision() : 0};
 }
 
 /// Gives the view a camera that stands.
@@ -245,6 +246,7 @@ void Viewport::stand(Ui& ui, Key& next) {
 void Viewport::update_picture(Ui& ui, PictureSize size) {
     const FollowedChoice* choice =
         is_active(ui) && ui.workspace.view().candidates ? ui.session.crowds.choice() : nullptr;
+    figures_ = ui.session.figures.known();
     Key next = wanted(ui, size, choice);
     if (const auto findings = is_active(ui) && next.view.query ? ui.session.queries.findings() : nullptr)
         paths_of(next).adopt_proof(next.view, {findings, &findings->proof});
@@ -343,7 +345,13 @@ void Viewport::draw(Ui& ui, std::size_t place) {
     }
     if (size.width < kMinSide || size.height < kMinSide) return;
     update_picture(ui, size);
-    if (is_active(ui)) ui.session.views.picture = {size, key_->scale};
+    if (is_active(ui)) {
+        ui.session.views.picture = {size, key_->scale};
+        const bool has_levels = key_->view.show == Show::space_time && !key_->view.projection;
+        auto boxes = has_levels && paths_ ? paths_->colored_boxes() : nullptr;
+        // Panels drawn before show those of the frame before.
+        if (std::exchange(ui.session.figures.boxes, boxes) != boxes) ui.want_frame_in(0);
+    }
     if (!list_) {
         ImGui::TextWrapped("%s", why_not_.c_str());
         return;

@@ -10,6 +10,7 @@
 #include <render/drawlist/draw_list.h>
 #include <render/pictures/kept_paths.h>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,6 +44,7 @@ class Viewport {
         double scale = 0;
         std::pair<int, int> choice{-1, -1};  ///< agent and play whose candidates are shown
         std::string selected{};              ///< as PictureOptions has it
+        std::int64_t counted = 0;            ///< SceneFigures::revision, where the colours depend on it
         friend bool operator==(const Key&, const Key&) = default;
     };
     enum class Drag { none, orbit, pan, handle };
@@ -92,8 +94,9 @@ class Viewport {
     std::optional<HandleDrag> take_hold(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) const;
 
     std::optional<KeptPaths> paths_;  ///< of key_'s scene
-    std::size_t view_place_ = 0;      ///< of the session's views
-    std::optional<Key> key_;          ///< what the document asks for, a flight apart
+    std::shared_ptr<SceneFigures> figures_;
+    std::size_t view_place_ = 0;  ///< of the session's views
+    std::optional<Key> key_;      ///< what the document asks for, a flight apart
     std::optional<DrawList> list_;
     std::string why_not_;  ///< there is no list: the reason
     std::optional<Flight> flight_;

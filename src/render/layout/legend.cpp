@@ -89,21 +89,6 @@ std::set<int> levels_of(const SeenBoxes& boxes) {
     return out;
 }
 
-/// The colours of the levels that are seen; of many, a few from the coarsest to the finest.
-void add_level_colors(std::vector<LegendEntry>& entries, const DrawList& list, const SeenBoxes& boxes,
-                      std::span<const DrawnAgent> agents) {
-    const std::set<int> seen = levels_of(boxes);
-    const std::vector<int> levels(seen.begin(), seen.end());
-    const int count = std::min(static_cast<int>(levels.size()), kMostLevels);
-    for (int i = 0; i < count; ++i) {
-        const std::size_t which =
-            count < 2 ? 0 : (static_cast<std::size_t>(i) * (levels.size() - 1)) / static_cast<std::size_t>(count - 1);
-        const Rgba color = level_color(levels[which], deepest_level(agents), list.palette);
-        entries.push_back({Mark::box, outlining(color, list.palette), with_alpha(color, 0.3f), 1.5f, kSolid,
-                           "level " + std::to_string(levels[which])});
-    }
-}
-
 /// A range of levels goes from dim to bright in every agent's colour, so it is shown in the text's.
 void add_levels(std::vector<LegendEntry>& entries, const DrawList& list, const SeenBoxes& boxes,
                 std::span<const DrawnAgent> agents, const LevelRange& levels) {
@@ -230,11 +215,8 @@ std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Dr
     } else {
         // In a grid each has its name.
         if (!agents.front().cell) entries = agent_entries(list, agents, agents);
-        if (view.color_by == ColorBy::level) {
-            add_level_colors(entries, list, boxes, agents);
-        } else if (!boxes.empty()) {
-            add_levels(entries, list, boxes, agents, view.levels);
-        }
+        // Of a figure the colour bar says it.
+        if (view.color_by == ColorBy::agent && !boxes.empty()) add_levels(entries, list, boxes, agents, view.levels);
     }
     if (emphasis.cursor) entries.push_back(line_entry({list.palette.accent, 1.3f}, "time cursor"));
     for (std::size_t i = 0; i < emphasis.at_cursor.size(); ++i) {

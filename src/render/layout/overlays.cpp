@@ -124,7 +124,8 @@ class OverlayLayout {
             const float room = area_.size().x - (map_ ? map_->rect.size().x + spacing_.gap : 0);
             caption_ = folded(title, {0, 0}, room, !view_.fold_caption, dot);
         }
-        if (!contents_.legend.empty()) legend_ = folded("Legend", {0, 1}, area_.size().x, !view_.fold_legend, false);
+        if (!contents_.legend.empty() || !contents_.bars.empty())
+            legend_ = folded("Legend", {0, 1}, area_.size().x, !view_.fold_legend, false);
     }
 
     bool is_free(const Rect& rect, std::initializer_list<const std::optional<Place>*> others) const {
@@ -188,10 +189,13 @@ class OverlayLayout {
         const std::span<const LegendEntry> all = contents_.legend;
         const auto fits = [&](std::size_t most) {
             rows_ = shown_rows(all, most);
-            glm::vec2 content = legend_size(rows_, spacing_.text, words_room_);
+            const glm::vec2 rows = legend_size(rows_, spacing_.text, words_room_);
+            const glm::vec2 bars = color_bars_size(contents_.bars, spacing_.text);
             // The chevron stands at the end of the first row.
-            content.x = std::max(
-                content.x, legend_size(std::span(rows_).first(1), spacing_.text, words_room_).x + spacing_.chevron);
+            const std::span<const LegendEntry> first(rows_.data(), contents_.bars.empty() ? 1 : 0);
+            const float beside = legend_size(first, spacing_.text, words_room_).x;
+            const glm::vec2 content(std::max({rows.x, bars.x + spacing_.chevron, beside + spacing_.chevron}),
+                                    rows.y + bars.y);
             const glm::vec2 size = glm::ceil(spacing_.around(content));
             const Rect rect = in_corner(area_, {0, 1}, size);
             const bool short_one = most <= kLegendRows;
@@ -271,8 +275,10 @@ class OverlayLayout {
 
     void draw_legend() {
         list_.legend = contents_.legend;
-        const glm::vec2 corner = draw_panel(Kind::legend, *legend_);
+        glm::vec2 corner = draw_panel(Kind::legend, *legend_);
         if (!legend_->open) return;
+        add_color_bars(list_, contents_.bars, corner, spacing_.text);
+        corner.y += color_bars_size(contents_.bars, spacing_.text).y;
         if (!add_legend(list_, rows_, corner, spacing_.text, words_room_)) {
             std::string& whole = list_.overlays.back().whole;
             for (const LegendEntry& row : rows_) whole += (whole.empty() ? "" : "\n") + row.text;

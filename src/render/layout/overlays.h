@@ -5,6 +5,7 @@
 #include <render/drawlist/draw_list.h>
 #include <render/drawlist/picture_options.h>
 #include <render/layout/caption.h>
+#include <render/layout/color_bar.h>
 #include <scene/view_state.h>
 
 #include <cstddef>
@@ -18,6 +19,7 @@ namespace mobbscope {
 struct OverlayContents {
     Caption caption;                  ///< without headlines there is none
     std::vector<LegendEntry> legend;  ///< empty: none
+    std::vector<ColorBar> bars;       ///< above its rows
     std::string map_title;
     glm::vec2 map{0};  ///< size of the floor's map, pixels; 0: none
 };

@@ -80,6 +80,12 @@ float diagonal(const BoxInstance& box, const ViewProjection& projection) {
     return longest;
 }
 
+constexpr float kOutsideRange = 0.2f;  // of its opacity that a box keeps whose figure is outside what is looked for
+
+double figure_of_box(const BoxInstance& box, BoxFigures figures) {
+    return figures[static_cast<std::size_t>(box.id.agent)][static_cast<std::size_t>(box.id.index)];
+}
+
 }  // namespace
 
 std::vector<int> shown_nodes(const mobb::Tree& tree, const LevelRange& levels) {
@@ -132,19 +138,7 @@ void refine_crowded_boxes(DrawList& list, float scale) {
     }
 }
 
-int deepest_level(std::span<const DrawnAgent> agents) {
-    int deepest = 1;
-    for (const DrawnAgent& agent : agents) deepest = std::max(deepest, agent.placed.tree().depth() - 1);
-    return deepest;
-}
-
-Rgba level_color(int level, int deepest, const Palette& palette) {
-    return quantity_color(static_cast<float>(level) / static_cast<float>(deepest), palette);
-}
-
-void add_level_boxes(DrawList& list, std::span<const DrawnAgent> agents, const LevelRange& levels, ColorBy color_by,
-                     float scale) {
-    const int deepest = deepest_level(agents);
+void add_level_boxes(DrawList& list, std::span<const DrawnAgent> agents, const LevelRange& levels, float scale) {
     for (const DrawnAgent& agent : agents) {
         if (!agent.is_whole()) continue;
         const mobb::Tree& tree = agent.placed.tree();
@@ -152,8 +146,7 @@ void add_level_boxes(DrawList& list, std::span<const DrawnAgent> agents, const L
         for (const int node : shown_nodes(tree, levels)) {
             const int level = tree.level(node);
             const LevelStyle style = levels.leaves ? level_style(0, 0, 0) : level_style(level, levels.first, last);
-            const Rgba color = color_by == ColorBy::level ? level_color(level, deepest, list.palette)
-                                                          : level_tint(agent.color, style, list.palette);
+            const Rgba color = level_tint(agent.color, style, list.palette);
             BoxInstance box = node_box(agent, node, list.space);
             box.state = BoxState::level;
             box.fill = with_alpha(color, style.face);
@@ -161,6 +154,25 @@ void add_level_boxes(DrawList& list, std::span<const DrawnAgent> agents, const L
             box.width = style.width * scale;
             list.boxes.push_back(box);
         }
+    }
+}
+
+std::vector<double> values_of_boxes(const DrawList& list, BoxFigures figures) {
+    std::vector<double> out;
+    for (const BoxInstance& box : list.boxes) {
+        if (box.state == BoxState::level) out.push_back(figure_of_box(box, figures));
+    }
+    return out;
+}
+
+void color_boxes(DrawList& list, BoxFigures figures, const ColorScale& scale) {
+    for (BoxInstance& box : list.boxes) {
+        if (box.state != BoxState::level) continue;
+        const double value = figure_of_box(box, figures);
+        const Rgba color = scale.color(value, list.palette);
+        const float kept = scale.chosen && scale.outside(value) ? kOutsideRange : 1;
+        box.fill = with_alpha(color, kept * box.fill.a);
+        box.edge = with_alpha(outlining(color, list.palette), kept * box.edge.a);
     }
 }
 

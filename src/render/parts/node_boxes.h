@@ -1,6 +1,7 @@
 /// The boxes of a range of levels.
 #pragma once
 
+#include <render/drawlist/color_scale.h>
 #include <render/drawlist/draw_list.h>
 #include <scene/drawn_agent.h>
 
@@ -12,16 +13,15 @@ namespace mobbscope {
 /// The nodes of `tree` that a range of levels shows: those on its levels and the leaves above the first.
 std::vector<int> shown_nodes(const mobb::Tree& tree, const LevelRange& levels);
 
-/// The boxes of those nodes, coloured by their agent or their level; where several levels are shown, finer ones are
-/// brighter, fuller and heavier.
-void add_level_boxes(DrawList& list, std::span<const DrawnAgent> agents, const LevelRange& levels, ColorBy color_by,
-                     float scale);
+/// The boxes of those nodes in their agents' colours; where several levels are shown, finer ones are brighter, fuller
+/// and heavier.
+void add_level_boxes(DrawList& list, std::span<const DrawnAgent> agents, const LevelRange& levels, float scale);
 
-/// The last level of the deepest of their trees, at least 1.
-int deepest_level(std::span<const DrawnAgent> agents);
-
-/// The colour of a level where boxes are coloured by it: that level's in all pictures of trees that are so deep.
-Rgba level_color(int level, int deepest, const Palette& palette);
+/// The figures that the list's boxes of levels have: by their agent, of its tree's nodes.
+using BoxFigures = std::span<const std::span<const double>>;
+std::vector<double> values_of_boxes(const DrawList& list, BoxFigures figures);
+/// Gives these boxes the colours of their figures. Those outside a range that somebody has chosen step back.
+void color_boxes(DrawList& list, BoxFigures figures, const ColorScale& scale);
 
 /// How the boxes of one level look.
 struct LevelStyle {

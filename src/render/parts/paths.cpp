@@ -20,6 +20,7 @@ constexpr float kEarly = 0.24f;  // towards the background at the beginning of a
 
 Rgba disk_color(const Palette& palette, const DrawnAgent& agent, const PathFocus& focus, int sample) {
     if (focus.hit == sample) return palette.hit;
+    if (focus.colors) return (*focus.colors)[static_cast<std::size_t>(sample)];
     const bool in_focus = !focus.range || (sample >= focus.range->first && sample < focus.range->end());
     const float age = 1 - static_cast<float>(sample) / static_cast<float>(agent.clip().count());
     const float back = kEarly * age;

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -24,12 +25,14 @@ struct PathFocus {
     std::optional<mobb::SampleRange> range;  ///< none: all
     std::optional<int> hit;                  ///< a sample that collides
     bool behind = false;                     ///< the boxes' colours matter more: all disks step back
+    /// By sample, where a figure of theirs is shown; null: the agent's colour.
+    std::shared_ptr<const std::vector<Rgba>> colors{};
 
     friend bool operator==(const PathFocus& a, const PathFocus& b) {
         const auto span_of = [](const PathFocus& focus) {
             return focus.range ? std::pair(focus.range->first, focus.range->count) : std::pair(-1, -1);
         };
-        return span_of(a) == span_of(b) && a.hit == b.hit && a.behind == b.behind;
+        return span_of(a) == span_of(b) && a.hit == b.hit && a.behind == b.behind && a.colors == b.colors;
     }
 };
 

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace mobbscope {
 
@@ -85,6 +86,12 @@ class CrowdPicture final : public Picture {
         if (view.time_height <= 0) list_.space.time_height = std::min(kFlat * list_.space.time_height, kMostHeight);
         list_.space.anchor = camera_anchor(fitted_, view, time_);
         if (view.disks) kept.add_disks_of(list_, agents_, view, std::vector<PathFocus>(agents_.size()));
+        if (view.boxes) {
+            add_level_boxes(list_, boxed(agents_, view_, followed_), view_.levels, metrics_.scale);
+            keep_within(list_, agents_, seconds_);
+        }
+        if (auto bar = kept.color_boxes(list_, agents_, view_)) bars_.push_back(std::move(*bar));
+        if (auto bar = view.disks ? kept.heat_bar() : std::nullopt) bars_.push_back(std::move(*bar));
         floor_extent_ = floor_stage(crowd_.area, seconds_.begin, seconds_.end);
         framed_ = ShownPoints(floor_corners(floor_extent_, list_.space));
         points_ = framed_;
@@ -105,15 +112,12 @@ class CrowdPicture final : public Picture {
             out.legend.insert(out.legend.end(), fates.begin(), fates.end());
         }
         out.legend.push_back(line_entry({list_.palette.accent, 1.3f}, "now"));
+        out.bars = bars_;
         return out;
     }
 
     std::vector<LabelRequest> content() override {
-        if (view_.boxes) {
-            add_level_boxes(list_, boxed(agents_, view_, followed_), view_.levels, view_.color_by, metrics_.scale);
-            keep_within(list_, agents_, seconds_);
-            refine_crowded_boxes(list_, metrics_.scale);
-        }
+        if (view_.boxes) refine_crowded_boxes(list_, metrics_.scale);
         if (view_.floor) {
             add_floor_grid(list_, floor_extent_, metrics_.scale);
             add_walls(list_, crowd_.area, seconds_.begin, seconds_.begin, metrics_.scale);
@@ -161,6 +165,7 @@ class CrowdPicture final : public Picture {
     bool outside_ = false;
     Seconds seconds_;
     int followed_ = -1;
+    std::vector<ColorBar> bars_;
 };
 
 }  // namespace

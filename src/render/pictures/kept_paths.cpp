@@ -1,5 +1,6 @@
 #include <explain/tree_cost.h>
 #include <render/layout/annotations.h>
+#include <render/parts/node_boxes.h>
 #include <render/pictures/kept_paths.h>
 #include <scene/crowd_scene.h>
 
@@ -11,7 +12,8 @@ KeptPaths& KeptPaths::shown_in(const ViewState& view) {
     if (!is_run(fitted_->scene())) return *this;
     const Moment moment{view.show, view.time, view.time_window};
     if (!at_moment_ || moment_ != moment) {
-        at_moment_ = std::make_unique<KeptPaths>(std::make_shared<const FittedScene>(fitted_at(*fitted_, view)));
+        at_moment_ =
+            std::make_unique<KeptPaths>(std::make_shared<const FittedScene>(fitted_at(*fitted_, view)), figures_);
         moment_ = moment;
     }
     return *at_moment_;
@@ -62,6 +64,73 @@ double KeptPaths::box_tests() {
     return *box_tests_;
 }
 
+/// Of one that is drawn without a query.
+int KeptPaths::clip_of(const DrawnAgent& agent) const {
+    return fitted_->placed_agents()[static_cast<std::size_t>(agent.index)].clip;
+}
+
+std::optional<ColorBar> KeptPaths::color_boxes(DrawList& list, std::span<const DrawnAgent> agents,
+                                               const ViewState& view) {
+    colored_boxes_.reset();
+    const NodeFieldInfo* field = figure_of(view.color_by);
+    if (!field || view.query || !view.boxes) return std::nullopt;
+    std::vector<std::span<const double>> figures(list.agents.size());
+    int deepest = 1;
+    for (const DrawnAgent& agent : agents) {
+        if (!agent.is_whole()) continue;
+        figures[static_cast<std::size_t>(agent.index)] =
+            figures_->of(fitted_, clip_of(agent), field->field).column(field->field);
+        deepest = std::max(deepest, agent.placed.tree().depth() - 1);
+    }
+    ColoredValues boxes{values_of_boxes(list, figures), {}};
+    std::vector<double> range = boxes.values;
+    // A level has one colour in all pictures of trees that are so deep.
+    if (field->field == NodeField::level && !range.empty())
+        range.insert(range.end(), {0.0, static_cast<double>(deepest)});
+    boxes.scale = color_scale(colored_figure(*field), range, view.color_range);
+    mobbscope::color_boxes(list, figures, boxes.scale);
+    const bool counts = field->field == NodeField::tests || field->field == NodeField::avoidable;
+    if (boxes.values.empty()) {
+        boxes.unknown = "no box is shown";
+    } else if (counts) {
+        boxes.unknown = fitted_->queries().empty() ? "the scene asks no queries" : "not counted";
+    } else {
+        boxes.unknown = "no box here has one";
+    }
+    colored_boxes_ = std::make_shared<const ColoredValues>(std::move(boxes));
+    return ColorBar{"boxes", colored_boxes_->scale, colored_boxes_->unknown};
+}
+
+void KeptPaths::find_heat(std::span<const DrawnAgent> agents, const Palette& palette, Theme theme) {
+    std::set<int> clips;
+    for (const DrawnAgent& agent : agents) {
+        if (agent.is_whole()) clips.insert(clip_of(agent));
+    }
+    const NodeField field = figures_->heat_of(fitted_);
+    if (heat_ && heat_->theme == theme && heat_->revision == figures_->revision() && heat_->clips == clips) return;
+    heat_ = Heat{theme, figures_->revision(), clips};
+    std::map<int, std::vector<double>> values;
+    std::vector<double> all;
+    for (const int clip : clips) {
+        const std::vector<double>& of_clip = values.emplace(clip, figures_->heat(fitted_, clip)).first->second;
+        all.insert(all.end(), of_clip.begin(), of_clip.end());
+    }
+    ColoredFigure figure = colored_figure(info(field));
+    figure.title = field == NodeField::tests ? "tests of boxes that hold them" : "expected tests that hold them";
+    heat_->scale = color_scale(figure, all);
+    for (const auto& [clip, of_clip] : values) {
+        auto colors = std::make_shared<std::vector<Rgba>>();
+        colors->reserve(of_clip.size());
+        for (const double value : of_clip) colors->push_back(heat_->scale.color(value, palette));
+        heat_->colors.emplace(clip, std::move(colors));
+    }
+}
+
+std::optional<ColorBar> KeptPaths::heat_bar() const {
+    if (!shows_heat_) return std::nullopt;
+    return ColorBar{"disks", heat_->scale, "not known of these trees"};
+}
+
 /// Where everybody is hidden, the picture still has its place.
 void KeptPaths::add_places_of_all(const DrawList& list, std::span<const DrawnAgent> agents) {
     DrawList scratch;
@@ -78,7 +147,15 @@ void KeptPaths::add_places_of_all(const DrawList& list, std::span<const DrawnAge
 }
 
 const ShownPoints& KeptPaths::add_disks_of(DrawList& list, std::span<const DrawnAgent> agents, const ViewState& view,
-                                           const std::vector<PathFocus>& foci) {
+                                           std::vector<PathFocus> foci) {
+    shows_heat_ = view.heat && !view.query && view.disks;
+    if (shows_heat_) {
+        find_heat(agents, list.palette, view.theme);
+        for (std::size_t i = 0; i < agents.size(); ++i) {
+            const auto colors = heat_->colors.find(clip_of(agents[i]));
+            if (colors != heat_->colors.end()) foci[i].colors = colors->second;
+        }
+    }
     Shapes shapes{view.query, list.space.origin, list.space.time_height, fitted_->scene().crowd ? view.time_window : 0,
                   {},         view.arrange};
     for (const DrawnAgent& agent : agents) shapes.whole.push_back(agent.is_whole());

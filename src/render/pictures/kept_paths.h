@@ -1,18 +1,23 @@
-/// What pictures of one scene have in common, from whatever side and at whatever time: the disks of its paths, and the
-/// query with its proof.
+/// What pictures of one scene have in common, from whatever side and at whatever time: the disks of its paths, the
+/// figures of its nodes, and the query with its proof.
 #pragma once
 
 #include <explain/query_proof.h>
+#include <explain/scene_figures.h>
 #include <render/drawlist/draw_list.h>
 #include <render/drawlist/shown_points.h>
+#include <render/layout/color_bar.h>
 #include <render/layout/framing.h>
 #include <render/parts/paths.h>
 #include <render/query/floor_boundary.h>
 #include <scene/fitted_scene.h>
 #include <scene/view_state.h>
 
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -23,7 +28,10 @@ namespace mobbscope {
 /// Keeps what the last picture in space-time had. The same pictures come out as without. Not for several threads.
 class KeptPaths {
   public:
-    explicit KeptPaths(std::shared_ptr<const FittedScene> fitted) : fitted_(std::move(fitted)) {}
+    /// `figures`: of whatever scenes; never null.
+    explicit KeptPaths(std::shared_ptr<const FittedScene> fitted,
+                       std::shared_ptr<SceneFigures> figures = std::make_shared<SceneFigures>())
+        : fitted_(std::move(fitted)), figures_(std::move(figures)) {}
 
     const std::shared_ptr<const FittedScene>& fitted() const { return fitted_; }
 
@@ -44,7 +52,17 @@ class KeptPaths {
     /// Sets the list's disks to those of the agents' paths, each with its focus. Needs the list's space. Returns them
     /// as points that the picture has to show: those of whom it shows, or of all where everybody is hidden.
     const ShownPoints& add_disks_of(DrawList& list, std::span<const DrawnAgent> agents, const ViewState& view,
-                                    const std::vector<PathFocus>& foci);
+                                    std::vector<PathFocus> foci);
+
+    /// Gives the list's boxes of levels the colours of the view's figure. Returns the bar of these; none: they have
+    /// their agents'.
+    std::optional<ColorBar> color_boxes(DrawList& list, std::span<const DrawnAgent> agents, const ViewState& view);
+    /// The boxes of the last list that have such colours; null: none have.
+    const std::shared_ptr<const ColoredValues>& colored_boxes() const {
+        return at_moment_ ? at_moment_->colored_boxes() : colored_boxes_;
+    }
+    /// The bar of the disks' colours in the last list; none: they have their agents'.
+    std::optional<ColorBar> heat_bar() const;
 
     /// floor_boundary of a view's query.
     const FloorLines& boundary(const ViewState& view);
@@ -54,6 +72,8 @@ class KeptPaths {
 
   private:
     void add_places_of_all(const DrawList& list, std::span<const DrawnAgent> agents);
+    int clip_of(const DrawnAgent& agent) const;
+    void find_heat(std::span<const DrawnAgent> agents, const Palette& palette, Theme theme);
 
     struct Shapes {
         std::optional<int> query;
@@ -71,6 +91,15 @@ class KeptPaths {
         friend bool operator==(const Colors&, const Colors&) = default;
     };
 
+    /// The colours of disks by how many tests of boxes hold them.
+    struct Heat {
+        Theme theme = Theme::dark;
+        std::int64_t revision = 0;  ///< of the figures
+        std::set<int> clips;        ///< that are drawn
+        ColorScale scale{};
+        std::map<int, std::shared_ptr<const std::vector<Rgba>>> colors{};  ///< by clip
+    };
+
     struct Moment {
         Show show{};
         std::optional<double> time;
@@ -79,6 +108,10 @@ class KeptPaths {
     };
 
     std::shared_ptr<const FittedScene> fitted_;
+    std::shared_ptr<SceneFigures> figures_;
+    std::shared_ptr<const ColoredValues> colored_boxes_;
+    std::optional<Heat> heat_;
+    bool shows_heat_ = false;  ///< in the last list
     Moment moment_;
     std::unique_ptr<KeptPaths> at_moment_;  ///< of a run
     /// By the view's query and arrangement.

@@ -98,7 +98,10 @@ DrawList Picture::draw() {
         OverlayContents said = words();
         mention_view(said.caption);
         if (!view_.caption) said.caption = {};
-        if (!view_.legend) said.legend.clear();
+        if (!view_.legend) {
+            said.legend.clear();
+            said.bars.clear();
+        }
         if (!view_.inset) said.map = {};
         if (const auto map = add_overlays(list_, said, view_, metrics_)) add_map(*map);
     }

@@ -16,6 +16,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -66,11 +67,13 @@ class SpaceTimePicture final : public Picture {
         emphasis_ = emphasis_of(view_, agents_, bounds.min.z, bounds.max.z, test());
         if (view_.boxes && test()) add_query_boxes(list_, agents_, *test(), pair_outline(view_), metrics_.scale);
         const bool levels = view_.boxes && !view_.query;
-        if (levels) add_level_boxes(list_, agents_, view_.levels, view_.color_by, metrics_.scale);
+        if (levels) add_level_boxes(list_, agents_, view_.levels, metrics_.scale);
+        if (auto bar = kept.color_boxes(list_, agents_, view_)) bars_.push_back(std::move(*bar));
         if (levels && view_.cost) box_tests_ = kept.box_tests();
-        const bool behind = levels && view_.color_by == ColorBy::level;
+        const bool behind = levels && view_.color_by != ColorBy::agent;
         framed_ = kept.add_disks_of(list_, agents_, view_, foci_of(agents_, emphasis_, test(), behind));
         if (!view_.disks) list_.disks = {};
+        if (auto bar = kept.heat_bar()) bars_.push_back(std::move(*bar));
         floor_extent_ = floor_extent_of(bounds.min, bounds.max);
         if (walls_) gaps_ = add_proof_walls(list_, *walls_, view_.time, metrics_.scale);
         points_ = framed_;
@@ -119,6 +122,7 @@ class SpaceTimePicture final : public Picture {
         if (view_.time && !emphasis_.cursor) {
             mention_cursor_outside(out.caption, *view_.time, floor_extent_.t0, floor_extent_.t1);
         }
+        out.bars = bars_;
         out.legend = legend_entries(list_, agents_, view_, emphasis_, test());
         if (walls_) out.legend.push_back(proof_entry(list_.palette));
         if (!boundary_.empty())
@@ -199,6 +203,7 @@ class SpaceTimePicture final : public Picture {
     bool replaces_test_ = false;               ///< the walls stand alone
     std::vector<WallGap> gaps_;
     FloorLines boundary_;
+    std::vector<ColorBar> bars_;
     std::optional<double> box_tests_;  ///< for the caption
     Emphasis emphasis_;
 };
