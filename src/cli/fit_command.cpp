@@ -7,11 +7,12 @@
 #include <explain/expected_cost.h>
 #include <explain/fit_findings.h>
 #include <explain/level_columns.h>
+#include <explain/node_values.h>
 #include <explain/tree_json.h>
 #include <import/tracks/csv.h>
 
 #include <algorithm>
-#include <cstddef>
+#include <cmath>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
@@ -33,7 +34,7 @@ void print_json(const FittedScene& fitted) {
     out.begin_object();
     out.begin_array("trees");
     for (int i = 0; i < static_cast<int>(fitted.scene().clips.size()); ++i) {
-        write_tree(out, fitted.scene().clips[static_cast<std::size_t>(i)].name, fitted.tree(i));
+        write_tree(out, fitted.scene().clips[static_cast<std::size_t>(i)].name, fitted.shared_tree(i));
     }
     out.end_array();
     out.end_object();
@@ -42,30 +43,30 @@ void print_json(const FittedScene& fitted) {
 /// A row for each node; a cell of what there is none of is empty.
 void print_csv(const FittedScene& fitted) {
     std::cout << "clip,tree,leaf,axes,time_scale,index,parent,level,first,count,is_leaf,kind,t0,t1,volume,tightness,"
-                 "share,box_tests\n";
+                 "share,box_tests,empty,floor,overhang\n";
     for (int clip = 0; clip < static_cast<int>(fitted.scene().clips.size()); ++clip) {
         const mobb::Tree& tree = fitted.tree(clip);
         const mobb::FitOptions& options = tree.options();
         const std::optional<ExpectedCost> expected = expected_cost(tree, tree);
-        const std::vector<double> shares = expected ? expected->node_shares() : std::vector<double>();
+        const NodeValues values(fitted.shared_tree(clip), expected ? expected->node_shares() : std::vector<double>());
+        const auto figure_of = [&values](NodeField field, int node) {
+            const double value = values.value(field, node);
+            return std::isnan(value) ? std::string() : format_double(value);
+        };
         const std::string name = csv_field(fitted.scene().clips[static_cast<std::size_t>(clip)].name);
         for (int i = 0; i < static_cast<int>(tree.nodes().size()); ++i) {
             const mobb::Node& node = tree.node(i);
             const mobb::Box box = tree.box(i);
-            const double volume = mobb::volume(box, tree.time_scale());
-            const double cylinders = mobb::cylinder_volume(tree.clip(), {node.first, node.count});
             std::cout << name << ',' << mobb::name(options.tree) << ',' << options.leaf << ','
                       << mobb::name(options.axes) << ',' << format_double(options.time_scale) << ',' << i << ','
                       << tree.parent(i) << ',' << tree.level(i) << ',' << node.first << ',' << node.count << ','
                       << (tree.is_leaf(i) ? "true" : "false") << ',' << mobb::info(box.kind).name << ','
                       << format_double(tree.t0(node)) << ',' << format_double(tree.t1(node)) << ','
-                      << format_double(volume) << ',' << (volume > 0 ? format_double(cylinders / volume) : "") << ',';
-            if (expected) {
-                const double share = shares[static_cast<std::size_t>(i)];
-                std::cout << format_double(share) << ',' << format_double(share * expected->tests.boxes());
-            } else {
-                std::cout << ',';
-            }
+                      << figure_of(NodeField::volume, i) << ',' << figure_of(NodeField::fill, i) << ','
+                      << figure_of(NodeField::share, i) << ','
+                      << (expected ? format_double(values.value(NodeField::share, i) * expected->tests.boxes()) : "");
+            for (const NodeField field : {NodeField::empty, NodeField::floor, NodeField::overhang})
+                std::cout << ',' << figure_of(field, i);
             std::cout << '\n';
         }
     }

@@ -1,6 +1,8 @@
 #include <explain/event_table.h>
+#include <explain/table_rows.h>
 
 #include <array>
+#include <cstddef>
 
 namespace mobbscope {
 
@@ -21,25 +23,19 @@ constexpr std::array kColumns{
 std::span<const EventColumn> event_columns() { return kColumns; }
 
 std::string column_name(const EventColumn& column) {
-    const EventFieldInfo& field = info(column.field);
+    const TableField& field = info(column.field);
     std::string out(field.name);
     if (field.of_side) out += column.side == 0 ? "(a)" : "(b)";
     return out;
 }
 
 std::string event_rows(const EventValues& values, std::span<const int> steps, char separator) {
-    std::string out;
-    const auto line = [&](const auto& cell) {
-        for (const EventColumn& column : kColumns) {
-            if (&column != kColumns.data()) out += separator;
-            out += cell(column);
-        }
-        out += '\n';
-    };
-    line(column_name);
-    for (const int step : steps)
-        line([&](const EventColumn& column) { return values.text(column.field, column.side, step, true); });
-    return out;
+    return rows_text(
+        kColumns.size(), steps, separator, [](std::size_t column) { return column_name(kColumns.at(column)); },
+        [&](std::size_t column, int step) {
+            const EventColumn& of = kColumns.at(column);
+            return values.text(of.field, of.side, step, true);
+        });
 }
 
 }  // namespace mobbscope

@@ -1,14 +1,12 @@
 #include <base/text.h>
 #include <explain/clearance.h>
 #include <explain/event_values.h>
+#include <explain/table_rows.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace mobbscope {
@@ -17,42 +15,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-EventValues::Range one(double value) { return {value, value}; }
-
-bool compares(double value, Comparison comparison, double with) {
-    switch (comparison) {
-        case Comparison::equal:
-            return value == with;
-        case Comparison::not_equal:
-            return value != with && !std::isnan(value);
-        case Comparison::less:
-            return value < with;
-        case Comparison::at_most:
-            return value <= with;
-        case Comparison::greater:
-            return value > with;
-        case Comparison::at_least:
-            return value >= with;
-    }
-    return false;
-}
-
-/// Whether it holds of any number of the range.
-bool compares(EventValues::Range range, Comparison comparison, double with) {
-    switch (comparison) {
-        case Comparison::equal:
-            return range.least <= with && with <= range.most;
-        case Comparison::not_equal:
-            return with < range.least || with > range.most;
-        case Comparison::less:
-        case Comparison::at_most:
-            return compares(range.least, comparison, with);
-        case Comparison::greater:
-        case Comparison::at_least:
-            return compares(range.most, comparison, with);
-    }
-    return false;
-}
+FieldRange one(double value) { return {value, value}; }
 
 }  // namespace
 
@@ -66,7 +29,7 @@ double EventValues::clearance(int step) const {
     return least;
 }
 
-EventValues::Range EventValues::value(EventField field, int side, int step) const {
+FieldRange EventValues::value(EventField field, int side, int step) const {
     const mobb::Trace::Event event = (*trace_)[step];
     const RecursionPair& pair = this->pair(step);
     const int node = side == 0 ? event.a : event.b;
@@ -76,7 +39,7 @@ EventValues::Range EventValues::value(EventField field, int side, int step) cons
         case EventField::time: {
             const double begin = std::max(pair.time_a.t0, pair.time_b.t0);
             const double end = std::min(pair.time_a.t1, pair.time_b.t1);
-            return end > begin ? Range{begin, end} : one(kNone);
+            return end > begin ? FieldRange{begin, end} : one(kNone);
         }
         case EventField::shared:
             return one(
@@ -118,8 +81,8 @@ EventValues::Range EventValues::value(EventField field, int side, int step) cons
 }
 
 std::string EventValues::text(EventField field, int side, int step, bool exact) const {
-    const EventFieldInfo& about = info(field);
-    const Range range = value(field, side, step);
+    const TableField& about = info(field);
+    const FieldRange range = value(field, side, step);
     if (std::isnan(range.least)) return "";
     switch (about.kind) {
         case FieldKind::word:
@@ -148,9 +111,7 @@ bool EventValues::holds(const EventFilter::Term& term, int step) const {
         const bool is = of.level(node) == term.level && of.place_in_level(node) == static_cast<int>(term.value);
         return is == (term.comparison == Comparison::equal);
     }
-    const Range range = value(term.field, term.side, step);
-    return info(term.field).kind == FieldKind::range ? compares(range, term.comparison, term.value)
-                                                     : compares(range.least, term.comparison, term.value);
+    return compares(value(EventFilter::field(term), term.side, step), term.comparison, term.value);
 }
 
 bool EventValues::passes(const EventFilter& filter, int step) const {
@@ -175,46 +136,10 @@ std::vector<int> steps_that_pass(const EventValues& values, const EventFilter& f
     return steps_of(passing_steps(values, filter));
 }
 
-namespace {
-
-/// Bits that are ordered as the numbers are, as they are wanted; what is no number comes last.
-std::uint64_t sort_key(double value, bool descending) {
-    if (std::isnan(value)) return std::numeric_limits<std::uint64_t>::max();
-    const auto bits = std::bit_cast<std::uint64_t>(value + 0.0);  // both zeros are one
-    constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
-    const std::uint64_t ascending = (bits & kSign) != 0 ? ~bits : bits | kSign;
-    return descending ? ~ascending : ascending;
-}
-
-struct SortedRow {
-    std::uint64_t key;
-    int step;
-};
-
-/// Byte by byte from the last, which keeps equal ones as they stand: a million rows take a tenth of what comparing
-/// does.
-void sort_by_key(std::vector<SortedRow>& rows) {
-    std::vector<SortedRow> other(rows.size());
-    for (int shift = 0; shift < 64; shift += 8) {
-        const auto byte = [shift](const SortedRow& row) { return static_cast<std::size_t>(row.key >> shift & 0xff); };
-        std::array<std::size_t, 256> places{};
-        for (const SortedRow& row : rows) ++places[byte(row)];
-        // Many keys have the same low bytes.
-        if (std::ranges::find(places, rows.size()) != places.end()) continue;
-        std::exclusive_scan(places.begin(), places.end(), places.begin(), std::size_t{0});
-        for (const SortedRow& row : rows) other[places[byte(row)]++] = row;
-        rows.swap(other);
-    }
-}
-
-}  // namespace
-
 void sort_steps(std::vector<int>& steps, const EventValues& values, EventField field, int side, bool descending) {
-    std::vector<SortedRow> rows;
-    rows.reserve(steps.size());
-    for (const int step : steps) rows.push_back({sort_key(values.value(field, side, step).least, descending), step});
-    sort_by_key(rows);
-    std::ranges::transform(rows, steps.begin(), &SortedRow::step);
+    std::vector<double> keys(steps.size());
+    std::ranges::transform(steps, keys.begin(), [&](int step) { return values.value(field, side, step).least; });
+    sort_rows(steps, keys, descending);
 }
 
 }  // namespace mobbscope

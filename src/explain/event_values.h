@@ -21,12 +21,8 @@ class EventValues {
 
     int size() const { return trace_->size(); }
 
-    /// From the least to the greatest; of all but ranges both are the same. NaN: the event has none, and no comparison
-    /// with it holds. Words by their place among the field's values, flags 0 or 1. `side`: 0 or 1.
-    struct Range {
-        double least = 0, most = 0;
-    };
-    Range value(EventField field, int side, int step) const;
+    /// `side`: 0 or 1.
+    FieldRange value(EventField field, int side, int step) const;
 
     /// As the list shows it: "0.183", "2.3", "overlap", "yes"; empty: none. `exact`: with all digits of a number.
     std::string text(EventField field, int side, int step, bool exact = false) const;

@@ -46,7 +46,9 @@ class SumOfUniform {
                 beyond -= 2 * reach_[i];
                 sign = -sign;
             }
-            if (beyond > 0) sum += sign * std::pow(beyond, static_cast<double>(count_));
+            if (beyond <= 0) continue;
+            for (std::size_t i = 0; i < count_; ++i) sign *= beyond;
+            sum += sign;
         }
         return std::clamp(sum / whole, 0.0, 1.0);
     }
@@ -120,6 +122,28 @@ void NodeValues::forget(NodeField field) { std::ranges::fill(of(field), kNone); 
 
 bool NodeValues::has(NodeField field) const {
     return std::ranges::any_of(column(field), [](double value) { return !std::isnan(value); });
+}
+
+FieldRange NodeValues::range(NodeField field, int node) const {
+    const double first = value(field, node);
+    const mobb::Node& covers = tree_->node(node);
+    if (field == NodeField::sample) return {first, first + covers.count - 1};
+    if (field == NodeField::time) return {first, tree_->t1(covers)};
+    return {first, first};
+}
+
+bool NodeValues::passes(const NodeFilter& filter, int node) const {
+    return filter.passes([&](const NodeFilter::Term& term) {
+        if (term.level >= 0) {
+            const bool is =
+                tree_->level(node) == term.level && tree_->place_in_level(node) == static_cast<int>(term.value);
+            return is == (term.comparison == Comparison::equal);
+        }
+        const NodeField field = NodeFilter::field(term);
+        FieldRange of = range(field, node);
+        if (info(field).unit == "%") of = {100 * of.least, 100 * of.most};
+        return compares(of, term.comparison, term.value);
+    });
 }
 
 }  // namespace mobbscope

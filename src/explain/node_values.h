@@ -42,6 +42,9 @@ class NodeValues {
     double value(NodeField field, int node) const { return column(field)[static_cast<std::size_t>(node)]; }
     /// Whether any node has it.
     bool has(NodeField field) const;
+    /// ... of ranges to where they end.
+    FieldRange range(NodeField field, int node) const;
+    bool passes(const NodeFilter& filter, int node) const;
 
   private:
     std::vector<double>& of(NodeField field) { return columns_[static_cast<std::size_t>(field)]; }

@@ -1,12 +1,17 @@
 #include <explain/expected_cost.h>
 #include <explain/fit_findings.h>
+#include <explain/node_values.h>
 #include <explain/tree_json.h>
 #include <mobb/level_figures.h>
 #include <scene/scene_json.h>
 
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -20,7 +25,13 @@ void write_vector(JsonWriter& out, const glm::dvec3& v, int count) {
     count == 2 ? out.value(glm::dvec2(v)) : out.value(v);
 }
 
-void write_node(JsonWriter& out, const mobb::Tree& tree, int index, std::optional<double> share) {
+constexpr std::array<std::pair<std::string_view, NodeField>, 4> kNodeFigures{{{"share", NodeField::share},
+                                                                              {"empty", NodeField::empty},
+                                                                              {"floor", NodeField::floor},
+                                                                              {"overhang", NodeField::overhang}}};
+
+void write_node(JsonWriter& out, const NodeValues& values, int index) {
+    const mobb::Tree& tree = values.tree();
     const mobb::Node& node = tree.node(index);
     const mobb::Box box = tree.box(index);
     const mobb::BoxInfo& shape = mobb::info(box.kind);
@@ -48,7 +59,10 @@ void write_node(JsonWriter& out, const mobb::Tree& tree, int index, std::optiona
         out.member("velocity", 2.0 * box.drift / (tree.t1(node) - tree.t0(node)));
     }
     out.members("t0", tree.t0(node), "t1", tree.t1(node));
-    out.member("share", share);
+    for (const auto& [key, field] : kNodeFigures) {
+        const double value = values.value(field, index);
+        out.member(key, std::isnan(value) ? std::nullopt : std::optional(value));
+    }
     out.end_object();
 }
 
@@ -84,10 +98,11 @@ void write_finding(JsonWriter& out, const FitFinding& found) {
 
 }  // namespace
 
-void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree) {
+void write_tree(JsonWriter& out, const std::string& clip, const std::shared_ptr<const mobb::Tree>& of) {
+    const mobb::Tree& tree = *of;
     const mobb::FitOptions& options = tree.options();
     const std::optional<ExpectedCost> expected = expected_cost(tree, tree);
-    const std::vector<double> shares = expected ? expected->node_shares() : std::vector<double>();
+    const NodeValues values(of, expected ? expected->node_shares() : std::vector<double>());
     out.begin_object();
     out.members("clip", clip, "tree", mobb::name(options.tree), "axes", mobb::name(options.axes));
     out.members("leaf", options.leaf, "time_scale", options.time_scale);
@@ -95,9 +110,7 @@ void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree
     out.list("levels", mobb::level_figures(tree),
              [&](const mobb::LevelFigures& figures) { write_level(out, figures); });
     out.begin_array("nodes");
-    for (int i = 0; i < static_cast<int>(tree.nodes().size()); ++i) {
-        write_node(out, tree, i, expected ? std::optional(shares[static_cast<std::size_t>(i)]) : std::nullopt);
-    }
+    for (int i = 0; i < values.size(); ++i) write_node(out, values, i);
     out.end_array();
     out.list("findings", fit_findings(tree, expected), [&](const FitFinding& found) { write_finding(out, found); });
     out.end_object();

@@ -4,12 +4,13 @@
 #include <base/json_writer.h>
 #include <mobb/tree.h>
 
+#include <memory>
 #include <string>
 
 namespace mobbscope {
 
 /// What a query of the tree against itself is expected to cost, per-level figures and every node of the tree over the
 /// clip of that name.
-void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree);
+void write_tree(JsonWriter& out, const std::string& clip, const std::shared_ptr<const mobb::Tree>& tree);
 
 }  // namespace mobbscope

@@ -349,28 +349,6 @@ std::string term_words(FieldTable fields, std::span<const Term> terms, int index
 
 }  // namespace
 
-namespace {
-
-bool compares(double value, Comparison comparison, double with) {
-    switch (comparison) {
-        case Comparison::equal:
-            return value == with;
-        case Comparison::not_equal:
-            return value != with && !std::isnan(value);
-        case Comparison::less:
-            return value < with;
-        case Comparison::at_most:
-            return value <= with;
-        case Comparison::greater:
-            return value > with;
-        case Comparison::at_least:
-            return value >= with;
-    }
-    return false;
-}
-
-}  // namespace
-
 bool compares(FieldRange range, Comparison comparison, double with) {
     switch (comparison) {
         case Comparison::equal:
@@ -378,11 +356,13 @@ bool compares(FieldRange range, Comparison comparison, double with) {
         case Comparison::not_equal:
             return with < range.least || with > range.most;
         case Comparison::less:
+            return range.least < with;
         case Comparison::at_most:
-            return compares(range.least, comparison, with);
+            return range.least <= with;
         case Comparison::greater:
+            return range.most > with;
         case Comparison::at_least:
-            return compares(range.most, comparison, with);
+            return range.most >= with;
     }
     return false;
 }

@@ -55,8 +55,9 @@ TEST(Fit, JsonIsTheTree) {
         const mobb::Node& node = tree.nodes()[i];
         const mobb::Box box = tree.box(static_cast<int>(i));
         const json& entry = printed["nodes"][i];
-        EXPECT_EQ(keys(entry), (std::set<std::string>{"index", "parent", "level", "first", "count", "leaf", "kind",
-                                                      "center", "axes", "half", "t0", "t1", "share"}));
+        EXPECT_EQ(keys(entry),
+                  (std::set<std::string>{"index", "parent", "level", "first", "count", "leaf", "kind", "center", "axes",
+                                         "half", "t0", "t1", "share", "empty", "floor", "overhang"}));
         EXPECT_EQ(entry["index"], i);
         EXPECT_EQ(entry["parent"], tree.parent(static_cast<int>(i)));
         EXPECT_EQ(entry["level"], tree.level(static_cast<int>(i)));
@@ -146,7 +147,11 @@ TEST(Fit, CsvHasARowForEachNode) {
                 for (const char* number : {"t0", "t1"}) EXPECT_EQ(cells[number], format_double(node[number]));
                 EXPECT_EQ(cells["is_leaf"], node["leaf"] ? "true" : "false");
                 EXPECT_EQ(cells["kind"], node["kind"].get<std::string>());
-                EXPECT_EQ(cells["share"], node["share"].is_null() ? "" : format_double(node["share"]));
+                for (const char* figure : {"share", "empty", "floor", "overhang"})
+                    EXPECT_EQ(cells[figure], node[figure].is_null() ? "" : format_double(node[figure])) << figure;
+                EXPECT_EQ(node["overhang"].is_null(), cells["tree"] != "umobb");
+                EXPECT_NEAR(std::stod(cells["empty"]), std::stod(cells["volume"]) * (1 - std::stod(cells["tightness"])),
+                            1e-9);
                 if (!cells["box_tests"].empty()) box_tests += std::stod(cells["box_tests"]);
                 const auto level = static_cast<std::size_t>(node["level"]);
                 const bool ends = cells["is_leaf"] == "true";
@@ -299,8 +304,9 @@ TEST(Fit, AMovingBoxIsGivenAtT0WithItsVelocity) {
     const Scene scene = load_scene(kFitScenes + "crossing.json");
     const std::span<const mobb::Disk> samples = scene.clips[1].clip->samples();
     for (const json& node : printed["nodes"]) {
-        EXPECT_EQ(keys(node), (std::set<std::string>{"index", "parent", "level", "first", "count", "leaf", "kind",
-                                                     "center", "axes", "half", "velocity", "t0", "t1", "share"}));
+        EXPECT_EQ(keys(node),
+                  (std::set<std::string>{"index", "parent", "level", "first", "count", "leaf", "kind", "center", "axes",
+                                         "half", "velocity", "t0", "t1", "share", "empty", "floor", "overhang"}));
         EXPECT_EQ(node["kind"], "moving");
         ASSERT_EQ(node["velocity"].size(), 2u);
         ASSERT_EQ(node["axes"].size(), 2u);

@@ -114,7 +114,7 @@ TEST(EventValues, FiltersAgreeWithTheTrace) {
 TEST(EventValues, SortsByEveryFieldBothWaysAndKeepsOrderOfEqualOnes) {
     mobb::test::Random random(37);
     const Valued all(random);
-    for (const EventFieldInfo& field : event_fields()) {
+    for (const TableField& field : event_fields()) {
         for (const bool descending : {false, true}) {
             std::vector<int> steps(static_cast<std::size_t>(all.values.size()));
             std::iota(steps.begin(), steps.end(), 0);

@@ -24,7 +24,7 @@ std::string filter_refusal(std::string_view text) {
 
 TEST(EventFilter, TheDocumentListsEveryField) {
     const std::string document = testing::slurp(MOBBSCOPE_SOURCE_DIR "/docs/command_line.md");
-    for (const EventFieldInfo& field : event_fields()) {
+    for (const TableField& field : event_fields()) {
         const std::string name(field.name);
         const std::string row = field.of_side ? "| `" + name + "(a)`, `" + name + "(b)` |" : "| `" + name + "` |";
         EXPECT_NE(document.find(row), std::string::npos) << row;
@@ -34,7 +34,7 @@ TEST(EventFilter, TheDocumentListsEveryField) {
 }
 
 TEST(EventFilter, TakesEveryFieldWithEverySignThatItHas) {
-    for (const EventFieldInfo& field : event_fields()) {
+    for (const TableField& field : event_fields()) {
         EXPECT_EQ(&info(field.field), &field);
         const std::string name = std::string(field.name) + (field.of_side ? "(b)" : "");
         if (field.kind == FieldKind::flag) {
@@ -135,7 +135,7 @@ TEST(EventFilter, PointsAtWhatIsWrong) {
 }
 
 TEST(EventFilter, CountsAreWholeNumbers) {
-    for (const EventFieldInfo& field : event_fields()) {
+    for (const TableField& field : event_fields()) {
         if (field.kind != FieldKind::number && field.kind != FieldKind::range) continue;
         const std::string name(field.name), whose = name + (field.of_side ? "(a)" : "");
         for (const std::string sign : {" = ", " != "}) {

@@ -148,6 +148,8 @@ std::string_view why_no_step(const Workspace& workspace);
 /// ... of a command about the tests of the query in view, and whether there are any.
 std::string_view why_no_tests(const Workspace& workspace);
 bool has_tests(const Workspace& workspace);
+/// Whether the query in view has made tests that are listed.
+bool has_events(const QueryInspector& queries);
 /// Whether the scene asks anything.
 bool has_queries(const Workspace& workspace);
 
@@ -190,6 +192,7 @@ std::vector<Command> clip_commands();
 std::vector<Command> view_commands();
 std::vector<Command> shown_commands();
 std::vector<Command> tree_commands();
+std::vector<Command> node_commands();   ///< among those of trees: their nodes as a table
 std::vector<Command> sweep_commands();  ///< among those of trees
 std::vector<Command> query_commands();
 std::vector<Command> step_commands();
@@ -199,6 +202,7 @@ std::vector<Command> compare_commands();  ///< among those of queries
 std::vector<Command> map_commands();      ///< among those of queries
 std::vector<Command> debug_commands();    ///< among those of queries: events, breakpoints, bookmarks
 std::vector<Command> go_commands();
+std::vector<Command> row_commands();  ///< among those of where to go: rows of the table below the picture
 std::vector<Command> crowd_commands();
 
 /// Rows of a part: those that say no menu stand in this one.

@@ -22,10 +22,6 @@ namespace {
 
 const DebugState& debug_of(const Workspace& workspace) { return workspace.scene().debug; }
 
-bool has_events(const QueryInspector& queries) {
-    const std::shared_ptr<const QueryFindings> findings = queries.findings();
-    return findings && !findings->recursion.pairs.empty();
-}
 std::string_view why_no_events() { return "no query is shown"; }
 Condition with_events() { return {has_events, why_no_events}; }
 
@@ -42,11 +38,6 @@ std::string name_for(std::string_view text, const std::string& what) {
 bool shows_list(const Settings& settings) { return settings.bottom_tab == BottomTab::events; }
 void show_list(Settings& settings) {
     settings.bottom_tab = shows_list(settings) ? BottomTab::recursion : BottomTab::events;
-}
-
-void find_events(Settings& settings, Keys& keys) {
-    settings.bottom_tab = BottomTab::events;
-    keys.field = "events.filter";
 }
 
 void apply(Workspace& workspace, Settings& settings, const std::optional<EventFilter>& filter) {
@@ -79,12 +70,6 @@ void sort_by(Workspace& workspace, const std::string& text) {
     list.by = column;
     list.descending = again && !list.descending;
     workspace.derived().listed_events.reset();
-}
-
-template <int by>
-void to_row(QueryInspector& queries, Workspace& workspace, Notifications& notifications) {
-    if (const auto event = queries.listed_event_beside(by)) return workspace.go_to_event(*event);
-    notifications.tell(MessageLevel::info, std::string("The list of events ") + (by > 0 ? "ends" : "begins") + " here");
 }
 
 template <char separator>
@@ -337,8 +322,6 @@ std::vector<Command> event_commands() {
     const std::vector<Command> rows{
         Command("events.show", "List of events", "Lists the tests of the query in view in place of its recursion.",
                 show_list, {.shortcut = "R", .enabled = with_events(), .checked = shows_list}),
-        Command("events.find", "Filter the events...", "Shows the list of events, and waits for a filter of it.",
-                find_events, {.shortcut = "Ctrl+F", .enabled = with_events()}),
         Command("events.filter", "Filter by", "Lists the events that pass a filter: gap < 0.05 and level(a) >= 3.",
                 filter_events,
                 {.menu = kNoMenu, .argument = "FILTER", .enabled = with_events(), .present = filter_now}),
@@ -355,10 +338,6 @@ std::vector<Command> event_commands() {
                  .choices = [](const Session&) { return column_names(); },
                  .chosen = [](const Workspace& workspace,
                               const std::string& column) { return column_name(workspace.events.by) == column; }}),
-        Command("events.next", "Next row", "Shows the next event in the order of the list.", to_row<1>,
-                {.shortcut = "F3", .repeats = true, .enabled = with_events()}),
-        Command("events.previous", "Previous row", "Shows the event before in the order of the list.", to_row<-1>,
-                {.shortcut = "Shift+F3", .repeats = true, .enabled = with_events()}),
         Command("events.saved", "Saved filter", "Lists the events that pass a filter saved with the scene.",
                 apply_saved,
                 {.argument = "NAME",
@@ -457,6 +436,11 @@ std::vector<Command> bookmark_commands() {
 }
 
 }  // namespace
+
+bool has_events(const QueryInspector& queries) {
+    const std::shared_ptr<const QueryFindings> findings = queries.findings();
+    return findings && !findings->recursion.pairs.empty();
+}
 
 std::vector<Command> debug_commands() { return joined({event_commands(), breakpoint_commands(), bookmark_commands()}); }
 

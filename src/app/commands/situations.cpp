@@ -69,7 +69,7 @@ std::span<const Situation> situations() {
          {"step.forward",        "step.back",         "step.first",          "step.last",
           "step.next_separated", "step.next_overlap", "step.next_avoidable", "step.previous_avoidable",
           "step.next_hit",       "step.into",         "step.over",           "step.out",
-          "events.show",         "events.find",       "breakpoint.here",     "breakpoint.next",
+          "events.show",         "rows.find",         "breakpoint.here",     "breakpoint.next",
           "step.visited_back",   "bookmark.add",      "go.contact",          "view.frame",
           "query.next",          "query.previous",    "query.none",          "crowd.back"}},
         {"You look at a crowd",

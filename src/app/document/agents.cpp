@@ -98,6 +98,9 @@ std::optional<AgentRef> player_of(const Workspace& workspace, int clip) {
         return who && clip_played(workspace, *who) == clip;
     };
     if (workspace.selection.on_path() && plays(workspace.selection.path)) return workspace.selection.path;
+    for (int side = 0; side < (workspace.view().query ? 2 : 0); ++side) {
+        if (const AgentRef path = agent_in_view(workspace.fitted(), workspace.view(), side); plays(path)) return path;
+    }
     for (int i = 0; i < static_cast<int>(workspace.fitted().placed_agents().size()); ++i) {
         if (const AgentRef path{i, -1, 0}; plays(path)) return path;
     }

@@ -52,7 +52,8 @@ NameList names_of_agents(const FittedScene& fitted);
 /// is none; `what` they name: "agent".
 int index_of_name(const std::vector<std::string>& names, std::string_view name, const std::string& what);
 
-/// Who plays that clip: the selected agent if it does, else the first; none if nobody in the picture does.
+/// Who plays that clip: the selected agent if it does, else a side of the query in view, else the first; none if nobody
+/// in the picture does.
 std::optional<AgentRef> player_of(const Workspace& workspace, int clip);
 
 // The current agent: the selected one, else the one that the view follows.

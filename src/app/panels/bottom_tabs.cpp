@@ -1,17 +1,11 @@
 #include <app/panels/bottom_tabs.h>
 #include <app/ui/widgets.h>
 
-#include <memory>
 #include <string>
 
 namespace mobbscope::app {
 
 namespace {
-
-bool has_events(const Ui& ui) {
-    const std::shared_ptr<const QueryFindings> findings = ui.session.queries.findings();
-    return findings && !findings->recursion.pairs.empty();
-}
 
 void tab(Ui& ui, const char* label, const char* mark, BottomTab which, bool on) {
     ImGui::PushStyleColor(ImGuiCol_Text, on ? ui.style.text : ui.style.quiet);
@@ -27,7 +21,7 @@ void tab(Ui& ui, const char* label, const char* mark, BottomTab which, bool on) 
 
 BottomTab shown_tab(const Ui& ui) {
     const BottomTab tab = ui.session.settings.bottom_tab;
-    return tab == BottomTab::events && !has_events(ui) ? BottomTab::recursion : tab;
+    return tab == BottomTab::events && !has_events(ui.session.queries) ? BottomTab::recursion : tab;
 }
 
 bool is_high(BottomTab tab) { return tab != BottomTab::recursion; }

@@ -1,6 +1,7 @@
 /// The tabs of the panel below the picture.
 #pragma once
 
+#include <app/ui/data_table.h>
 #include <app/ui/ui.h>
 
 namespace mobbscope::app {
@@ -13,7 +14,7 @@ bool is_high(BottomTab tab);
 void bottom_tabs(Ui& ui);
 
 /// The nodes of the tree in focus as a table.
-void node_list(Ui& ui);
+void node_list(Ui& ui, DataTable& table);
 /// Above it: one row a level, over time.
 void level_strip(Ui& ui, int clip);
 /// Figures of the clip in focus over time.

@@ -74,10 +74,11 @@ void bookmark_fields(Ui& ui, const Bookmark& bookmark) {
 
 void break_when(Ui& ui, QueryInspector& queries) {
     if (!section(ui, "BREAK WHEN")) return;
-    const FilterField field{.mark = "break.filter", .hint = "outcome = hit", .hits = [&](const EventFilter& filter) {
-                                return hits_text(queries, filter);
-                            }};
-    const std::optional<std::string> entered = event_filter_field(ui, field);
+    const FilterField field{.mark = "break.filter",
+                            .fields = event_field_table(),
+                            .hint = "outcome = hit",
+                            .hits = [&](const std::string& filter) { return hits_text(queries, EventFilter(filter)); }};
+    const std::optional<std::string> entered = filter_field(ui, field);
     filter_words(ui, field);
     if (entered && !entered->empty()) ui.invoke("breakpoint.add", *entered);
     const std::vector<Breakpoint>& all = ui.workspace.scene().debug.breakpoints;

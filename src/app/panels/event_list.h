@@ -1,11 +1,7 @@
 /// The tests of the query in view as a table: sorted, filtered, each row a step.
 #pragma once
 
-#include <app/ui/ui.h>
-
-#include <memory>
-#include <string>
-#include <vector>
+#include <app/ui/data_table.h>
 
 namespace mobbscope::app {
 
@@ -15,15 +11,7 @@ class EventTable {
     void draw(Ui& ui, QueryInspector& queries);
 
   private:
-    void table(Ui& ui, QueryInspector& queries);
-    void row(Ui& ui, QueryInspector& queries, int index) const;
-    /// Scrolls to the row of the present step, where that has changed or rows have.
-    void follow(int step, float row_height, float head_height);
-
-    std::shared_ptr<const std::vector<int>> rows_;  ///< as they were drawn last
-    int step_ = -1;                                 ///< likewise
-    int present_ = -1;                              ///< its row; -1: it has none
-    std::string order_{};                           ///< by what they are filtered and sorted
+    DataTable table_;
 };
 
 }  // namespace mobbscope::app

@@ -109,6 +109,7 @@ class QueryBodies {
 class QueryPictures {
   public:
     EventTable events;
+    DataTable nodes;
     QueryBodies bodies;
     /// Called above the pictures of a panel that scrolls: what the mouse is on below stays there when what stands above
     /// grows, so that a click may be the first of two.

@@ -259,7 +259,7 @@ void timeline(Ui& ui, Playback& playback, QueryInspector& queries, QueryPictures
             pictures.events.draw(ui, queries);
             break;
         case BottomTab::nodes:
-            node_list(ui);
+            node_list(ui, pictures.nodes);
             break;
         case BottomTab::curves:
             curves(ui);

@@ -172,6 +172,16 @@ Json look_json(const Workspace& workspace, const QueryInspector& queries) {
     return json;
 }
 
+/// The table of the tree in focus.
+Json nodes_json(const NodeInspector& nodes) {
+    const int selected = nodes.selected();
+    return {{"filter", nodes.filter ? Json(nodes.filter->text()) : Json(nullptr)},
+            {"listed", nodes.listed()->size()},
+            {"sort", info(nodes.by).name},
+            {"descending", nodes.descending},
+            {"selected", selected < 0 ? Json(nullptr) : Json(selected)}};
+}
+
 Json crowd_json(const Workspace& workspace, const CrowdInspector& crowds) {
     if (!is_crowd(workspace)) return nullptr;
     Json json{{"following", text_or_null(workspace.view().follow)}, {"choice", nullptr}, {"conflicts", nullptr}};
@@ -329,6 +339,8 @@ Json state_json(const Session& session) {
     json["hovered"] = selection_json(session.workspace, session.workspace.hovered);
     json["query"] = query_json(session.workspace, session.queries, session.settings);
     if (Json look = look_json(session.workspace, session.queries); !look.is_null()) json["look"] = std::move(look);
+    if (!session.workspace.empty() && session.settings.bottom_tab == BottomTab::nodes)
+        json["nodes"] = nodes_json(session.nodes);
     json["crowd"] = crowd_json(session.workspace, session.crowds);
     if (Json map = map_json(session.maps); !map.is_null()) json["map"] = std::move(map);
     json["excerpt"] = session.workspace.in_excerpt();

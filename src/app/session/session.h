@@ -11,6 +11,7 @@
 #include <app/session/fit_costs.h>
 #include <app/session/fit_notices.h>
 #include <app/session/map_inspector.h>
+#include <app/session/node_inspector.h>
 #include <app/session/query_answers.h>
 #include <app/session/recovery.h>
 #include <app/session/sweep_inspector.h>
@@ -81,6 +82,7 @@ class Session {
     Views views{workspace};
     QueryInspector queries{workspace};
     NodeFigures figures{workspace};
+    NodeInspector nodes{workspace, figures};
     Notifications notifications;
     CommandQueue queue{notifications};
     Keys keys;
@@ -107,9 +109,9 @@ class Session {
     /// All parts, for what takes some of them (OfParts).
     template <class AnySession>
     static auto parts(AnySession& s) {
-        return std::tie(s.options, s.settings, s.workspace, s.views, s.queries, s.figures, s.notifications, s.queue, s.keys,
-                        s.dialogs, s.jobs, s.playback, s.edits, s.imports, s.crowds, s.maps, s.answers, s.costs,
-                        s.fit_costs, s.sweeps, s.what_if, s.notices, s.excerpts, s.files, s.recovery);
+        return std::tie(s.options, s.settings, s.workspace, s.views, s.queries, s.figures, s.nodes, s.notifications,
+                        s.queue, s.keys, s.dialogs, s.jobs, s.playback, s.edits, s.imports, s.crowds, s.maps, s.answers,
+                        s.costs, s.fit_costs, s.sweeps, s.what_if, s.notices, s.excerpts, s.files, s.recovery);
     }
 
     /// The screen of a type, which add_screen was given.

@@ -14,10 +14,15 @@ namespace {
 /// A word, and what is typed behind it.
 std::string completed(const std::string& word) { return word.ends_with('(') ? word : word + ' '; }
 
+struct TypedFilter {
+    FieldInput& input;
+    FieldTable fields;
+};
+
 int on_filter_key(ImGuiInputTextCallbackData* data) {
-    auto& input = *static_cast<FieldInput*>(data->UserData);
+    const auto& [input, fields] = *static_cast<TypedFilter*>(data->UserData);
     const FilterCompletion completion =
-        completion_of(std::string_view(data->Buf, static_cast<std::size_t>(data->CursorPos)));
+        completion_of(fields, std::string_view(data->Buf, static_cast<std::size_t>(data->CursorPos)));
     const int count = static_cast<int>(completion.words.size());
     if (count == 0) return 0;
     if (data->EventFlag == ImGuiInputTextFlags_CallbackHistory) {
@@ -39,12 +44,12 @@ std::string shown_filter(const Ui& ui, const FilterField& field) {
     return is_typed(ui, field) ? ui.field.text : field.now;
 }
 
-/// Nothing where it is none.
-std::optional<EventFilter> parsed(const std::string& text) {
+bool is_filter(const FilterField& field, const std::string& text) {
     try {
-        return EventFilter(text);
+        const TableFilter filter(field.fields, text);
+        return true;
     } catch (const FilterError&) {
-        return std::nullopt;
+        return false;
     }
 }
 
@@ -61,7 +66,7 @@ void wrong_filter(Ui& ui, const FilterField& field, const std::string& text, con
     const float field_left = (box ? box->min.x : left) + ImGui::GetStyle().FramePadding.x;
     const float x = std::clamp(field_left + before - scrolled, left, left + room - ui.px(8));
     // What is not finished yet is not wrong.
-    const bool open = trimmed(text.substr(error.at())).empty() || !completion_of(text).words.empty();
+    const bool open = trimmed(text.substr(error.at())).empty() || !completion_of(field.fields, text).words.empty();
     const ImU32 color = open ? ui.style.quiet : ui.style.error;
     const float line = ImGui::GetTextLineHeight();
     const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -84,7 +89,7 @@ void wrong_filter(Ui& ui, const FilterField& field, const std::string& text, con
 
 /// On one line: the one that Tab takes stands out.
 void candidates(Ui& ui, const FilterField& field) {
-    const FilterCompletion completion = completion_of(ui.field.text);
+    const FilterCompletion completion = completion_of(field.fields, ui.field.text);
     if (completion.words.empty()) return;
     ImGui::PushFont(ui.style.mono);
     const int count = static_cast<int>(completion.words.size());
@@ -112,7 +117,7 @@ void candidates(Ui& ui, const FilterField& field) {
 
 }  // namespace
 
-std::optional<std::string> event_filter_field(Ui& ui, const FilterField& field) {
+std::optional<std::string> filter_field(Ui& ui, const FilterField& field) {
     FieldInput& input = ui.field;
     if (ui.session.keys.field == field.mark) {
         ui.session.keys.field.clear();
@@ -120,20 +125,20 @@ std::optional<std::string> event_filter_field(Ui& ui, const FilterField& field) 
     }
     const bool own = is_typed(ui, field);
     std::string shown = shown_filter(ui, field);
-    const std::optional<EventFilter> filter = parsed(shown);
-    const std::string hits = filter ? field.hits(*filter) : "";
+    const std::string hits = is_filter(field, shown) ? field.hits(shown) : "";
     const float for_hits = hits.empty() ? 0 : ImGui::CalcTextSize(hits.c_str()).x + ImGui::GetStyle().ItemSpacing.x;
     const float width = std::max(ui.px(60), ImGui::GetContentRegionAvail().x - field.right - for_hits);
-    if (own && !completion_of(shown).words.empty()) ui.focus.keep_tab();
+    if (own && !completion_of(field.fields, shown).words.empty()) ui.focus.keep_tab();
     ImGui::PushFont(ui.style.mono);
     ImGui::SetNextItemWidth(width);
     const std::string before = shown;
     std::string& text = own ? input.text : shown;
+    TypedFilter typed{input, field.fields};
     const bool entered =
         ImGui::InputTextWithHint(("##" + field.mark).c_str(), field.hint, &text,
                                  ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion |
                                      ImGuiInputTextFlags_CallbackHistory,
-                                 on_filter_key, &input);
+                                 on_filter_key, &typed);
     ImGui::PopFont();
     ui.mark(field.mark);
     const bool active = ImGui::IsItemActive();
@@ -170,7 +175,7 @@ std::optional<std::string> event_filter_field(Ui& ui, const FilterField& field) 
     const FieldInput done = std::exchange(input, {});
     if (!entered) return std::nullopt;
     const std::string wanted(trimmed(done.text));
-    if (wanted.empty() || parsed(wanted)) return wanted;
+    if (wanted.empty() || is_filter(field, wanted)) return wanted;
     // A wrong one is mended where it stands.
     input = {.mark = field.mark, .text = done.text, .before = done.before, .fresh = true, .typing = true};
     ui.want_frame_in(0);
@@ -185,12 +190,32 @@ void filter_words(Ui& ui, const FilterField& field) {
         return;
     }
     try {
-        words(typed ? ui.style.text : ui.style.quiet, EventFilter(text).words());
+        words(typed ? ui.style.text : ui.style.quiet, TableFilter(field.fields, text).words());
         ui.mark_only(field.mark + ".words");
     } catch (const FilterError& error) {
         wrong_filter(ui, field, text, error);
     }
     if (typed) candidates(ui, field);
+}
+
+void filter_line(Ui& ui, const std::string& of, FilterField field, const char* menu_help,
+                 const std::vector<MenuEntry>& menu) {
+    field.mark = of + ".filter";
+    const float gap = ImGui::GetStyle().ItemSpacing.x;
+    field.right = button_width("all") + button_width("\u00BB") + 2 * gap;
+    const std::optional<std::string> entered = filter_field(ui, field);
+    ImGui::SameLine();
+    const std::string all = of + ".all";
+    command_button(ui, "all", all.c_str(), all);
+    ImGui::SameLine();
+    if (ImGui::Button("\u00BB##more")) ImGui::OpenPopup("more of the table");
+    ui.mark(of + ".more");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", menu_help);
+    context_menu(ui, "more of the table", [&menu] { return menu; });
+    filter_words(ui, field);
+    if (!entered) return;
+    if (!entered->empty()) return ui.invoke(field.mark, *entered);
+    if (!field.now.empty()) ui.invoke(all);
 }
 
 }  // namespace mobbscope::app
