@@ -651,6 +651,41 @@ std::vector<Case> cases() {
          true});
     in_query("query.judge", "",
              [](CommandWorld& w) { EXPECT_TRUE(w.session.queries.findings()->recursion.avoidable.all_judged()); });
+    // The table of nodes
+    const std::pair<std::string, std::string> of_nodes{"bottom.show", "nodes"};
+    look("nodes.filter", "fill < 50 %", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.nodes.filter->text(), "fill < 50 %");
+        EXPECT_EQ(w.session.settings.bottom_tab, BottomTab::nodes);
+    });
+    add({"nodes.all", "", {{"nodes.filter", "leaf"}}, [](CommandWorld& w) {
+             EXPECT_FALSE(w.session.nodes.filter);
+             EXPECT_EQ(static_cast<int>(w.session.nodes.listed()->size()), w.session.nodes.values()->size());
+         }});
+    look("nodes.sort", "level", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.nodes.by, NodeField::level);
+        EXPECT_FALSE(w.session.nodes.descending);
+        EXPECT_EQ(w.session.nodes.listed()->front(), 0);
+    });
+    look("nodes.count", "", [](CommandWorld& w) {
+        EXPECT_TRUE(w.session.nodes.values()->has(NodeField::tests));
+        EXPECT_TRUE(w.session.nodes.values()->has(NodeField::avoidable));
+    });
+    add({"nodes.copy", "", {{"nodes.filter", "level < 1"}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.desktop.text.substr(0, 10), "node\tlevel");
+         }});
+    add({"nodes.copy_csv", "", {{"nodes.filter", "level < 1"}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.desktop.text.substr(0, 10), "node,level");
+         }});
+    look("rows.find", "", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.settings.bottom_tab, BottomTab::nodes);
+        EXPECT_EQ(w.session.keys.field, "nodes.filter");
+    });
+    add({"rows.next", "", {of_nodes}, [](CommandWorld& w) {
+             EXPECT_EQ(w.session.nodes.selected(), w.session.nodes.listed()->front());
+         }});
+    add({"rows.previous", "", {of_nodes}, [](CommandWorld& w) {
+             EXPECT_EQ(w.session.nodes.selected(), w.session.nodes.listed()->back());
+         }});
     look("query.blame", "", [](CommandWorld& w) {
         ASSERT_NE(w.session.workspace.blame(), nullptr);
         EXPECT_NE(all_messages(w.session).find(" in 3 queries"), std::string::npos) << all_messages(w.session);
@@ -843,10 +878,6 @@ std::vector<Case> cases() {
 
     // Events, breakpoints, bookmarks
     in_query("events.show", "", [](CommandWorld& w) { EXPECT_EQ(w.session.settings.bottom_tab, BottomTab::events); });
-    in_query("events.find", "", [](CommandWorld& w) {
-        EXPECT_EQ(w.session.settings.bottom_tab, BottomTab::events);
-        EXPECT_EQ(w.session.keys.field, "events.filter");
-    });
     const std::pair<std::string, std::string> separated{"events.filter", "outcome = separated"};
     in_query("events.filter", "gap < 5 cm", [](CommandWorld& w) {
         EXPECT_EQ(w.session.workspace.events.filter->text(), "gap < 5 cm");
@@ -865,11 +896,11 @@ std::vector<Case> cases() {
                  return values.value(EventField::tests_below, 0, step).least;
              }));
          }});
-    add({"events.next", "", {kFirstQuery, kFirstStep, separated}, [](CommandWorld& w) {
+    add({"rows.next", "", {kFirstQuery, kFirstStep, separated}, [](CommandWorld& w) {
              EXPECT_EQ(outcome_now(w), mobb::Outcome::separated) << "the present one is not listed, but has its place";
              EXPECT_EQ(w.session.workspace.step(), w.session.queries.listed_events()->front());
          }});
-    add({"events.previous", "", {kFirstQuery, separated, {"step.last", ""}}, [](CommandWorld& w) {
+    add({"rows.previous", "", {kFirstQuery, separated, {"step.last", ""}}, [](CommandWorld& w) {
              EXPECT_EQ(w.session.workspace.step(), w.session.queries.listed_events()->back());
          }});
     const std::pair<std::string, std::string> saved{"events.save", "apart"};

@@ -346,9 +346,9 @@ TEST(Debugger, TheWayBackShowsWhatWasVisited) {
         run_command(session, "query.select", "0");
         std::vector<SeenStep> visits{seen_step(session)};
         int way = 0;  // of the run of single steps that the last visit is of
-        const std::vector<std::string> steps{"step.forward", "step.back",       "step.into",      "step.out",
-                                             "step.over",    "step.over_back",  "step.next_leaf", "step.previous_leaf",
-                                             "events.next",  "events.previous", "step.last",      "step.next_overlap"};
+        const std::vector<std::string> steps{"step.forward", "step.back",      "step.into",      "step.out",
+                                             "step.over",    "step.over_back", "step.next_leaf", "step.previous_leaf",
+                                             "rows.next",    "rows.previous",  "step.last",      "step.next_overlap"};
         for (int i = 0; i < 80; ++i) {
             session.workspace.close_group();
             const int choice = random.integer(0, static_cast<int>(steps.size()) + 1);

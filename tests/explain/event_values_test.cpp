@@ -114,19 +114,20 @@ TEST(EventValues, FiltersAgreeWithTheTrace) {
 TEST(EventValues, SortsByEveryFieldBothWaysAndKeepsOrderOfEqualOnes) {
     mobb::test::Random random(37);
     const Valued all(random);
-    for (const TableField& field : event_fields()) {
+    for (int number = 0; number < std::ssize(event_fields()); ++number) {
+        const auto field = static_cast<EventField>(number);
         for (const bool descending : {false, true}) {
             std::vector<int> steps(static_cast<std::size_t>(all.values.size()));
             std::iota(steps.begin(), steps.end(), 0);
-            sort_steps(steps, all.values, field.field, 1, descending);
+            sort_steps(steps, all.values, field, 1, descending);
             for (std::size_t i = 1; i < steps.size(); ++i) {
-                const double before = all.values.value(field.field, 1, steps[i - 1]).least;
-                const double after = all.values.value(field.field, 1, steps[i]).least;
+                const double before = all.values.value(field, 1, steps[i - 1]).least;
+                const double after = all.values.value(field, 1, steps[i]).least;
                 if (std::isnan(after)) continue;
-                ASSERT_FALSE(std::isnan(before)) << field.name << ": without a value comes last";
-                EXPECT_TRUE(descending ? before >= after : before <= after) << field.name;
+                ASSERT_FALSE(std::isnan(before)) << info(field).name << ": without a value comes last";
+                EXPECT_TRUE(descending ? before >= after : before <= after) << info(field).name;
                 if (before == after) {
-                    EXPECT_LT(steps[i - 1], steps[i]) << field.name;
+                    EXPECT_LT(steps[i - 1], steps[i]) << info(field).name;
                 }
             }
         }

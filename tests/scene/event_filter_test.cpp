@@ -1,5 +1,6 @@
-// Filters as text: every field and sign, words, errors with their place, completion.
+// Filters as text, of events and of nodes: every field and sign, words, errors with their place, completion.
 #include <scene/event_filter.h>
+#include <scene/node_field.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -35,11 +36,12 @@ TEST(EventFilter, TheDocumentListsEveryField) {
 
 TEST(EventFilter, TakesEveryFieldWithEverySignThatItHas) {
     for (const TableField& field : event_fields()) {
-        EXPECT_EQ(&info(field.field), &field);
+        const auto number = &field - event_fields().data();
+        EXPECT_EQ(&info(static_cast<EventField>(number)), &field);
         const std::string name = std::string(field.name) + (field.of_side ? "(b)" : "");
         if (field.kind == FieldKind::flag) {
             const EventFilter filter(name);
-            EXPECT_EQ(filter.terms().front().field, field.field);
+            EXPECT_EQ(filter.terms().front().field, number);
             EXPECT_EQ(filter.terms().front().side, field.of_side ? 1 : 0);
             EXPECT_NE(filter_refusal(name + " = 1"), "");
             continue;
@@ -164,6 +166,46 @@ TEST(EventFilter, HasAThousandPartsAtMost) {
               "it has too many parts");
 }
 
+/// "message at N", or "" for a filter of nodes.
+std::string node_refusal(std::string_view text) {
+    try {
+        const NodeFilter filter(text);
+        return "";
+    } catch (const FilterError& error) {
+        return std::string(error.what()) + " at " + std::to_string(error.at());
+    }
+}
+
+TEST(NodeFilter, TakesTheFieldsOfNodesAndNoOthers) {
+    const std::string document = testing::slurp(MOBBSCOPE_SOURCE_DIR "/docs/command_line.md");
+    for (const NodeFieldInfo& field : node_fields()) {
+        EXPECT_EQ(&info(field.field), &field);
+        const std::string name(field.name);
+        EXPECT_NE(document.find("| `" + name + "` |"), std::string::npos) << name;
+        if (field.kind == FieldKind::flag) {
+            EXPECT_EQ(NodeFilter::field(NodeFilter(name).terms().front()), field.field);
+            continue;
+        }
+        EXPECT_EQ(NodeFilter::field(NodeFilter(name + " = 3").terms().front()), field.field);
+    }
+    EXPECT_EQ(node_refusal("gap < 1"), "'gap' is no field at 0");
+    EXPECT_EQ(node_refusal("level(a) = 1"), "a comparison is missing: =, !=, <, <=, > or >= at 5");
+    EXPECT_EQ(filter_refusal("fill < 1"), "'fill' is no field at 0");
+}
+
+TEST(NodeFilter, ReadsPartsInPercent) {
+    EXPECT_EQ(NodeFilter("fill < 50 %").terms()[0].value, 50);
+    EXPECT_EQ(NodeFilter("fill < 50%and leaf").terms()[0].value, 50);
+    EXPECT_EQ(NodeFilter("fill < 50").words(), "the fill is below 50 %");
+    EXPECT_EQ(NodeFilter("empty > 0.5 and not leaf").words(),
+              "the empty space is above 0.5 m\u00B2\u00B7s, and it is not so that it is a leaf");
+    EXPECT_EQ(node_refusal("fill < 5 m"), "'m' is no unit of the fill: % at 9");
+    EXPECT_EQ(node_refusal("empty > 5 m"), "the empty is given without its unit at 10");
+    EXPECT_EQ(node_refusal("tests > 5 %"), "the tests has no unit at 10");
+    EXPECT_EQ(filter_refusal("gap < 5 %"), "'%' is no unit of the gap: m, cm or mm at 8");
+    EXPECT_EQ(completion_of(node_field_table(), "fill < 50 ").words, (std::vector<std::string>{"and", "or"}));
+}
+
 TEST(EventFilter, PutsACaretUnderTheCharacter) {
     const std::string text = "gap \u2264 0.5 and levl(a) > 1";
     try {
@@ -175,13 +217,13 @@ TEST(EventFilter, PutsACaretUnderTheCharacter) {
 }
 
 TEST(EventFilter, CompletesWhatIsBegun) {
-    const auto words = [](std::string_view text) { return completion_of(text).words; };
+    const auto words = [](std::string_view text) { return completion_of(event_field_table(), text).words; };
     EXPECT_EQ(words("ga"), std::vector<std::string>{"gap"});
     EXPECT_EQ(words("gap < 1 a"), std::vector<std::string>{"and"});
     EXPECT_EQ(words("outcome = s"), std::vector<std::string>{"separated"});
     EXPECT_EQ(words("gap "), (std::vector<std::string>{"=", "!=", "<", "<=", ">", ">="}));
     EXPECT_EQ(words("lev"), (std::vector<std::string>{"level(a)", "level(b)"}));
-    EXPECT_EQ(completion_of("gap < 1 and le").from, 12u);
+    EXPECT_EQ(completion_of(event_field_table(), "gap < 1 and le").from, 12u);
     EXPECT_TRUE(words("nonsense and ga").empty()) << "what comes before is to be mended first";
     // Whatever is proposed goes on to a filter, or is one.
     for (const std::string& word : words("")) {

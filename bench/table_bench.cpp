@@ -1,8 +1,10 @@
-// The list of a query's events: a million of them sorted by each column, and filtered.
+// Tables of the window, sorted by each column and filtered: a million events of a query, and the nodes of a tree.
 #include <explain/event_table.h>
+#include <explain/node_table.h>
 
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <iterator>
 #include <memory>
 #include <numeric>
@@ -84,6 +86,48 @@ void filter_events(benchmark::State& state) {
     state.SetLabel(filter.text());
 }
 BENCHMARK(filter_events)->DenseRange(0, static_cast<int>(std::size(kFilters)) - 1)->Unit(benchmark::kMillisecond);
+
+// --- nodes
+
+/// Of leaves of one sample, so of twice as many nodes; in free boxes, which overhang.
+const NodeValues& many_nodes() {
+    static const NodeValues all = [] {
+        std::vector<mobb::Disk> samples;
+        for (int i = 0; i < 1 << 16; ++i) samples.push_back({std::sin(0.01 * i), 0.01 * i, 0.3});
+        auto clip = std::make_shared<const mobb::Clip>(0.01, std::move(samples));
+        return NodeValues(std::make_shared<const mobb::Tree>(
+                              std::move(clip), mobb::FitOptions{.tree = mobb::TreeKind::umobb, .leaf = 1}),
+                          {});
+    }();
+    return all;
+}
+
+void find_node_values(benchmark::State& state) {
+    const auto tree = std::make_shared<const mobb::Tree>(many_nodes().tree());
+    for (auto _ : state) benchmark::DoNotOptimize(NodeValues(tree, {}));
+    state.SetLabel(std::to_string(many_nodes().size()));
+}
+BENCHMARK(find_node_values)->Unit(benchmark::kMillisecond);
+
+void sort_all_nodes(benchmark::State& state) {
+    const NodeField field = node_columns()[static_cast<std::size_t>(state.range(0))];
+    for (auto _ : state) {
+        std::vector<int> nodes = nodes_that_pass(many_nodes(), nullptr);
+        sort_nodes(nodes, many_nodes(), field, true);
+        benchmark::DoNotOptimize(nodes.data());
+    }
+    state.SetLabel(std::string(info(field).name));
+}
+BENCHMARK(sort_all_nodes)->DenseRange(0, static_cast<int>(node_columns().size()) - 1)->Unit(benchmark::kMillisecond);
+
+constexpr const char* kNodeFilters[] = {"fill < 50 %", "fill < 50 % and not leaf and sample < 30000 or node = 9.17"};
+
+void filter_nodes(benchmark::State& state) {
+    const NodeFilter filter(kNodeFilters[state.range(0)]);
+    for (auto _ : state) benchmark::DoNotOptimize(nodes_that_pass(many_nodes(), &filter));
+    state.SetLabel(filter.text());
+}
+BENCHMARK(filter_nodes)->DenseRange(0, static_cast<int>(std::size(kNodeFilters)) - 1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace mobbscope
