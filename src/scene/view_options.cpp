@@ -505,6 +505,7 @@ std::vector<ViewOption> all_view_options() {
                                   .what = "The disks in the colour of how many tests of boxes hold them",
                                   .title = "Heat of tests on the disks",
                                   .menu = "View/Show",
+                                  .draws = DrawnPart::colors,
                                   .may_be_seen = [](const ViewState& view) { return view.disks && !view.query; }}),
         toggle<&ViewState::cut_boxes>(
             {.key = "cut_boxes",

@@ -44,6 +44,7 @@ enum class DrawnPart {
     agents,        ///< what lies where an agent is when it is there; of a hidden one nothing
     surroundings,  ///< what stands around, with its words
     words,         ///< text, and the panels that it stands on
+    colors,        ///< nothing else: what is drawn anyway has other colours, which words explain
 };
 
 struct ViewOption {

@@ -493,6 +493,7 @@ std::vector<Case> cases() {
          }});
     look("view.color_by", "", [](CommandWorld& w) { EXPECT_EQ(w.view().color_by, ColorBy::level); });
     look("view.color_by", "agent", [](CommandWorld& w) { EXPECT_EQ(w.view().color_by, ColorBy::agent); });
+    look("view.color_range", "0:5", [](CommandWorld& w) { EXPECT_EQ(w.view().color_range, (ValueRange{0, 5})); });
     in_query("view.level", "1:3", [](CommandWorld& w) {
         EXPECT_EQ(w.view().levels, (LevelRange{1, 3, false}));
         EXPECT_FALSE(w.view().query);

@@ -68,6 +68,9 @@ struct Toggled {
     std::vector<Points> added = beyond(with, without), removed = beyond(without, with);
 
     bool changes_words() const { return overlay_of(with) != overlay_of(without); }
+    bool changes_colors() const {
+        return !std::ranges::equal(with.disks, without.disks, {}, &DiskInstance::color, &DiskInstance::color);
+    }
 };
 
 Toggled toggled(const FittedScene& fitted, ViewState view, const ViewOption& option) {
@@ -141,7 +144,11 @@ TEST(ViewToggles, ChangeThatPartOfThePictureAlone) {
             const Toggled picture = toggled(*fitted, view, option);
             SCOPED_TRACE(described(option, view));
             EXPECT_TRUE(picture.removed.empty());
-            if (option.draws == DrawnPart::words) {
+            if (option.draws == DrawnPart::colors) {
+                EXPECT_TRUE(picture.added.empty());
+                EXPECT_EQ(picture.changes_words(), picture.changes_colors());
+                shows = shows || picture.changes_colors();
+            } else if (option.draws == DrawnPart::words) {
                 EXPECT_TRUE(picture.added.empty());
                 shows = shows || picture.changes_words();
             } else {
@@ -170,7 +177,7 @@ TEST(ViewToggles, OfAgentsShowThemWhereTheyAreWhenTheyAreThere) {
 TEST(ViewToggles, LeaveHiddenAgentsOut) {
     const FittedScene fitted = two_walks();
     for (const ViewOption& option : view_options()) {
-        if (!option.toggle || option.draws == DrawnPart::words) continue;
+        if (!option.toggle || option.draws == DrawnPart::words || option.draws == DrawnPart::colors) continue;
         for (ViewState view : views()) {
             SCOPED_TRACE(described(option, view));
             if (view.query) continue;  // its sides are drawn

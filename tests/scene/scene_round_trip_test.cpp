@@ -57,7 +57,8 @@ Scene random_scene(std::mt19937_64& random) {
     scene.view.time_height = positive(random);
     scene.view.hidden = {scene.agents.front().name};
     scene.view.arrange = Arrange::grid;
-    scene.view.color_by = ColorBy::level;
+    scene.view.color_by = ColorBy::empty;
+    scene.view.color_range = {0.5, 7};
     scene.view.theme = Theme::light;
     for (const ViewOption& option : view_options()) {
         if (option.toggle) scene.view.*option.toggle = random() % 2 == 0;

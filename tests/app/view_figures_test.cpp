@@ -1,0 +1,160 @@
+// Colours by a figure in the window: the histogram with its handles, and the strip of levels over time.
+#include <app/document/workspace.h>
+#include <app/window/headless_window.h>
+#include <render/gl/gl_context.h>
+#include <scene/view_options.h>
+
+#include "app/crossing_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace mobbscope::app {
+namespace {
+
+using testing::CrossingFolder;
+using testing::refusal;
+
+struct FigureWindow {
+    CrossingFolder folder;
+    Session session{false};
+    HeadlessWindow window{GlContext::open(Backend::automatic), session, {1600, 1000}, 1};
+
+    FigureWindow() {
+        session.files.open({folder.scene});
+        window.settle();
+    }
+    Rect rect(const std::string& mark) { return window.shell().marks().all().at(mark); }
+    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
+    void run(const std::string& command, const std::string& argument = "") {
+        run_command(session, command, argument);
+        window.settle();
+    }
+    void move(glm::vec2 to) {
+        window.shell().feed(MouseMove{to});
+        window.settle();
+    }
+    void button(bool down) {
+        window.shell().feed(MouseButton{0, down});
+        window.settle();
+    }
+    void click(glm::vec2 at) {
+        move(at);
+        button(true);
+        button(false);
+    }
+    const ViewState& view() const { return session.workspace.view(); }
+};
+
+TEST(ViewFigures, AModeIsChosenFromTheListWithTheOthers) {
+    FigureWindow w;
+    EXPECT_FALSE(w.has("view.color_range.from"));
+    w.click(w.rect("view.color_by").center());
+    for (const std::string_view mode : view_option("color_by").choices)
+        EXPECT_TRUE(w.has("view.color_by." + std::string(mode))) << mode;
+    w.click(w.rect("view.color_by.empty").center());
+    EXPECT_EQ(w.view().color_by, ColorBy::empty);
+    ASSERT_TRUE(w.session.figures.boxes);
+    EXPECT_EQ(w.session.figures.boxes->scale.figure.title, "empty space");
+    EXPECT_TRUE(w.has("view.color_range.from"));
+    w.run("query.select", "0");
+    EXPECT_FALSE(w.has("view.color_range.from")) << "the boxes of a query have other colours";
+}
+
+TEST(ViewFigures, HandlesChooseTheRange) {
+    FigureWindow w;
+    w.run("view.level", "3");
+    w.run("view.color_by", "empty");
+    const ColorScale scale = w.session.figures.boxes->scale;
+    ASSERT_TRUE(scale.known);
+    EXPECT_FALSE(w.has("view.color_range.auto"));
+    const glm::vec2 at = w.rect("view.color_range.to").center();
+    w.move(at);
+    w.button(true);
+    w.move(at - glm::vec2(60, 0));
+    w.button(false);
+    ASSERT_TRUE(w.view().color_range);
+    EXPECT_LT(w.view().color_range->most, scale.most);
+    EXPECT_NEAR(w.view().color_range->least, scale.least, 1e-3 * scale.least);
+    EXPECT_TRUE(w.session.figures.boxes->scale.chosen);
+    EXPECT_TRUE(w.session.figures.boxes->scale.has_more);
+    EXPECT_NEAR(w.rect("view.color_range.to").center().x, at.x - 60, 2) << "it stays under the mouse";
+    w.click(w.rect("view.color_range.auto").center());
+    EXPECT_FALSE(w.view().color_range);
+}
+
+TEST(ViewFigures, ARangeIsOfOneFigure) {
+    FigureWindow w;
+    w.run("view.color_by", "fill");
+    w.run("view.color_range", "10:30");
+    EXPECT_EQ(w.view().color_range, (ValueRange{10, 30}));
+    EXPECT_DOUBLE_EQ(w.session.figures.boxes->scale.most, 0.3) << "parts are given in per cent";
+    w.run("view.color_by", "fill");
+    EXPECT_TRUE(w.view().color_range);
+    w.run("view.color_by", "empty");
+    EXPECT_FALSE(w.view().color_range) << "of another figure it would mean something else";
+    w.run("view.color_range", "auto");
+    EXPECT_NE(refusal(w.session, "view.color_range", "3:1").find("no range"), std::string::npos);
+}
+
+TEST(ViewFigures, TestsAreCountedWhereSomebodyAsks) {
+    FigureWindow w;
+    for (const char* mode : {"tests", "avoidable"}) {
+        w.run("view.color_by", mode);
+        ASSERT_TRUE(w.session.figures.boxes) << mode;
+        EXPECT_FALSE(w.session.figures.boxes->scale.known) << mode;
+        EXPECT_EQ(w.session.figures.boxes->unknown, "not counted");
+        w.click(w.rect("view.color_by.count").center());
+        w.window.settle();
+        EXPECT_TRUE(w.session.figures.boxes->scale.known) << mode;
+        EXPECT_FALSE(w.has("view.color_by.count"));
+    }
+}
+
+/// Where the strip has a node.
+struct OnStrip {
+    FigureWindow& w;
+    glm::vec2 of(int agent, int node) {
+        const PlacedAgent& who = w.session.workspace.fitted().placed_agents()[static_cast<std::size_t>(agent)];
+        const mobb::PlacedTree placed = w.session.workspace.fitted().placed(who);
+        const mobb::Interval span = time_span(w.session.workspace);
+        const Rect strip = w.rect("nodes.levels");
+        const double middle = 0.5 * (placed.begin(placed.node(node)) + placed.end(placed.node(node)));
+        const auto share = static_cast<float>((middle - span.t0) / (span.t1 - span.t0));
+        const auto level = static_cast<float>(placed.tree().level(node));
+        return {strip.min.x + share * strip.size().x,
+                strip.min.y + (level + 0.5f) / static_cast<float>(placed.tree().depth()) * strip.size().y};
+    }
+};
+
+TEST(LevelStrip, TellsAndSelectsTheNodeUnderTheMouse) {
+    FigureWindow w;
+    w.run("bottom.show", "nodes");
+    ASSERT_TRUE(w.has("nodes.levels"));
+    const Rect bars = w.rect("timeline.time"), strip = w.rect("nodes.levels");
+    EXPECT_FLOAT_EQ(strip.min.x, bars.min.x) << "one time axis";
+    EXPECT_FLOAT_EQ(strip.max.x, bars.max.x);
+    const mobb::Tree& tree = w.session.workspace.fitted().tree(clip_in_focus(w.session.workspace));
+    OnStrip on{w};
+    for (const int node : {0, 1, tree.children(1)[1], static_cast<int>(tree.nodes().size()) - 1}) {
+        w.move(on.of(0, node));
+        EXPECT_EQ(w.session.workspace.hovered, (Selection{Selection::Kind::node, {0, -1, 0}, node}));
+    }
+    w.click(on.of(0, 1));
+    EXPECT_EQ(w.session.workspace.selection, (Selection{Selection::Kind::node, {0, -1, 0}, 1}));
+    w.move({800, 300});
+    EXPECT_EQ(w.session.workspace.hovered.kind == Selection::Kind::node && w.session.workspace.hovered.index == 1,
+              false);
+    // Of the other agent, once it is in focus.
+    w.run("go.agent", "B");
+    w.click(on.of(1, 2));
+    EXPECT_EQ(w.session.workspace.selection, (Selection{Selection::Kind::node, {1, -1, 0}, 2}));
+}
+
+}  // namespace
+}  // namespace mobbscope::app
