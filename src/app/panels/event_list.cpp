@@ -71,11 +71,13 @@ void column_head(Ui& ui, const EventColumn& column) {
                            {middle.x, middle.y - 0.7f * up * r}, ui.style.text);
 }
 
-void cell(Ui& ui, const EventColumn& column, const std::string& text, ImU32 color) {
+void cell(Ui& ui, const EventColumn& column, const std::string& text, const EventValues::Range& exact, ImU32 color) {
     const float width = text_size(*ui.style.mono, text).x;
     const float spare = ImGui::GetContentRegionAvail().x - width;
     if (is_number(column) && spare > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + spare);
     text_line(color, text, ui.style.mono);
+    if (is_number(column))
+        copies_numbers(ui, text, ImGui::GetItemRectMin(), *ui.style.mono, {exact.least, exact.most}, true);
 }
 
 FilterField list_filter(const Ui& ui, QueryInspector& queries) {
@@ -192,7 +194,7 @@ void EventTable::row(Ui& ui, QueryInspector& queries, int index) const {
     ui.mark("events.row." + std::to_string(step));
     if (index == present_) ui.focus.begin_here();
     // Arrows step as they go.
-    if (clicked || (ui.focus.arrived_at_last() && step != ui.workspace.step()))
+    if ((clicked && !ImGui::GetIO().KeyCtrl) || (ui.focus.arrived_at_last() && step != ui.workspace.step()))
         ui.invoke("step.to", std::to_string(step));
     if (ImGui::IsItemHovered()) {
         ui.hovered_event = step;
@@ -214,7 +216,8 @@ void EventTable::row(Ui& ui, QueryInspector& queries, int index) const {
         const ImU32 color = column.field == EventField::outcome
                                 ? mark_text(ui.style, mark_of(event.test, event.outcome))
                                 : ui.style.text;
-        cell(ui, column, values.text(column.field, column.side, step), color);
+        cell(ui, column, values.text(column.field, column.side, step), values.value(column.field, column.side, step),
+             color);
     }
 }
 

@@ -158,7 +158,7 @@ class QueryPictures {
         std::vector<Cell> cells_;
     };
     Kept<PairCell> square_, icicle_;
-    Kept<ClearanceColumn> clearance_;
+    Kept<ValueColumn> clearance_;
     Kept<StripCell> strip_;
     struct {
         std::shared_ptr<const FitComparison> of;
