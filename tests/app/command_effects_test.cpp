@@ -521,6 +521,7 @@ std::vector<Case> cases() {
     add({"view.fold_legend", "", {{"view.fold_legend", ""}}, [](CommandWorld& w) {
              EXPECT_FALSE(w.view().fold_legend);
          }});
+    look("bottom.show", "nodes", [](CommandWorld& w) { EXPECT_EQ(w.session.settings.bottom_tab, BottomTab::nodes); });
     look("view.theme", "", [](CommandWorld& w) { EXPECT_EQ(w.view().theme, Theme::light); });
     look("view.theme", "dark", [](CommandWorld& w) { EXPECT_EQ(w.view().theme, Theme::dark); });
     look("window.scale", "1.3", [](CommandWorld& w) { EXPECT_EQ(w.session.settings.ui_scale, 1.3); });
@@ -841,9 +842,9 @@ std::vector<Case> cases() {
     in_query("step.percent", "50", [](CommandWorld& w) { EXPECT_EQ(w.view().step, (Step{Step::Unit::percent, 50})); });
 
     // Events, breakpoints, bookmarks
-    in_query("events.show", "", [](CommandWorld& w) { EXPECT_TRUE(w.session.settings.shows_events); });
+    in_query("events.show", "", [](CommandWorld& w) { EXPECT_EQ(w.session.settings.bottom_tab, BottomTab::events); });
     in_query("events.find", "", [](CommandWorld& w) {
-        EXPECT_TRUE(w.session.settings.shows_events);
+        EXPECT_EQ(w.session.settings.bottom_tab, BottomTab::events);
         EXPECT_EQ(w.session.keys.field, "events.filter");
     });
     const std::pair<std::string, std::string> separated{"events.filter", "outcome = separated"};
@@ -851,7 +852,7 @@ std::vector<Case> cases() {
         EXPECT_EQ(w.session.workspace.events.filter->text(), "gap < 5 cm");
         EXPECT_EQ(*w.session.queries.listed_events(),
                   steps_that_pass(w.session.queries.events(), EventFilter("gap < 0.05")));
-        EXPECT_TRUE(w.session.settings.shows_events);
+        EXPECT_EQ(w.session.settings.bottom_tab, BottomTab::events);
     });
     add({"events.all", "", {kFirstQuery, separated}, [](CommandWorld& w) {
              EXPECT_FALSE(w.session.workspace.events.filter);

@@ -39,6 +39,7 @@ TEST(Settings, AreReadBackAsTheyWereWritten) {
     settings.folded = {{"clips", true}, {"tree", false}};
     settings.file_order = "-date";
     settings.cost_of = QueryWorkload::Kind::queries;
+    settings.bottom_tab = BottomTab::nodes;
     settings.last.files = {folder.path() / "b.json"};
     settings.last.view.query = 2;
     settings.last.view.camera.yaw_deg = 12.5;
@@ -80,13 +81,27 @@ TEST(Settings, JunkIsPassedOver) {
     const TempFolder folder;
     EXPECT_EQ(load_settings(folder.path() / "none.json"), Settings{});
     EXPECT_EQ(load_settings(folder.path()), Settings{});
-    for (const char* text :
-         {"", "{", "[1, 2]", "null", "\xff\xfe", R"({"ui_scale": "big", "left_width": -3})", R"({"ui_scale": 1e999})",
-          R"({"recent": {"a": 1}})", R"({"recent": [1, null, "here"]})", R"({"theme": "pink", "folder": "here"})",
-          R"({"window": {"x": 1}})", R"({"window": {"x": 0, "y": 0, "width": 0, "height": 5}})",
-          R"({"window": {"x": 1e300, "y": 0, "width": 9, "height": 5}})", R"({"folded": [true]})",
-          R"({"folded": {"clips": "yes"}})", R"({"file_order": "colour"})", R"({"cost_of": "colour"})",
-          R"({"last_session": [1]})", R"({"last_session": {"files": "a", "view": {"query": -1}}})"}) {
+    for (const char* text : {"",
+                             "{",
+                             "[1, 2]",
+                             "null",
+                             "\xff\xfe",
+                             R"({"ui_scale": "big", "left_width": -3})",
+                             R"({"ui_scale": 1e999})",
+                             R"({"recent": {"a": 1}})",
+                             R"({"recent": [1, null, "here"]})",
+                             R"({"theme": "pink", "folder": "here"})",
+                             R"({"window": {"x": 1}})",
+                             R"({"window": {"x": 0, "y": 0, "width": 0, "height": 5}})",
+                             R"({"window": {"x": 1e300, "y": 0, "width": 9, "height": 5}})",
+                             R"({"folded": [true]})",
+                             R"({"folded": {"clips": "yes"}})",
+                             R"({"file_order": "colour"})",
+                             R"({"cost_of": "colour"})",
+                             R"({"bottom_tab": "colour"})",
+                             R"({"shows_events": "yes"})",
+                             R"({"last_session": [1]})",
+                             R"({"last_session": {"files": "a", "view": {"query": -1}}})"}) {
         EXPECT_EQ(load_settings(folder.write("settings.json", text)), Settings{}) << text;
     }
     const Settings some =
@@ -94,6 +109,14 @@ TEST(Settings, JunkIsPassedOver) {
     EXPECT_EQ(some.ui_scale, 0);
     EXPECT_EQ(some.right_width, 400);
     EXPECT_EQ(some.recent, std::vector<std::filesystem::path>{"/a"});
+}
+
+TEST(Settings, OlderVersionsSaidOnlyWhetherEventsWereListed) {
+    const TempFolder folder;
+    const auto tab = [&](const char* text) { return load_settings(folder.write("settings.json", text)).bottom_tab; };
+    EXPECT_EQ(tab(R"({"shows_events": true})"), BottomTab::events);
+    EXPECT_EQ(tab(R"({"shows_events": false})"), BottomTab::recursion);
+    EXPECT_EQ(tab(R"({"shows_events": true, "bottom_tab": "curves"})"), BottomTab::curves);
 }
 
 TEST(Settings, OfAnotherVersionStay) {

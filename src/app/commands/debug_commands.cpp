@@ -39,18 +39,20 @@ std::string name_for(std::string_view text, const std::string& what) {
 
 // --- the list of events
 
-void show_list(Settings& settings) { settings.shows_events = !settings.shows_events; }
-bool shows_list(const Settings& settings) { return settings.shows_events; }
+bool shows_list(const Settings& settings) { return settings.bottom_tab == BottomTab::events; }
+void show_list(Settings& settings) {
+    settings.bottom_tab = shows_list(settings) ? BottomTab::recursion : BottomTab::events;
+}
 
 void find_events(Settings& settings, Keys& keys) {
-    settings.shows_events = true;
+    settings.bottom_tab = BottomTab::events;
     keys.field = "events.filter";
 }
 
 void apply(Workspace& workspace, Settings& settings, const std::optional<EventFilter>& filter) {
     workspace.events.filter = filter;
     workspace.derived().listed_events.reset();
-    settings.shows_events = true;
+    settings.bottom_tab = BottomTab::events;
 }
 
 void filter_events(Workspace& workspace, Settings& settings, const std::string& text) {

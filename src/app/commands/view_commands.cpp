@@ -15,6 +15,8 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace mobbscope::app {
 
@@ -245,6 +247,19 @@ void toggle_projection(Workspace& workspace) {
 
 // --- the window
 
+std::vector<std::string> tab_names() { return {bottom_tab_names().begin(), bottom_tab_names().end()}; }
+
+constexpr std::array<std::string_view, 4> kTabTitles{"Recursion, or paths", "Events", "Nodes", "Curves"};
+
+std::string title_of_tab(const std::string& name) {
+    const auto at = std::ranges::find(bottom_tab_names(), name) - bottom_tab_names().begin();
+    return std::string(kTabTitles.at(static_cast<std::size_t>(at)));
+}
+
+void show_tab(Settings& settings, const std::string& text) {
+    settings.bottom_tab = choice_named<BottomTab>(bottom_tab_names(), text, "what stands below");
+}
+
 void set_scale(Settings& settings, const std::string& text) {
     settings.ui_scale = number_in(text, "the scale", kScales.front(), kScales.back());
 }
@@ -466,6 +481,17 @@ std::vector<Command> window_commands() {
                  [] { return std::string_view("no sample in the picture is selected"); }},
              .checked = [](const Workspace& workspace) { return workspace.view().projection.has_value(); }}),
         theme,
+        Command("bottom.show", "Below the picture",
+                "Shows below the picture the recursion of the query in view, or without one the paths over time; the "
+                "query's events; the nodes of the tree in focus; or curves of its clip.",
+                show_tab,
+                {.argument = "TAB",
+                 .choices = [](const Session&) { return tab_names(); },
+                 .choice_title = title_of_tab,
+                 .chosen =
+                     [](const Settings& settings, const std::string& name) {
+                         return name == bottom_tab_names()[static_cast<std::size_t>(settings.bottom_tab)];
+                     }}),
         Command("window.scale", "Scale of text and panels", "Makes text and panels so many times as large, 0.5 to 4.",
                 set_scale,
                 {.menu = kNoMenu,

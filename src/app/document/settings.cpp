@@ -41,6 +41,7 @@ constexpr std::array<NumberSetting, 5> kNumberSettings{{{"ui_scale", &Settings::
 using Json = nlohmann::ordered_json;
 
 constexpr std::array<std::string_view, 6> kFileOrders{"name", "-name", "size", "-size", "date", "-date"};
+constexpr std::array<std::string_view, 4> kBottomTabs{"recursion", "events", "nodes", "curves"};
 constexpr int kFarthest = 100'000;  // pixels from the corner of the displays
 
 constexpr std::chrono::milliseconds kLockPatience{1000};  // with another window that is writing
@@ -164,6 +165,14 @@ Json json_of(const LastSession& last) {
     return {{"files", texts_of(last.files)}, {"view", Json::parse(view.str())}};
 }
 
+/// Older versions said only whether events were listed.
+BottomTab read_bottom_tab(const Json& json) {
+    if (const auto tab = enumerator_named<BottomTab>(kBottomTabs, setting_text(json, "bottom_tab"))) return *tab;
+    const auto events = json.find("shows_events");
+    const bool lists = events != json.end() && events->is_boolean() && events->get<bool>();
+    return lists ? BottomTab::events : BottomTab::recursion;
+}
+
 /// What cannot be read is as at first.
 PictureExport read_export(const Json& json) {
     PictureExport out;
@@ -195,7 +204,7 @@ Json json_of(const Settings& settings) {
     if (settings.theme) json["theme"] = name(*settings.theme);
     if (settings.window) json["window"] = json_of(*settings.window);
     json["folded"] = settings.folded;
-    json["shows_events"] = settings.shows_events;
+    json["bottom_tab"] = kBottomTabs[static_cast<std::size_t>(settings.bottom_tab)];
     json["cost_of"] = name(settings.cost_of);
     json["last_session"] = json_of(settings.last);
     json["export"] = json_of(settings.picture_export);
@@ -260,6 +269,8 @@ void Settings::remember(const std::filesystem::path& file) {
     if (recent.size() > kMostRecent) recent.resize(kMostRecent);
 }
 
+std::span<const std::string_view> bottom_tab_names() { return kBottomTabs; }
+
 std::filesystem::path settings_file() {
     const std::filesystem::path folder = folder_of_person("XDG_CONFIG_HOME", ".config");
     return folder.empty() ? folder : folder / "mobbscope" / "settings.json";
@@ -290,8 +301,7 @@ Settings load_settings(const std::filesystem::path& file) {
             if (is.is_boolean()) settings.folded[name] = is.get<bool>();
         }
     }
-    const auto shows_events = json.find("shows_events");
-    settings.shows_events = shows_events != json.end() && shows_events->is_boolean() && shows_events->get<bool>();
+    settings.bottom_tab = read_bottom_tab(json);
     if (setting_text(json, "cost_of") == name(QueryWorkload::Kind::queries))
         settings.cost_of = QueryWorkload::Kind::queries;
     const std::string order = setting_text(json, "file_order");

@@ -9,7 +9,9 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,6 +32,15 @@ struct LastSession {
     friend bool operator==(const LastSession&, const LastSession&) = default;
 };
 
+/// What the panel below the picture shows, beside the clocks.
+enum class BottomTab : std::uint8_t {
+    recursion,  ///< of the query in view; without one, the paths over time
+    events,     ///< of the query in view; without one, the paths over time
+    nodes,
+    curves,
+};
+std::span<const std::string_view> bottom_tab_names();
+
 struct Settings {
     std::vector<std::filesystem::path>
         recent;                    ///< scenes, clips and folders that were opened, latest first, at most 20
@@ -38,8 +49,8 @@ struct Settings {
     double left_width = 256;       ///< of the panels, pixels at scale 1
     double right_width = 320;
     double bottom_height = 150;
-    double events_height = 300;  ///< of the panel below with the list of events
-    bool shows_events = false;   ///< the list of a query's events stands in place of its recursion
+    double events_height = 300;  ///< of the panel below with a list or with curves
+    BottomTab bottom_tab = BottomTab::recursion;
     QueryWorkload::Kind cost_of = QueryWorkload::Kind::placements;  ///< what costs of trees are about
     std::optional<Theme> theme;                                     ///< that was chosen last; none: never
     std::optional<WindowPlace> window;                              ///< none: it was never open

@@ -132,34 +132,6 @@ void filter_line(Ui& ui, QueryInspector& queries) {
 
 }  // namespace
 
-bool shows_event_list(const Ui& ui, QueryInspector& queries) {
-    const std::shared_ptr<const QueryFindings> findings = queries.findings();
-    return ui.session.settings.shows_events && findings && !findings->recursion.pairs.empty();
-}
-
-void event_tabs(Ui& ui) {
-    const bool list = ui.session.settings.shows_events;
-    ImGui::PushFont(ui.style.caption);
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(2), ui.px(1)});
-    ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0);
-    ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32_BLACK_TRANS);
-    const auto tab = [&](const char* label, const char* mark, bool on) {
-        ImGui::PushStyleColor(ImGuiCol_Text, on ? ui.style.text : ui.style.quiet);
-        if (ImGui::Button(label) && !on) ui.invoke("events.show");
-        ImGui::PopStyleColor();
-        ui.mark(mark);
-        const Rect at = Ui::last_rect();
-        if (on)
-            ImGui::GetWindowDrawList()->AddLine({at.min.x, at.max.y}, {at.max.x, at.max.y}, ui.style.accent, ui.px(2));
-    };
-    tab("RECURSION", "timeline.recursion", !list);
-    ImGui::SameLine(0, ui.px(12));
-    tab("EVENTS", "timeline.events", list);
-    ImGui::PopStyleColor();
-    ImGui::PopStyleVar(2);
-    ImGui::PopFont();
-}
-
 void EventTable::draw(Ui& ui, QueryInspector& queries) {
     filter_line(ui, queries);
     table(ui, queries);

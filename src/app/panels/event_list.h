@@ -26,10 +26,4 @@ class EventTable {
     std::string order_{};                           ///< by what they are filtered and sorted
 };
 
-/// Whether the list stands in place of the recursion.
-bool shows_event_list(const Ui& ui, QueryInspector& queries);
-
-/// The two tabs: the recursion, the list of events.
-void event_tabs(Ui& ui);
-
 }  // namespace mobbscope::app

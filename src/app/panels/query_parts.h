@@ -3,6 +3,7 @@
 #pragma once
 
 #include <app/document/query_look.h>
+#include <app/panels/curves.h>
 #include <app/panels/event_list.h>
 #include <app/panels/recursion_picture.h>
 #include <app/ui/ui.h>
@@ -109,6 +110,7 @@ class QueryBodies {
 class QueryPictures {
   public:
     EventTable events;
+    CurvePlots curves;
     QueryBodies bodies;
     /// Called above the pictures of a panel that scrolls: what the mouse is on below stays there when what stands above
     /// grows, so that a click may be the first of two.

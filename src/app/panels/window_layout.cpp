@@ -1,3 +1,4 @@
+#include <app/panels/bottom_tabs.h>
 #include <app/panels/panels.h>
 #include <app/ui/widgets.h>
 
@@ -166,7 +167,7 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     const float right = sides.right;
     const bool fold = sides.fold;
     const float highest = std::min(0.6f * room.y, std::max(0.4f * room.y, room.y - ui.px(kEnoughHeight)));
-    double& bottom_height = shows_event_list(ui, ui.session.queries) ? settings.events_height : settings.bottom_height;
+    double& bottom_height = is_high(shown_tab(ui)) ? settings.events_height : settings.bottom_height;
     const float bottom = std::clamp(ui.px(static_cast<float>(bottom_height)), std::min(ui.px(90), highest), highest);
     const auto spacing = [] { ImGui::SameLine(0, 0); };
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});

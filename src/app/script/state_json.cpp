@@ -141,7 +141,7 @@ Json query_json(const Workspace& workspace, const QueryInspector& queries, const
               {"outcome", mobb::name(event.outcome)},
               {"proof", proof_json(workspace, queries.findings()->proof)},
               {"sentence", step_sentence(sides, recorded->trace, workspace.step())},
-              {"events", events_json(workspace, queries, settings.shows_events)}};
+              {"events", events_json(workspace, queries, settings.bottom_tab == BottomTab::events)}};
     if (const auto& with = workspace.compare_with) json["compare"] = compare_json(*with, workspace, queries);
     if (recorded->trace.stopped()) json["all_events"] = recorded->trace.events();
     return json;

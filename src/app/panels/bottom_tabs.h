@@ -1,0 +1,20 @@
+/// The tabs of the panel below the picture.
+#pragma once
+
+#include <app/ui/ui.h>
+
+namespace mobbscope::app {
+
+/// The tab that is shown. Without tests of a query there is no list of events.
+BottomTab shown_tab(const Ui& ui);
+/// Whether that one has lists or charts, for which the panel is higher.
+bool is_high(BottomTab tab);
+/// On one line.
+void bottom_tabs(Ui& ui);
+
+/// The nodes of the tree in focus as a table.
+void node_list(Ui& ui);
+/// Above it: one row a level, over time.
+void level_strip(Ui& ui, int clip);
+
+}  // namespace mobbscope::app
