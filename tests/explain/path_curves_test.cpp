@@ -19,7 +19,7 @@ using mobb::PlacedClip;
 constexpr double kDt = 0.05;
 
 /// Counter-clockwise at `speed` m/s.
-Clip circle(double radius, double speed, int count, Motion motion = Motion::held) {
+Clip walked_circle(double radius, double speed, int count, Motion motion = Motion::held) {
     std::vector<Disk> disks;
     for (int i = 0; i < count; ++i) {
         const double angle = speed / radius * kDt * i;
@@ -32,7 +32,7 @@ Clip standing(int count) { return {kDt, std::vector<Disk>(static_cast<std::size_
 
 TEST(PathCurves, ACircleHasItsSpeedAndTurnsEvenly) {
     for (const Motion motion : {Motion::held, Motion::linear}) {
-        const Clip clip = circle(2, 1.5, 41, motion);
+        const Clip clip = walked_circle(2, 1.5, 41, motion);
         const PathCurve speed = speed_curve(clip), turn = turn_curve(clip);
         // The chord of a step, not the arc.
         const double step = 1.5 / 2 * kDt;
@@ -82,7 +82,7 @@ TEST(PathCurves, OneSampleHasARadiusAlone) {
 }
 
 TEST(PathCurves, RadiiRunWhereTheClipRuns) {
-    const Clip held = circle(2, 1.5, 11), linear = circle(2, 1.5, 11, Motion::linear);
+    const Clip held = walked_circle(2, 1.5, 11), linear = walked_circle(2, 1.5, 11, Motion::linear);
     const PlacedClip a(held, {.start = 1}), b(linear, {.start = 1});
     const double middle = 1 + 2.5 * kDt;
     EXPECT_EQ(value_at(radius_curve(held), a, middle).value(), std::pair(2, 0.32));
@@ -112,7 +112,7 @@ TEST(PathCurves, NoExtremeIsLostInColumns) {
 }
 
 TEST(PathCurves, CostIsThatOfTheNodeForEachOfItsSeconds) {
-    const auto clip = std::make_shared<const Clip>(circle(2, 1.5, 40));
+    const auto clip = std::make_shared<const Clip>(walked_circle(2, 1.5, 40));
     const mobb::Tree tree(clip, {.leaf = 10});
     ASSERT_EQ(tree.nodes().size(), 7u);
     std::vector<double> shares(7);

@@ -154,7 +154,9 @@ void toggle_moment(Workspace& workspace, Views& views) {
 void measure(Workspace& workspace, const std::string& text) {
     Measuring& measuring = workspace.measuring;
     if (text.empty()) {
-        measuring = measuring.picks ? Measuring() : Measuring{.picks = true};
+        const bool picks = !measuring.picks;
+        measuring = {};
+        measuring.picks = picks;
         return;
     }
     const MeasuredLine line = parse_measured_line(text);

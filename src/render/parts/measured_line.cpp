@@ -16,8 +16,8 @@ namespace mobbscope {
 
 namespace {
 
-constexpr int kRingSides = 16;
-constexpr float kRing = 4;  // radius around an end, pixels at scale 1
+constexpr int kEndSides = 16;
+constexpr float kEndRadius = 4;  // radius around an end, pixels at scale 1
 
 /// Where a place is drawn: the picture of a moment has all on the floor.
 glm::vec3 drawn(const DrawList& list, glm::dvec3 place) {
@@ -29,8 +29,8 @@ std::vector<glm::vec3> ring(const DrawList& list, glm::vec3 middle, float pixels
     const float pixels_per_metre = list.projection.pixels_per_metre(middle);
     std::vector<glm::vec3> out;
     if (pixels_per_metre <= 0) return out;
-    for (int i = 0; i <= kRingSides; ++i)
-        out.push_back(middle + pixels / pixels_per_metre * glm::vec3(on_circle(static_cast<float>(i), kRingSides), 0));
+    for (int i = 0; i <= kEndSides; ++i)
+        out.push_back(middle + pixels / pixels_per_metre * glm::vec3(on_circle(static_cast<float>(i), kEndSides), 0));
     return out;
 }
 
@@ -85,7 +85,7 @@ std::string text_of(const MeasuredLine& line) { return text_of_place(line.from) 
 void add_measured_line(DrawList& list, const MeasuredLine& line, float scale) {
     const glm::vec3 from = drawn(list, line.from), to = drawn(list, line.to);
     std::vector<std::vector<glm::vec3>> lines{
-        {from, to}, ring(list, from, kRing * scale), ring(list, to, kRing * scale)};
+        {from, to}, ring(list, from, kEndRadius * scale), ring(list, to, kEndRadius * scale)};
     const glm::vec3 below(to.x, to.y, from.z);
     if (from.z != to.z && from != below) lines.insert(lines.begin(), {from, below, to});
     add_highlight_lines(list, lines, HighlightLine::Role::measure, scale);
