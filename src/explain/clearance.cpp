@@ -250,28 +250,11 @@ double most_overlap(const mobb::PlacedClip& a, const mobb::PlacedClip& b, int i,
     return -approach.clearance(approach.nearest());
 }
 
-std::vector<ClearanceColumn> columns_of(const Clearance& clearance, double t0, double t1, int columns) {
-    std::vector<ClearanceColumn> out(static_cast<std::size_t>(columns));
-    const double per_second = columns / (t1 - t0);
-    for (const ClearancePiece& piece : clearance.pieces) {
-        if (piece.t1 <= t0 || piece.t0 >= t1) continue;
-        const auto column = [&](double position) {
-            return static_cast<std::size_t>(std::clamp(position, 0.0, static_cast<double>(columns - 1)));
-        };
-        const std::size_t first = column(std::floor((piece.t0 - t0) * per_second));
-        // A piece that ends where a column begins is not in it, but is always in some column.
-        const std::size_t last = std::max(first, column(std::ceil((piece.t1 - t0) * per_second) - 1));
-        for (std::size_t i = first; i <= last; ++i) {
-            const auto border = [&](std::size_t k) { return t0 + static_cast<double>(k) / per_second; };
-            const auto [least, most] =
-                range_within(piece, i == first ? piece.t0 : border(i), i == last ? piece.t1 : border(i + 1));
-            ClearanceColumn& at = out[i];
-            at.least = at.any ? std::min(at.least, least) : least;
-            at.most = at.any ? std::max(at.most, most) : most;
-            at.any = true;
-        }
-    }
-    return out;
+std::vector<ValueColumn> columns_of(const Clearance& clearance, double t0, double t1, int columns) {
+    ValueColumns out(t0, t1, columns);
+    for (const ClearancePiece& piece : clearance.pieces)
+        out.add(piece.t0, piece.t1, [&](double from, double to) { return range_within(piece, from, to); });
+    return std::move(out).take();
 }
 
 FloorPaths floor_paths(const mobb::PlacedClip& clip_a, const mobb::PlacedClip& clip_b, std::int64_t most_visits) {

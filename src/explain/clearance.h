@@ -1,6 +1,7 @@
 /// How near two placed clips come to each other, moment by moment.
 #pragma once
 
+#include <explain/value_columns.h>
 #include <mobb/clip.h>
 #include <mobb/query.h>
 
@@ -41,15 +42,8 @@ double measured_radii(const mobb::PlacedClip& a, const mobb::PlacedClip& b, int 
 /// How deep two samples that collide overlap at the most, metres.
 double most_overlap(const mobb::PlacedClip& a, const mobb::PlacedClip& b, int i, int j);
 
-/// What one pixel column of a chart shows: the range of clearances in it.
-struct ClearanceColumn {
-    double least = 0;
-    double most = 0;
-    bool any = false;  ///< false: the clips share none of its time
-};
-
-/// [t0, t1) in so many columns of equal width; no minimum is lost, however narrow. t1 > t0, columns >= 1.
-std::vector<ClearanceColumn> columns_of(const Clearance& clearance, double t0, double t1, int columns);
+/// [t0, t1) in so many columns of equal width. t1 > t0, columns >= 1.
+std::vector<ValueColumn> columns_of(const Clearance& clearance, double t0, double t1, int columns);
 
 /// Two samples whose disks are in one place at some times of theirs, as near in time as any two are.
 struct FloorMeeting {

@@ -379,6 +379,18 @@ std::vector<Case> cases() {
              EXPECT_TRUE(w.view().camera.target) << "as it was before";
              run_command(w.session, "view.moment");
          }});
+    look("view.measure", "", [](CommandWorld& w) {
+        EXPECT_TRUE(w.session.workspace.measuring.picks);
+        run_command(w.session, "view.measure");
+        EXPECT_TRUE(w.session.workspace.measuring.is_nothing());
+    });
+    look("view.measure", "1,2,3:4,6,3.5", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.workspace.measuring.line(), (MeasuredLine{{1, 2, 3}, {4, 6, 3.5}}));
+        EXPECT_FALSE(w.session.workspace.measuring.picks);
+    });
+    add({"view.copy_measured", "", {{"view.measure", "0,0,0:3,4,2"}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.desktop.text, "distance\t5 m\ntime\t2 s\nspeed\t2.5 m/s\nplaces\t0,0,0:3,4,2\n");
+         }});
     look("view.split", "", [](CommandWorld& w) {
         ASSERT_EQ(w.session.views.count(), 2u);
         EXPECT_EQ(w.session.views.at(0).fitted->options().tree, mobb::TreeKind::mobb);

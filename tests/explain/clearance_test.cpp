@@ -126,7 +126,7 @@ TEST(Clearance, ColumnsLoseNoMinimum) {
         double least = std::numeric_limits<double>::max();
         bool gap_seen = false;
         bool begun = false;
-        for (const ClearanceColumn& column : columns) {
+        for (const ValueColumn& column : columns) {
             if (!column.any) {
                 gap_seen = gap_seen || begun;
                 continue;

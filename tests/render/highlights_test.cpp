@@ -1,6 +1,7 @@
 // What is pointed out: lines of their own, over the world and below the words.
 #include <mobb/traversal.h>
 #include <render/parts/highlights.h>
+#include <render/parts/measured_line.h>
 #include <render/parts/node_boxes.h>
 #include <render/pictures/build_draw_list.h>
 
@@ -9,6 +10,7 @@
 #include "render/scenes.h"
 
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -100,6 +102,32 @@ TEST(Highlights, StandWhereTheAgentIs) {
     add_ghost(list, agent.clip(), 1);
     EXPECT_EQ(list.highlights.size(), 2 * ring + 2 * static_cast<std::size_t>(agent.clip().count() - 1));
     EXPECT_EQ(list.highlights.back().role, Role::ghost);
+}
+
+TEST(Highlights, AMeasuredLineHasALegOnTheFloorAndOneAlongTime) {
+    const MeasuredLine line{{-1, 0, 0.5}, {2, 4, 2}};
+    const auto ends = [&](const DrawList& list) {
+        std::vector<glm::dvec3> out;
+        for (const HighlightLine& each : list.highlights) {
+            EXPECT_EQ(each.role, Role::measure);
+            out.push_back(list.space.place(each.from));
+            out.push_back(list.space.place(each.to));
+        }
+        return out;
+    };
+    const auto has = [](const std::vector<glm::dvec3>& all, glm::dvec3 place) {
+        return std::ranges::any_of(all, [&](const glm::dvec3& each) { return glm::length(each - place) < 1e-5; });
+    };
+    DrawList list = list_at({});
+    add_measured_line(list, line, 1);
+    EXPECT_TRUE(has(ends(list), line.from));
+    EXPECT_TRUE(has(ends(list), line.to));
+    EXPECT_TRUE(has(ends(list), {2, 4, 0.5})) << "below its end, at the time of its beginning";
+    // In the picture of a moment all of it lies on the floor.
+    DrawList moment = list_at(moment_at(1));
+    add_measured_line(moment, line, 1);
+    for (const glm::dvec3& place : ends(moment)) EXPECT_NEAR(place.z, 0, 1e-6);
+    EXPECT_TRUE(has(ends(moment), {2, 4, 0}));
 }
 
 TEST(Highlights, ASampleThatRunsIsOutlinedWhereItIsThen) {

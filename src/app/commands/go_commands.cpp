@@ -125,6 +125,7 @@ void move_focus(Keys& keys) {
 /// One thing after the other, what lies in front first.
 void put_away(Notifications& notifications, Workspace& workspace) {
     if (notifications.has_up()) return notifications.put_away();
+    if (!workspace.measuring.is_nothing()) return void(workspace.measuring = {});
     if (workspace.selection.kind != Selection::Kind::none) return workspace.select({});
     show_in_full(workspace);
 }
@@ -190,15 +191,17 @@ std::vector<Command> go_commands() {
                 "does.",
                 move_focus<FocusMove::menu_of_this>,
                 {.shortcut = "Shift+F10 Menu", .enabled = always, .where = Where::everywhere}),
-        Command("go.none", "Select nothing",
-                "Puts messages away; else selects nothing; else draws everybody in full. The query in view stays.",
-                put_away,
-                {.shortcut = "Escape",
-                 .enabled =
-                     [](const Workspace& workspace, const Notifications& notifications) {
-                         return workspace.selection.kind != Selection::Kind::none || notifications.has_up() ||
-                                !workspace.view().foreground.empty();
-                     }}),
+        Command(
+            "go.none", "Select nothing",
+            "Puts messages away; else ends measuring; else selects nothing; else draws everybody in full. The query in "
+            "view stays.",
+            put_away,
+            {.shortcut = "Escape",
+             .enabled =
+                 [](const Workspace& workspace, const Notifications& notifications) {
+                     return workspace.selection.kind != Selection::Kind::none || notifications.has_up() ||
+                            !workspace.measuring.is_nothing() || !workspace.view().foreground.empty();
+                 }}),
     };
     return in_menu("Go", rows);
 }

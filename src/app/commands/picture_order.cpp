@@ -140,7 +140,8 @@ std::optional<std::string> render_line_of(const SceneFile& file, const std::stri
     const auto view = view_options_between(file.view, order.view, names_in_view(file.scene));
     if (!view) return std::nullopt;
     const std::string select = order.select ? " --select " + shell_word(text_of(*order.select)) : "";
-    return "mobbscope render " + shell_word(file.path.string()) + fit + *view + select +
+    const std::string measure = order.measure ? " --measure " + text_of(*order.measure) : "";
+    return "mobbscope render " + shell_word(file.path.string()) + fit + *view + select + measure +
            picture_options(order.options) + " -o " + shell_word(output);
 }
 
@@ -178,7 +179,7 @@ std::filesystem::path write_temporary_scene(const Files& files, const Workspace&
 }  // namespace
 
 PictureOrder order_of_viewport(const Workspace& workspace, const Views& views) {
-    PictureOrder out{workspace.view(), {}, {}};
+    PictureOrder out{workspace.view(), {}, {}, measured_in_view(workspace)};
     out.options.size = viewport_size(views);
     // 0: what suits the size, as `render` takes it without being told.
     out.options.scale = views.picture ? views.picture->scale : 0;
@@ -211,6 +212,8 @@ DrawList draw_list_of(const Workspace& workspace, const PictureOrder& order) {
         const float scale = metrics_of(order.options.size, order.options.scale).scale;
         add_selection(list, workspace.fitted(), order.view, *order.select, scale);
     }
+    if (order.measure)
+        add_measure(list, *order.measure, metrics_of(order.options.size, order.options.scale), order.view.labels);
     return list;
 }
 

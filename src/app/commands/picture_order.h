@@ -6,6 +6,7 @@
 #include <render/drawlist/draw_list.h>
 #include <render/drawlist/picture_options.h>
 #include <render/parts/highlights.h>
+#include <render/parts/measured_line.h>
 
 #include <cstddef>
 #include <filesystem>
@@ -19,6 +20,7 @@ struct PictureOrder {
     ViewState view;
     PictureOptions options;
     std::optional<NamedPart> select;  ///< what is highlighted
+    std::optional<MeasuredLine> measure{};
 };
 
 /// What the active viewport shows.

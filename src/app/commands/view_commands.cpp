@@ -2,6 +2,7 @@
 #include <app/commands/camera_commands.h>
 #include <app/commands/command.h>
 #include <app/document/agents.h>
+#include <app/document/measuring.h>
 #include <base/text.h>
 #include <render/drawlist/camera.h>
 #include <render/drawlist/view_projection.h>
@@ -12,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -144,6 +146,36 @@ void toggle_moment(Workspace& workspace, Views& views) {
     if (!follows(workspace) || !workspace.view().camera.target) return show_other_picture(workspace, toggle);
     workspace.change_view(toggle);
     center_followed(views, workspace);
+}
+
+// --- measuring
+
+/// Between two places that are given, or the next two that are clicked.
+void measure(Workspace& workspace, const std::string& text) {
+    Measuring& measuring = workspace.measuring;
+    if (text.empty()) {
+        const bool picks = !measuring.picks;
+        measuring = {};
+        measuring.picks = picks;
+        return;
+    }
+    const MeasuredLine line = parse_measured_line(text);
+    measuring = {.picks = false, .from = MeasuredEnd{line.from, ""}, .to = MeasuredEnd{line.to, ""}};
+}
+
+bool is_measured(const Workspace& workspace) { return measured_in_view(workspace).has_value(); }
+
+std::string_view why_not_measured(const Workspace& workspace) {
+    return workspace.view().projection ? "a disk is shown alone" : "in a grid agents are not where they are";
+}
+
+void copy_measured(Session& session) {
+    const MeasuredLine line = *measured_in_view(session.workspace);
+    std::string text =
+        "distance\t" + format_double(line.metres()) + " m\ntime\t" + format_double(line.seconds()) + " s\n";
+    if (const std::optional<double> speed = line.speed()) text += "speed\t" + format_double(*speed) + " m/s\n";
+    session.desktop->set_clipboard(text + "places\t" + text_of(line) + '\n');
+    session.notifications.tell(MessageLevel::info, "Copied " + measured_words(line));
 }
 
 /// Levels of the deepest tree in the picture.
@@ -367,6 +399,22 @@ std::vector<Command> picture_commands() {
         Command("view.moment", "Show the moment",
                 "Shows people in their cylinders on the floor at the moment of the time cursor, or space-time again.",
                 toggle_moment, {.shortcut = "M", .checked = shows_moment}),
+        Command("view.measure", "Measure",
+                "Measures how far apart two places are, on the floor and in time: the next two clicks in the picture, "
+                "near a disk's centre or edge or a box's corner that. Escape ends it.",
+                measure,
+                {.shortcut = "Shift+D",
+                 .argument = "[X,Y,T:X,Y,T]",
+                 .enabled = {can_measure, why_not_measured},
+                 .checked = [](const Workspace& workspace) { return !workspace.measuring.is_nothing(); },
+                 .present =
+                     [](const Workspace& workspace) {
+                         const auto line = workspace.measuring.line();
+                         return line ? text_of(*line) : std::string();
+                     }}),
+        Command("view.copy_measured", "Copy what is measured",
+                "Copies the measured distance, time and speed with all digits, and the two places.", copy_measured,
+                {.enabled = {is_measured, []() -> std::string_view { return "nothing is measured"; }}}),
         option_command(view_option("past")),
         Command("view.split", "Split",
                 "Shows the scene twice, side by side: beside these trees UMOBB trees, or MOBB trees where these are "

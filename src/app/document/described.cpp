@@ -7,6 +7,7 @@
 #include <scene/path_figures.h>
 
 #include <cmath>
+#include <utility>
 
 namespace mobbscope::app {
 
@@ -26,19 +27,24 @@ void describe_node(Described& out, const DrawnAgent& agent, int index) {
                                  std::to_string(node.count) + ")"},
                  {"time", formatted("%.3f..%.3f s", tree.begin(node), tree.end(node))},
                  {"centre", formatted("%.3f, %.3f m", world.center.x, world.center.y)}};
-    if (shape.round) out.facts.emplace_back("radius", formatted("%.3f m", world.half[0]));
+    out.exact = {{"time", {tree.begin(node), tree.end(node)}}, {"centre", {world.center.x, world.center.y}}};
+    const auto add = [&](const std::string& key, const std::string& value, std::vector<double> exact) {
+        out.facts.emplace_back(key, value);
+        out.exact[key] = std::move(exact);
+    };
+    if (shape.round) add("radius", formatted("%.3f m", world.half[0]), {world.half[0]});
     if (!shape.round)
-        out.facts.emplace_back(tilted ? "sides 1, 2" : "sides",
-                               formatted("%.3f x %.3f m", 2 * world.half[0], 2 * world.half[1]));
+        add(tilted ? "sides 1, 2" : "sides", formatted("%.3f x %.3f m", 2 * world.half[0], 2 * world.half[1]),
+            {2 * world.half[0], 2 * world.half[1]});
     if (shape.moves && world.half.z > 0) {
         const glm::dvec2 velocity = world.drift * (tree.time_scale() / world.half.z);
-        out.facts.emplace_back("velocity", formatted("%.3f, %.3f m/s", velocity.x, velocity.y));
+        add("velocity", formatted("%.3f, %.3f m/s", velocity.x, velocity.y), {velocity.x, velocity.y});
     }
-    if (tilted) out.facts.emplace_back("side 3", formatted("%.3f m", 2 * world.half[2]));
+    if (tilted) add("side 3", formatted("%.3f m", 2 * world.half[2]), {2 * world.half[2]});
     const double volume = mobb::volume(tree.tree().box(index), tree.time_scale());
     const double cylinders = mobb::cylinder_volume(tree.tree().clip(), {node.first, node.count});
-    out.facts.emplace_back("volume", figure(volume) + " m\u00B2\u00B7s");
-    if (volume > 0) out.facts.emplace_back("tightness", formatted("%.1f %%", 100 * cylinders / volume));
+    add("volume", figure(volume) + " m\u00B2\u00B7s", {volume});
+    if (volume > 0) add("tightness", formatted("%.1f %%", 100 * cylinders / volume), {100 * cylinders / volume});
 }
 
 /// "standard placements"
@@ -53,10 +59,12 @@ void describe_sample(Described& out, const DrawnAgent& agent, int index) {
     out.facts = {{"time", formatted("%.3f..%.3f s", clip.time(index), clip.time(index + 1))},
                  {"place", formatted("%.3f, %.3f m", disk.x, disk.y)},
                  {"radius", formatted("%.3f m", disk.r)}};
+    out.exact = {{"time", {clip.time(index), clip.time(index + 1)}}, {"place", {disk.x, disk.y}}, {"radius", {disk.r}}};
     if (index + 1 < clip.count()) {
         const mobb::Disk next = clip.disk(index + 1);
-        out.facts.emplace_back("speed",
-                               formatted("%.2f m/s", std::hypot(next.x - disk.x, next.y - disk.y) / clip.clip().dt()));
+        const double speed = std::hypot(next.x - disk.x, next.y - disk.y) / clip.clip().dt();
+        out.facts.emplace_back("speed", formatted("%.2f m/s", speed));
+        out.exact["speed"] = {speed};
     }
 }
 
@@ -70,6 +78,7 @@ void describe_path(Described& out, const FittedScene& fitted, const PlacedAgent&
                  {"starts at", formatted("%.3f, %.3f m", clip.disk(0).x, clip.disk(0).y)},
                  {"tree", std::to_string(tree.tree().nodes().size()) + " nodes, " +
                               std::to_string(tree.tree().depth()) + " levels"}};
+    out.exact = {{"time", {clip.time(0), clip.time(clip.count())}}, {"starts at", {clip.disk(0).x, clip.disk(0).y}}};
 }
 
 void describe_clip(Described& out, const SceneClip& clip) {
@@ -81,6 +90,8 @@ void describe_clip(Described& out, const SceneClip& clip) {
                  {"motion", clip.clip->motion() == mobb::Motion::held ? "held: stays until the next sample"
                                                                       : "linear: runs to the next sample"},
                  {"path", formatted("%.2f m, %.2f m/s", figures.length, figures.mean_speed)}};
+    out.exact = {{"lasts", {clip.clip->duration(), 1 / clip.clip->dt()}},
+                 {"path", {figures.length, figures.mean_speed}}};
     if (!clip.facts.root.empty()) out.facts.emplace_back("root", clip.facts.root);
     for (const ImportWarning& warning : clip.facts.warnings) out.facts.emplace_back("note", said(warning));
 }
@@ -120,6 +131,7 @@ Described describe(const Workspace& workspace, const Selection& what) {
             const double share = cost->shares[static_cast<std::size_t>(what.index)];
             out.facts.emplace_back("cost",
                                    figure(100 * share, 2) + " % of all box tests in " + workload_title(cost->workload));
+            out.exact["cost"] = {100 * share};
         }
         if (const BlameInScene* blame = workspace.blame()) {
             const std::int64_t overlaps = blame->of(who->clip, what.index);

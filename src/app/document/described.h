@@ -5,6 +5,7 @@
 #include <app/document/workspace.h>
 #include <scene/drawn_agent.h>
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@ namespace mobbscope::app {
 struct Described {
     std::string name;
     std::vector<std::pair<std::string, std::string>> facts;  ///< "time", "1.20..1.53 s"
+    std::map<std::string, std::vector<double>> exact{};      ///< by fact: its numbers with all digits, in order
 };
 /// Of nothing, nothing.
 Described describe(const Workspace& workspace, const Selection& what);

@@ -6,6 +6,7 @@
 #include <app/document/clip_import.h>
 #include <app/document/history.h>
 #include <app/document/job.h>
+#include <app/document/measuring.h>
 #include <app/document/query_look.h>
 #include <app/document/selection.h>
 #include <app/document/settings.h>
@@ -102,6 +103,7 @@ class Workspace {
     Selection hovered;       ///< under the mouse in any panel
     int hovered_event = -1;  ///< of the query in view, likewise; -1: none
     QueryLook look;
+    Measuring measuring;
 
     std::optional<Isolation> isolation;   ///< since agents were shown alone
     std::optional<Overview> overview;     ///< since agents came into the foreground

@@ -17,7 +17,5 @@ void bottom_tabs(Ui& ui);
 void node_list(Ui& ui, DataTable& table);
 /// Above it: one row a level, over time.
 void level_strip(Ui& ui, int clip);
-/// Figures of the clip in focus over time.
-void curves(Ui& ui);
 
 }  // namespace mobbscope::app

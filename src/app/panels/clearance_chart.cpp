@@ -6,7 +6,6 @@
 #include <base/text.h>
 #include <explain/bodies.h>
 #include <explain/query_sentence.h>
-#include <render/text/labels.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,10 +24,10 @@ struct Chart {
 };
 
 /// The least of each column as a curve, and above it how much more there is in the column.
-void draw_curve(ImDrawList& list, const Style& style, const Chart& chart, const std::vector<ClearanceColumn>& columns) {
+void draw_curve(ImDrawList& list, const Style& style, const Chart& chart, const std::vector<ValueColumn>& columns) {
     std::vector<ImVec2> curve;
     for (std::size_t k = 0; k < columns.size(); ++k) {
-        const ClearanceColumn& column = columns[k];
+        const ValueColumn& column = columns[k];
         if (!column.any) continue;
         const float x = chart.min.x + static_cast<float>(k);
         const float y = chart.y.pixel(column.least);
@@ -45,38 +44,12 @@ void draw_curve(ImDrawList& list, const Style& style, const Chart& chart, const 
 /// Of the distance of bones.
 ImU32 bones_color(const Style& style) { return mark_color(style, EventMark::overlap); }
 
-/// Text that stays inside the chart, on a ground that keeps it readable over the curve.
-void text_at(ImDrawList& list, const Style& style, const Chart& chart, ImVec2 at, ImU32 color,
-             const std::string& text) {
-    const ImVec2 size = text_size(*style.caption, text);
-    const float x = std::clamp(at.x, chart.min.x + 2, std::max(chart.min.x + 2, chart.max.x - size.x - 2));
-    list.AddRectFilled({x - 1, at.y}, {x + size.x + 1, at.y + size.y},
-                       (style.raised & ~IM_COL32_A_MASK) | 0xB0u << IM_COL32_A_SHIFT);
-    draw_text(list, *style.caption, {x, at.y}, color, text);
-}
-
 void least_mark(ImDrawList& list, const Style& style, const Chart& chart, const ClearancePiece& least) {
     const EventMark mark = least.clearance < 0 ? EventMark::hit : EventMark::separated;
     const ImVec2 at{chart.x.pixel(least.approach.is_still() ? 0.5 * (least.t0 + least.t1) : least.least_at),
                     chart.y.pixel(least.clearance)};
     list.AddCircleFilled(at, 3.5f * style.scale, mark_color(style, mark));
     list.AddCircle(at, 3.5f * style.scale, style.text, 0, style.scale);
-}
-
-/// Metres at round values, as faint lines with the number over them.
-void height_lines(Ui& ui, const Chart& chart) {
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    const float line = ui.style.caption->FontSize;
-    const auto height_of = [&](const std::string&) { return 2 * line; };
-    const double step = ruler_step(chart.y.from, chart.y.to, chart.y.first - chart.y.last, height_of);
-    for (const double metres : ticks(chart.y.from, chart.y.to, step)) {
-        const float y = std::floor(chart.y.pixel(metres));
-        // At zero stands the line of contact; a number needs room above it.
-        if (metres == 0 || y - line < chart.min.y) continue;
-        list.AddLine({chart.min.x, y}, {chart.max.x, y}, ui.style.border, ui.px(1));
-        text_at(list, ui.style, chart, {chart.min.x + ui.px(3), y - line}, ui.style.quiet,
-                tick_text(metres, step) + " m");
-    }
 }
 
 /// The least distance of bones in each step, and when they were measured at all.
@@ -168,11 +141,11 @@ void QueryPictures::clearance(Ui& ui, QueryInspector& queries, const QueryFindin
     const mobb::Interval time = time_span(ui.workspace);
     const float right = at.x + static_cast<float>(width);
     Chart chart{at, {right, at.y + height - label}, time, {time.t0, time.t1, at.x, right}};
-    const std::vector<ClearanceColumn>& columns = clearance_.of(
+    const std::vector<ValueColumn>& columns = clearance_.of(
         queries.findings(), {width, 0}, [&] { return columns_of(clearance, chart.time.t0, chart.time.t1, width); });
     const BodyDistances* measured = bodies.of(queries.findings());
     double most = 0, low = std::min(0.0, least.clearance);
-    for (const ClearanceColumn& column : columns) {
+    for (const ValueColumn& column : columns) {
         if (column.any) most = std::max(most, column.most);
     }
     if (measured) {
@@ -190,11 +163,11 @@ void QueryPictures::clearance(Ui& ui, QueryInspector& queries, const QueryFindin
     const float zero = chart.y.pixel(0);
     dashed_line(list, {chart.min.x, zero}, {chart.max.x, zero}, mark_color(ui.style, EventMark::hit), ui.style.scale,
                 ui.px(3));
-    height_lines(ui, chart);
+    const Rect area{{chart.min.x, chart.min.y}, {chart.max.x, chart.max.y}};
+    height_lines(ui, area, chart.y, " m", false, 0.0);
     draw_curve(list, ui.style, chart, columns);
     if (measured) draw_bodies(ui, chart, *measured);
-    text_at(list, ui.style, chart, {chart.min.x + ui.px(3), zero - label}, mark_text(ui.style, EventMark::hit),
-            "contact");
+    text_over(ui, area, {chart.min.x + ui.px(3), zero - label}, mark_text(ui.style, EventMark::hit), "contact");
     least_mark(list, ui.style, chart, least);
     ruler(ui, *ui.style.caption, chart.x, chart.max.y, " s");
     if (const auto& focus = ui.workspace.look.focus.time) {

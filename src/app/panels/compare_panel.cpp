@@ -76,7 +76,7 @@ void compared_counters(Ui& ui, const std::array<std::string, 2>& names, const mo
             const std::string text = fitted_text(cells[i], 0.2f * room - ui.px(4));
             ImGui::SameLine(left + kRight[i] * room - ImGui::CalcTextSize(text.c_str()).x);
             text_line(color, text);
-            tell_whole(ui, text, cells[i]);
+            if (!copies_numbers(ui, text, ImGui::GetItemRectMin(), *font)) tell_whole(ui, text, cells[i]);
         }
         ImGui::PopFont();
     };
@@ -146,9 +146,10 @@ void moment_words(Ui& ui, const QueryFindings& findings, const FitComparison& ot
         if (side == 1) {
             for (std::size_t i = 0; i < 2; ++i) sides[i].placed = other.placed[i];
         }
-        words(ui.style.quiet, other.names[side] + ": depth " + std::to_string(decision.depth) + ", after " +
-                                  counted(decision.tests, "test", "tests") + "; " +
-                                  step_sentence(sides, trace, decision.step));
+        words(ui, ui.style.quiet,
+              other.names[side] + ": depth " + std::to_string(decision.depth) + ", after " +
+                  counted(decision.tests, "test", "tests") + "; " + step_sentence(sides, trace, decision.step),
+              {trace[decision.step].gap});
     }
 }
 
@@ -222,7 +223,7 @@ void QueryPictures::compare(Ui& ui, QueryInspector& queries, const QueryFindings
     if (!with) return;
     const std::shared_ptr<const FitComparison> other = queries.comparison();
     if (!other) return compared_stored(ui, queries);
-    words(ui.style.text, comparison_words(other->traversals, other->names) + ".");
+    words(ui, ui.style.text, comparison_words(other->traversals, other->names) + ".");
     ui.mark_only("compare.words");
     if (!other->traversals.times.empty()) {
         compare_strips(ui, queries, other);

@@ -95,9 +95,13 @@ void tell(const std::string& text) {
 }
 
 void total(Ui& ui, const TreeCost& cost) {
-    text_line(ui.style.text, figure(cost.ns(cost.tests), 3) + " ns a query", ui.style.title);
+    const std::string ns = figure(cost.ns(cost.tests), 3) + " ns";
+    text_line(ui.style.text, ns + " a query", ui.style.title);
     ui.mark_only("cost.total");
-    tell(formula(cost) + "\n\n" + price_lines(cost.tests, cost));
+    Rect place = Ui::last_rect();
+    place.max.x = place.min.x + text_size(*ui.style.title, ns).x;
+    const std::string about = formula(cost) + "\n\n" + price_lines(cost.tests, cost);
+    if (!copies(ui, place, {.value = cost.ns(cost.tests), .unit = "ns", .tip = about})) tell(about);
 }
 
 /// What the numbers are about, to choose where the scene has queries.
@@ -112,9 +116,9 @@ void workload_choice(Ui& ui, const TreeCost* cost) {
     }
     if (!cost) return;
     ImGui::PushFont(ui.style.caption);
-    words(ui.style.quiet, (count > 0 ? "" : "standard placements, ") + workload_words(*cost));
+    words(ui, ui.style.quiet, (count > 0 ? "" : "standard placements, ") + workload_words(*cost),
+          {cost->area, cost->offset});
     ImGui::PopFont();
-    tell(formula(*cost));
 }
 
 /// The tests by kind: a bar of their parts of the cost, and a row for each.
@@ -154,19 +158,24 @@ void kinds(Ui& ui, const TreeCost& cost) {
         const float y = corner.y + 0.5f * (height - mono.FontSize);
         const float dot = ui.px(7), top = corner.y + 0.5f * (height - dot);
         draw.AddRectFilled({corner.x, top}, {corner.x + dot, top + dot}, shade_of(ui, i));
-        const auto ending = [&](float right, ImU32 color, const std::string& text) {
-            draw_text(draw, mono, {corner.x + right - text_size(mono, text).x, y}, color, text);
+        const std::string about = price_words(kind, tests, cost);
+        bool copied = false;
+        const auto ending = [&](float right, ImU32 color, const std::string& text, const CopiedNumber& number) {
+            const ImVec2 from{corner.x + right - text_size(mono, text).x, y};
+            draw_text(draw, mono, from, color, text);
+            copied = copies(ui, {{from.x, y}, {corner.x + right, y + mono.FontSize}}, number) || copied;
         };
-        ending(width, ui.style.quiet, per_cent(part(kind)));
+        ending(width, ui.style.quiet, per_cent(part(kind)), {.value = 100 * part(kind), .unit = "%", .tip = about});
         const float priced = width - of_part;
         if (shows_prices) {
             const float at_price = corner.x + priced - of_price;
             draw_text(draw, mono, {at_price, y}, ui.style.quiet, " x " + brief(cost.prices()[kind]));
         }
-        ending(shows_prices ? priced - of_price : priced, ui.style.text, figure(tests[kind], 3));
+        ending(shows_prices ? priced - of_price : priced, ui.style.text, figure(tests[kind], 3),
+               {.value = tests[kind], .tip = about});
         draw_text(draw, *ui.style.body, {corner.x + label_at, corner.y + 0.5f * (height - ui.style.body->FontSize)},
                   ui.style.text, of_label <= room ? tested(kind) : tested_in_short(kind));
-        tell(price_words(kind, tests, cost));
+        if (!copied) tell(about);
     }
 }
 
@@ -208,7 +217,7 @@ std::string level_tooltip(const mobb::LevelFigures* level, const TreeCost* cost,
         out += "\nTests of pairs of this level's nodes, a query:\n" + price_lines(cost->levels[i], *cost);
         out += "together " + per_cent(cost->part(cost->levels[i])) + " of the cost\n";
     }
-    return out + "\nclick to show this level";
+    return out + "\nclick to show this level, Ctrl and click to copy a number";
 }
 
 /// The levels: volume, how much of it the disks fill, and their part of the cost.
@@ -242,22 +251,31 @@ void levels(Ui& ui, const std::vector<mobb::LevelFigures>& figures, const TreeCo
         const ImU32 color = drawn || over ? ui.style.text : ui.style.quiet;
         ImDrawList& draw = *ImGui::GetWindowDrawList();
         const float y = corner.y + 0.5f * (height - mono.FontSize);
-        const auto ending = [&](float right, const std::string& text) {
-            draw_text(draw, mono, {corner.x + right - text_size(mono, text).x, y}, color, text);
+        bool copied = false;
+        const auto ending = [&](float right, const std::string& text, const CopiedNumber& number) {
+            const ImVec2 from{corner.x + right - text_size(mono, text).x, y};
+            draw_text(draw, mono, from, color, text);
+            copied =
+                (text != "-" && copies(ui, {{from.x, y}, {corner.x + right, y + mono.FontSize}}, number)) || copied;
         };
         draw_text(draw, mono, {corner.x, y}, color, "L" + std::to_string(i));
         ending(at.volume,
-               level ? formatted(most < 1e6 ? "%.*f" : "%.*g", most < 1e6 ? decimals : 3, level->volume) : "-");
-        ending(at.fill, level && level->tightness ? per_cent(*level->tightness) : "-");
-        ending(at.width, index < parts.size() ? per_cent(parts[index]) : "-");
+               level ? formatted(most < 1e6 ? "%.*f" : "%.*g", most < 1e6 ? decimals : 3, level->volume) : "-",
+               {.value = level ? level->volume : 0, .unit = "m\u00B2\u00B7s", .with_ctrl = true});
+        const double fill = level ? level->tightness.value_or(0) : 0;
+        ending(at.fill, level && level->tightness ? per_cent(fill) : "-",
+               {.value = 100 * fill, .unit = "%", .with_ctrl = true});
+        const double part = index < parts.size() ? parts[index] : 0;
+        ending(at.width, index < parts.size() ? per_cent(part) : "-",
+               {.value = 100 * part, .unit = "%", .with_ctrl = true});
         if (index < parts.size() && parts[index] > 0 && at.bar_end > at.bar) {
             const float length = (at.bar_end - at.bar) * static_cast<float>(parts[index] / costliest);
             draw.AddRectFilled({corner.x + at.bar, corner.y + ui.px(4)},
                                {corner.x + at.bar + std::max(ui.px(1), length), corner.y + height - ui.px(4)},
                                to_im(with_alpha(ui.style.palette.accent, drawn || over ? 1.0f : 0.6f)), ui.px(2));
         }
-        if (clicked) ui.invoke("view.level", std::to_string(i));
-        tell(level_tooltip(level, cost, index));
+        if (clicked && !copied) ui.invoke("view.level", std::to_string(i));
+        if (!copied) tell(level_tooltip(level, cost, index));
     };
     const int count = static_cast<int>(std::max(figures.size(), parts.size()));
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});

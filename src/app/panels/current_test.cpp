@@ -210,7 +210,7 @@ void current_test(Ui& ui, const QueryFindings& findings) {
         words(mark_text(ui.style, mark), headline(mark));
         std::string sentence = outcome_text(findings.sides, event) + ".";
         sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
-        words(ui.style.text, sentence);
+        words(ui, ui.style.text, sentence, {event.gap, -event.gap});
     });
     ui.mark("query.test");
     node_line(ui, findings, 0, event.a);

@@ -93,33 +93,35 @@ void EventTable::draw(Ui& ui, QueryInspector& queries) {
     const EventValues values = queries.events();
     const mobb::Trace& trace = ui.workspace.recorded()->trace;
     const EventList& list = ui.workspace.events;
-    table_.draw(ui, {.mark = "events",
-                     .columns = table_columns(),
-                     .rows = rows,
-                     .present = ui.workspace.step(),
-                     .hovered = ui.workspace.hovered_event,
-                     .sorted_by = column_name(list.by),
-                     .descending = list.descending,
-                     .filter = list.filter ? list.filter->text() : "",
-                     .cell =
-                         [&](std::size_t index, int step) {
-                             const EventColumn& column = event_columns()[index];
-                             const mobb::Trace::Event event = trace[step];
-                             const ImU32 color = column.field == EventField::outcome
-                                                     ? mark_text(ui.style, mark_of(event.test, event.outcome))
-                                                     : ui.style.text;
-                             return TableCell{values.text(column.field, column.side, step), color};
-                         },
-                     .sort = [&](const std::string& column) { ui.invoke("events.sort", column); },
-                     .pick = [&](int step) { ui.invoke("step.to", std::to_string(step)); },
-                     .hover =
-                         [&](int step) {
-                             ui.hovered_event = step;
-                             ImGui::SetTooltip("%s", step_sentence(queries.findings()->sides, trace, step).c_str());
-                         },
-                     .menu = [&](int step) { return test_menu(ui.workspace, queries, step); },
-                     .is_marked = [&](int step) { return std::ranges::binary_search(queries.break_steps(), step); },
-                     .marked = "break"});
+    table_.draw(
+        ui, {.mark = "events",
+             .columns = table_columns(),
+             .rows = rows,
+             .present = ui.workspace.step(),
+             .hovered = ui.workspace.hovered_event,
+             .sorted_by = column_name(list.by),
+             .descending = list.descending,
+             .filter = list.filter ? list.filter->text() : "",
+             .cell =
+                 [&](std::size_t index, int step) {
+                     const EventColumn& column = event_columns()[index];
+                     const mobb::Trace::Event event = trace[step];
+                     const ImU32 color = column.field == EventField::outcome
+                                             ? mark_text(ui.style, mark_of(event.test, event.outcome))
+                                             : ui.style.text;
+                     const EventValues::Range exact = values.value(column.field, column.side, step);
+                     return TableCell{values.text(column.field, column.side, step), color, {exact.least, exact.most}};
+                 },
+             .sort = [&](const std::string& column) { ui.invoke("events.sort", column); },
+             .pick = [&](int step) { ui.invoke("step.to", std::to_string(step)); },
+             .hover =
+                 [&](int step) {
+                     ui.hovered_event = step;
+                     ImGui::SetTooltip("%s", step_sentence(queries.findings()->sides, trace, step).c_str());
+                 },
+             .menu = [&](int step) { return test_menu(ui.workspace, queries, step); },
+             .is_marked = [&](int step) { return std::ranges::binary_search(queries.break_steps(), step); },
+             .marked = "break"});
 }
 
 }  // namespace mobbscope::app

@@ -24,7 +24,7 @@ struct Line {
     const Command* command = nullptr;
 };
 
-constexpr std::array<std::pair<const char*, const char*>, 7> kMouse{{
+constexpr std::array<std::pair<const char*, const char*>, 8> kMouse{{
     {"Left drag", "Turn the scene"},
     {"Right drag", "Shift the scene"},
     {"Wheel", "Go nearer, or away"},
@@ -32,6 +32,7 @@ constexpr std::array<std::pair<const char*, const char*>, 7> kMouse{{
     {"Right click", "What can be done with it"},
     {"Drop files", "Open or add them"},
     {"Hover", "Say what is there"},
+    {"Click a number", "Copy it with all its digits"},
 }};
 
 std::string keys_of(const Command& command) {

@@ -104,36 +104,38 @@ void node_list(Ui& ui, DataTable& table) {
     const std::shared_ptr<const NodeValues> values = nodes.values();
     const std::vector<NodeField> fields = nodes.columns();
     const std::vector<TableColumn> columns = table_columns(nodes);
-    table.draw(ui, {.mark = "nodes",
-                    .columns = columns,
-                    .rows = rows,
-                    .present = nodes.selected(),
-                    .hovered = nodes.hovered(),
-                    .sorted_by = std::string(info(nodes.by).name),
-                    .descending = nodes.descending,
-                    .filter = nodes.filter ? nodes.filter->text() : "",
-                    .cell =
-                        [&](std::size_t column, int node) {
-                            return TableCell{node_text(*values, fields[column], node), ui.style.text};
-                        },
-                    .sort = [&](const std::string& column) { ui.invoke("nodes.sort", column); },
-                    .pick =
-                        [&](int node) {
-                            const auto selection = nodes.selection_of(node);
-                            if (selection)
-                                ui.later([selection](Workspace& workspace) { workspace.select(*selection); });
-                        },
-                    .hover =
-                        [&](int node) {
-                            const auto selection = nodes.selection_of(node);
-                            if (!selection) return;
-                            ui.hovered = *selection;
-                            const auto who = placed_agent_of(ui.workspace.fitted(), selection->path);
-                            const std::string name = node_name(drawn_agent_of(ui.workspace.fitted(), *who), node);
-                            ImGui::SetTooltip("%s: %s s", name.c_str(),
-                                              node_text(*values, NodeField::time, node).c_str());
-                        },
-                    .menu = [&](int node) { return node_row_menu(ui, node); }});
+    table.draw(ui,
+               {.mark = "nodes",
+                .columns = columns,
+                .rows = rows,
+                .present = nodes.selected(),
+                .hovered = nodes.hovered(),
+                .sorted_by = std::string(info(nodes.by).name),
+                .descending = nodes.descending,
+                .filter = nodes.filter ? nodes.filter->text() : "",
+                .cell =
+                    [&](std::size_t column, int node) {
+                        const NodeField field = fields[column];
+                        const double shown_as = info(field).unit == "%" ? 100 : 1;
+                        return TableCell{
+                            node_text(*values, field, node), ui.style.text, {shown_as * values->value(field, node)}};
+                    },
+                .sort = [&](const std::string& column) { ui.invoke("nodes.sort", column); },
+                .pick =
+                    [&](int node) {
+                        const auto selection = nodes.selection_of(node);
+                        if (selection) ui.later([selection](Workspace& workspace) { workspace.select(*selection); });
+                    },
+                .hover =
+                    [&](int node) {
+                        const auto selection = nodes.selection_of(node);
+                        if (!selection) return;
+                        ui.hovered = *selection;
+                        const auto who = placed_agent_of(ui.workspace.fitted(), selection->path);
+                        const std::string name = node_name(drawn_agent_of(ui.workspace.fitted(), *who), node);
+                        ImGui::SetTooltip("%s: %s s", name.c_str(), node_text(*values, NodeField::time, node).c_str());
+                    },
+                .menu = [&](int node) { return node_row_menu(ui, node); }});
 }
 
 }  // namespace mobbscope::app

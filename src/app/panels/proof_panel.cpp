@@ -43,6 +43,7 @@ void line_row(Ui& ui, const QueryFindings& findings, std::size_t index) {
     row.remark = gap_words(line.gap);
     row.selected = selected_line(ui.workspace, proof) == index;
     row.indent = ui.px(2 * kSign + 6);
+    row.exact = {line.gap};
     if (tightest) row.remark_color = mark_text(ui.style, EventMark::separated);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     if (app::row(ui, row)) ui.invoke("proof.line", std::to_string(index));
@@ -62,6 +63,7 @@ void end_row(Ui& ui, const QueryFindings& findings, std::size_t index) {
     row.name = from_to(end.t0, end.t1);
     row.remark = end.is_boxes ? with_unit(event.gap, "m") : "samples";
     row.selected = ui.workspace.step() == end.step;
+    if (end.is_boxes) row.exact = {event.gap};
     if (app::row(ui, row)) ui.invoke("step.to", std::to_string(end.step));
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("%s\nClick to go there", step_sentence(findings.sides, trace, end.step).c_str());

@@ -8,6 +8,7 @@
 #include <explain/query_sentence.h>
 
 #include <memory>
+#include <vector>
 
 namespace mobbscope::app {
 
@@ -81,6 +82,25 @@ void contact_rows(Ui& ui, const QueryFindings& findings, const mobb::Contact& co
     const mobb::PlacedClip& b = findings.sides[1].clip();
     number_row(ui, "How deep", overlap_words(a, b, contact.a_sample, contact.b_sample),
                most_overlap(a, b, contact.a_sample, contact.b_sample), "m");
+}
+
+/// All that the sentences of the answer round.
+std::vector<double> exact_numbers(const QueryFindings& findings) {
+    std::vector<double> out;
+    const auto add_piece = [&](const ClearancePiece& piece) {
+        for (const double value : {piece.clearance, -piece.clearance, piece.least_at, piece.t0, piece.t1})
+            out.push_back(value);
+    };
+    const Clearance& clearance = findings.clearance;
+    if (clearance.contact) out.push_back(clearance.contact_time);
+    if (clearance.least) add_piece(clearance.pieces[*clearance.least]);
+    if (clearance.contact) add_piece(clearance.pieces[*clearance.contact]);
+    out.push_back(findings.floor.apart);
+    if (findings.floor.meeting) out.push_back(findings.floor.meeting->gap);
+    for (const ProofLine& line : findings.proof.lines) {
+        for (const double value : {line.gap, line.t0, line.t1, line.speed}) out.push_back(value);
+    }
+    return out;
 }
 
 void right_aligned(const std::string& text, float right, ImU32 color) {
@@ -158,11 +178,13 @@ void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings
     framed(ui, mark_color(ui.style, mark, 0.10f), mark_color(ui.style, mark), [&] {
         ImGui::PushFont(ui.style.title);
         answer_sign(ui, collide, mark_color(ui.style, mark));
-        words(mark_text(ui.style, mark), answer_words(findings.sides, findings.clearance));
+        const std::vector<double> exact = exact_numbers(findings);
+        words(ui, mark_text(ui.style, mark), answer_words(findings.sides, findings.clearance), exact);
+        ui.mark_only("query.verdict");
         ImGui::PopFont();
-        for (const std::string& sentence : proof_sentences(findings)) words(ui.style.text, sentence);
+        for (const std::string& sentence : proof_sentences(findings)) words(ui, ui.style.text, sentence, exact);
         for (const std::string& sentence : why_words(findings.sides, findings.clearance, findings.floor))
-            words(ui.style.quiet, sentence);
+            words(ui, ui.style.quiet, sentence, exact);
     });
     ui.mark("query.answer");
     if (const auto& contact = ui.workspace.recorded()->contact) {
@@ -203,7 +225,9 @@ void query_counters(Ui& ui, QueryInspector& queries, const QueryFindings& findin
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(doc).c_str());
         ImGui::PushFont(ui.style.mono);
         right_aligned(std::to_string(so_far), first, ui.style.text);
+        copies(ui, Ui::last_rect(), {.value = static_cast<double>(so_far), .tip = label + " so far"});
         right_aligned(std::to_string(in_all), second, ui.style.quiet);
+        copies(ui, Ui::last_rect(), {.value = static_cast<double>(in_all), .tip = label + " in all"});
         ImGui::PopFont();
     };
     const auto tests = [&](const std::string& label, std::string_view doc, mobb::TestKind test) {
@@ -222,7 +246,7 @@ void query_counters(Ui& ui, QueryInspector& queries, const QueryFindings& findin
         words(ui.style.warning, judged_words(recursion.avoidable));
         query_button(ui, "Judge all", "query.judge");
     }
-    words(ui.style.quiet, gain_words(of_query, findings.clearance));
+    words(ui, ui.style.quiet, gain_words(of_query, findings.clearance));
     recording_note(ui, "counters");
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <app/document/query_look.h>
+#include <app/panels/curves.h>
 #include <app/panels/event_list.h>
 #include <app/panels/recursion_picture.h>
 #include <app/ui/ui.h>
@@ -110,6 +111,7 @@ class QueryPictures {
   public:
     EventTable events;
     DataTable nodes;
+    CurvePlots curves;
     QueryBodies bodies;
     /// Called above the pictures of a panel that scrolls: what the mouse is on below stays there when what stands above
     /// grows, so that a click may be the first of two.
@@ -159,7 +161,7 @@ class QueryPictures {
         std::vector<Cell> cells_;
     };
     Kept<PairCell> square_, icicle_;
-    Kept<ClearanceColumn> clearance_;
+    Kept<ValueColumn> clearance_;
     Kept<StripCell> strip_;
     struct {
         std::shared_ptr<const FitComparison> of;

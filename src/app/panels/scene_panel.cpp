@@ -394,8 +394,10 @@ void selection_panel(Ui& ui) {
     for (const auto& [key, value] : what.facts) {
         form_label(ui, key.c_str(), nullptr);
         ImGui::PushFont(ui.style.mono);
-        ImGui::TextWrapped("%s", value.c_str());
+        const auto exact = what.exact.find(key);
+        words(ui, ui.style.text, value, exact == what.exact.end() ? std::vector<double>() : exact->second);
         ImGui::PopFont();
+        ui.mark_only("selection." + key);
     }
     const bool may_count = ui.workspace.selection.kind == Selection::Kind::node && !ui.workspace.blame() &&
                            !ui.workspace.fitted().queries().empty();

@@ -180,7 +180,8 @@ void best_rows(Ui& ui, const SweepResult& result) {
         if (row(ui, {.mark = "sweep.row." + std::to_string(k),
                      .name = short_words(fit.fit, result.order.present),
                      .remark = cost_text(fit.cost.mean) + "  " + change_text(ui, result, fit),
-                     .selected = fit.fit == ui.workspace.fitted().options()}) &&
+                     .selected = fit.fit == ui.workspace.fitted().options(),
+                     .exact = {fit.cost.mean}}) &&
             has_ended(result))
             apply_row(ui, fit);
         if (ImGui::IsItemHovered()) tell_row(result, fit);
@@ -198,10 +199,10 @@ void recommendation(Ui& ui, const SweepInspector::Shown& shown) {
             why.replace(now, 6, " (before)");
         const std::size_t end = std::min(why.find(", over "), why.size());
         ImGui::PushFont(ui.style.title);
-        words(to_im(readable(ui.style.palette.separated, ui.style.palette)), why.substr(0, end));
+        words(ui, to_im(readable(ui.style.palette.separated, ui.style.palette)), why.substr(0, end));
         ImGui::PopFont();
         ui.mark_only("sweep.why");
-        words(ui.style.text, why.substr(std::min(end + 2, why.size())));
+        words(ui, ui.style.text, why.substr(std::min(end + 2, why.size())));
         command_button(ui, "Apply", "tree.sweep_apply", "sweep.apply");
     });
 }
@@ -233,7 +234,7 @@ void sweep_panel(Ui& ui, SweepInspector& sweeps) {
         if (has_ended(*shown->rows)) recommendation(ui, *shown);
         cost_chart(ui, *shown->rows);
         best_rows(ui, *shown->rows);
-        words(ui.style.quiet, asked_words(*shown));
+        words(ui, ui.style.quiet, asked_words(*shown), {shown->area, shown->offset});
         if (shown->curves) curves_chart(ui, sweeps, *shown->curves);
     }
     if (sweeps.is_running()) {

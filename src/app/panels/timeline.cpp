@@ -76,9 +76,7 @@ void time_bars(Ui& ui, float width, float height) {
     const ChartAxis axis = time_axis(span, corner.x, width);
     ImGui::InvisibleButton("##time", {width, height});
     ui.mark("timeline.time", OwnKeys::left_right);
-    for (const Chord& chord : ui.focus.take("timeline.time")) {
-        if (chord.key != Key::enter) ui.invoke(chord.key == Key::right ? "time.forward" : "time.back");
-    }
+    time_keys(ui, "timeline.time");
     const float cursor = axis.pixel(ui.workspace.view().time.value_or(0.5 * (axis.from + axis.to)));
     context_menu(
         ui,
@@ -89,10 +87,7 @@ void time_bars(Ui& ui, float width, float height) {
         ImVec2{std::clamp(cursor, corner.x, corner.x + width), corner.y + 0.5f * height});
     if (ImGui::IsItemActive()) {
         const double at = axis.value(std::clamp(ImGui::GetIO().MousePos.x, corner.x, corner.x + width));
-        ui.later([at](Playback& playback, Workspace& workspace) {
-            playback.stop();
-            workspace.change_view([&](ViewState& view) { view.time = at; });
-        });
+        scrub_to(ui, at);
     }
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(corner, {corner.x + width, corner.y + height}, ui.style.window, ui.px(3));
@@ -129,8 +124,8 @@ void time_bars(Ui& ui, float width, float height) {
     draw.AddRect(corner, {corner.x + width, corner.y + height}, ui.style.border, ui.px(3));
 }
 
-/// The first clock. `tall`: nothing stands below it but the tabs, at its left.
-void time_row(Ui& ui, Playback& playback, QueryInspector& queries, bool tall) {
+/// The first clock; returns where its bars have which time. `tall`: nothing stands below it but the tabs, at its left.
+ChartAxis time_row(Ui& ui, Playback& playback, QueryInspector& queries, bool tall) {
     const mobb::Interval span = time_span(ui.workspace);
     ImGui::BeginGroup();
     command_button(ui, playback.playing() ? "Pause" : "Play", "time.play", "timeline.time.play");
@@ -150,13 +145,14 @@ void time_row(Ui& ui, Playback& playback, QueryInspector& queries, bool tall) {
     const float lane = has_conflicts ? ui.px(kConflictBars + 3) : 0;
     const float below = ui.px(24) + lane;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ChartAxis axis = time_axis(span, corner.x, width);
     const std::size_t lanes = ui.workspace.crowd() ? 1 : shown_paths(ui.workspace).size();
     const auto paths = static_cast<float>(lanes);
     const float most =
         std::clamp(paths * ui.px(kMostBar), clear, std::max(clear, ImGui::GetContentRegionAvail().y - below));
     const float height = tall ? most : clear;
     time_bars(ui, width, height);
-    if (tall) ruler(ui, *ui.style.mono, time_axis(span, corner.x, width), corner.y + height + lane, " s");
+    if (tall) ruler(ui, *ui.style.mono, axis, corner.y + height + lane, " s");
     ImGui::SameLine();
     ImGui::BeginDisabled(!ui.workspace.view().time || ui.workspace.crowd());
     if (ImGui::Button("\u00D7", {clear, clear})) ui.invoke("time.clear");
@@ -164,13 +160,12 @@ void time_row(Ui& ui, Playback& playback, QueryInspector& queries, bool tall) {
     ui.mark("timeline.clear");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Hide the time cursor");
     if (has_conflicts) {
-        conflict_bars(ui, crowds, time_axis(span, corner.x, width), {corner.x, corner.y + height + ui.px(3)},
-                      {width, ui.px(kConflictBars)});
+        conflict_bars(ui, crowds, axis, {corner.x, corner.y + height + ui.px(3)}, {width, ui.px(kConflictBars)});
     }
     const auto findings = queries.findings();
-    if (!findings || findings->proof.lines.empty()) return;
-    proof_bars(ui, *findings, time_axis(span, corner.x, width), {corner.x, corner.y + height + ui.px(3)},
-               {width, ui.px(kProofBar)});
+    if (findings && !findings->proof.lines.empty())
+        proof_bars(ui, *findings, axis, {corner.x, corner.y + height + ui.px(3)}, {width, ui.px(kProofBar)});
+    return axis;
 }
 
 /// The second clock: where in the trace we stand.
@@ -248,7 +243,7 @@ void timeline(Ui& ui, Playback& playback, QueryInspector& queries, QueryPictures
     const bool steps = ui.workspace.recorded() != nullptr;
     const BottomTab tab = shown_tab(ui);
     const bool tall = !steps && tab == BottomTab::recursion;
-    time_row(ui, playback, queries, tall);
+    const ChartAxis axis = time_row(ui, playback, queries, tall);
     if (steps) step_row(ui, queries, pictures);
     if (!tall) bottom_tabs(ui);
     switch (tab) {
@@ -262,7 +257,7 @@ void timeline(Ui& ui, Playback& playback, QueryInspector& queries, QueryPictures
             node_list(ui, pictures.nodes);
             break;
         case BottomTab::curves:
-            curves(ui);
+            pictures.curves.draw(ui, axis);
             break;
     }
     ImGui::PopID();

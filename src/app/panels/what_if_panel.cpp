@@ -28,7 +28,7 @@ std::string tooltip_of(const WhatIf& found, const NodeVariant& variant) {
 
 /// A line of the table: what, and under the heads of columns its numbers.
 void table_line(Ui& ui, ImVec2 corner, float width, const std::string& what, const std::array<std::string, 3>& cells,
-                ImU32 color, ImU32 last_color) {
+                ImU32 color, ImU32 last_color, const std::vector<double>& exact = {}) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImFont& mono = *ui.style.mono;
     const float pad = ui.px(6), room = width - 2 * pad;
@@ -39,6 +39,7 @@ void table_line(Ui& ui, ImVec2 corner, float width, const std::string& what, con
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const float x = corner.x + pad + kRight[i] * room - text_size(mono, cells[i]).x;
         draw_text(draw, mono, {x, number_y}, i + 1 == cells.size() ? last_color : color, cells[i]);
+        copies_numbers(ui, cells[i], {x, number_y}, mono, exact);
     }
 }
 
@@ -65,7 +66,8 @@ void variant_row(Ui& ui, const WhatIf& found, std::size_t index) {
         ui, corner, size.x, change_words(*present.tree, variant.change),
         {figure(volume, 3), formatted("%.2f", variant.tests.boxes()),
          &variant == &present ? figure(variant.cost, 3) + " ns" : change_in_per_cent(found, variant, " \u00B1 ")},
-        is_best ? ui.style.text : ui.style.quiet, is_best ? best_color : ui.style.quiet);
+        is_best ? ui.style.text : ui.style.quiet, is_best ? best_color : ui.style.quiet,
+        {volume, variant.tests.boxes(), variant.cost});
 }
 
 }  // namespace

@@ -337,6 +337,11 @@ Json state_json(const Session& session) {
     json["view"] = view_json(session.workspace.view());
     json["selection"] = selection_json(session.workspace, session.workspace.selection);
     json["hovered"] = selection_json(session.workspace, session.workspace.hovered);
+    if (const Measuring& measuring = session.workspace.measuring; !measuring.is_nothing()) {
+        json["measuring"] = {{"picks", measuring.picks}};
+        if (measuring.from) json["measuring"]["from"] = measuring.from->what;
+        if (const auto line = measuring.line()) json["measuring"]["line"] = text_of(*line);
+    }
     json["query"] = query_json(session.workspace, session.queries, session.settings);
     if (Json look = look_json(session.workspace, session.queries); !look.is_null()) json["look"] = std::move(look);
     if (!session.workspace.empty() && session.settings.bottom_tab == BottomTab::nodes)

@@ -37,6 +37,7 @@ void cell(Ui& ui, const TableColumn& column, const TableCell& shown) {
     const float spare = ImGui::GetContentRegionAvail().x - width;
     if (column.is_number && spare > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + spare);
     text_line(shown.color, shown.text, ui.style.mono);
+    if (column.is_number) copies_numbers(ui, shown.text, ImGui::GetItemRectMin(), *ui.style.mono, shown.exact, true);
 }
 
 }  // namespace
@@ -68,7 +69,7 @@ void DataTable::row(Ui& ui, const TableContent& content, std::size_t index) cons
     ui.mark(content.mark + ".row." + std::to_string(thing));
     if (present) ui.focus.begin_here();
     // Arrows pick as they go.
-    if (clicked || (ui.focus.arrived_at_last() && !present)) content.pick(thing);
+    if ((clicked && !ImGui::GetIO().KeyCtrl) || (ui.focus.arrived_at_last() && !present)) content.pick(thing);
     if (ImGui::IsItemHovered()) content.hover(thing);
     if (thing == content.hovered && !present)
         ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg0, ImGui::GetColorU32(ImGuiCol_HeaderHovered));

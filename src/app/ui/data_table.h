@@ -25,6 +25,7 @@ struct TableColumn {
 struct TableCell {
     std::string text;
     ImU32 color = 0;
+    std::vector<double> exact{};  ///< its numbers with all their digits, to copy
 };
 
 /// What a table shows in this frame.

@@ -1,6 +1,7 @@
 #include <app/commands/arguments.h>
 #include <app/commands/command.h>
 #include <app/ui/widgets.h>
+#include <base/numbers_in_text.h>
 #include <base/text.h>
 
 #include <imgui_internal.h>
@@ -147,14 +148,76 @@ void text_line(ImU32 color, const std::string& text, ImFont* font) {
     ImGui::PopFont();
 }
 
-void words(ImU32 color, const std::string& text) {
+namespace {
+
+/// Returns them in their lines.
+std::string draw_words(ImU32 color, const std::string& text) {
     const float wrap = ImGui::GetCurrentWindowRead()->DC.TextWrapPos;
     const float room = wrap > 0 ? wrap - ImGui::GetCursorPosX() : ImGui::GetContentRegionAvail().x;
+    const std::string lines = wrapped(text, room);
     ImGui::PushStyleColor(ImGuiCol_Text, color);
     ImGui::PushTextWrapPos(-1);
-    ImGui::TextUnformatted(wrapped(text, room).c_str());
+    ImGui::TextUnformatted(lines.c_str());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
+    return lines;
+}
+
+/// "0.183204 m": as it is copied, or with six digits.
+std::string copied_text(const CopiedNumber& number, bool all_digits) {
+    const std::string digits = all_digits ? format_double(number.value) : brief(number.value);
+    const bool joined = number.unit.empty() || number.unit.starts_with("\u00B0");
+    return digits + (joined ? "" : " ") + number.unit;
+}
+
+}  // namespace
+
+void words(ImU32 color, const std::string& text) { draw_words(color, text); }
+
+void words(Ui& ui, ImU32 color, const std::string& text, std::vector<double> exact) {
+    const std::string lines = draw_words(color, text);
+    copies_numbers(ui, lines, ImGui::GetItemRectMin(), *ImGui::GetFont(), std::move(exact));
+}
+
+namespace {
+
+/// Whether numbers that are drawn now can be pointed at. Those that want Ctrl may stand in a row that is pressed.
+bool can_copy(bool with_ctrl) {
+    if (!with_ctrl) return ImGui::IsItemHovered();
+    return ImGui::GetIO().KeyCtrl && ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
+}
+
+}  // namespace
+
+bool copies(Ui& ui, const Rect& place, const CopiedNumber& number) {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    if (!can_copy(number.with_ctrl) || !place.contains({{mouse.x, mouse.y}, {mouse.x, mouse.y}})) return false;
+    ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    const float y = std::floor(place.max.y - ui.px(1));
+    ImGui::GetWindowDrawList()->AddLine({place.min.x, y}, {place.max.x, y}, ui.style.text, ui.px(1));
+    ImGui::SetTooltip("%s%s%s\nClick to copy", number.tip.c_str(), number.tip.empty() ? "" : "\n\n",
+                      copied_text(number, true).c_str());
+    if (!ImGui::IsMouseClicked(ImGuiMouseButton_Left)) return true;
+    ui.session.desktop->set_clipboard(format_double(number.value));
+    ui.session.notifications.tell(MessageLevel::info, "Copied " + copied_text(number, false));
+    return true;
+}
+
+bool copies_numbers(Ui& ui, const std::string& text, ImVec2 at, const ImFont& font, std::vector<double> exact,
+                    bool with_ctrl) {
+    if (!can_copy(with_ctrl)) return false;
+    ShownNumbers numbers(std::move(exact));
+    for (std::size_t begin = 0; begin <= text.size(); at.y += font.FontSize) {
+        const std::string line = text.substr(begin, text.find('\n', begin) - begin);
+        begin += line.size() + 1;
+        for (const NumberInText& each : numbers.in(line)) {
+            const ImVec2 from = text_size(font, line.substr(0, each.begin));
+            const ImVec2 to = text_size(font, line.substr(0, each.end));
+            const Rect place{{at.x + from.x, at.y}, {at.x + to.x, at.y + font.FontSize}};
+            if (copies(ui, place, {.value = each.value, .unit = each.unit, .with_ctrl = with_ctrl})) return true;
+        }
+    }
+    return false;
 }
 
 std::string wrapped(const std::string& text, float room) {
@@ -192,10 +255,7 @@ std::string with_short_paths(const std::string& text, float room) {
 
 void number(Ui& ui, const std::string& shown, double value, const char* unit, ImU32 color) {
     text_line(color, shown, ui.style.mono);
-    if (!ImGui::IsItemHovered()) return;
-    const std::string digits = formatted("%.17g", value);
-    ImGui::SetTooltip("%s %s\nClick to copy", digits.c_str(), unit);
-    if (ImGui::IsItemClicked()) ui.session.desktop->set_clipboard(digits);
+    copies(ui, Ui::last_rect(), {.value = value, .unit = unit});
 }
 
 void number_row(Ui& ui, const char* label, const std::string& shown, double value, const char* unit) {
@@ -207,6 +267,9 @@ void number_row(Ui& ui, const char* label, const std::string& shown, double valu
     ImGui::PopFont();
     ImGui::SameLine(left + room - width);
     number(ui, shown, value, unit, ui.style.text);
+    std::string mark = "number." + lower(label);
+    std::ranges::replace(mark, ' ', '_');
+    ui.mark_only(mark);
 }
 
 void form_label(Ui& ui, const char* label, const char* help) {
@@ -630,10 +693,11 @@ bool row(Ui& ui, const Row& row) {
     const std::string name = row.fitted ? row.fitted(name_room) : fitted_name(row.name, name_room);
     const std::string gap = row.remark.empty() ? "" : "   ";
     tell_whole(ui, name + gap + remark, row.name + gap + row.remark);
+    const ImVec2 remark_at{end.x - pad - width_of_remark, corner.y + 0.5f * (height - mono.FontSize)};
+    const bool copied = copies_numbers(ui, remark, remark_at, mono, row.exact, true);
     draw.AddText({left, y}, row.quiet ? ui.style.quiet : ui.style.text, name.c_str());
-    draw_text(draw, mono, {end.x - pad - width_of_remark, corner.y + 0.5f * (height - mono.FontSize)},
-              row.remark_color != 0 ? row.remark_color : ui.style.quiet, remark);
-    return clicked;
+    draw_text(draw, mono, remark_at, row.remark_color != 0 ? row.remark_color : ui.style.quiet, remark);
+    return clicked && !copied;
 }
 
 }  // namespace mobbscope::app

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mobbscope::app {
 
@@ -36,10 +37,26 @@ std::string wrapped(const std::string& text, float room);
 /// The same text with the middle of each path left out that does not fit `room`: "/home/…/scenes/crossing.json".
 std::string with_short_paths(const std::string& text, float room);
 
-/// A number as shown; the tooltip has all its digits, and a click copies them.
+/// A number that copies itself: under the mouse it is underlined, and its tooltip has all its digits.
+struct CopiedNumber {
+    double value = 0;
+    std::string unit{};
+    std::string tip{};       ///< what else its tooltip says, above
+    bool with_ctrl = false;  ///< a click alone does something else
+};
+/// It stands in this part of the last item. Whether a click there is for it now.
+bool copies(Ui& ui, const Rect& place, const CopiedNumber& number);
+/// Likewise all numbers of a text that the last item shows from a place on, in lines. `exact`: those of them that are
+/// known with all their digits.
+bool copies_numbers(Ui& ui, const std::string& text, ImVec2 at, const ImFont& font, std::vector<double> exact = {},
+                    bool with_ctrl = false);
+/// Words whose numbers copy themselves.
+void words(Ui& ui, ImU32 color, const std::string& text, std::vector<double> exact = {});
+
+/// A number as shown, which copies itself.
 void number(Ui& ui, const std::string& shown, double value, const char* unit, ImU32 color);
 
-/// A label at the left and, at the right edge, a number.
+/// A label at the left and, at the right edge, a number; for scripts "number.<label>", in small letters.
 void number_row(Ui& ui, const char* label, const std::string& shown, double value, const char* unit);
 
 /// A row of a form: the label at the left, the next widget takes the rest. `help` is its tooltip; null: none.
@@ -158,6 +175,7 @@ struct Row {
     float right = 0;         ///< pixels of them that the remark keeps free, <= buttons
     /// The name on so many pixels; by itself it loses its middle.
     std::function<std::string(float room)> fitted{};
+    std::vector<double> exact{};  ///< numbers of the remark with all their digits; Ctrl and a click copies them
 };
 bool row(Ui& ui, const Row& row);
 

@@ -3,6 +3,7 @@
 #include <app/document/shown_agents.h>
 #include <app/viewport/selection_display.h>
 #include <render/parts/highlights.h>
+#include <render/parts/measured_line.h>
 #include <scene/arrangement.h>
 
 #include <cstddef>
@@ -100,6 +101,7 @@ void add_highlights(DrawList& list, const Session& session, float scale) {
     add_variant(list, session, scale);
     add_candidate(list, session, scale);
     add_other_of_conflict(list, session, scale);
+    if (const auto line = measured_in_view(session.workspace)) add_measured_line(list, *line, scale);
 }
 
 }  // namespace mobbscope::app

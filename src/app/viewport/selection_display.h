@@ -7,7 +7,8 @@
 namespace mobbscope::app {
 
 /// Adds to the list of the session's view what is selected and what is under the mouse, the candidate that is looked
-/// at, and the agent that the followed one is about to meet in the conflict that was gone to. `scale`: of line widths.
+/// at, the agent that the followed one is about to meet in the conflict that was gone to, and the line that is
+/// measured. `scale`: of line widths.
 void add_highlights(DrawList& list, const Session& session, float scale);
 
 }  // namespace mobbscope::app

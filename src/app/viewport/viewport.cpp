@@ -37,6 +37,7 @@ namespace {
 
 constexpr double kSignAfter = 0.15;  // seconds that the picture is not yet what it will be
 constexpr float kClickReach = 4;     // pixels at scale 1 that a click may slip
+constexpr float kEndNear = 9;        // pixels at scale 1 to what an end of what is measured goes to
 constexpr double kWheelZoom = 1.15;  // a notch of the wheel
 constexpr float kPi = std::numbers::pi_v<float>;
 
@@ -451,7 +452,21 @@ void Viewport::mouse(Ui& ui, const ShownPicture& picture) {
             place_.reset();
         }
     }
+    const bool picks = over && drag_ == Drag::none && list_ && is_active(ui) && ui.workspace.measuring.picks &&
+                       can_measure(ui.workspace) && !overlay_at(*list_, pixel);
+    next_end_ = picks ? end_at(ui.workspace, *list_, pixel, ui.px(kEndNear)) : std::nullopt;
     last_ = pixel;
+}
+
+/// Takes what is at a pixel as an end of what is measured.
+void Viewport::take_end(Ui& ui, glm::vec2 pixel, LineEnd which) const {
+    const std::optional<MeasuredEnd> end = end_at(ui.workspace, *list_, pixel, ui.px(kEndNear));
+    if (!end) return;
+    ui.later([end, which](Workspace& workspace) {
+        Measuring& measuring = workspace.measuring;
+        (which == LineEnd::from ? measuring.from : measuring.to) = end;
+        if (which == LineEnd::to) measuring.picks = false;
+    });
 }
 
 void Viewport::wheel(Ui& ui, glm::vec2 pixel) {
@@ -502,10 +517,16 @@ void Viewport::press(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) {
     asks_ = io.MouseDown[1];
     place_.reset();
     const auto on_overlay = list_ ? overlay_click(*list_, pixel) : std::nullopt;
+    const LineEnd end = list_ && is_active(ui) ? line_end_at(ui, picture) : LineEnd::none;
     // Handles stand over the panels.
     const auto hold = list_ && is_active(ui) ? take_hold(ui, picture, pixel) : std::nullopt;
     if (io.MouseDown[1] || io.MouseDown[2] || io.KeyShift) {
         drag_ = Drag::pan;
+    } else if (on_measured_) {
+        drag_ = Drag::none;
+    } else if (end != LineEnd::none) {
+        drag_ = Drag::measured;
+        held_end_ = end;
     } else if (hold) {
         drag_ = Drag::handle;
         handle_drag_ = *hold;
@@ -528,6 +549,7 @@ void Viewport::drag(Ui& ui, glm::vec2 pixel) {
     if (by == glm::vec2(0)) return;
     if (drag_ == Drag::orbit) move_camera(ui, orbited(shown_camera(), by, list_->size));
     if (drag_ == Drag::pan) move_camera(ui, panned(shown_camera(), by, list_->size));
+    if (drag_ == Drag::measured) take_end(ui, pixel, held_end_);
     if (drag_ != Drag::handle) return;
     const auto placement = dragged(handle_drag_, *list_, pixel, io.KeyCtrl);
     if (!placement) return;
@@ -545,7 +567,7 @@ void Viewport::drag(Ui& ui, glm::vec2 pixel) {
 
 void Viewport::release(Ui& ui, glm::vec2 pixel) {
     // With a button still down it was broken off.
-    const bool was_click = !moved_ && drag_ != Drag::pan && !ImGui::IsAnyMouseDown();
+    const bool was_click = !moved_ && drag_ != Drag::pan && drag_ != Drag::measured && !ImGui::IsAnyMouseDown();
     const bool asked = !moved_ && asks_ && !ImGui::IsAnyMouseDown();
     drag_ = Drag::none;
     ui.later(&Workspace::close_group);
@@ -595,6 +617,9 @@ void Viewport::hover(Ui& ui, glm::vec2 pixel) {
 /// The first click takes what is in front, one more at the same place what lies behind it; on nothing, nothing.
 void Viewport::click(Ui& ui, glm::vec2 pixel) {
     if (overlay_at(*list_, pixel)) return;
+    const Measuring& measuring = ui.workspace.measuring;
+    if (measuring.picks && can_measure(ui.workspace))
+        return take_end(ui, pixel, measuring.from ? LineEnd::to : LineEnd::from);
     const std::vector<Pick> hits = picks(*list_, pixel, ui.px(kClickReach));
     const bool again = glm::length(pixel - clicked_at_) <= ui.px(kClickReach);
     depth_ = again ? depth_ + 1 : 0;
@@ -713,10 +738,17 @@ void Viewport::decorate(Ui& ui, const ShownPicture& picture) {
         mark("handle.shift", held->places.shift);
     }
     draw_conflict_marks(ui, conflicts_, lit_conflict_);
+    on_measured_ = draw_measuring(ui, picture, next_end_);
     ImGui::GetWindowDrawList()->PopClipRect();
     // The picture has no padding, what is said of it has.
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(9), ui.px(7)});
-    if (held && lit_ != Handle::none) {
+    const bool is_measured = on_measured_ || next_end_ || drag_ == Drag::measured;
+    if (drag_ == Drag::none && line_end_at(ui, picture) != LineEnd::none && ImGui::IsItemHovered()) {
+        ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+        ImGui::SetTooltip("Drag to another place");
+    } else if (is_measured) {
+        // It says what is there itself.
+    } else if (held && lit_ != Handle::none) {
         ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
         handle_tooltip(ui, held->who.placement);
     } else if (lit_conflict_ >= 0) {

@@ -7,6 +7,7 @@
 #include <app/viewport/agent_handles.h>
 #include <app/viewport/conflict_marks.h>
 #include <app/viewport/flight.h>
+#include <app/viewport/measuring.h>
 #include <render/drawlist/draw_list.h>
 #include <render/pictures/kept_paths.h>
 
@@ -47,7 +48,7 @@ class Viewport {
         std::int64_t counted = 0;            ///< SceneFigures::revision, where the colours depend on it
         friend bool operator==(const Key&, const Key&) = default;
     };
-    enum class Drag { none, orbit, pan, handle };
+    enum class Drag { none, orbit, pan, handle, measured };
 
     struct LaidOut {
         std::optional<PictureSize> size;
@@ -69,6 +70,7 @@ class Viewport {
     void sign_of_work(Ui& ui, ImVec2 end) const;
     void mouse(Ui& ui, const ShownPicture& picture);
     void wheel(Ui& ui, glm::vec2 pixel);
+    void take_end(Ui& ui, glm::vec2 pixel, LineEnd which) const;
     void press(Ui& ui, const ShownPicture& picture, glm::vec2 pixel);
     void drag(Ui& ui, glm::vec2 pixel);
     void release(Ui& ui, glm::vec2 pixel);
@@ -115,10 +117,13 @@ class Viewport {
     int lit_conflict_ = -1;                ///< whose mark is under the mouse
     glm::vec2 pressed_at_{0};
     glm::vec2 last_{0};
-    bool moved_ = false;         ///< since the button went down: no click
-    bool asks_ = false;          ///< it is the right button: a click opens a menu
-    bool over_nothing_ = false;  ///< the menu is the picture's
-    std::size_t depth_ = 0;      ///< of the last click: another click at its place selects what lies behind
+    LineEnd held_end_ = LineEnd::none;     ///< of what is measured, while it is dragged
+    std::optional<MeasuredEnd> next_end_;  ///< that a click at the mouse would take
+    bool on_measured_ = false;             ///< the mouse is on a measured number
+    bool moved_ = false;                   ///< since the button went down: no click
+    bool asks_ = false;                    ///< it is the right button: a click opens a menu
+    bool over_nothing_ = false;            ///< the menu is the picture's
+    std::size_t depth_ = 0;                ///< of the last click: another click at its place selects what lies behind
     glm::vec2 clicked_at_{-1e6f};
     std::optional<glm::dvec3> place_;  ///< under the mouse: x, y, t; in the picture of a moment the height
 };

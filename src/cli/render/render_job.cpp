@@ -99,6 +99,10 @@ void draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* renderer
             // Another picture of the sequence shows it.
         }
     }
+    if (job.arguments.measure) {
+        const PictureOptions& options = job.arguments.picture;
+        add_measure(list, *job.arguments.measure, metrics_of(options.size, options.scale), picture.view.labels);
+    }
     std::string image, ids, text;
     std::vector<FileBytes> files;
     if (!outputs.image.empty()) {

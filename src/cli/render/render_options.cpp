@@ -189,6 +189,7 @@ void check_window(const RenderArguments& arguments) {
     if (!arguments.outputs.ids.empty()) refuse("--ids");
     if (!arguments.outputs.draw_list.empty()) refuse("--draw-list");
     if (arguments.select) refuse("--select");
+    if (arguments.measure) refuse("--measure");
 }
 
 /// The view of a file over another: of a scene its whole view, else the keys that there are.
@@ -278,6 +279,9 @@ void add_render_options(Command& command, RenderArguments& arguments) {
         .add_option("--select", select,
                     "Highlights an agent, or a node or sample: AGENT (or AGENT:path), AGENT:node:N or AGENT:sample:N",
                     "WHAT")
+        .group(kShownGroup);
+    add_parsed(command, "--measure", arguments.measure, parse_measured_line,
+               "Draws how far apart two places are, metres on the floor and seconds", "X,Y,T:X,Y,T")
         .group(kShownGroup);
     add_sequence_options(command, arguments.sequence);
     add_fit_options(command, arguments.fit);

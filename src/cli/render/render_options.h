@@ -6,6 +6,7 @@
 #include <render/drawlist/picture_options.h>
 #include <render/gl/gl_context.h>
 #include <render/parts/highlights.h>
+#include <render/parts/measured_line.h>
 #include <scene/scene.h>
 #include <scene/view_state.h>
 
@@ -56,6 +57,7 @@ struct RenderArguments {
     ViewArguments view;
     SequenceArguments sequence;
     std::optional<NamedPart> select;  ///< what is highlighted
+    std::optional<MeasuredLine> measure;
     bool ui = false;
     std::optional<double> ui_scale;
     FitArguments fit;

@@ -196,6 +196,7 @@ struct HighlightLine {
         candidate,  ///< the move that is looked at, of those that the followed agent could choose
         conflict,   ///< whom the followed agent is about to meet
         ghost,      ///< where the agent stood that is being dragged
+        measure,    ///< between two places
     };
     Role role = Role::selection;
     glm::vec3 from{0};

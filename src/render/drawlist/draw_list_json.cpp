@@ -92,7 +92,7 @@ constexpr std::array kBoxStates{"level",   "under_test", "apart_in_time", "separ
                                 "overlap", "avoidable",  "hit",           "annotation"};
 constexpr std::array kLegendMarks{"disk", "ring", "double_ring", "box", "line", "remark"};
 constexpr std::array kOverlays{"caption", "legend", "inset"};
-constexpr std::array kHighlightRoles{"selection", "hover", "candidate", "conflict", "ghost"};
+constexpr std::array kHighlightRoles{"selection", "hover", "candidate", "conflict", "ghost", "measure"};
 constexpr std::array kTextRoles{"label", "tick", "name", "note", "caption", "legend", "header", "map"};
 
 template <class Names, class Enum>

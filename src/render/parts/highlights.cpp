@@ -40,24 +40,12 @@ HighlightStyle highlight_style(Role role, const Palette& palette) {
             return {palette.accent, 3.5f};
         case Role::conflict:
             return {palette.hit, 2.5f};
+        case Role::measure:
+            return {palette.accent, 2};
         case Role::ghost:
             break;
     }
     return {palette.quiet_text, 1.2f};
-}
-
-/// Lines through points, each on a line in the ground's colour that sets it off from what is below.
-void add_lines(DrawList& list, std::span<const Points> lines, Role role, float scale) {
-    const HighlightStyle style = highlight_style(role, list.palette);
-    const auto add = [&](Rgba color, float width) {
-        for (const Points& points : lines) {
-            for (std::size_t i = 1; i < points.size(); ++i) {
-                list.highlights.push_back({role, points[i - 1], points[i], color, width * scale});
-            }
-        }
-    };
-    add(with_alpha(list.palette.background, kGroundOpacity), style.width + kGroundBeyond);
-    add(style.color, style.width);
 }
 
 /// The outline of a sample's disk at a height that is a time.
@@ -134,9 +122,22 @@ constexpr std::string_view kPathSuffix = ":path";
 
 }  // namespace
 
+void add_highlight_lines(DrawList& list, std::span<const Points> lines, Role role, float scale) {
+    const HighlightStyle style = highlight_style(role, list.palette);
+    const auto add = [&](Rgba color, float width) {
+        for (const Points& points : lines) {
+            for (std::size_t i = 1; i < points.size(); ++i) {
+                list.highlights.push_back({role, points[i - 1], points[i], color, width * scale});
+            }
+        }
+    };
+    add(with_alpha(list.palette.background, kGroundOpacity), style.width + kGroundBeyond);
+    add(style.color, style.width);
+}
+
 bool add_highlight(DrawList& list, const DrawnAgent& agent, const AgentPart& part, Role role, float scale) {
     const mobb::PlacedClip& clip = agent.clip();
-    const auto add = [&](const std::vector<Points>& lines) { add_lines(list, lines, role, scale); };
+    const auto add = [&](const std::vector<Points>& lines) { add_highlight_lines(list, lines, role, scale); };
     if (list.moment) {
         const std::optional<int> then =
             part.kind == AgentPart::Kind::sample ? part.index : sample_at(agent, *list.moment);
@@ -154,13 +155,13 @@ bool add_highlight(DrawList& list, const DrawnAgent& agent, const AgentPart& par
 }
 
 void add_way_highlight(DrawList& list, const mobb::PlacedClip& way, Role role, float scale) {
-    add_lines(list, std::array{centres(list, way)}, role, scale);
+    add_highlight_lines(list, std::array{centres(list, way)}, role, scale);
 }
 
 void add_ghost(DrawList& list, const mobb::PlacedClip& before, float scale) {
     std::vector<Points> lines = outlines_of_ends(list.space, before);
     lines.push_back(centres(list, before));
-    add_lines(list, lines, Role::ghost, scale);
+    add_highlight_lines(list, lines, Role::ghost, scale);
 }
 
 NamedPart parse_named_part(std::string_view text) {

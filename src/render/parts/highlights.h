@@ -5,14 +5,20 @@
 #include <render/drawlist/draw_list.h>
 #include <scene/drawn_agent.h>
 
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mobbscope {
 
-/// Outlines a node's box, a sample's disk, or the ends of a path; in the picture of a moment the disk that holds then.
-/// Returns false and adds nothing where the picture of a moment does not show it. The part must exist. `scale`: of line
+/// Lines through points, each on a line in the ground's colour that sets it off from what is below. `scale`: of line
 /// widths, as for all that follow.
+void add_highlight_lines(DrawList& list, std::span<const std::vector<glm::vec3>> lines, HighlightLine::Role role,
+                         float scale);
+
+/// Outlines a node's box, a sample's disk, or the ends of a path; in the picture of a moment the disk that holds then.
+/// Returns false and adds nothing where the picture of a moment does not show it. The part must exist.
 bool add_highlight(DrawList& list, const DrawnAgent& agent, const AgentPart& part, HighlightLine::Role role,
                    float scale);
 
