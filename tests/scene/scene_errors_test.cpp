@@ -167,7 +167,7 @@ TEST(SceneErrors, EverythingElseIsChecked) {
         {R"("view": {"step": "soon"})", "is no step"},
         {R"("view": {"step": -1})", "out of range"},
         {R"("view": {"query": 1})", "/view/query: the scene has 1 queries"},
-        {R"("view": {"color_by": "node"})", "give agent or level"},
+        {R"("view": {"color_by": "node"})", "give agent, level, volume"},
         {R"("view": {"theme": "blue"})", "give dark or light"},
         {R"("view": {"camera": {"preset": "under"}})", "give iso, top, front, side or free"},
         {R"("view": {"camera": {"pitch_deg": 91}})", "out of range"},

@@ -25,8 +25,8 @@ constexpr auto kPicture = std::to_array<std::string_view>(
     {"view.frame", "view.frame_all", "", "view.iso", "view.top", "view.front", "view.side", "", "view.moment",
      "view.perspective", kTogglesAtHand, "view.past", "view.theme", "", "agent.show_all", "view.arrange", "",
      "file.export_picture", "file.copy_command"});
-constexpr auto kNode =
-    std::to_array<std::string_view>({"view.frame", "go.parent", "go.child", "step.next_of_node", "edit.copy_figures"});
+constexpr auto kNode = std::to_array<std::string_view>({"view.frame", "go.parent", "go.child", "node.isolate",
+                                                        "view.ancestors", "step.next_of_node", "edit.copy_figures"});
 constexpr auto kSample = std::to_array<std::string_view>(
     {"view.frame", "reasons.of_selection", "go.parent", "view.projection", "edit.copy_figures"});
 constexpr auto kPath = std::to_array<std::string_view>({"view.frame", "go.child", "edit.copy_figures"});

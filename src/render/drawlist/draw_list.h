@@ -196,12 +196,14 @@ struct HighlightLine {
         candidate,  ///< the move that is looked at, of those that the followed agent could choose
         conflict,   ///< whom the followed agent is about to meet
         ghost,      ///< where the agent stood that is being dragged
+        ancestor,   ///< the boxes above a node
     };
     Role role = Role::selection;
     glm::vec3 from{0};
     glm::vec3 to{0};
     Rgba color{1};
     float width = 1;  ///< pixels
+    Dash dash = kSolid;
     friend bool operator==(const HighlightLine&, const HighlightLine&) = default;
 };
 

@@ -11,9 +11,15 @@ namespace mobbscope {
 
 /// The nodes of `tree` that a range of levels shows: those on its levels and the leaves above the first.
 std::vector<int> shown_nodes(const mobb::Tree& tree, const LevelRange& levels);
+/// The same of an agent; where a part of its tree is shown alone those within it, or the part's own node if there is
+/// none.
+std::vector<int> shown_nodes(const DrawnAgent& agent, const LevelRange& levels);
+
+/// Whether a node is `top`, or below it.
+bool is_within(const mobb::Tree& tree, int node, int top);
 
 /// The boxes of those nodes, coloured by their agent or their level; where several levels are shown, finer ones are
-/// brighter, fuller and heavier.
+/// brighter, fuller and heavier. The node of a part that is shown alone is outlined around them.
 void add_level_boxes(DrawList& list, std::span<const DrawnAgent> agents, const LevelRange& levels, ColorBy color_by,
                      float scale);
 
