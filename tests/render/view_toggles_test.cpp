@@ -103,7 +103,7 @@ std::vector<ViewState> views() {
     line.show = Show::moment;
     line.time = 4;
     part.levels = {0, 0, true};
-    part.subtree = DrawnNode{1, 1};
+    part.subtree = DrawnNode{1, 7};  // a leaf
     return {levels, query, moment, proven, line, part};
 }
 

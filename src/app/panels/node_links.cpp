@@ -33,7 +33,8 @@ void breadcrumb(Ui& ui, const PlacedAgent& who, const mobb::Tree& tree, int node
     for (int at = node; at >= 0; at = tree.parent(at)) way.push_back(at);
     std::ranges::reverse(way);
     for (const int at : way) {
-        const std::string label = (at == way.front() ? who.name + ' ' : "\u203A ") + level_and_place(tree, at);
+        std::string label = at == way.front() ? who.name : "\u203A";
+        label.append(1, ' ').append(level_and_place(tree, at));
         if (at != way.front()) flow(button_width(label.c_str()));
         node_link(ui, who, at, label);
     }

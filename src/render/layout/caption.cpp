@@ -81,6 +81,8 @@ std::string fit_words(const mobb::FitOptions& fit) {
     return std::string(tree.title) + (tree.splits() ? ", leaf " + std::to_string(fit.leaf) : "");
 }
 
+void mention_part(Caption& caption, const std::string& node) { mention(caption, "only " + node + " and below"); }
+
 }  // namespace
 
 std::string at_time(double time) { return formatted(" at %.2f s", time); }
@@ -98,8 +100,7 @@ Caption scene_caption(const FittedScene& fitted, std::span<const DrawnAgent> age
         caption.detail += (caption.detail.empty() ? "" : kDot) + left_out;
     }
     for (const DrawnAgent& agent : agents) {
-        if (agent.subtree && agent.is_whole())
-            mention(caption, "only " + node_name(agent, *agent.subtree) + " and below");
+        if (agent.subtree && agent.is_whole()) mention_part(caption, node_name(agent, *agent.subtree));
     }
     return caption;
 }
