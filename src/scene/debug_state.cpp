@@ -3,6 +3,7 @@
 #include <scene/event_filter.h>
 #include <scene/scene_edits.h>
 #include <scene/step_link.h>
+#include <scene/view_options.h>
 
 #include <algorithm>
 
@@ -55,6 +56,17 @@ Bookmark read_bookmark(const JsonPlace& place, std::size_t queries) {
     return out;
 }
 
+NamedView read_named_view(const JsonPlace& place, const std::vector<NamedView>& others) {
+    place.allow_only({"name", "view"});
+    const JsonPlace name = place.require("name");
+    NamedView out{std::string(trimmed(name.string())), {}};
+    if (out.name.empty()) name.fail("a view needs a name");
+    if (std::ranges::find(others, out.name, &NamedView::name) != others.end())
+        name.fail("another view is named " + in_quotes(out.name) + "; rename one");
+    out.view = read_view(place.require("view"));
+    return out;
+}
+
 }  // namespace
 
 std::vector<std::string> names_of_bookmarks(const DebugState& debug) {
@@ -68,7 +80,7 @@ std::vector<std::string> names_of_bookmarks(const DebugState& debug) {
 }
 
 DebugState read_debug_state(const JsonPlace& place, std::size_t queries) {
-    place.allow_only({"filters", "breakpoints", "bookmarks"});
+    place.allow_only({"filters", "breakpoints", "bookmarks", "views"});
     DebugState out;
     if (const auto filters = place.find("filters"))
         filters->each([&](const JsonPlace& each) { out.filters.push_back(read_filter(each, out.filters)); });
@@ -77,6 +89,8 @@ DebugState read_debug_state(const JsonPlace& place, std::size_t queries) {
             [&](const JsonPlace& each) { out.breakpoints.push_back(read_breakpoint(each, out.breakpoints)); });
     if (const auto bookmarks = place.find("bookmarks"))
         bookmarks->each([&](const JsonPlace& each) { out.bookmarks.push_back(read_bookmark(each, queries)); });
+    if (const auto views = place.find("views"))
+        views->each([&](const JsonPlace& each) { out.views.push_back(read_named_view(each, out.views)); });
     return out;
 }
 
@@ -105,6 +119,15 @@ void write_debug_state(JsonWriter& out, const DebugState& debug) {
             out.member("query", bookmark.query);
             out.member("step", bookmark.step);
             if (!bookmark.note.empty()) out.member("note", bookmark.note);
+            out.end_object();
+        });
+    }
+    if (!debug.views.empty()) {
+        out.list("views", debug.views, [&](const NamedView& named) {
+            out.begin_object();
+            out.member("name", named.name);
+            out.key("view");
+            write_view(out, named.view);
             out.end_object();
         });
     }

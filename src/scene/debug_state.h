@@ -1,7 +1,8 @@
-/// How the queries of a scene are debugged: filters, breakpoints and bookmarks, saved with the scene.
+/// How the queries of a scene are debugged: filters, breakpoints, bookmarks and named views, saved with the scene.
 ///
 ///     {"filters": [{"name": "tight", "where": "gap < 0.05"}], "breakpoints": [{"where": "outcome = hit", "on": true}],
-///      "bookmarks": [{"name": "the turn", "query": 0, "step": 412, "note": "B's box is loose here"}]}
+///      "bookmarks": [{"name": "the turn", "query": 0, "step": 412, "note": "B's box is loose here"}],
+///      "views": [{"name": "from behind", "view": {"camera": {"preset": "front"}}}]}
 #pragma once
 
 #include <base/json.h>

@@ -56,6 +56,20 @@ mobb::SampleRange samples_between(const mobb::PlacedClip& clip, double begin, do
     return {first, std::max(last - first, 0)};
 }
 
+/// Whose part is shown alone. Throws ViewMismatch if there is no such agent, or it has no such node.
+DrawnAgent& with_subtree(std::vector<DrawnAgent>& agents, const DrawnNode& part) {
+    if (part.agent < 0 || static_cast<std::size_t>(part.agent) >= agents.size()) {
+        throw ViewMismatch("subtree", "there is no participant " + std::to_string(part.agent) + ": " +
+                                          std::to_string(agents.size()) + (agents.size() == 1 ? " is" : " are") +
+                                          " drawn, counted from 0");
+    }
+    DrawnAgent& agent = agents[static_cast<std::size_t>(part.agent)];
+    const std::size_t nodes = agent.placed.tree().nodes().size();
+    if (part.node >= 0 && static_cast<std::size_t>(part.node) < nodes) return agent;
+    throw ViewMismatch("subtree", "there is no node " + std::to_string(part.node) + " in the tree of " +
+                                      in_quotes(agent.name) + ": it has " + std::to_string(nodes) + ", counted from 0");
+}
+
 }  // namespace
 
 const std::string& name_in_view(const Scene& scene, const DrawnAgent& agent) {
@@ -115,6 +129,7 @@ std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState&
             mark(out.back(), who);
             if (is_in_grid(scene, view)) out.back().cell = fitted.grid()[static_cast<std::size_t>(index)];
         }
+        if (view.subtree && !scene.crowd) with_subtree(out, *view.subtree).subtree = view.subtree->node;
         if (scene.crowd && view.show == Show::space_time) {
             const double time = run_time(scene, view);
             for (DrawnAgent& agent : out) {

@@ -25,11 +25,12 @@ struct DrawnAgent {
     std::optional<mobb::SampleRange> window{};
     /// Its cell, if the view lays out a grid: `placed` is where it is drawn there, which answers nothing.
     std::optional<GridCell> cell{};
-    bool hidden = false;    ///< it has its place in lists and frames, but is not drawn
-    bool pinned = false;    ///< see ViewState::pinned
-    bool outlined = false;  ///< others are in the foreground: of it an outline is left (ViewState::foreground)
-    bool dimmed = false;    ///< others stand out: its colour is on the way to the background's
-    bool named = false;     ///< its name stands in the picture, however many there are
+    bool hidden = false;           ///< it has its place in lists and frames, but is not drawn
+    bool pinned = false;           ///< see ViewState::pinned
+    bool outlined = false;         ///< others are in the foreground: of it an outline is left (ViewState::foreground)
+    bool dimmed = false;           ///< others stand out: its colour is on the way to the background's
+    bool named = false;            ///< its name stands in the picture, however many there are
+    std::optional<int> subtree{};  ///< of its boxes those of this node and below it are drawn alone
 
     bool is_whole() const { return !hidden && !outlined; }
     const mobb::PlacedClip& clip() const { return placed.placed_clip(); }

@@ -34,9 +34,18 @@ void change_sides(Scene& scene, int agent, const Change& change) {
     }
 }
 
-/// Gives the queries that the view and bookmarks name other indices; what names one that is gone goes too.
+/// The scene's view and its named ones.
+template <class AScene, class Use>
+void for_each_view(AScene& scene, const Use& use) {
+    use(scene.view);
+    for (auto& named : scene.debug.views) use(named.view);
+}
+
+/// Gives the queries that views and bookmarks name other indices; what names one that is gone goes too.
 void renumber_queries(Scene& scene, const std::function<std::optional<int>(int)>& now) {
-    if (scene.view.query) scene.view.query = now(*scene.view.query);
+    for_each_view(scene, [&](ViewState& view) {
+        if (view.query) view.query = now(*view.query);
+    });
     std::vector<Bookmark> stay;
     for (Bookmark& bookmark : scene.debug.bookmarks) {
         const std::optional<int> query = now(bookmark.query);
@@ -58,7 +67,9 @@ class ImpliedQueries {
             const SceneQuery asked = query_at(scene, static_cast<std::size_t>(query));
             pairs_[query] = Pair{asked.a.agent, asked.b.agent};
         };
-        if (scene.view.query) keep(*scene.view.query);
+        for_each_view(scene, [&](const ViewState& view) {
+            if (view.query) keep(*view.query);
+        });
         for (const Bookmark& bookmark : scene.debug.bookmarks) keep(bookmark.query);
     }
 
@@ -112,6 +123,12 @@ void merge_debug_state(Scene& scene, DebugState other, const std::function<std::
         if (!query) continue;
         bookmark.query = *query;
         debug.bookmarks.push_back(std::move(bookmark));
+    }
+    UnusedNames view_names(debug.views);
+    for (NamedView& named : other.views) {
+        named.name = view_names.take(named.name);
+        if (named.view.query) named.view.query = now(*named.view.query);
+        debug.views.push_back(std::move(named));
     }
 }
 
@@ -186,7 +203,7 @@ void rename_agent(Scene& scene, int agent, const std::string& name) {
         }
     }
     const std::string before = std::exchange(agent_at(scene, agent).name, name);
-    rename_in_view(scene.view, before, name);
+    for_each_view(scene, [&](ViewState& view) { rename_in_view(view, before, name); });
     change_sides(scene, agent, [&](PlacedAgent& side) { side.name = name; });
 }
 
@@ -226,6 +243,10 @@ void remove_agent(Scene& scene, int agent) {
         });
     }
     std::erase_if(scene.queries, is_about_it);
+    for_each_view(scene, [&](ViewState& view) {
+        if (view.subtree && view.subtree->agent == agent) view.subtree.reset();
+        if (view.subtree && view.subtree->agent > agent) --view.subtree->agent;
+    });
     for (SceneQuery& query : scene.queries) {
         for (PlacedAgent* side : {&query.a, &query.b}) side->agent -= side->agent > agent ? 1 : 0;
     }
@@ -289,6 +310,7 @@ void merge(Scene& scene, Scene other) {
     const int first_clip = static_cast<int>(scene.clips.size());
     const int first_agent = static_cast<int>(scene.agents.size());
     const int first_query = static_cast<int>(scene.queries.size());
+    const int first_drawn = scene.agents.empty() ? first_clip : first_agent;
     const bool other_is_implied = other.queries.empty();
     const ImpliedQueries implied_in_other(other);
     UnusedNames clip_names(scene.clips);
@@ -312,6 +334,9 @@ void merge(Scene& scene, Scene other) {
         scene.queries.push_back(std::move(query));
     }
     implied.renumber(scene);
+    for_each_view(other, [&](ViewState& view) {
+        if (view.subtree) view.subtree->agent += first_drawn;
+    });
     merge_debug_state(scene, std::move(other.debug), [&](int query) -> std::optional<int> {
         if (!other_is_implied) return first_query + query;
         return scene.queries.empty() ? implied_in_other.query_now(scene, query, first_agent) : std::nullopt;

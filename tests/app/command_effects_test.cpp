@@ -442,6 +442,20 @@ std::vector<Case> cases() {
             EXPECT_EQ(find_command(option.command)->checked(w.session), now);
         });
     }
+    add({"node.isolate", "", {{"go.node", "B 1.0"}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.view().subtree, (DrawnNode{1, 1}));
+             run_command(w.session, "file.save");
+             run_command(w.session, "node.isolate");
+             EXPECT_EQ(w.view().subtree, std::nullopt);
+             run_command(w.session, "file.copy_command");
+             EXPECT_NE(w.desktop.text.find(" --subtree none"), std::string::npos) << w.desktop.text;
+         }});
+    add({"node.show_all", "", {{"go.node", "B 1.0"}, {"node.isolate", ""}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.view().subtree, std::nullopt);
+             run_command(w.session, "node.isolate");
+             run_command(w.session, "file.copy_command");
+             EXPECT_NE(w.desktop.text.find(" --subtree B:1"), std::string::npos) << w.desktop.text;
+         }});
     add({"agent.hide", "", {kSelectB}, [](CommandWorld& w) {
              EXPECT_EQ(w.view().hidden, std::vector<std::string>{"B"});
              run_command(w.session, "file.save");
@@ -1017,6 +1031,22 @@ std::vector<Case> cases() {
          {kFirstQuery, to_3, turn},
          [=](CommandWorld& w) { EXPECT_TRUE(bookmarks(w).empty()); },
          true});
+    const auto named = [](const CommandWorld& w) { return w.session.workspace.scene().debug.views; };
+    const std::pair<std::string, std::string> level_1{"view.level", "1"}, coarse{"view.save_as", "coarse"};
+    add({"view.save_as",
+         "coarse",
+         {level_1},
+         [=](CommandWorld& w) {
+             ASSERT_EQ(named(w).size(), 1u);
+             EXPECT_EQ(named(w)[0].name, "coarse");
+             EXPECT_EQ(named(w)[0].view.levels, (LevelRange{1, 1, false}));
+         },
+         true});
+    add({"view.go", "coarse", {level_1, coarse, {"view.leaves", ""}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.view().levels, (LevelRange{1, 1, false}));
+         }});
+    add({"view.rename", "rough", {coarse}, [=](CommandWorld& w) { EXPECT_EQ(named(w).at(0).name, "rough"); }, true});
+    add({"view.remove", "coarse", {coarse}, [=](CommandWorld& w) { EXPECT_TRUE(named(w).empty()); }, true});
     add({"step.visited_back", "", {kFirstQuery, kFirstStep, to_3}, [](CommandWorld& w) {
              EXPECT_EQ(w.session.workspace.step(), 0);
          }});
@@ -1113,6 +1143,9 @@ std::vector<Case> cases() {
          }});
     add({"go.child", "", {kSelectB}, [](CommandWorld& w) { expect_node(w, 0); }});
     add({"go.child", "", {{"go.node", "B 0"}}, [](CommandWorld& w) { expect_node(w, 1); }});
+    add({"go.last_child", "", {{"go.node", "B 0"}}, [](CommandWorld& w) {
+             expect_node(w, w.session.workspace.fitted().tree(0).children(0)[1]);
+         }});
     add({"go.next_node", "", {{"go.node", "B 1.0"}}, [](CommandWorld& w) {
              expect_node(w, w.session.workspace.fitted().tree(0).children(0)[1]);
          }});

@@ -191,6 +191,22 @@ TEST_P(KeptBuffersTest, PointingOutUploadsItsLinesAlone) {
     EXPECT_TRUE(as_painted_anew()) << "after a picture of another size";
 }
 
+/// The ghosts of a selection are part of what is pointed out.
+TEST_P(KeptBuffersTest, AncestorsUploadTheirLinesAlone) {
+    DrawList list = build_draw_list(paths_, {}, {.size = kSmallSize});
+    const DrawnAgent agent = drawn_agents(*paths_.fitted(), {})[0];
+    renderer().paint(list, 4);
+    const int nodes = static_cast<int>(agent.placed.tree().nodes().size());
+    for (const int node : {nodes - 1, nodes / 2, 1}) {
+        add_ancestors(list, agent, node, 1);
+        EXPECT_EQ(list.highlights.size(), 12u * static_cast<std::size_t>(agent.placed.tree().level(node)));
+        renderer().paint_highlights(list, 4);
+        const DrawStatistics statistics = renderer().statistics();
+        EXPECT_EQ(statistics.world_bytes + statistics.state_bytes, 0u) << node;
+        EXPECT_EQ(statistics.overlay_bytes, list.highlights.size() * 17 * sizeof(float));
+    }
+}
+
 /// What a list shows is known by its revision: another one may stand where it stood.
 TEST_P(KeptBuffersTest, AnotherListInTheSamePlaceIsPaintedAnew) {
     ViewState view;

@@ -35,6 +35,7 @@ std::vector<Points> elements_of(const DrawList& list) {
         out.emplace_back(corners.begin(), corners.end());
     }
     for (const LineInstance& line : list.lines) out.push_back({line.from, line.to});
+    for (const HighlightLine& line : list.highlights) out.push_back({line.from, line.to});
     std::ranges::sort(out, comes_before);
     return out;
 }
@@ -92,7 +93,7 @@ FittedScene two_walks() {
 
 /// Views of these two in which a toggle may show something.
 std::vector<ViewState> views() {
-    ViewState levels, query, moment, proven, line;
+    ViewState levels, query, moment, proven, line, part;
     levels.levels = {0, 0, true};
     levels.time = 4;
     query.query = 0;
@@ -104,7 +105,9 @@ std::vector<ViewState> views() {
     line.query = 0;
     line.show = Show::moment;
     line.time = 4;
-    return {levels, query, moment, proven, line};
+    part.levels = {0, 0, true};
+    part.subtree = DrawnNode{1, 7};  // a leaf
+    return {levels, query, moment, proven, line, part};
 }
 
 std::string described(const ViewOption& option, const ViewState& view) {

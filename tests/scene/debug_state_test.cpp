@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -70,6 +71,52 @@ TEST(DebugState, IsRefusedWithItsPlace) {
           R"({"bookmarks": [{"query": 0.5, "step": 1}]})"}) {
         EXPECT_NE(debug_refusal(debug).find("/debug"), std::string::npos) << debug << ": " << debug_refusal(debug);
     }
+}
+
+constexpr const char* kViews =
+    R"({"views": [{"name": " from behind ", "view": {"camera": {"preset": "front"}, "query": 2}},
+    {"name": "B alone", "view": {"hidden": ["A"], "subtree": {"participant": 1, "node": 0}}}]})";
+
+TEST(DebugState, HasNamedViews) {
+    const Scene scene = debugged(kViews);
+    ASSERT_EQ(scene.debug.views.size(), 2u);
+    EXPECT_EQ(scene.debug.views[0].name, "from behind");
+    EXPECT_EQ(scene.debug.views[0].view.camera.preset, CameraPreset::front);
+    EXPECT_EQ(scene.debug.views[1].view.subtree, (DrawnNode{1, 0}));
+    EXPECT_EQ(parse_scene(to_json(scene), "s.json", "").debug, scene.debug);
+    for (const auto& [views, why] : {std::pair(R"([{"name": "x"}])", "view"), std::pair(R"([{"view": {}}])", "name"),
+                                     std::pair(R"([{"name": " ", "view": {}}])", "/debug/views/0/name"),
+                                     std::pair(R"([{"name": "x", "view": {"levls": 1}}])", "/debug/views/0/view"),
+                                     std::pair(R"([{"name": "x", "view": {}}, {"name": "x", "view": {}}])",
+                                               "/debug/views/1/name: another view is named 'x'"),
+                                     std::pair(R"({})", "/debug/views")}) {
+        const std::string refused = debug_refusal(R"({"views": )" + std::string(views) + "}");
+        EXPECT_NE(refused.find(why), std::string::npos) << views << ": " << refused;
+        EXPECT_EQ(refused.find('\n'), std::string::npos);
+    }
+}
+
+TEST(DebugState, NamedViewsFollowAgentsAndQueries) {
+    Scene scene = debugged(kViews);
+    scene.view.subtree = DrawnNode{0, 3};
+    const std::vector<NamedView>& views = scene.debug.views;
+    duplicate_agent(scene, 0);
+    EXPECT_EQ(views[0].view.query, 3) << "AB AC AA BC BA CA";
+    rename_agent(scene, 0, "first");
+    EXPECT_EQ(views[1].view.hidden, std::vector<std::string>{"first"});
+    remove_agent(scene, 0);
+    EXPECT_EQ(views[0].view.query, 0);
+    EXPECT_EQ(views[1].view.subtree, (DrawnNode{0, 0})) << "B is the first now";
+    EXPECT_EQ(scene.view.subtree, std::nullopt) << "it was of the one that is gone";
+    remove_agent(scene, 0);
+    EXPECT_EQ(views[0].view.query, std::nullopt);
+    EXPECT_EQ(views[1].view.subtree, std::nullopt);
+    Scene both = debugged(kViews);
+    merge(both, debugged(kViews));
+    ASSERT_EQ(both.debug.views.size(), 4u);
+    EXPECT_EQ(both.debug.views[3].name, "B alone 2");
+    EXPECT_EQ(both.debug.views[3].view.subtree, (DrawnNode{4, 0}));
+    EXPECT_EQ(query_at(both, static_cast<std::size_t>(*both.debug.views[2].view.query)).a.name, "B 2");
 }
 
 TEST(DebugState, BookmarksFollowImpliedQueries) {

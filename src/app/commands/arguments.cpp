@@ -16,6 +16,13 @@ namespace {
 
 }  // namespace
 
+std::string given_name(std::string_view text, const std::string& what) {
+    const std::string_view name = trimmed(text);
+    if (name.empty()) throw std::invalid_argument(what + " needs a name");
+    if (!is_utf8(name)) throw std::invalid_argument("a name is written in UTF-8");
+    return std::string(name);
+}
+
 std::vector<std::string> words_of(std::string_view text) {
     std::istringstream in{std::string(text)};
     return {std::istream_iterator<std::string>(in), {}};

@@ -40,6 +40,9 @@ glm::dvec2 two_numbers(std::string_view text, std::string_view what);
 /// "walker north 12": a name, which may hold blanks, and the word behind it.
 std::pair<std::string_view, std::string_view> name_and_word(std::string_view text, std::string_view what);
 
+/// A name as it is kept, without blanks around it; `what` has it: "a view".
+std::string given_name(std::string_view text, const std::string& what);
+
 /// The node of an index ("12"), or of a level and a place in it, counted from 0 in order of time ("2.1"). Throws
 /// std::invalid_argument, saying what there is, if there is none.
 int node_at(const mobb::Tree& tree, std::string_view text);

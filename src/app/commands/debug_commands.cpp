@@ -25,14 +25,6 @@ const DebugState& debug_of(const Workspace& workspace) { return workspace.scene(
 std::string_view why_no_events() { return "no query is shown"; }
 Condition with_events() { return {has_events, why_no_events}; }
 
-/// A name as it is kept. Throws std::invalid_argument if it is none.
-std::string name_for(std::string_view text, const std::string& what) {
-    const std::string_view name = trimmed(text);
-    if (name.empty()) throw std::invalid_argument(what + " needs a name");
-    if (!is_utf8(name)) throw std::invalid_argument("a name is written in UTF-8");
-    return std::string(name);
-}
-
 // --- the list of events
 
 bool shows_list(const Settings& settings) { return settings.bottom_tab == BottomTab::events; }
@@ -108,7 +100,7 @@ std::optional<std::size_t> saved_filter(const Workspace& workspace) {
 
 /// Under a name; another one of that name becomes this one.
 void save_filter(Workspace& workspace, const std::string& text) {
-    const std::string name = name_for(text, "a filter");
+    const std::string name = given_name(text, "a filter");
     workspace.edit_debug("saving the filter " + name, [&](DebugState& debug) {
         const auto known = std::ranges::find(debug.filters, name, &NamedFilter::name);
         NamedFilter saved{name, filter_now(workspace)};
@@ -121,7 +113,7 @@ void save_filter(Workspace& workspace, const std::string& text) {
 }
 
 void rename_filter(Workspace& workspace, const std::string& text) {
-    const std::string name = name_for(text, "a filter");
+    const std::string name = given_name(text, "a filter");
     const std::size_t index = *saved_filter(workspace);
     const std::vector<std::string> names = filter_names(workspace);
     if (names[index] == name) return;
@@ -251,7 +243,7 @@ void add_bookmark(Session& session, const std::string& text) {
     if (const auto known = present_bookmark(workspace))
         throw std::invalid_argument("this step is bookmarked already: " + bookmark_names(workspace)[*known]);
     UnusedNames names(debug_of(workspace).bookmarks);
-    const std::string wanted = trimmed(text).empty() ? name_of_event(queries, step) : name_for(text, "a bookmark");
+    const std::string wanted = trimmed(text).empty() ? name_of_event(queries, step) : given_name(text, "a bookmark");
     const std::string name = names.take(wanted);
     workspace.edit_debug("bookmark " + name, [&](DebugState& debug) {
         debug.bookmarks.push_back({name, *workspace.view().query, step, ""});
@@ -273,7 +265,7 @@ void remove_bookmark(Workspace& workspace, const std::string& name) {
 }
 
 void rename_bookmark(Workspace& workspace, const std::string& text) {
-    const std::string name = name_for(text, "a bookmark");
+    const std::string name = given_name(text, "a bookmark");
     const std::size_t index = *present_bookmark(workspace);
     const std::vector<std::string> names = bookmark_names(workspace);
     if (names[index] != name && std::ranges::find(names, name) != names.end())

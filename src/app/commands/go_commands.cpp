@@ -5,7 +5,9 @@
 #include <render/parts/node_boxes.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <unordered_set>
 #include <vector>
 
@@ -51,6 +53,10 @@ void go_to(Workspace& workspace, const Selection& selected) {
     workspace.change_view([&](ViewState& view) {
         if (!in_view) view.query.reset();
         if (selected.kind != Selection::Kind::node || view.query) return;
+        // A part that is shown alone goes along with what is selected outside of it.
+        const bool of_part = view.subtree && view.subtree->agent == selected.path.agent;
+        if (of_part && !is_within(tree, selected.index, view.subtree->node)) view.subtree->node = selected.index;
+        if (of_part && view.subtree->node == selected.index) return;
         const std::vector<int> shown = shown_nodes(tree, view.levels);
         if (std::find(shown.begin(), shown.end(), selected.index) != shown.end()) return;
         const int level = tree.level(selected.index);
@@ -90,12 +96,13 @@ int parent(const Workspace& workspace) {
     return selected_tree(workspace).parent(selected.index);
 }
 
-/// A node's first child, or a path's root; -1 if there is none.
+/// A node's first or last child, or a path's root; -1 if there is none.
+template <std::size_t which>
 int child(const Workspace& workspace) {
     const Selection& selected = workspace.selection;
     if (selected.kind == Selection::Kind::path) return 0;
     if (selected.kind != Selection::Kind::node) return -1;
-    return selected_tree(workspace).children(selected.index)[0];
+    return selected_tree(workspace).children(selected.index)[which];
 }
 
 /// The node before or after on the same level; -1 if there is none.
@@ -103,6 +110,21 @@ template <int direction>
 int neighbour(const Workspace& workspace) {
     if (workspace.selection.kind != Selection::Kind::node) return -1;
     return neighbour_on_level(selected_tree(workspace), workspace.selection.index, direction);
+}
+
+bool is_node_selected(const Workspace& workspace) { return workspace.selection.kind == Selection::Kind::node; }
+
+/// Where there is no node to go to: the tree ends there.
+std::string_view why_no_parent(const Workspace& workspace) {
+    return is_node_selected(workspace) ? "this is the root of its tree" : "no node or sample is selected";
+}
+std::string_view why_no_child(const Workspace& workspace) {
+    return is_node_selected(workspace) ? "this is a leaf" : "no node or agent is selected";
+}
+template <int direction>
+std::string_view why_no_neighbour(const Workspace& workspace) {
+    if (!is_node_selected(workspace)) return "no node is selected";
+    return direction < 0 ? "this is the first node of its level" : "this is the last node of its level";
 }
 
 /// A command that goes to the node that `find` finds, if it finds one.
@@ -164,16 +186,22 @@ std::vector<Command> go_commands() {
                 {.argument = "AGENT INDEX"}),
         Command("go.parent", "Parent node",
                 "Selects the node above the selected one, or the leaf that holds the selected sample.",
-                go_to_found<parent>, {.shortcut = "Ctrl+Up", .repeats = true, .enabled = is_found<parent>}),
+                go_to_found<parent>,
+                {.shortcut = "Ctrl+Up", .repeats = true, .enabled = {is_found<parent>, why_no_parent}}),
         Command("go.child", "First child node",
                 "Selects the first node below the selected one, or the root of the selected agent's tree.",
-                go_to_found<child>, {.shortcut = "Ctrl+Down", .repeats = true, .enabled = is_found<child>}),
+                go_to_found<child<0>>,
+                {.shortcut = "Ctrl+Down", .repeats = true, .enabled = {is_found<child<0>>, why_no_child}}),
+        Command("go.last_child", "Last child node",
+                "Selects the last node below the selected one, or the root of the selected agent's tree.",
+                go_to_found<child<1>>,
+                {.shortcut = "Ctrl+Shift+Down", .repeats = true, .enabled = {is_found<child<1>>, why_no_child}}),
         Command("go.previous_node", "Previous node", "Selects the node before the selected one on its level.",
                 go_to_found<neighbour<-1>>,
-                {.shortcut = "Ctrl+Left", .repeats = true, .enabled = is_found<neighbour<-1>>}),
+                {.shortcut = "Ctrl+Left", .repeats = true, .enabled = {is_found<neighbour<-1>>, why_no_neighbour<-1>}}),
         Command("go.next_node", "Next node", "Selects the node after the selected one on its level.",
                 go_to_found<neighbour<1>>,
-                {.shortcut = "Ctrl+Right", .repeats = true, .enabled = is_found<neighbour<1>>}),
+                {.shortcut = "Ctrl+Right", .repeats = true, .enabled = {is_found<neighbour<1>>, why_no_neighbour<1>}}),
         Command("go.contact", "Contact",
                 "Goes to the moment and the step at which the two of the query in view first touch.", go_contact,
                 {.enabled = {has_contact, why_no_step}}),

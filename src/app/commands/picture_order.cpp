@@ -82,12 +82,21 @@ std::string camera_options(const Camera& file, const Camera& now) {
     return out;
 }
 
+/// Agents have the places of those that are drawn, but in a run, which shows no part of a tree alone.
+std::string subtree_option(const ViewState& view, const std::vector<std::string>& agents) {
+    if (!view.subtree) return " --subtree none";
+    const std::string& agent = agents.at(static_cast<std::size_t>(view.subtree->agent));
+    return " --subtree " + shell_word(agent + ':' + std::to_string(view.subtree->node));
+}
+
 /// The options that lead from the view of a file with these agents to another; none if that takes more than options.
 std::optional<std::string> view_options_between(const ViewState& file, const ViewState& now,
                                                 const std::vector<std::string>& agents) {
     std::string out = camera_options(file.camera, now.camera);
     ViewState reached = file;  // as `render` applies the options
     reached.camera = now.camera;
+    reached.subtree = now.subtree;
+    if (now.subtree != file.subtree) out += subtree_option(now, agents);
     for (const ViewOption& option : view_options()) {
         const bool needed = option.needed ? option.needed(reached, now) : !option.same(reached, now);
         if (!needed) continue;

@@ -1,6 +1,7 @@
 #include <app/commands/arguments.h>
 #include <app/commands/command.h>
 #include <app/document/agents.h>
+#include <app/document/described.h>
 #include <base/text.h>
 #include <scene/scene_json.h>
 
@@ -130,6 +131,38 @@ void mend_finding(Session& session, const std::string& text) {
     });
 }
 
+// --- a part of a tree alone
+
+/// That of the selected node; none where the picture cannot show it. The agents of a run are others at every time.
+std::optional<DrawnNode> selected_part(const Workspace& workspace) {
+    const Selection& selected = workspace.selection;
+    const bool is_node = selected.kind == Selection::Kind::node && selected.path.agent >= 0;
+    if (!is_node || workspace.crowd()) return std::nullopt;
+    return DrawnNode{selected.path.agent, selected.index};
+}
+
+bool shows_part(const Workspace& workspace) { return workspace.view().subtree.has_value(); }
+std::string_view why_no_part(const Workspace& workspace) {
+    return workspace.crowd() ? "the agents of a run are others at every time" : "no node is selected";
+}
+
+void show_all_nodes(Workspace& workspace) {
+    workspace.change_view([](ViewState& view) { view.subtree.reset(); },
+                          EditName{"showing all nodes again", "look part"});
+}
+
+void show_part(Workspace& workspace) {
+    const std::optional<DrawnNode> part = selected_part(workspace);
+    if (!part || workspace.view().subtree == part) return show_all_nodes(workspace);
+    const auto show = [&](ViewState& view) {
+        view.subtree = part;
+        view.boxes = true;
+        view.query.reset();
+    };
+    workspace.change_view(show,
+                          EditName{"showing " + describe(workspace, workspace.selection).name + " alone", "look part"});
+}
+
 }  // namespace
 
 std::vector<Command> tree_commands() {
@@ -176,6 +209,17 @@ std::vector<Command> tree_commands() {
                      },
                  .chosen = [](const Workspace& workspace,
                               const std::string& kind) { return name(workspace.workload()) == kind; }}),
+        Command("node.isolate", "Show this node alone",
+                "Draws of its agent only the box of the selected node and those below it; once more shows all again.",
+                show_part,
+                {.shortcut = "Shift+I",
+                 .enabled = {[](const Workspace& workspace) {
+                                 return selected_part(workspace).has_value() || shows_part(workspace);
+                             },
+                             why_no_part},
+                 .checked = shows_part}),
+        Command("node.show_all", "Show all nodes", "Draws all boxes again after those of a node alone.", show_all_nodes,
+                {.enabled = {shows_part, [] { return std::string_view("no node is shown alone"); }}}),
         Command("tree.what_if", "What if this node were other?",
                 "Measures what queries would cost if the selected node had other axes, another box or another split.",
                 [](WhatIfInspector& what_if, Keys& keys) {

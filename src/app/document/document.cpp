@@ -132,12 +132,26 @@ bool quick_to_fit(const Scene& scene, const FittedScene& present, const FittedSc
     return work < kQuickSamples;
 }
 
+void drop_other_part(ViewState& view, const FittedScene& now, const FittedScene& before) {
+    if (!view.subtree) return;
+    const auto samples = [&](const FittedScene& fitted) -> std::optional<std::pair<int, int>> {
+        const Selection part{Selection::Kind::node, {view.subtree->agent, -1, 0}, view.subtree->node};
+        if (!exists(fitted, part)) return std::nullopt;
+        const mobb::Node& node = fitted.tree(placed_agent_of(fitted, part.path)->clip).node(part.index);
+        return std::pair(node.first, node.count);
+    };
+    if (samples(now) != samples(before)) view.subtree.reset();
+}
+
 ViewState clamped(ViewState view, const FittedScene& fitted) {
     if (view.query && static_cast<std::size_t>(*view.query) >= fitted.queries().size()) view.query.reset();
     if (!view.follow.empty() && !can_follow(fitted.scene(), view.follow)) view.follow.clear();
     drop_unknown_names(fitted.scene(), view);
     // A node of a tree that was fitted anew is another one, or none.
     if (view.projection && !has_projection(fitted, view)) view.projection.reset();
+    const bool has_part = view.subtree && !fitted.scene().crowd &&
+                          exists(fitted, {Selection::Kind::node, {view.subtree->agent, -1, 0}, view.subtree->node});
+    if (!has_part) view.subtree.reset();
     // A run is always seen at some time.
     if (fitted.scene().crowd && !view.time) view.time = run_time(fitted.scene(), view);
     return view;

@@ -88,6 +88,9 @@ std::size_t fit_with(FittedScene& fitted, const std::string& name, const mobb::F
 /// Whether with_scene is done in an instant.
 bool quick_to_fit(const Scene& scene, const FittedScene& present, const FittedScene* fitted_beside);
 
+/// Takes the part of a tree that is shown alone out of a view of `now` which took it over from one of `before`, where
+/// its node is of other samples now.
+void drop_other_part(ViewState& view, const FittedScene& now, const FittedScene& before);
 /// The view without what the scene does not have: queries, names, nodes.
 ViewState clamped(ViewState view, const FittedScene& fitted);
 /// The same of all views of a document.

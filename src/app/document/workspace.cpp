@@ -107,6 +107,7 @@ void Workspace::go_to_event(int event) {
 }
 
 void Workspace::change_document(Document next, const EditName& name) {
+    if (next.view.subtree == view().subtree) drop_other_part(next.view, *next.fitted, *document().fitted);
     clamp_views(next);
     remember_step(next);
     history.change(std::move(next), name);

@@ -116,6 +116,7 @@ class Workspace {
     };
     std::optional<CompareWith> compare_with;
     VisitedSteps visited;
+    std::string named_view;  ///< of the scene's, the one that was gone to or saved last; empty: none was
 
     /// Of which size the pictures are that cameras stand for; none: nothing was drawn since the scene was opened.
     std::optional<PictureSize> picture_size;

@@ -88,6 +88,26 @@ class MapPicture {
     std::vector<PixelLine> hatch_;
 };
 
+/// The scene's named views as small pictures, each drawn when it is shown first.
+class ViewPictures {
+  public:
+    /// Nothing where the scene has none.
+    void section(Ui& ui);
+
+  private:
+    struct Kept {
+        std::shared_ptr<const FittedScene> fitted;  ///< null: none is made yet
+        ViewState view;
+        PictureSize size;
+        std::shared_ptr<const Image> image;  ///< null: it cannot be drawn
+        bool shows(const FittedScene& now, const ViewState& seen, PictureSize as) const;
+    };
+    void one(Ui& ui, std::size_t index, ImVec2 size);
+    void make(Session& session, std::size_t index, const ViewState& seen, PictureSize size);
+
+    std::vector<Kept> kept_;  ///< by the views' places in the scene
+};
+
 /// How near the bones of the query in view come to each other.
 class QueryBodies {
   public:
@@ -131,6 +151,7 @@ class QueryPictures {
     void compare(Ui& ui, QueryInspector& queries, const QueryFindings& findings);
 
     MapPicture map;
+    ViewPictures views;
 
   private:
     void compare_strips(Ui& ui, QueryInspector& queries, const std::shared_ptr<const FitComparison>& other);

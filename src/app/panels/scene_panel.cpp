@@ -391,6 +391,7 @@ void selection_panel(Ui& ui) {
     }
     const Described what = describe(ui.workspace, ui.workspace.selection);
     ImGui::TextWrapped("%s", what.name.c_str());
+    node_links(ui);
     for (const auto& [key, value] : what.facts) {
         form_label(ui, key.c_str(), nullptr);
         ImGui::PushFont(ui.style.mono);

@@ -195,6 +195,7 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
             if (screen) return panels[0].draw(ui);
             for (const auto& each : ui.session.screens) each->draw_above_scene(ui);
             scene_panel(ui, ui.session.queries);
+            pictures.views.section(ui);
             tree_panel(ui, ui.session.jobs, ui.session.queries, ui.session.fit_costs, ui.session.notices);
             sweep_panel(ui, ui.session.sweeps);
         });

@@ -39,6 +39,18 @@ void add_highlight_of(DrawList& list, const Session& session, const Selection& w
     if (const auto owner = owner_in_view(session, what)) add_highlight(list, *owner, what.part(), role, scale);
 }
 
+/// The boxes above the selected node, or else above the part that is shown alone.
+void add_ancestors_of(DrawList& list, const Session& session, float scale) {
+    const ViewState& view = session.workspace.view();
+    if (!view.ancestors || view.projection) return;
+    const Selection& selected = session.workspace.selection;
+    if (selected.kind == Selection::Kind::node) {
+        if (const auto owner = owner_in_view(session, selected)) add_ancestors(list, *owner, selected.index, scale);
+        return;
+    }
+    if (view.subtree) add_ancestors_of_part(list, drawn_agents(session.workspace.fitted(), view), view, scale);
+}
+
 /// The box that is tried in place of the selected node's, or those of its children where it is split otherwise.
 void add_variant(DrawList& list, const Session& session, float scale) {
     const WhatIf* found = session.what_if.found();
@@ -93,6 +105,7 @@ void add_other_of_conflict(DrawList& list, const Session& session, float scale) 
 }  // namespace
 
 void add_highlights(DrawList& list, const Session& session, float scale) {
+    add_ancestors_of(list, session, scale);
     add_highlight_of(list, session, session.workspace.selection, Role::selection, scale);
     if (session.workspace.hovered != session.workspace.selection) {
         add_highlight_of(list, session, session.workspace.hovered, Role::hover, scale);

@@ -185,7 +185,7 @@ void RenderPlan::add(RenderArguments arguments) {
     RenderJob job{std::move(arguments), nullptr, {}};
     job.paths = scenes_.paths(job.arguments);
     const FittedScene& fitted = *job.paths->fitted();
-    const ViewState view = view_over(fitted.scene(), job.arguments.view);
+    const ViewState view = view_over(fitted, job.arguments.view);
     try {
         job.pictures = pictures_of(*job.paths, view, job.arguments);
         check_and_frame(job);

@@ -1,3 +1,4 @@
+#include <app/commands/arguments.h>
 #include <app/window/shell.h>
 #include <base/error.h>
 #include <base/file.h>
@@ -11,9 +12,13 @@
 #include <scene/load_files.h>
 #include <scene/view_options.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace mobbscope::cli {
 
@@ -75,8 +80,16 @@ void add_camera_options(Command& command, ViewArguments& view) {
     const auto add = [&](const char* name, auto& target, auto parse, const char* help, const char* placeholder) {
         add_parsed(command, name, target, parse, help, placeholder).group(kGroup);
     };
-    add("--view", view.preset, one_of(camera_preset, "iso, top, front, side, free"),
-        "iso, top, front, side, or free (--yaw, --pitch); frames the scene", "NAME");
+    const auto see = [&view](const std::string& text) {
+        view.preset = camera_preset(text);
+        view.named = view.preset ? "" : text;
+    };
+    command
+        .add_option("--view", see,
+                    "iso, top, front, side, or free (--yaw, --pitch), which frame the scene; or a view that the scene "
+                    "has by name",
+                    "NAME")
+        .group(kGroup);
     add("--yaw", view.yaw, number_within(-3600, 3600), "Free: degrees from +x to the eye, counter-clockwise", "DEG");
     add("--pitch", view.pitch, number_within(-90, 90), "Free: degrees above the floor", "DEG");
     add("--fov", view.fov, number_within(kLeastFov, kMostFov), "Vertical field of view in degrees", "DEG");
@@ -119,6 +132,36 @@ void add_shown_options(Command& command, ViewArguments& view) {
         const std::string help_of_short = formatted("Short for %s %s", name.c_str(), value.c_str());
         const auto set_short = [set, value](bool) { set(value); };
         command.add_flag(std::string(option.short_form.option), set_short, help_of_short).group(kShownGroup);
+    }
+}
+
+/// The named view that --view asks for, else the scene's own.
+const ViewState& own_view(const Scene& scene, const std::string& name) {
+    if (name.empty()) return scene.view;
+    const std::vector<NamedView>& views = scene.debug.views;
+    const auto found = std::ranges::find(views, name, &NamedView::name);
+    if (found != views.end()) return found->view;
+    std::string known = "iso, top, front, side or free";
+    for (const NamedView& named : views) known.append(", ").append(in_quotes(named.name));
+    throw InputError("--view: " + in_quotes(name) + " is neither a direction nor a view of this scene: give " + known);
+}
+
+/// The node of "A:12", or "A:2.1" by level and place; none of "none".
+std::optional<DrawnNode> part_named(const FittedScene& fitted, const std::string& text) {
+    if (text == "none") return std::nullopt;
+    const std::size_t colon = text.rfind(':');
+    const std::string name = text.substr(0, colon);
+    const auto refuse = [](const std::string& why) { return InputError("--subtree: " + why); };
+    if (colon == std::string::npos) throw refuse(in_quotes(text) + " is no node: give AGENT:NODE, such as A:2.1");
+    if (fitted.scene().crowd) throw refuse("the agents of a run are others at every time");
+    const std::vector<PlacedAgent>& agents = fitted.placed_agents();
+    const auto who = std::ranges::find(agents, name, &PlacedAgent::name);
+    if (who == agents.end()) throw refuse("there is no agent " + in_quotes(name));
+    try {
+        const int node = app::node_at(fitted.tree(who->clip), std::string_view(text).substr(colon + 1));
+        return DrawnNode{static_cast<int>(who - agents.begin()), node};
+    } catch (const std::invalid_argument& error) {
+        throw refuse(error.what());
     }
 }
 
@@ -283,6 +326,11 @@ void add_render_options(Command& command, RenderArguments& arguments) {
     add_parsed(command, "--measure", arguments.measure, parse_measured_line,
                "Draws how far apart two places are, metres on the floor and seconds", "X,Y,T:X,Y,T")
         .group(kShownGroup);
+    command
+        .add_option(
+            "--subtree", [&arguments](const std::string& text) { arguments.view.subtree = text; },
+            std::string(view_option("subtree").what), "AGENT:NODE")
+        .group(kShownGroup);
     add_sequence_options(command, arguments.sequence);
     add_fit_options(command, arguments.fit);
     add_import_options(command, arguments.import_options);
@@ -296,6 +344,9 @@ void check_together(const RenderArguments& arguments) {
     if (view.says("query") && view.says("levels")) {
         contradict("--query", "--level", "a picture shows a query or levels; leave one out");
     }
+    if (view.says("query") && !view.subtree.empty()) {
+        contradict("--query", "--subtree", "a picture shows a query or a part of a tree; leave one out");
+    }
     check_window(arguments);
     if (!arguments.outputs.image.empty()) {
         try {
@@ -308,8 +359,9 @@ void check_together(const RenderArguments& arguments) {
     check_sequence(arguments);
 }
 
-ViewState view_over(const Scene& scene, const ViewArguments& arguments) {
-    ViewState view = scene.view;
+ViewState view_over(const FittedScene& fitted, const ViewArguments& arguments) {
+    const Scene& scene = fitted.scene();
+    ViewState view = own_view(scene, arguments.named);
     if (!arguments.state.empty()) view = view_of_file(arguments.state, view);
     view.camera = camera_over(view.camera, arguments);
     const std::vector<std::string> agents = names_in_view(scene);
@@ -319,6 +371,7 @@ ViewState view_over(const Scene& scene, const ViewArguments& arguments) {
         if (option.names) (view.*option.names).clear();
         for (const std::string& text : given->second) parse_option(option, text, agents, view);
     }
+    if (!arguments.subtree.empty()) view.subtree = part_named(fitted, arguments.subtree);
     if (arguments.says("step") && !view.query) throw InputError("--step: say with --query which query it is a step of");
     return view;
 }

@@ -8,6 +8,7 @@
 #include <render/parts/highlights.h>
 #include <render/parts/measured_line.h>
 #include <scene/scene.h>
+#include <scene/fitted_scene.h>
 #include <scene/view_state.h>
 
 #include <glm/vec2.hpp>
@@ -28,6 +29,7 @@ namespace mobbscope::cli {
 struct ViewArguments {
     std::filesystem::path state;  ///< --view-state
     std::optional<CameraPreset> preset;
+    std::string named;  ///< --view, where it is one of the scene's named views
     std::optional<double> yaw, pitch, fov;
     std::optional<bool> perspective;
     std::optional<glm::dvec3> target;
@@ -35,6 +37,7 @@ struct ViewArguments {
     std::optional<glm::dvec2> shift;
     /// The texts of those that the table of view options has (scene/view_options.h), by its keys; of a list several.
     std::map<std::string, std::vector<std::string>, std::less<>> shown;
+    std::string subtree;  ///< --subtree: AGENT:NODE, or none
 
     bool says(std::string_view key) const { return shown.contains(key); }
 };
@@ -71,9 +74,9 @@ void add_render_options(Command& command, RenderArguments& arguments);
 /// had, whatever the scene.
 void check_together(const RenderArguments& arguments);
 
-/// The scene's view with the options given over it. Throws InputError if the view state's file is none, or the two do
-/// not go together.
-ViewState view_over(const Scene& scene, const ViewArguments& arguments);
+/// The scene's view, or one of its named ones, with the options given over it. Throws InputError if the view state's
+/// file is none, the two do not go together, or the scene has no such view or node.
+ViewState view_over(const FittedScene& fitted, const ViewArguments& arguments);
 
 /// Throws InputError for a view that names what its scene does not have, at the place in the file that says it.
 [[noreturn]] void refuse_view(const RenderArguments& arguments, const ViewMismatch& mismatch);

@@ -197,12 +197,14 @@ struct HighlightLine {
         conflict,   ///< whom the followed agent is about to meet
         ghost,      ///< where the agent stood that is being dragged
         measure,    ///< between two places
+        ancestor,   ///< the boxes above a node
     };
     Role role = Role::selection;
     glm::vec3 from{0};
     glm::vec3 to{0};
     Rgba color{1};
     float width = 1;  ///< pixels
+    Dash dash = kSolid;
     friend bool operator==(const HighlightLine&, const HighlightLine&) = default;
 };
 

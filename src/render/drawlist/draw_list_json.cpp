@@ -92,7 +92,7 @@ constexpr std::array kBoxStates{"level",   "under_test", "apart_in_time", "separ
                                 "overlap", "avoidable",  "hit",           "annotation"};
 constexpr std::array kLegendMarks{"disk", "ring", "double_ring", "box", "line", "remark"};
 constexpr std::array kOverlays{"caption", "legend", "inset"};
-constexpr std::array kHighlightRoles{"selection", "hover", "candidate", "conflict", "ghost", "measure"};
+constexpr std::array kHighlightRoles{"selection", "hover", "candidate", "conflict", "ghost", "measure", "ancestor"};
 constexpr std::array kTextRoles{"label", "tick", "name", "note", "caption", "legend", "header", "map"};
 
 template <class Names, class Enum>
@@ -226,7 +226,7 @@ void write_draw_list(std::ostream& stream, const DrawList& list, const IdImage* 
     if (!list.highlights.empty()) {
         rows(out, "highlights", list.highlights, [&](const HighlightLine& line) {
             members(out, "role", name_in(kHighlightRoles, line.role), "from", line.from, "to", line.to, "color",
-                    color_text(line.color), "width", line.width, "on_screen",
+                    color_text(line.color), "width", line.width, "dash", line.dash, "on_screen",
                     on_screen(seen_by, std::array{line.from, line.to}));
         });
     }

@@ -7,12 +7,11 @@
 ///      "dash",
 ///                  "on_screen", "pixels"}],
 ///      "lines":  [{"layer", "from", "to", "color", "width", "dash", "cap", "hidden", "on_screen"}],
-///      "highlights": [{"role", "from", "to", "color", "width", "on_screen"}],   only where something is pointed out
-///      "headline", "legend": [{"mark", "color", "text"}],
-///      "overlays": [{"name", "min", "max", "folded", "no_room", "more"}],
-///      "panels": [{"min", "max", "radius", "fill", "border", "border_width"}],
-///      "overlay_lines": [{"from", "to", "color", "width", "dash"}], "marks": [as panels],
-///      "texts":  [{"text", "role", "at", "size", "face", "color", "on_screen"}]}
+///      "highlights": [{"role", "from", "to", "color", "width", "dash", "on_screen"}],   only where something is
+///      pointed out "headline", "legend": [{"mark", "color", "text"}], "overlays": [{"name", "min", "max", "folded",
+///      "no_room", "more"}], "panels": [{"min", "max", "radius", "fill", "border", "border_width"}], "overlay_lines":
+///      [{"from", "to", "color", "width", "dash"}], "marks": [as panels], "texts":  [{"text", "role", "at", "size",
+///      "face", "color", "on_screen"}]}
 ///
 /// Positions are in drawn metres, places on the screen in pixels from the upper left corner, colours "#RRGGBBAA";
 /// numbers have six significant digits. Disks and boxes are sorted by what they stand for and lines by their place in

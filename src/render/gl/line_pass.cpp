@@ -163,7 +163,7 @@ void LinePass::draw_highlights(const DrawList& list, DrawStatistics& statistics)
     std::vector<Instance> instances;
     instances.reserve(list.highlights.size());
     for (const HighlightLine& line : list.highlights) {
-        instances.push_back({line.from, line.to, {line.color, kSolid, {line.width, 0, 0}}});
+        instances.push_back({line.from, line.to, {line.color, line.dash, {line.width, 0, 0}}});
     }
     statistics.overlay_bytes += upload(highlights_, instances);
     // The depths of the picture are the world's, and what is pointed out may lie before or beyond it: only what the eye

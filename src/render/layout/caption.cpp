@@ -63,7 +63,7 @@ std::string boxes_text(std::span<const DrawnAgent> agents, const LevelRange& lev
         if (!agent.is_whole()) continue;
         const mobb::Tree& tree = agent.placed.tree();
         last = std::max(last, last_shown_level(tree, levels));
-        for (const int node : shown_nodes(tree, levels)) {
+        for (const int node : shown_nodes(agent, levels)) {
             total += mobb::volume(tree.box(node), tree.time_scale());
             ++count;
         }
@@ -81,6 +81,8 @@ std::string fit_words(const mobb::FitOptions& fit) {
     return std::string(tree.title) + (tree.splits() ? ", leaf " + std::to_string(fit.leaf) : "");
 }
 
+void mention_part(Caption& caption, const std::string& node) { mention(caption, "only " + node + " and below"); }
+
 }  // namespace
 
 std::string at_time(double time) { return formatted(" at %.2f s", time); }
@@ -96,6 +98,9 @@ Caption scene_caption(const FittedScene& fitted, std::span<const DrawnAgent> age
         const std::string left_out = std::to_string(shown_count(agents)) +
                                      (fitted.scene().agents.empty() ? " clips" : " agents") + ", unnamed here";
         caption.detail += (caption.detail.empty() ? "" : kDot) + left_out;
+    }
+    for (const DrawnAgent& agent : agents) {
+        if (agent.subtree && agent.is_whole()) mention_part(caption, node_name(agent, *agent.subtree));
     }
     return caption;
 }

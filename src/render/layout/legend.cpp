@@ -1,4 +1,5 @@
 #include <base/text.h>
+#include <explain/query_sentence.h>
 #include <mobb/traversal.h>
 #include <render/layout/legend.h>
 #include <render/parts/node_boxes.h>
@@ -26,6 +27,11 @@ LegendEntry remark(std::string text) { return {.mark = Mark::remark, .color = Rg
 
 LegendEntry dot_entry(Rgba color, std::string text) {
     return {.mark = Mark::disk, .color = color, .text = std::move(text)};
+}
+
+LegendEntry dim_entry(const Palette& palette, const std::string& within) {
+    const Rgba dim = mix_colors(palette.panel, palette.quiet_text, kOutOfFocus);
+    return dot_entry(with_alpha(dim, 1), "dim: outside " + within);
 }
 
 /// What of the scene is inside the picture.
@@ -208,15 +214,16 @@ std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Dr
         if (emphasis.hits && (is_seen(0) || is_seen(1))) {
             entries.push_back({.mark = Mark::double_ring, .color = list.palette.hit, .text = "samples that hit"});
         }
-        if (emphasis.dims) {
-            const Rgba dim = mix_colors(list.palette.panel, list.palette.quiet_text, kOutOfFocus);
-            entries.push_back(dot_entry(with_alpha(dim, 1), "dim: outside the nodes under test"));
-        }
+        if (emphasis.dims) entries.push_back(dim_entry(list.palette, "the nodes under test"));
     } else {
         // In a grid each has its name.
         if (!agents.front().cell) entries = agent_entries(list, agents, agents);
         // Of a figure the colour bar says it.
         if (view.color_by == ColorBy::agent && !boxes.empty()) add_levels(entries, list, boxes, agents, view.levels);
+        for (const DrawnAgent& agent : agents) {
+            if (!agent.subtree || !agent.is_whole() || !view.disks) continue;
+            entries.push_back(dim_entry(list.palette, node_name(agent, *agent.subtree)));
+        }
     }
     if (emphasis.cursor) entries.push_back(line_entry({list.palette.accent, 1.3f}, "time cursor"));
     for (std::size_t i = 0; i < emphasis.at_cursor.size(); ++i) {

@@ -24,6 +24,12 @@ constexpr int kMostWayPoints = 1000;
 constexpr float kGroundOpacity = 0.75f;
 constexpr float kGroundBeyond = 2;  // pixels at scale 1 that the ground line is wider
 constexpr std::size_t kMostListedAgents = 8;
+// Of the boxes above a node: each is fainter than the one below it.
+constexpr float kParentOpacity = 0.85f;
+constexpr float kFainterAbove = 0.75f;
+constexpr float kLeastAncestorOpacity = 0.2f;
+constexpr float kAncestorWidth = 1;        // pixels at scale 1
+constexpr Dash kAncestorDash{4, 4, 4, 4};  // likewise
 
 struct HighlightStyle {
     Rgba color{1};
@@ -43,6 +49,7 @@ HighlightStyle highlight_style(Role role, const Palette& palette) {
         case Role::measure:
             return {palette.accent, 2};
         case Role::ghost:
+        case Role::ancestor:
             break;
     }
     return {palette.quiet_text, 1.2f};
@@ -154,6 +161,27 @@ bool add_highlight(DrawList& list, const DrawnAgent& agent, const AgentPart& par
     return true;
 }
 
+void add_ancestors(DrawList& list, const DrawnAgent& agent, int node, float scale) {
+    std::erase_if(list.highlights, [](const HighlightLine& line) { return line.role == Role::ancestor; });
+    if (list.moment) return;
+    const mobb::Tree& tree = agent.placed.tree();
+    float opacity = kParentOpacity;
+    for (int above = tree.parent(node); above >= 0; above = tree.parent(above)) {
+        const Rgba color = with_alpha(list.palette.text, std::max(opacity, kLeastAncestorOpacity));
+        for (const Points& edge : box_edges(node_box(agent, above, list.space)))
+            list.highlights.push_back(
+                {Role::ancestor, edge.front(), edge.back(), color, kAncestorWidth * scale, kAncestorDash * scale});
+        opacity *= kFainterAbove;
+    }
+}
+
+void add_ancestors_of_part(DrawList& list, std::span<const DrawnAgent> agents, const ViewState& view, float scale) {
+    if (!view.ancestors) return;
+    for (const DrawnAgent& agent : agents) {
+        if (agent.subtree && agent.is_whole()) add_ancestors(list, agent, *agent.subtree, scale);
+    }
+}
+
 void add_way_highlight(DrawList& list, const mobb::PlacedClip& way, Role role, float scale) {
     add_highlight_lines(list, std::array{centres(list, way)}, role, scale);
 }
@@ -200,6 +228,8 @@ void add_selection(DrawList& list, const FittedScene& fitted, const ViewState& v
     if (list.moment && named.part.kind == AgentPart::Kind::node) {
         throw std::invalid_argument("a node is not shown in the picture of a moment: leave out --show moment");
     }
+    if (view.ancestors && !of_one && named.part.kind == AgentPart::Kind::node)
+        add_ancestors(list, agent, named.part.index, scale);
     if (!add_highlight(list, agent, named.part, Role::selection, scale)) {
         throw std::invalid_argument(in_quotes(named.agent) + " is not there at " + brief(*list.moment) + " s");
     }

@@ -22,6 +22,12 @@ void add_highlight_lines(DrawList& list, std::span<const std::vector<glm::vec3>>
 bool add_highlight(DrawList& list, const DrawnAgent& agent, const AgentPart& part, HighlightLine::Role role,
                    float scale);
 
+/// Outlines the boxes above a node in fine dashes, the fainter the higher; in place of those that are outlined so.
+/// Nothing in the picture of a moment.
+void add_ancestors(DrawList& list, const DrawnAgent& agent, int node, float scale);
+/// Those above the node that the view shows alone, if it shows them.
+void add_ancestors_of_part(DrawList& list, std::span<const DrawnAgent> agents, const ViewState& view, float scale);
+
 /// A way that somebody could take or has left: the line of its centres.
 void add_way_highlight(DrawList& list, const mobb::PlacedClip& way, HighlightLine::Role role, float scale);
 
@@ -39,9 +45,10 @@ struct NamedPart {
 NamedPart parse_named_part(std::string_view text);
 std::string text_of(const NamedPart& named);
 
-/// Highlights it as selected in the list of a view of the scene (or of a run). Throws std::invalid_argument, saying
-/// what there is, if the picture is not of such an agent, the agent has no such node or sample or is not there at the
-/// moment of the picture, or it is a node and the picture is of a moment.
+/// Highlights it as selected in the list of a view of the scene (or of a run), with the boxes above it where the view
+/// shows them. Throws std::invalid_argument, saying what there is, if the picture is not of such an agent, the agent
+/// has no such node or sample or is not there at the moment of the picture, or it is a node and the picture is of a
+/// moment.
 void add_selection(DrawList& list, const FittedScene& fitted, const ViewState& view, const NamedPart& named,
                    float scale);
 

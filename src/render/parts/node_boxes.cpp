@@ -99,6 +99,21 @@ std::vector<int> shown_nodes(const mobb::Tree& tree, const LevelRange& levels) {
     return out;
 }
 
+std::vector<int> shown_nodes(const DrawnAgent& agent, const LevelRange& levels) {
+    const mobb::Tree& tree = agent.placed.tree();
+    std::vector<int> out = shown_nodes(tree, levels);
+    if (!agent.subtree) return out;
+    std::erase_if(out, [&](int node) { return !is_within(tree, node, *agent.subtree); });
+    if (out.empty()) out.push_back(*agent.subtree);
+    return out;
+}
+
+bool is_within(const mobb::Tree& tree, int node, int top) {
+    const mobb::Node& inner = tree.node(node);
+    const mobb::Node& outer = tree.node(top);
+    return tree.level(node) >= tree.level(top) && inner.first >= outer.first && inner.end() <= outer.end();
+}
+
 int last_shown_level(const mobb::Tree& tree, const LevelRange& levels) {
     return std::min(levels.leaves ? tree.depth() - 1 : levels.last, tree.depth() - 1);
 }
@@ -143,13 +158,16 @@ void add_level_boxes(DrawList& list, std::span<const DrawnAgent> agents, const L
         if (!agent.is_whole()) continue;
         const mobb::Tree& tree = agent.placed.tree();
         const int last = last_shown_level(tree, levels);
-        for (const int node : shown_nodes(tree, levels)) {
+        std::vector<int> nodes = shown_nodes(agent, levels);
+        const bool around = agent.subtree && std::ranges::find(nodes, *agent.subtree) == nodes.end();
+        if (around) nodes.push_back(*agent.subtree);
+        for (const int node : nodes) {
             const int level = tree.level(node);
             const LevelStyle style = levels.leaves ? level_style(0, 0, 0) : level_style(level, levels.first, last);
             const Rgba color = level_tint(agent.color, style, list.palette);
             BoxInstance box = node_box(agent, node, list.space);
             box.state = BoxState::level;
-            box.fill = with_alpha(color, style.face);
+            box.fill = with_alpha(color, around && node == *agent.subtree ? 0 : style.face);
             box.edge = with_alpha(outlining(color, list.palette), style.edge);
             box.width = style.width * scale;
             list.boxes.push_back(box);
@@ -160,7 +178,8 @@ void add_level_boxes(DrawList& list, std::span<const DrawnAgent> agents, const L
 std::vector<double> values_of_boxes(const DrawList& list, BoxFigures figures) {
     std::vector<double> out;
     for (const BoxInstance& box : list.boxes) {
-        if (box.state == BoxState::level) out.push_back(figure_of_box(box, figures));
+        // Not of a mere outline around others.
+        if (box.state == BoxState::level && box.fill.a > 0) out.push_back(figure_of_box(box, figures));
     }
     return out;
 }

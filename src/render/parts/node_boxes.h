@@ -12,6 +12,12 @@ namespace mobbscope {
 
 /// The nodes of `tree` that a range of levels shows: those on its levels and the leaves above the first.
 std::vector<int> shown_nodes(const mobb::Tree& tree, const LevelRange& levels);
+/// The same of an agent; where a part of its tree is shown alone those within it, or the part's own node if there is
+/// none.
+std::vector<int> shown_nodes(const DrawnAgent& agent, const LevelRange& levels);
+
+/// Whether a node is `top`, or below it.
+bool is_within(const mobb::Tree& tree, int node, int top);
 
 /// The boxes of those nodes in their agents' colours; where several levels are shown, finer ones are brighter, fuller
 /// and heavier.

@@ -4,6 +4,7 @@
 #include <render/layout/follow.h>
 #include <render/layout/framing.h>
 #include <render/layout/legend.h>
+#include <render/parts/highlights.h>
 #include <render/parts/node_boxes.h>
 #include <render/parts/paths.h>
 #include <render/pictures/candidates.h>
@@ -29,8 +30,12 @@ std::vector<PathFocus> foci_of(std::span<const DrawnAgent> agents, const Emphasi
     std::vector<PathFocus> out(agents.size());
     for (std::size_t i = 0; i < agents.size(); ++i) {
         out[i].behind = behind;
-        if (!progress) continue;
         const DrawnAgent& agent = agents[i];
+        if (agent.subtree) {
+            const mobb::Node& part = agent.placed.node(*agent.subtree);
+            out[i].range = mobb::SampleRange{part.first, part.count};
+        }
+        if (!progress) continue;
         const mobb::Node& tested = agent.placed.node(agent.index == 0 ? progress->event.a : progress->event.b);
         out[i].range = mobb::SampleRange{tested.first, tested.count};
         if (emphasis.hits) out[i].hit = (*emphasis.hits)[static_cast<std::size_t>(agent.index)];
@@ -152,6 +157,7 @@ class SpaceTimePicture final : public Picture {
             add_floor_boundary(list_, boundary_, agents_[1], height, metrics_.scale);
         }
         if (emphasis_.cursor) add_time_cursor(list_, floor_extent_, *emphasis_.cursor, metrics_.scale);
+        add_ancestors_of_part(list_, agents_, view_, metrics_.scale);
         add_rings(list_, agents_, emphasis_, metrics_.scale);
         if (!recorded_) return names_now();
         std::vector<LabelRequest> notes;

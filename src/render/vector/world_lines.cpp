@@ -156,6 +156,7 @@ std::vector<VectorStroke> highlight_lines(const DrawList& list) {
         LineStyle style;
         style.color = line.color;
         style.width = line.width;
+        style.dash = line.dash;
         out.add(line.from, line.to, style);
     }
     return out.take();
