@@ -10,4 +10,7 @@ namespace mobbscope::app {
 /// at, and the agent that the followed one is about to meet in the conflict that was gone to. `scale`: of line widths.
 void add_highlights(DrawList& list, const Session& session, float scale);
 
+/// The same of another view: what goes there with what is selected and under the mouse.
+void add_highlights_beside(DrawList& list, const Workspace& workspace, const SceneView& seen, float scale);
+
 }  // namespace mobbscope::app

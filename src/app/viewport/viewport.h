@@ -34,6 +34,9 @@ class Viewport {
     /// empty scene.
     const DrawList* shown() const { return list_ ? &*list_ : nullptr; }
 
+    /// The record of the query that a view of the session shows here; null: it shows none.
+    const RecordedQuery* recorded_in(const SceneView& seen);
+
   private:
     /// All that the picture depends on.
     struct Key {
@@ -54,7 +57,6 @@ class Viewport {
     };
 
     bool is_active(const Ui& ui) const { return view_place_ == ui.session.views.active(); }
-    void name_trees(const Ui& ui, ImVec2 corner) const;
     void update_picture(Ui& ui, PictureSize size);
     Key wanted(const Ui& ui, PictureSize size, const FollowedChoice* choice) const;
     void stand(Ui& ui, Key& next);
@@ -91,9 +93,10 @@ class Viewport {
     void promise_words(Ui& ui, const mobb::Placement& now) const;
     std::optional<HandleDrag> take_hold(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) const;
 
-    std::optional<KeptPaths> paths_;  ///< of key_'s scene
-    std::size_t view_place_ = 0;      ///< of the session's views
-    std::optional<Key> key_;          ///< what the document asks for, a flight apart
+    std::optional<KeptPaths> paths_;                 ///< of key_'s scene
+    std::shared_ptr<const RecordedQuery> recorded_;  ///< kept, as long as it is shown
+    std::size_t view_place_ = 0;                     ///< of the session's views
+    std::optional<Key> key_;                         ///< what the document asks for, a flight apart
     std::optional<DrawList> list_;
     std::string why_not_;  ///< there is no list: the reason
     std::optional<Flight> flight_;
