@@ -1,6 +1,7 @@
 #include <base/error.h>
 #include <cli/columns.h>
 #include <cli/command_line.h>
+#include <cli/compared_fits_table.h>
 #include <cli/options.h>
 #include <cli/program.h>
 #include <cli/what_if_table.h>
@@ -10,6 +11,7 @@
 #include <explain/node_values.h>
 #include <explain/tree_json.h>
 #include <import/tracks/csv.h>
+#include <scene/fit_text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +29,7 @@ namespace {
 struct FitCommandArguments : FittedArguments {
     bool csv = false;
     std::optional<std::string> what_if;  ///< a node
+    std::vector<std::string> compare;    ///< fits
 };
 
 void print_json(const FittedScene& fitted) {
@@ -141,9 +144,34 @@ void print_variants(const FittedScene& fitted, const std::string& node, bool as_
     out.end_object();
 }
 
+/// Of every clip. Throws InputError for what is no fit.
+void print_comparisons(const FittedScene& fitted, const FitCommandArguments& arguments) {
+    std::vector<mobb::FitOptions> fits;
+    for (const std::string& text : arguments.compare) {
+        try {
+            fits.push_back(parse_fit(text, fitted.options()));
+        } catch (const std::invalid_argument& error) {
+            throw InputError(std::string("--compare: ") + error.what());
+        }
+    }
+    if (fits.size() < 2) throw InputError("--compare: give two fits or more, such as mobb,leaf=10 moving");
+    std::vector<ClipComparison> all;
+    for (const SceneClip& clip : fitted.scene().clips) all.push_back(comparison_of(clip.name, clip.clip, fits));
+    if (!arguments.json) {
+        std::ranges::for_each(all, print_comparison);
+        return;
+    }
+    JsonWriter out(std::cout);
+    out.begin_object();
+    out.list("compared", all, [&out](const ClipComparison& found) { write_comparison(out, found); });
+    out.end_object();
+}
+
 void run_fit(const FitCommandArguments& arguments) {
     const FittedScene scene = fitted(load(arguments.file, arguments.import_options), arguments.fit);
-    if (!arguments.what_if) {
+    if (!arguments.compare.empty()) {
+        print_comparisons(scene, arguments);
+    } else if (!arguments.what_if) {
         const auto print = arguments.csv ? print_csv : arguments.json ? print_json : print_trees;
         print(scene);
     } else {
@@ -159,11 +187,18 @@ void run_fit(const FitCommandArguments& arguments) {
 void add_options_of_fit(Command& command, FitCommandArguments& arguments) {
     const Option json = add_fitted_options(command, arguments, "Levels and nodes as JSON");
     const Option csv = command.add_flag("--csv", arguments.csv, "Nodes as CSV, a row each").excludes(json);
+    const Option what_if =
+        command
+            .add_option(
+                "--what-if", [&arguments](const std::string& node) { arguments.what_if = node; },
+                "What queries would cost if that node, such as 12 or 2.1, had another box or split", "NODE")
+            .excludes(csv);
     command
-        .add_option(
-            "--what-if", [&arguments](const std::string& node) { arguments.what_if = node; },
-            "What queries would cost if that node, such as 12 or 2.1, had another box or split", "NODE")
-        .excludes(csv);
+        .add_list_option(
+            "--compare", [&arguments](const std::vector<std::string>& fits) { arguments.compare = fits; },
+            "Two fits or more side by side, such as mobb,leaf=10 moving: which is tighter, and which costs less", "FIT")
+        .excludes(csv)
+        .excludes(what_if);
 }
 
 }  // namespace

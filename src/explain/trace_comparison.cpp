@@ -198,13 +198,55 @@ TraversalComparison compared(std::vector<Decision> first, std::vector<Decision> 
     return out;
 }
 
+namespace {
+
+/// When both nodes of an event are there.
+mobb::Interval common_time(const RecordedTraversal& of, const mobb::Trace::Event& event) {
+    const mobb::Node &a = of.a.tree().node(event.a), &b = of.b.tree().node(event.b);
+    const double t0 = std::max(of.a.begin(a), of.b.begin(b)), t1 = std::min(of.a.end(a), of.b.end(b));
+    // Of nodes that are apart in time, what lies between them.
+    return {std::min(t0, t1), std::max(t0, t1)};
+}
+
+/// Within what rounding leaves.
+bool covers(const mobb::Interval& whole, const mobb::Interval& part) {
+    constexpr double kRounding = 1e-9;  // seconds
+    return whole.t0 <= part.t0 + kRounding && part.t1 <= whole.t1 + kRounding;
+}
+
+}  // namespace
+
+int matching_step(const TraversalComparison& both, const RecordedTraversal& first, const RecordedTraversal& second,
+                  int step, std::optional<double> moment) {
+    const mobb::Trace &from = first.recorded->trace, &to = second.recorded->trace;
+    if (to.empty()) return 0;
+    const int last = to.size() - 1;
+    if (step + 1 >= from.size()) return last;
+    const mobb::Interval time = common_time(first, from[step]);
+    const bool is_in_it = moment && time.t0 <= *moment && *moment <= time.t1;
+    double at = is_in_it ? *moment : 0.5 * (time.t0 + time.t1);
+    // Behind a contact nothing was to be decided.
+    if (!both.times.empty()) at = std::clamp(at, both.times.front().t0, both.times.back().t1);
+    const ComparedTime* there = both.at(at);
+    if (!there) return static_cast<int>(std::lround(static_cast<double>(step) * last / (from.size() - 1)));
+    int out = both.decision(*there, 1).step;
+    if (std::ranges::find(both.decisions[0], step, &Decision::step) != both.decisions[0].end()) return out;
+    for (int parent = to[out].parent; parent >= 0 && !covers(common_time(second, to[out]), time);
+         parent = to[out].parent) {
+        out = parent;
+    }
+    return out;
+}
+
 FitComparison compare_fits(const mobb::PlacedTree& a, const mobb::PlacedTree& b, const RecordedQuery& recorded,
                            std::array<std::shared_ptr<const mobb::Tree>, 2> trees) {
     const std::array placed{mobb::PlacedTree(*trees[0], a.placed_clip().placement()),
                             mobb::PlacedTree(*trees[1], b.placed_clip().placement())};
     FitComparison out{std::move(trees), placed, record(placed[0], placed[1]), {}, {}};
     out.traversals = compared(decisions_of(a, b, recorded), decisions_of(out.placed[0], out.placed[1], out.recorded));
-    out.names = names_of_two(a.tree().options(), out.placed[0].tree().options());
+    const std::vector<std::string> names =
+        names_of_fits(std::array{a.tree().options(), out.placed[0].tree().options()});
+    out.names = {names[0], names[1]};
     return out;
 }
 

@@ -83,6 +83,19 @@ struct TraversalComparison {
 /// Of two traversals of the same query.
 TraversalComparison compared(std::vector<Decision> first, std::vector<Decision> second);
 
+/// What a traversal was of, and what came of it.
+struct RecordedTraversal {
+    mobb::PlacedTree a, b;
+    const RecordedQuery* recorded = nullptr;  ///< never null
+};
+
+/// The step of the second traversal that goes with one of the first. With a step that decided, the one that decided
+/// about the same moment: `moment` if the step is about that, else the middle of its time. With one that went on, the
+/// last above that which is about all of its time. With the last, the last. Where nothing was decided about it, one as
+/// far on. Requires a step of the first; `both`: of these traversals.
+int matching_step(const TraversalComparison& both, const RecordedTraversal& first, const RecordedTraversal& second,
+                  int step, std::optional<double> moment = {});
+
 /// A query under two fits: the first is that of a scene, this is the second and what came of both.
 struct FitComparison {
     std::array<std::shared_ptr<const mobb::Tree>, 2> trees;  ///< of A and B; none is null

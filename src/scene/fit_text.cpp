@@ -2,7 +2,9 @@
 #include <scene/fit_text.h>
 #include <scene/scene_json.h>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -45,14 +47,32 @@ void set_option(mobb::FitOptions& fit, std::string_view key, std::string_view va
     }
 }
 
-/// Options beside the tree, as text, that are not as in `base`.
-std::vector<std::pair<std::string_view, std::string>> others(const mobb::FitOptions& fit,
-                                                             const mobb::FitOptions& base) {
-    std::vector<std::pair<std::string_view, std::string>> out;
-    if (fit.leaf != base.leaf) out.emplace_back("leaf", std::to_string(fit.leaf));
-    if (fit.levels != base.levels) out.emplace_back("levels", std::to_string(fit.levels));
-    if (fit.axes != base.axes) out.emplace_back("axes", mobb::name(fit.axes));
-    if (fit.time_scale != base.time_scale) out.emplace_back("time_scale", format_double(fit.time_scale));
+using OptionText = std::pair<std::string_view, std::string>;
+
+/// Options beside the tree, as text.
+std::array<OptionText, 4> options_beside_tree(const mobb::FitOptions& fit) {
+    return {OptionText{"leaf", std::to_string(fit.leaf)}, OptionText{"levels", std::to_string(fit.levels)},
+            OptionText{"axes", mobb::name(fit.axes)}, OptionText{"time_scale", format_double(fit.time_scale)}};
+}
+
+/// Those that are not as in `base`.
+std::vector<OptionText> others(const mobb::FitOptions& fit, const mobb::FitOptions& base) {
+    const std::array<OptionText, 4> all = options_beside_tree(fit), usual = options_beside_tree(base);
+    std::vector<OptionText> out;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (all[i] != usual[i]) out.push_back(all[i]);
+    }
+    return out;
+}
+
+std::string words_of(const mobb::FitOptions& fit, std::span<const OptionText> options) {
+    std::string out(mobb::info(fit.tree).label);
+    for (const auto& [key, value] : options) {
+        out += ", ";
+        out += key == "time_scale" ? "time scale" : key;
+        out += ' ';
+        out += value;
+    }
     return out;
 }
 
@@ -85,20 +105,25 @@ std::string fit_text(const mobb::FitOptions& fit, const mobb::FitOptions& base) 
 }
 
 std::string fit_words(const mobb::FitOptions& fit, const mobb::FitOptions& base) {
-    std::string out(mobb::info(fit.tree).label);
-    for (const auto& [key, value] : others(fit, base)) {
-        out += ", ";
-        out += key == "time_scale" ? "time scale" : key;
-        out += ' ';
-        out += value;
-    }
-    return out;
+    return words_of(fit, others(fit, base));
 }
 
-std::array<std::string, 2> names_of_two(const mobb::FitOptions& first, const mobb::FitOptions& second) {
-    std::string one = fit_words(first, second), other = fit_words(second, first);
-    if (one == other) other += " again";
-    return {std::move(one), std::move(other)};
+std::vector<std::string> names_of_fits(std::span<const mobb::FitOptions> fits) {
+    std::vector<std::string> out;
+    for (const mobb::FitOptions& fit : fits) {
+        std::vector<OptionText> told;
+        for (const OptionText& option : options_beside_tree(fit)) {
+            const bool differs = std::ranges::any_of(fits, [&](const mobb::FitOptions& other) {
+                const std::array<OptionText, 4> its = options_beside_tree(other);
+                return std::ranges::find(its, option) == its.end();
+            });
+            if (differs) told.push_back(option);
+        }
+        std::string name = words_of(fit, told);
+        while (std::ranges::find(out, name) != out.end()) name += " again";
+        out.push_back(std::move(name));
+    }
+    return out;
 }
 
 }  // namespace mobbscope

@@ -3,9 +3,10 @@
 
 #include <mobb/tree.h>
 
-#include <array>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mobbscope {
 
@@ -19,7 +20,7 @@ std::string fit_text(const mobb::FitOptions& fit, const mobb::FitOptions& base);
 /// For people, likewise: "UMOBB, leaf 20".
 std::string fit_words(const mobb::FitOptions& fit, const mobb::FitOptions& base);
 
-/// Two fits that are compared: what tells them apart, or "MOBB" and "MOBB again".
-std::array<std::string, 2> names_of_two(const mobb::FitOptions& first, const mobb::FitOptions& second);
+/// Fits that are compared: what tells them apart, or "MOBB" and "MOBB again".
+std::vector<std::string> names_of_fits(std::span<const mobb::FitOptions> fits);
 
 }  // namespace mobbscope

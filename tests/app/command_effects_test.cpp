@@ -434,6 +434,54 @@ std::vector<Case> cases() {
              run_command(w.session, "view.link_cameras");
              EXPECT_EQ(w.session.views.at(1).view.camera.preset, CameraPreset::top);
          }});
+    add({"view.link_times", "", {{"view.split", ""}}, [](CommandWorld& w) {
+             run_command(w.session, "time.at", "0.3");
+             EXPECT_FALSE(w.session.views.at(1).view.time);
+             run_command(w.session, "view.link_times");
+             EXPECT_EQ(w.session.views.at(1).view.time, 0.3);
+         }});
+    add({"view.link_levels", "", {{"view.split", ""}}, [](CommandWorld& w) {
+             run_command(w.session, "view.level", "1");
+             EXPECT_EQ(w.session.views.at(1).view.levels, LevelRange());
+             run_command(w.session, "view.link_levels");
+             EXPECT_EQ(w.session.views.at(1).view.levels.last, 1);
+         }});
+    add({"view.link_queries", "", {{"view.split", ""}}, [](CommandWorld& w) {
+             run_command(w.session, "query.select", "0");
+             EXPECT_FALSE(w.session.views.at(1).view.query);
+             run_command(w.session, "view.link_queries");
+             EXPECT_EQ(w.session.views.at(1).view.query, 0);
+         }});
+    add({"view.link_selections", "", {{"view.split", ""}, {"go.node", "A 1.1"}}, [](CommandWorld& w) {
+             run_command(w.session, "view.other");
+             EXPECT_EQ(w.session.workspace.selection.kind, Selection::Kind::path) << "other trees have other nodes";
+             run_command(w.session, "view.link_selections");
+             run_command(w.session, "go.node", "A 1.1");
+             run_command(w.session, "view.other");
+             EXPECT_EQ(w.session.workspace.selection.kind, Selection::Kind::node);
+         }});
+    look("compare.paper", "", [](CommandWorld& w) {
+        ASSERT_EQ(w.session.views.count(), 2u);
+        EXPECT_EQ(w.session.views.at(0).fitted->options().tree, mobb::TreeKind::mobb);
+        EXPECT_EQ(w.session.views.at(1).fitted->options().tree, mobb::TreeKind::umobb);
+        EXPECT_EQ(w.view().levels.last, 2);
+    });
+    look("compare.fits", "mobb,leaf=10 moving aabb,levels=2", [](CommandWorld& w) {
+        ASSERT_EQ(w.session.views.count(), 3u);
+        EXPECT_EQ(w.session.views.at(0).fitted->options().leaf, 10);
+        EXPECT_EQ(w.session.views.at(1).fitted->options().leaf, 4) << "as in the active view";
+        EXPECT_EQ(w.session.views.at(2).fitted->options().levels, 2);
+        EXPECT_NE(testing::refusal(w.session, "compare.fits", "mobb"), "");
+        EXPECT_NE(testing::refusal(w.session, "compare.fits", "mobb oak"), "");
+    });
+    look("compare.add", "moving", [](CommandWorld& w) {
+        ASSERT_EQ(w.session.views.count(), 2u);
+        EXPECT_EQ(w.session.views.at(1).fitted->options().tree, mobb::TreeKind::moving);
+    });
+    add({"view.close", "0", {{"view.split", ""}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.session.views.count(), 1u);
+             EXPECT_EQ(w.session.workspace.fitted().options().tree, mobb::TreeKind::umobb);
+         }});
     for (const ViewOption& option : view_options()) {
         if (!option.toggle || !option.command.starts_with("view.")) continue;
         look(std::string(option.command), "", [&option](CommandWorld& w) {

@@ -751,7 +751,7 @@ TEST(Views, AreOfOneSceneWithAFitEach) {
     EXPECT_EQ(session.views.at(1).view.time, 0.5);
     EXPECT_EQ(session.views.at(1).view.camera.yaw_deg, 12);
     EXPECT_TRUE(session.views.at(1).view.disks);
-    session.views.link_cameras(false);
+    session.views.link(&ViewLinks::camera, false);
     session.workspace.change_view([](ViewState& view) { view.camera.yaw_deg = 40; });
     EXPECT_EQ(session.views.at(1).view.camera.yaw_deg, 12);
 

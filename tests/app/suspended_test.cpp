@@ -278,7 +278,7 @@ TEST(Suspended, FilesThatAreAddedInAJobSayWhatIsWrongWithThem) {
 TEST(Suspended, AnotherNameIsKnownInAllViewsAndWhereverItIsRemembered) {
     SuspendedWorld w;
     w.session.views.split("UMOBB", {.tree = mobb::TreeKind::umobb, .leaf = 4});
-    w.session.views.link_cameras(false);
+    w.session.views.link(&ViewLinks::camera, false);
     run_command(w.session, "view.other");
     run_command(w.session, "agents.hide", "C");
     run_command(w.session, "agents.pin", "A");

@@ -376,5 +376,41 @@ TEST(Fit, TextHasALineForEachLevel) {
     EXPECT_TRUE(run.out.starts_with("circles: 1260 samples in 42 s; mobb tree of 7 nodes"));
 }
 
+TEST(Fit, FitsAreCompared) {
+    const Result run =
+        run_program({"fit", kFitScenes + "crossing.json", "--compare", "mobb", "umobb,leaf=40", "--json"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const json clips = json::parse(run.out)["compared"];
+    ASSERT_EQ(clips.size(), 2u);
+    const FittedScene fitted(load_scene(kFitScenes + "crossing.json"), {.tree = mobb::TreeKind::umobb, .leaf = 40});
+    for (int clip = 0; clip < 2; ++clip) {
+        const json& found = clips[static_cast<std::size_t>(clip)];
+        EXPECT_EQ(found["fits"][1]["fit"]["leaf"], 40);
+        EXPECT_EQ(found["fits"][1]["name"], "UMOBB, leaf 40");
+        const std::vector<mobb::LevelFigures> figures = mobb::level_figures(fitted.tree(clip));
+        for (std::size_t i = 0; i < found["levels"].size(); ++i) {
+            const json& volume = found["levels"][i]["volume"];
+            if (i < figures.size()) {
+                EXPECT_EQ(volume["values"][1], figures[i].volume);
+                EXPECT_EQ(volume["best"], volume["values"][1] < volume["values"][0] ? 1 : 0) << i;
+            } else {
+                EXPECT_TRUE(volume["values"][1].is_null()) << "it is not so deep";
+            }
+        }
+        EXPECT_EQ(found["leaves"]["volume"]["values"][1], figures.back().volume);
+        EXPECT_GT(found["cost"]["values"][0], 0);
+        EXPECT_NE(found["verdict"].get<std::string>().find("UMOBB"), std::string::npos);
+    }
+    const Result words = run_program({"fit", kFitScenes + "crossing.json", "--compare", "mobb", "umobb"});
+    EXPECT_EQ(words.status, 0);
+    for (const char* told : {"straight: UMOBB is tighter", "MOBB m^2*s", "* "})
+        EXPECT_NE(words.out.find(told), std::string::npos) << words.out;
+    for (const std::vector<std::string>& wrong : {std::vector<std::string>{"mobb"}, {"mobb", "x"}}) {
+        std::vector<std::string> line{"fit", kFitScenes + "crossing.json", "--compare"};
+        line.insert(line.end(), wrong.begin(), wrong.end());
+        EXPECT_EQ(run_program(line).status, 2);
+    }
+}
+
 }  // namespace
 }  // namespace mobbscope

@@ -66,6 +66,47 @@ TEST(TraversalComparison, BothSidesTileTheCommonTimeExactly) {
     EXPECT_GT(different, 100);
 }
 
+TEST(TraversalComparison, AStepHasItsMatchInTheOtherTraversal) {
+    mobb::test::Random random(39);
+    int decided = 0, went_on = 0;
+    for (int i = 0; i < testing::certificate_budget() / 3; ++i) {
+        SCOPED_TRACE(i);
+        const ProvenQuery query = testing::random_proven_query(random);
+        const mobb::PlacedTree a = query.a(), b = query.b();
+        const mobb::FitOptions other = mobb::test::random_any_fit(random);
+        const FitComparison compared =
+            compare_fits(a, b, query.recorded,
+                         {std::make_shared<const mobb::Tree>(a.tree().shared_clip(), other),
+                          std::make_shared<const mobb::Tree>(b.tree().shared_clip(), other)});
+        const mobb::Trace &from = query.recorded.trace, &to = compared.recorded.trace;
+        if (from.empty()) continue;
+        const TraversalComparison& both = compared.traversals;
+        const RecordedTraversal first{a, b, &query.recorded},
+            second{compared.placed[0], compared.placed[1], &compared.recorded};
+        for (int step = 0; step < from.size(); ++step) {
+            const int match = matching_step(both, first, second, step);
+            ASSERT_GE(match, 0);
+            ASSERT_LT(match, to.size());
+            if (step + 1 == from.size()) {
+                EXPECT_EQ(match, to.size() - 1) << "the answers go together";
+                continue;
+            }
+            const auto end = std::ranges::find(both.decisions[0], step, &Decision::step);
+            if (end != both.decisions[0].end() && end->t1 - end->t0 > 1e-6) {
+                const double middle =
+                    std::clamp(0.5 * (end->t0 + end->t1), both.times.front().t0, both.times.back().t1);
+                EXPECT_EQ(matching_step(both, first, second, step, middle), both.decision(*both.at(middle), 1).step);
+                ++decided;
+            } else if (from[step].parent < 0 && from[step].outcome == mobb::Outcome::overlap && !both.times.empty()) {
+                EXPECT_EQ(to[match].depth, 0) << "the roots go together";
+                ++went_on;
+            }
+        }
+    }
+    EXPECT_GT(decided, 100);
+    EXPECT_GT(went_on, 10);
+}
+
 TEST(TraversalComparison, WithItselfAllIsZero) {
     mobb::test::Random random(38);
     for (int i = 0; i < testing::certificate_budget() / 3; ++i) {
@@ -199,7 +240,7 @@ TEST(FitText, SetsWhatItSays) {
     EXPECT_EQ(fit_words(fit, base), "UMOBB, leaf 20, axes covariance");
     EXPECT_EQ(parse_fit(fit_text(fit, base), base), fit);
     EXPECT_EQ(parse_fit("time_scale=2.5,levels=3", base).time_scale, 2.5);
-    EXPECT_EQ(names_of_two(base, base), (std::array<std::string, 2>{"MOBB", "MOBB again"}));
+    EXPECT_EQ(names_of_fits(std::array{base, base}), (std::vector<std::string>{"MOBB", "MOBB again"}));
     for (const char* wrong :
          {"", "tree", "leaf=0", "leaf=2.5", "levels=-1", "axes=x", "time_scale=0", "leaf", "l=2", "mobb,,"})
         EXPECT_THROW(parse_fit(wrong, base), std::invalid_argument) << wrong;

@@ -313,15 +313,6 @@ void play(Playback& playback) {
     playback.play();
 }
 
-bool is_split(const Views& views) { return views.count() > 1; }
-
-void toggle_split(Views& views, Workspace& workspace) {
-    if (is_split(views)) return views.close_others();
-    mobb::FitOptions other = workspace.fitted().options();
-    other.tree = other.tree == mobb::TreeKind::umobb ? mobb::TreeKind::mobb : mobb::TreeKind::umobb;
-    views.split(other.tree == mobb::TreeKind::umobb ? "UMOBB" : "MOBB", other);
-}
-
 // --- the tables, in the order of the menus
 
 std::vector<Command> direction_commands() {
@@ -416,22 +407,6 @@ std::vector<Command> picture_commands() {
                 "Copies the measured distance, time and speed with all digits, and the two places.", copy_measured,
                 {.enabled = {is_measured, []() -> std::string_view { return "nothing is measured"; }}}),
         option_command(view_option("past")),
-        Command("view.split", "Split",
-                "Shows the scene twice, side by side: beside these trees UMOBB trees, or MOBB trees where these are "
-                "UMOBB.",
-                toggle_split, {.checked = is_split}),
-        Command("view.other", "Go to the other view",
-                "Of a split view: commands and panels are about the next part from now on.",
-                [](Views& views) { views.activate((views.active() + 1) % views.count()); },
-                {.shortcut = "F6", .enabled = is_split}),
-        Command("view.link_cameras", "Link cameras",
-                "Of a split view: moving the camera of one part moves that of the other.",
-                [](Views& views, Workspace& workspace) { views.link_cameras(!workspace.document().linked_cameras); },
-                {.enabled = is_split,
-                 .checked =
-                     [](const Views& views, const Workspace& workspace) {
-                         return is_split(views) && workspace.document().linked_cameras;
-                     }}),
     };
     return in_menu("View", rows);
 }
@@ -572,8 +547,8 @@ std::vector<Command> time_commands() {
 }  // namespace
 
 std::vector<Command> view_commands() {
-    return joined({direction_commands(), movement_commands(), picture_commands(), show_commands(), level_commands(),
-                   window_commands(), time_commands()});
+    return joined({direction_commands(), movement_commands(), picture_commands(), side_by_side_commands(),
+                   show_commands(), level_commands(), window_commands(), time_commands()});
 }
 
 }  // namespace mobbscope::app

@@ -61,6 +61,16 @@ std::optional<int> find_query(const FittedScene& fitted, const QueryKey& key) {
 
 StepKey step_key(const FittedScene& fitted, int query) { return {query_key(fitted, query), fitted.options().tree}; }
 
+Document whole_of(const ExcerptSource& source) {
+    Document out{source.fitted, source.view};
+    out.beside = source.beside;
+    out.place = source.place;
+    out.links = source.links;
+    out.steps = source.steps;
+    out.opening = source.opening;
+    return out;
+}
+
 std::vector<SceneView> views_of(const Document& document) {
     std::vector<SceneView> out = document.beside;
     out.insert(out.begin() + static_cast<std::ptrdiff_t>(document.place), {document.fitted, document.view});

@@ -4,11 +4,13 @@
 #include <scene/fitted_scene.h>
 #include <scene/view_state.h>
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -36,14 +38,37 @@ struct QuerySteps {
     bool by_one = false;           ///< the last move was a single step
 };
 
-/// What an excerpt was taken from. An excerpt is a scene of its own, made of two paths of a run or a scene.
-struct ExcerptSource {
-    std::shared_ptr<const FittedScene> fitted;  ///< of the whole; never null
-    ViewState view;                             ///< of the whole, when it was left
-    std::shared_ptr<const FittedScene> saved;   ///< the excerpt as it was made, or saved last
-    std::map<StepKey, QuerySteps> steps{};      ///< of the whole
-    int opening = 0;                            ///< likewise
+/// What all views of a document have in common.
+struct ViewLinks {
+    bool camera = true;     ///< from where it is seen, how high a second is, and who is followed
+    bool time = true;       ///< the time cursor and what is cut out around it
+    bool level = true;      ///< the levels that are shown, and what their colours say
+    bool selection = true;  ///< what is selected, in each view its own tree's node over the same samples
+    bool query = true;      ///< the query and its step: in each view its own traversal's about the same moment
+    friend bool operator==(const ViewLinks&, const ViewLinks&) = default;
 };
+
+/// One of these, for whoever goes through all.
+struct ViewLink {
+    std::string_view name;     ///< as files and scripts call it
+    std::string_view command;  ///< that turns it on and off
+    std::string_view title, doc;
+    bool ViewLinks::*on;
+};
+inline constexpr std::array<ViewLink, 5> kViewLinks{{
+    {"camera", "view.link_cameras", "Link cameras", "Of several views: all are seen from the active one's camera.",
+     &ViewLinks::camera},
+    {"time", "view.link_times", "Link times", "Of several views: all show the time of the active one.",
+     &ViewLinks::time},
+    {"level", "view.link_levels", "Link levels",
+     "Of several views: all show the levels of the active one, in the same colours.", &ViewLinks::level},
+    {"selection", "view.link_selections", "Link selections",
+     "Of several views: all point out what is selected; of a node, the one of their tree over the same samples.",
+     &ViewLinks::selection},
+    {"query", "view.link_queries", "Link queries and steps",
+     "Of several views: all show the query of the active one, each at its own step about the same moment.",
+     &ViewLinks::query},
+}};
 
 /// One view of the document's scene: how it is seen, and with which of its fits.
 struct SceneView {
@@ -51,8 +76,23 @@ struct SceneView {
     ViewState view;
 };
 
+/// The most that stand side by side.
+inline constexpr std::size_t kMostViews = 4;
+
+/// What an excerpt was taken from. An excerpt is a scene of its own, made of two paths of a run or a scene.
+struct ExcerptSource {
+    std::shared_ptr<const FittedScene> fitted;  ///< of the whole; never null
+    ViewState view;                             ///< of the whole, when it was left
+    std::shared_ptr<const FittedScene> saved;   ///< the excerpt as it was made, or saved last
+    std::map<StepKey, QuerySteps> steps{};      ///< of the whole
+    int opening = 0;                            ///< likewise
+    std::vector<SceneView> beside{};            ///< likewise, and what follows
+    std::size_t place = 0;
+    ViewLinks links{};
+};
+
 /// The scene with its fits, and how it is seen: the active view, which commands and panels are about, and those beside
-/// it. All views are of one scene and one time. Values: a state once reached can be returned to at no cost, as the
+/// it. All views are of one scene. Values: a state once reached can be returned to at no cost, as the
 /// scene is immutable and shared.
 struct Document {
     std::shared_ptr<const FittedScene> fitted;          ///< with the active view's fit in use; never null
@@ -60,10 +100,13 @@ struct Document {
     std::shared_ptr<const ExcerptSource> excerpt_of{};  ///< of an excerpt; else null
     std::vector<SceneView> beside{};                    ///< the other views, from left to right
     std::size_t place = 0;                              ///< how many of them stand to the left of the active one
-    bool linked_cameras = true;                         ///< all views have one camera
+    ViewLinks links{};                                  ///< what the views have in common
     std::map<StepKey, QuerySteps> steps{};              ///< that were looked at
     int opening = 0;                                    ///< which one it is of: of files or an excerpt, each its own
 };
+
+/// The document that an excerpt was taken from, as it was left.
+Document whole_of(const ExcerptSource& source);
 
 /// All views of a document, from left to right.
 std::vector<SceneView> views_of(const Document& document);

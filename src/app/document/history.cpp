@@ -41,7 +41,7 @@ struct History::Packed {
 };
 
 History::Layout History::layout_of(const Document& document) {
-    Layout out{{}, document.place, document.linked_cameras};
+    Layout out{{}, document.place, document.links};
     for (const SceneView& seen : views_of(document)) out.views.push_back(seen.view);
     return out;
 }
@@ -98,7 +98,7 @@ Document History::carried(const Document& from, const Document& to, const Layout
     }
     if (!as_many_views) views[goal.place].view = carry(from.place, goal.place);
     set_views(out, std::move(views), as_many_views ? from.place : goal.place);
-    out.linked_cameras = from.linked_cameras == base.linked_cameras ? goal.linked_cameras : from.linked_cameras;
+    out.links = from.links == base.links ? goal.links : from.links;
     out.steps = from.steps;
     out.steps.insert(to.steps.begin(), to.steps.end());
     clamp_views(out);
@@ -156,6 +156,7 @@ void History::amend_views(const std::function<void(ViewState&)>& change) {
             if (!amended) {
                 ExcerptSource next = *source;
                 change(next.view);
+                for (SceneView& other : next.beside) change(other.view);
                 amended = std::make_shared<const ExcerptSource>(std::move(next));
             }
             source = amended;

@@ -89,7 +89,7 @@ class History {
     struct Layout {
         std::vector<ViewState> views;
         std::size_t place = 0;  ///< of the active one
-        bool linked_cameras = true;
+        ViewLinks links{};
     };
     /// The scene and fits of a document whose `fitted` are null, by what its neighbour towards the present has not.
     struct Packed;

@@ -1,4 +1,5 @@
 #include <app/document/selection.h>
+#include <explain/compared_fits.h>
 
 #include <algorithm>
 
@@ -106,6 +107,14 @@ Selection remapped(const Selection& selection, const FittedScene& before, const 
         }
     }
     return exists(now, selection) ? selection : Selection{};
+}
+
+Selection counterpart(const Selection& selection, const FittedScene& from, const FittedScene& to) {
+    if (selection.kind != Selection::Kind::node || !exists(from, selection)) return selection;
+    const int clip = placed_agent_of(from, selection.path)->clip;
+    const mobb::Tree &before = from.tree(clip), &now = to.tree(clip);
+    if (&before == &now) return selection;
+    return {selection.kind, selection.path, node_over_same_samples(before, selection.index, now)};
 }
 
 }  // namespace mobbscope::app

@@ -68,4 +68,7 @@ bool has_projection(const FittedScene& fitted, const ViewState& view);
 /// means another node now. What is gone becomes nothing.
 Selection remapped(const Selection& selection, const FittedScene& before, const FittedScene& now);
 
+/// What goes with a selection where the same scene has another fit: of a node the one over the same samples.
+Selection counterpart(const Selection& selection, const FittedScene& from, const FittedScene& to);
+
 }  // namespace mobbscope::app

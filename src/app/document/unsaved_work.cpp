@@ -66,7 +66,10 @@ Selection read_selection(const JsonPlace& place) {
 }
 
 void write_views(JsonWriter& out, const Document& document) {
-    out.members("place", document.place, "linked_cameras", document.linked_cameras);
+    out.member("place", document.place);
+    out.begin_object("links", JsonWriter::Layout::row);
+    for (const ViewLink& link : kViewLinks) out.member(link.name, document.links.*link.on);
+    out.end_object();
     out.list("beside", document.beside, [&](const SceneView& seen) {
         out.begin_object();
         out.member("name", seen.fitted->fits()[seen.fitted->fit_in_use()]->name);
@@ -90,7 +93,10 @@ void read_views(const JsonPlace& head, Document& document) {
     for (auto& [fit, view] : seen)
         document.beside.push_back({std::make_shared<const FittedScene>(fitted.using_fit(fit)), std::move(view)});
     document.place = static_cast<std::size_t>(head.require("place").integer(0, beside.size()));
-    document.linked_cameras = head.require("linked_cameras").boolean();
+    // Copies of older versions have none.
+    const auto links = head.find("links");
+    if (!links) return;
+    for (const ViewLink& link : kViewLinks) document.links.*link.on = links->require(link.name).boolean();
 }
 
 /// The line about the work, and where the scene begins.
@@ -119,7 +125,7 @@ std::map<std::string, UnsavedWork> unsaved_works(const Workspace& workspace) {
     const Document& now = workspace.document();
     const auto differ = [](const auto& a, const auto& b) { return &a->scene() != &b->scene(); };
     const std::shared_ptr<const ExcerptSource> origin = now.excerpt_of;
-    const Document whole = origin ? Document{origin->fitted, origin->view} : now;
+    const Document whole = origin ? whole_of(*origin) : now;
     if (differ(whole.fitted, workspace.saved)) {
         out["scene"] = {whole,
                         origin ? Selection{} : workspace.selection,
@@ -141,8 +147,7 @@ bool same_scene(const UnsavedWork& a, const UnsavedWork& b) {
 
 bool same_state(const UnsavedWork& a, const UnsavedWork& b) {
     return a.document.fitted == b.document.fitted && a.document.view == b.document.view && a.file == b.file &&
-           a.selection == b.selection && a.document.place == b.document.place &&
-           a.document.linked_cameras == b.document.linked_cameras &&
+           a.selection == b.selection && a.document.place == b.document.place && a.document.links == b.document.links &&
            std::ranges::equal(a.document.beside, b.document.beside, same_view);
 }
 

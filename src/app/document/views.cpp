@@ -1,8 +1,10 @@
 #include <app/document/views.h>
 #include <render/drawlist/camera.h>
+#include <scene/fit_text.h>
 #include <scene/scene_edits.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace mobbscope::app {
@@ -16,6 +18,7 @@ SceneView Views::at(std::size_t place) const {
 }
 
 void Views::split(const std::string& name, const mobb::FitOptions& options) {
+    if (count() >= kMostViews) throw std::invalid_argument("there are no more than four views: close one first");
     Document next = workspace_.document();
     FittedScene fitted = *next.fitted;
     const std::size_t index = fit_with(fitted, name, options);
@@ -34,6 +37,48 @@ void Views::split(const std::string& name, const mobb::FitOptions& options) {
     workspace_.change_document(std::move(next), {"splitting the view: " + name, ""});
 }
 
+void Views::compare(const std::vector<mobb::FitOptions>& fits, const std::optional<LevelRange>& levels) {
+    if (fits.size() < 2 || fits.size() > kMostViews)
+        throw std::invalid_argument("give two to four fits, such as mobb,leaf=10 moving");
+    for (auto fit = fits.begin(); fit != fits.end(); ++fit) {
+        if (std::find(fits.begin(), fit, *fit) != fit)
+            throw std::invalid_argument("two of the fits are alike: " + fit_words(*fit, {}));
+    }
+    Document next = workspace_.document();
+    const std::vector<std::string> names = names_of_fits(fits);
+    FittedScene fitted = next.fitted->without_unused_fits();
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < fits.size(); ++i) indices.push_back(fit_with(fitted, names[i], fits[i]));
+    ViewState view = next.view;
+    if (levels) {
+        view.levels = *levels;
+        view.query.reset();
+        view.projection.reset();
+        view.boxes = true;
+    }
+    std::vector<SceneView> views;
+    for (const std::size_t index : indices)
+        views.push_back({std::make_shared<const FittedScene>(fitted.using_fit(index)), view});
+    set_views(next, std::move(views), 0);
+    std::string title = "comparing ";
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (i > 0) title += i + 1 == names.size() ? " with " : ", ";
+        title += names[i];
+    }
+    workspace_.change_document(std::move(next), {std::move(title), ""});
+}
+
+void Views::close(std::size_t place) {
+    if (count() == 1 || place >= count()) return;
+    Document next = workspace_.document();
+    std::vector<SceneView> views = views_of(next);
+    const std::string name(mobb::info(views[place].fitted->options().tree).label);
+    views.erase(views.begin() + static_cast<std::ptrdiff_t>(place));
+    const std::size_t stays = next.place > place ? next.place - 1 : std::min(next.place, views.size() - 1);
+    set_views(next, std::move(views), stays);
+    workspace_.change_document(std::move(next), {"closing a view: " + name, ""});
+}
+
 void Views::close_others() {
     if (workspace_.document().beside.empty()) return;
     Document next = workspace_.document();
@@ -44,8 +89,11 @@ void Views::close_others() {
 }
 
 void Views::activate(std::size_t place) {
-    if (place == workspace_.document().place || place > workspace_.document().beside.size()) return;
-    workspace_.amend([&](Document& next) { set_views(next, views_of(next), place); });
+    if (place == active() || place >= count()) return;
+    const bool linked = workspace_.document().links.selection;
+    const Selection there = counterpart(workspace_.selection, workspace_.fitted(), *at(place).fitted);
+    workspace_.activate(place);
+    if (linked) workspace_.select(there);
 }
 
 void Views::settle_camera(std::size_t place, const Camera& camera, double time_height) {
@@ -58,6 +106,11 @@ void Views::settle_camera(std::size_t place, const Camera& camera, double time_h
     if (time_height > 0) workspace_.settled_height = time_height;
 }
 
+void Views::frame_camera(std::size_t place, const Camera& camera, double time_height) {
+    settle_camera(place, camera, time_height);
+    workspace_.framing = camera;
+}
+
 void Views::resize_pictures(PictureSize to) {
     const std::optional<PictureSize> from = std::exchange(workspace_.picture_size, to);
     if (!from || from->height == to.height) return;
@@ -66,10 +119,11 @@ void Views::resize_pictures(PictureSize to) {
     };
     workspace_.history.amend_views([&](ViewState& view) { resize(view.camera); });
     for (auto& other : workspace_.other_cameras) resize(other.second);
+    if (workspace_.framing) resize(*workspace_.framing);
 }
 
-void Views::link_cameras(bool linked) {
-    workspace_.amend([&](Document& next) { next.linked_cameras = linked; });
+void Views::link(bool ViewLinks::*what, bool linked) {
+    workspace_.amend([&](Document& next) { next.links.*what = linked; });
 }
 
 }  // namespace mobbscope::app

@@ -115,36 +115,127 @@ void Workspace::change_document(Document next, const EditName& name) {
 }
 
 void Workspace::amend(const std::function<void(Document&)>& change) {
-    Document next = document();
-    change(next);
-    history.amend(std::move(next));
+    amend_quietly(change);
     changed();
 }
 
-/// All views show one time, and of linked cameras what the active view's shows.
-void Workspace::share_time_and_camera() {
+void Workspace::amend_quietly(const std::function<void(Document&)>& change) {
     Document next = document();
-    for (SceneView& other : next.beside) {
+    change(next);
+    history.amend(std::move(next));
+}
+
+void Workspace::activate(std::size_t place) {
+    amend_quietly([&](Document& next) { set_views(next, views_of(next), place); });
+    followed_ = step_to_follow();
+    changed();
+}
+
+/// Cameras that hold the whole go on to do so when pictures become narrower or wider. The direction stays.
+void Workspace::frame_again() {
+    const std::size_t views = document().beside.size() + 1;
+    if (std::exchange(views_framed_, views) == views || !framing) return;
+    const auto frame = [this](ViewState& view) {
+        const Camera& camera = view.camera;
+        const bool holds_all = camera.target == framing->target && camera.distance == framing->distance &&
+                               camera.shift == framing->shift && view.follow.empty();
+        if (!holds_all) return;
+        view.camera.target.reset();
+        view.camera.distance = 0;
+    };
+    amend_quietly([&](Document& next) {
+        frame(next.view);
+        for (SceneView& other : next.beside) frame(other.view);
+    });
+}
+
+Workspace::FollowedStep Workspace::step_to_follow() const {
+    FollowedStep out{document().fitted, view().query, view().step, {}, document().links.query};
+    for (const SceneView& other : document().beside) out.others.push_back(other.fitted);
+    return out;
+}
+
+const Workspace::LinkedTraversals& Workspace::linked_traversals(const SceneView& other) {
+    const std::shared_ptr<const FittedScene>& active = document().fitted;
+    const int query = *view().query;
+    const auto known = std::ranges::find_if(linked_, [&](const LinkedTraversals& each) {
+        return each.active == active && each.other == other.fitted && each.query == query;
+    });
+    if (known != linked_.end()) return *known;
+    if (linked_.size() >= kMostViews) linked_.pop_back();
+    LinkedTraversals made{active, other.fitted, query, other.fitted->recorded(static_cast<std::size_t>(query)), {}};
+    const SceneQuery asked = active->queries()[static_cast<std::size_t>(query)];
+    const auto decisions = [&](const FittedScene& fitted, const RecordedQuery& recorded) {
+        return decisions_of(fitted.placed(asked.a), fitted.placed(asked.b), recorded);
+    };
+    made.traversals = compared(decisions(*active, *recorded()), decisions(*other.fitted, *made.recorded));
+    return *linked_.insert(linked_.begin(), std::move(made));
+}
+
+/// Where another view stands when it goes along with the active one.
+Step Workspace::step_in(const SceneView& other) {
+    const Step& now = view().step;
+    if (now.unit == Step::Unit::end || recorded()->trace.empty()) return now;
+    const LinkedTraversals& both = linked_traversals(other);
+    const SceneQuery asked = fitted().queries()[static_cast<std::size_t>(*view().query)];
+    const RecordedTraversal here{fitted().placed(asked.a), fitted().placed(asked.b), recorded()};
+    const RecordedTraversal there{other.fitted->placed(asked.a), other.fitted->placed(asked.b), both.recorded.get()};
+    return {Step::Unit::event, static_cast<double>(matching_step(both.traversals, here, there, step(), view().time))};
+}
+
+/// The node of its trees that is over the same samples as a node of the active view.
+std::optional<DrawnNode> Workspace::node_in(const SceneView& other, const std::optional<DrawnNode>& node) const {
+    if (!node || crowd()) return node;
+    const Selection here{Selection::Kind::node, agent_in_view(fitted(), view(), node->agent), node->node};
+    return DrawnNode{node->agent, counterpart(here, fitted(), *other.fitted).index};
+}
+
+/// What views have in common they show as the active one does.
+void Workspace::share_linked() {
+    const FollowedStep now = step_to_follow();
+    const bool moved = std::exchange(followed_, now) != now;
+    if (document().beside.empty()) return;
+    const ViewState active = view();
+    const ViewLinks links = document().links;
+    std::vector<SceneView> beside = document().beside;
+    for (SceneView& other : beside) {
         ViewState view = other.view;
-        view.time = next.view.time;
-        view.theme = next.view.theme;
+        view.theme = active.theme;
         // Heights mean something else in the picture of a moment.
-        if (next.linked_cameras && view.show == next.view.show) {
-            view.camera = next.view.camera;
-            view.time_height = next.view.time_height;
-            view.follow = next.view.follow;
+        if (links.camera && view.show == active.show) {
+            view.camera = active.camera;
+            view.time_height = active.time_height;
+            view.follow = active.follow;
         }
+        if (links.time) {
+            view.time = active.time;
+            view.time_window = active.time_window;
+            view.slab = active.slab;
+        }
+        if (links.level) {
+            view.levels = active.levels;
+            view.color_by = active.color_by;
+            view.color_range = active.color_range;
+        }
+        if (links.query && !crowd()) {
+            const bool follows = moved || view.query != active.query;
+            view.query = active.query;
+            view.past = active.past;
+            if (follows && view.query) view.step = step_in(other);
+        }
+        if (links.selection && view.query == active.query) view.subtree = node_in(other, active.subtree);
         other.view = clamped(view, *other.fitted);
     }
-    if (!next.beside.empty()) history.amend(std::move(next));
+    amend_quietly([&](Document& next) { next.beside = std::move(beside); });
 }
 
 void Workspace::changed() {
-    share_time_and_camera();
+    frame_again();
+    settle_step();
+    share_linked();
     selection = remapped(selection, *pointed_into_, fitted());
     hovered = remapped(hovered, *pointed_into_, fitted());
     pointed_into_ = shown();
-    settle_step();
     settle_look();
 }
 
@@ -157,9 +248,7 @@ void Workspace::settle_step() {
     } catch (const ViewMismatch&) {
     }
     if (settled == view().step) return;
-    Document next = document();
-    next.view.step = settled;
-    history.amend(std::move(next));
+    amend_quietly([&](Document& next) { next.view.step = settled; });
 }
 
 /// Branches and ranges are of one trace; who is asked about moves with the time cursor.
@@ -215,17 +304,35 @@ QueryWorkload::Kind Workspace::workload() const {
     return asks ? settings_->cost_of : QueryWorkload::Kind::placements;
 }
 
-std::shared_ptr<const TreeCost> Workspace::cost_of(int clip) const {
-    const std::shared_ptr<const mobb::Tree>& tree = fitted().shared_tree(clip);
+std::shared_ptr<const TreeCost> Workspace::cost_of(const FittedScene& of, int clip) const {
+    const std::shared_ptr<const mobb::Tree>& tree = of.shared_tree(clip);
     if (workload() == QueryWorkload::Kind::placements) {
         const auto known = std::ranges::find(standard_costs_, tree, [](const auto& cost) { return cost->tree; });
         return known == standard_costs_.end() ? nullptr : *known;
     }
-    Derived& d = derived();
-    if (!d.costs) return nullptr;
-    auto [at, is_new] = d.costs_of_trees.try_emplace(clip);
-    if (is_new) at->second = std::make_shared<const TreeCost>(cost_in_scene(*d.costs, clip, tree));
-    return at->second;
+    const std::shared_ptr<const SceneCosts> costs = counted(of);
+    if (!costs) return nullptr;
+    const auto known = std::ranges::find_if(
+        costs_in_scene_, [&](const CostInScene& each) { return each.of == costs && each.clip == clip; });
+    if (known != costs_in_scene_.end()) return known->cost;
+    auto cost = std::make_shared<const TreeCost>(cost_in_scene(*costs, clip, tree));
+    costs_in_scene_.insert(costs_in_scene_.begin(), {costs, clip, cost});
+    if (costs_in_scene_.size() > kKeptCosts) costs_in_scene_.pop_back();
+    return cost;
+}
+
+void Workspace::keep_counted(const std::shared_ptr<const FittedScene>& of, std::shared_ptr<const SceneCosts> costs) {
+    if (ask_the_same(*of, *document().fitted)) derived().costs = costs;
+    std::erase_if(counted_, [&](const auto& known) { return ask_the_same(*known.first, *of); });
+    counted_.insert(counted_.begin(), {of, std::move(costs)});
+    if (counted_.size() > kMostViews) counted_.pop_back();
+}
+
+std::shared_ptr<const SceneCosts> Workspace::counted(const FittedScene& of) const {
+    if (&of == document().fitted.get()) return derived().costs;
+    const auto known = std::ranges::find_if(
+        counted_, [&](const auto& each) { return each.first.get() == &of || ask_the_same(*each.first, of); });
+    return known == counted_.end() ? nullptr : known->second;
 }
 
 void Workspace::keep_standard_cost(std::shared_ptr<const TreeCost> cost) {
@@ -236,7 +343,12 @@ void Workspace::keep_standard_cost(std::shared_ptr<const TreeCost> cost) {
 Workspace::Derived& Workspace::derived() const {
     if (derived_.of != document().fitted) {
         // Another breakpoint, say, changes nothing that was found out about the queries.
-        if (!derived_.of || !ask_the_same(*derived_.of, *document().fitted)) derived_ = {};
+        if (!derived_.of || !ask_the_same(*derived_.of, *document().fitted)) {
+            derived_ = {};
+            const auto is_same = [this](const auto& known) { return ask_the_same(*known.first, *document().fitted); };
+            const auto known = std::ranges::find_if(counted_, is_same);
+            if (known != counted_.end()) derived_.costs = known->second;
+        }
         // These refer to the scene that they were made of.
         derived_.moves.reset();
         derived_.choice.reset();

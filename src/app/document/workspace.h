@@ -123,6 +123,9 @@ class Workspace {
     /// Cameras of the pictures that are not shown now, by what they are of: "space-time", "moment", "disk".
     std::map<std::string_view, Camera> other_cameras;
     double settled_height = 0;  ///< metres a second, of the last framing
+    /// The camera that framed the scene by itself last. Views that still stand so frame it again when there are more
+    /// views or fewer, and pictures narrower or wider.
+    std::optional<Camera> framing;
 
     /// A candidate of a choice that is pointed out.
     struct PointedOut {
@@ -163,8 +166,10 @@ class Workspace {
     const RecordedQuery* recorded() const;
     /// Which queries costs are about: those that settings choose, where the scene asks any.
     QueryWorkload::Kind workload() const;
-    /// What the tree of a clip costs in these; null: it is not known yet.
-    std::shared_ptr<const TreeCost> cost_of(int clip) const;
+    /// What the tree of a clip costs in these, of the fit in use of the document or of one of its views; null: it is
+    /// not known yet.
+    std::shared_ptr<const TreeCost> cost_of(int clip) const { return cost_of(*document().fitted, clip); }
+    std::shared_ptr<const TreeCost> cost_of(const FittedScene& of, int clip) const;
     /// Whom the queries blame for avoidable overlaps; null if nobody has counted since the scene or its fit changed.
     const BlameInScene* blame() const { return blame_counted_in == document().fitted ? counted_blame.get() : nullptr; }
     /// The event of the trace that the view shows; requires recorded().
@@ -173,6 +178,10 @@ class Workspace {
     // Changes.
     /// Keeps what was found out of a tree under standard placements, of the latest few.
     void keep_standard_cost(std::shared_ptr<const TreeCost> cost);
+    /// Likewise what the queries of a scene cost.
+    void keep_counted(const std::shared_ptr<const FittedScene>& of, std::shared_ptr<const SceneCosts> costs);
+    /// Null: nobody has counted, or it is forgotten.
+    std::shared_ptr<const SceneCosts> counted(const FittedScene& of) const;
     /// The scene after `change`, which may change `view` and `fit` along. Throws what `change` throws, and
     /// std::invalid_argument for options of the fit that are out of range.
     Scene changed_scene(const std::function<void(Scene&)>& change) const;
@@ -188,6 +197,8 @@ class Workspace {
     void change_document(Document next, const EditName& name);
     /// Changes the present state in place: no step of its own for undo.
     void amend(const std::function<void(Document&)>& change);
+    /// The view at that place, < the number of views, is the active one. What the others show stays.
+    void activate(std::size_t place);
     /// After every change of the history: nothing points at what is gone, and the step is one of the trace.
     void changed();
     /// An interaction has ended: what follows is undone apart from it.
@@ -227,8 +238,7 @@ class Workspace {
             listed_events.reset();
             focused.reset();
         }
-        std::optional<SceneCosts> costs{};
-        std::map<int, std::shared_ptr<const TreeCost>> costs_of_trees{};  ///< by clip; of `costs`
+        std::shared_ptr<const SceneCosts> costs{};  ///< null: not counted
         std::optional<Sandwich> sandwich{};
         std::map<std::size_t, Answer> answers{};
         std::map<int, std::vector<mobb::LevelFigures>> figures{};
@@ -243,14 +253,48 @@ class Workspace {
     /// `next` follows the present document: it remembers which steps were looked at, and a query that is seen with
     /// another kind of trees goes on where it was left with that.
     void remember_step(Document& next);
-    void share_time_and_camera();
+    void frame_again();
+    void share_linked();
     void settle_step();
     void settle_look();
 
+    /// The traversal of a query in the active view and in another one.
+    struct LinkedTraversals {
+        std::shared_ptr<const FittedScene> active, other;
+        int query = 0;
+        std::shared_ptr<const RecordedQuery> recorded;  ///< in the other
+        TraversalComparison traversals;
+    };
+    const LinkedTraversals& linked_traversals(const SceneView& other);
+    Step step_in(const SceneView& other);
+    /// What the steps of the other views follow.
+    struct FollowedStep {
+        std::shared_ptr<const FittedScene> fitted;
+        std::optional<int> query;
+        Step step;
+        std::vector<std::shared_ptr<const FittedScene>> others;
+        bool linked = true;
+        friend bool operator==(const FollowedStep&, const FollowedStep&) = default;
+    };
+    FollowedStep step_to_follow() const;
+    std::optional<DrawnNode> node_in(const SceneView& other, const std::optional<DrawnNode>& node) const;
+    void amend_quietly(const std::function<void(Document&)>& change);
+
     Settings* settings_;
     std::vector<std::shared_ptr<const TreeCost>> standard_costs_;  ///< the latest first
-    std::shared_ptr<const FittedScene> pointed_into_;              ///< what selection and hovered are of
-    bool stepping_ = false;                                        ///< the step was changed in the present interaction
+    std::vector<std::pair<std::shared_ptr<const FittedScene>, std::shared_ptr<const SceneCosts>>>
+        counted_;  ///< likewise
+    struct CostInScene {
+        std::shared_ptr<const SceneCosts> of;
+        int clip = 0;
+        std::shared_ptr<const TreeCost> cost;
+    };
+    mutable std::vector<CostInScene> costs_in_scene_;  ///< likewise
+    std::vector<LinkedTraversals> linked_;             ///< likewise
+    FollowedStep followed_;
+    std::size_t views_framed_ = 1;                     ///< how many there were when cameras framed the scene last
+    std::shared_ptr<const FittedScene> pointed_into_;  ///< what selection and hovered are of
+    bool stepping_ = false;                            ///< the step was changed in the present interaction
     struct LookedAt {
         std::shared_ptr<const FittedScene> fitted;
         std::optional<int> query;

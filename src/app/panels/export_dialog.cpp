@@ -339,7 +339,8 @@ std::string exported_subject(const Workspace& workspace, const Files& files, con
     if (!files.visited().empty()) out = "The scene of the case " + files.visited();
     if (views.count() < 2) return out;
     const std::size_t place = views.active();
-    const std::string which = place == 0 ? "the left" : place + 1 == views.count() ? "the right" : "the middle";
+    const std::string between = views.count() == 3 ? "the middle" : place == 1 ? "the second" : "the third";
+    const std::string which = place == 0 ? "the left" : place + 1 == views.count() ? "the right" : between;
     return out + ", " + which + " view alone (" +
            std::string(mobb::info(workspace.document().fitted->options().tree).label) + ")";
 }

@@ -21,6 +21,10 @@ void sweep_panel(Ui& ui, SweepInspector& sweeps);          ///< which tree to sh
 void tree_panel(Ui& ui, Jobs& jobs, QueryInspector& queries, FitCosts& costs, FitNotices& notices);
 /// What a query of a clip's tree costs, by kind of test and by level, and how tight its levels are.
 void cost_section(Ui& ui, QueryInspector& queries, FitCosts& costs, int clip);
+/// The fits of several views by level: how tight they are, and what a query costs; of one view nothing.
+void compared_fits_panel(Ui& ui, FitCosts& costs);
+/// All views side by side, each under a title, with what they have in common below; one alone without these.
+void views_panel(Ui& ui, std::vector<Viewport>& viewports);
 /// What stands out in the tree of a clip; nothing where nothing does.
 void findings_panel(Ui& ui, FitNotices& notices, int clip);
 void query_panel(Ui& ui, QueryInspector& queries, QueryPictures& pictures);  ///< the answer, and why

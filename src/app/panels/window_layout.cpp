@@ -119,23 +119,6 @@ void panel(Ui& ui, std::string_view called, ImVec2 size, const Draw& draw) {
     ImGui::PopStyleVar();
 }
 
-/// Side by side, equally wide, with a line between them.
-void draw_views(Ui& ui, std::vector<Viewport>& viewports) {
-    if (viewports.size() == 1) return viewports.front().draw(ui, 0);
-    const ImVec2 corner = ImGui::GetCursorPos();
-    const ImVec2 room = ImGui::GetContentRegionAvail();
-    const float line = std::max(1.0f, std::floor(ui.px(1)));
-    const float count = static_cast<float>(viewports.size());
-    const float width = std::floor((room.x - line * (count - 1)) / count);
-    for (std::size_t place = 0; place < viewports.size(); ++place) {
-        ImGui::SetCursorPos({corner.x + static_cast<float>(place) * (width + line), corner.y});
-        ImGui::BeginChild(("view " + std::to_string(place)).c_str(), {width, room.y}, false,
-                          ImGuiWindowFlags_NoBackground);
-        viewports[place].draw(ui, place);
-        ImGui::EndChild();
-    }
-}
-
 }  // namespace
 
 void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pictures) {
@@ -216,7 +199,7 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
         ImGui::BeginChild("viewport", {middle, room.y - bottom - bar}, false, ImGuiWindowFlags_NoBackground);
         ui.focus.panel("view");
         viewport_toolbar(ui);
-        draw_views(ui, viewports);
+        views_panel(ui, viewports);
         ImGui::EndChild();
         bottom_height -= splitter(ui, "splitter.bottom", {middle, bar}, false) / ui.style.scale;
         panel(ui, "timeline", {middle, bottom},
@@ -234,6 +217,7 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
         ImGui::BeginGroup();
         panel(ui, screen ? panels[2].name : "right", {right, room.y - map.height}, [&] {
             if (screen) return panels[2].draw(ui);
+            compared_fits_panel(ui, ui.session.fit_costs);
             if (of_crowd) {
                 crowd_panel(ui, ui.session.crowds);
             } else {

@@ -365,6 +365,8 @@ Json state_json(const Session& session) {
     if (session.dialogs.now == Dialog::export_picture) json["export"] = export_json(session.dialogs, session.settings);
     for (const auto& screen : session.screens) screen->add_state(json);
     if (session.views.count() > 1) {
+        json["links"] = Json::object();
+        for (const ViewLink& link : kViewLinks) json["links"][link.name] = session.workspace.document().links.*link.on;
         json["views"] = Json::array();
         for (std::size_t place = 0; place < session.views.count(); ++place) {
             const SceneView seen = session.views.at(place);

@@ -22,10 +22,7 @@ bool is_under_way(const Workspace& workspace, std::string_view title) {
 
 }  // namespace
 
-const SceneCosts* CostInspector::costs() const {
-    const auto& known = workspace_.derived().costs;
-    return known ? &*known : nullptr;
-}
+const SceneCosts* CostInspector::costs() const { return workspace_.derived().costs.get(); }
 
 void CostInspector::count(std::function<void()> then) {
     if (costs()) return then ? then() : void();
@@ -36,15 +33,15 @@ void CostInspector::count(std::function<void()> then) {
     then_ = std::move(then);
     jobs_.start(kCountAll, [this, in = workspace_.document().fitted](JobControl& control) -> Job::Finish {
         SceneCosts found = scene_costs(*in, progress_of(control));
-        return [this, in, found = std::move(found)]() mutable { take(*in, std::move(found)); };
+        return [this, in, found = std::make_shared<const SceneCosts>(std::move(found))] { take(in, found); };
     });
 }
 
-void CostInspector::take(const FittedScene& in, SceneCosts found) {
+void CostInspector::take(const std::shared_ptr<const FittedScene>& in, const std::shared_ptr<const SceneCosts>& found) {
+    workspace_.keep_counted(in, found);
     const FittedScene& now = *workspace_.document().fitted;
     std::function<void()> then = std::exchange(then_, nullptr);
-    if (ask_the_same(in, now)) {
-        workspace_.derived().costs = std::move(found);
+    if (ask_the_same(*in, now)) {
         if (then) then();
         return;
     }

@@ -40,7 +40,7 @@ class CostInspector {
     std::vector<int> listed() const;
 
   private:
-    void take(const FittedScene& in, SceneCosts found);
+    void take(const std::shared_ptr<const FittedScene>& in, const std::shared_ptr<const SceneCosts>& found);
 
     Workspace& workspace_;
     Jobs& jobs_;

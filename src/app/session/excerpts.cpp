@@ -107,7 +107,8 @@ void Excerpts::open(Side a, Side b, const std::array<Rgba, 2>& colors, const std
     const Document& now = workspace_.document();
     // An excerpt of an excerpt is of the same whole.
     ExcerptSource source =
-        now.excerpt_of ? *now.excerpt_of : ExcerptSource{now.fitted, now.view, {}, now.steps, now.opening};
+        now.excerpt_of ? *now.excerpt_of : ExcerptSource{now.fitted,  now.view,   {},        now.steps,
+                                                         now.opening, now.beside, now.place, now.links};
     source.saved = next.fitted;
     next.excerpt_of = std::make_shared<const ExcerptSource>(std::move(source));
     next.opening = ++counts_.openings;
@@ -127,9 +128,7 @@ void Excerpts::leave() {
     jobs_.require_none();
     const std::shared_ptr<const ExcerptSource> origin = workspace_.document().excerpt_of;
     turn_away();
-    Document whole{origin->fitted, origin->view};
-    whole.steps = origin->steps;
-    whole.opening = origin->opening;
+    Document whole = whole_of(*origin);
     DebugState debug = whole.fitted->scene().debug;
     debug.filters = workspace_.scene().debug.filters;
     debug.breakpoints = workspace_.scene().debug.breakpoints;

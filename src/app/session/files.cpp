@@ -321,8 +321,9 @@ void Files::save_as(const std::filesystem::path& file) {
     if (parts_.workspace.in_excerpt()) {
         // The whole stays what is open; the excerpt has a file of its own.
         Document now = parts_.workspace.document();
-        now.excerpt_of = std::make_shared<const ExcerptSource>(ExcerptSource{
-            now.excerpt_of->fitted, now.excerpt_of->view, now.fitted, now.excerpt_of->steps, now.excerpt_of->opening});
+        ExcerptSource source = *now.excerpt_of;
+        source.saved = now.fitted;
+        now.excerpt_of = std::make_shared<const ExcerptSource>(std::move(source));
         parts_.workspace.history.amend(std::move(now));
     } else {
         // The document is the file's now: messages and further sources refer to it.

@@ -6,6 +6,7 @@
 #include <render/parts/measured_line.h>
 #include <scene/arrangement.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -18,25 +19,28 @@ using Role = HighlightLine::Role;
 
 constexpr double kNearConflict = 2;  // seconds around a conflict in which its other one is pointed out
 
-bool is_hidden(const Workspace& workspace, const PlacedAgent& who) {
-    if (who.agent < 0 && !workspace.scene().agents.empty()) return false;
-    return are_hidden(workspace, {name_in_view(workspace.fitted().scene(), who)});
+bool is_hidden(const SceneView& seen, const PlacedAgent& who) {
+    const Scene& scene = seen.fitted->scene();
+    if (who.agent < 0 && !scene.agents.empty()) return false;
+    return std::ranges::find(seen.view.hidden, name_in_view(scene, who)) != seen.view.hidden.end();
 }
 
 /// Whose a selection is, under another tree if one is given; none if it is not in the picture.
-std::optional<DrawnAgent> owner_in_view(const Session& session, const Selection& what,
+std::optional<DrawnAgent> owner_in_view(const SceneView& seen, const Selection& what,
                                         const mobb::Tree* tree = nullptr) {
-    const FittedScene& fitted = session.workspace.fitted();
-    if (!what.on_path() || !index_in_view(fitted, session.workspace.view(), what.path)) return std::nullopt;
+    const FittedScene& fitted = *seen.fitted;
+    if (!what.on_path() || !index_in_view(fitted, seen.view, what.path)) return std::nullopt;
     const auto who = placed_agent_of(fitted, what.path);
-    if (!who || is_hidden(session.workspace, *who)) return std::nullopt;
+    if (!who || is_hidden(seen, *who)) return std::nullopt;
     DrawnAgent drawn = drawn_agent_of(fitted, *who);
-    drawn.placed = {tree ? *tree : fitted.tree(who->clip), shown_placement(fitted, session.workspace.view(), *who)};
+    drawn.placed = {tree ? *tree : fitted.tree(who->clip), shown_placement(fitted, seen.view, *who)};
     return drawn;
 }
 
-void add_highlight_of(DrawList& list, const Session& session, const Selection& what, Role role, float scale) {
-    if (const auto owner = owner_in_view(session, what)) add_highlight(list, *owner, what.part(), role, scale);
+SceneView active_view(const Session& session) { return {session.workspace.shown(), session.workspace.view()}; }
+
+void add_highlight_of(DrawList& list, const SceneView& seen, const Selection& what, Role role, float scale) {
+    if (const auto owner = owner_in_view(seen, what)) add_highlight(list, *owner, what.part(), role, scale);
 }
 
 /// The boxes above the selected node, or else above the part that is shown alone.
@@ -45,7 +49,7 @@ void add_ancestors_of(DrawList& list, const Session& session, float scale) {
     if (!view.ancestors || view.projection) return;
     const Selection& selected = session.workspace.selection;
     if (selected.kind == Selection::Kind::node) {
-        if (const auto owner = owner_in_view(session, selected)) add_ancestors(list, *owner, selected.index, scale);
+        if (const auto owner = owner_in_view(active_view(session), selected)) add_ancestors(list, *owner, selected.index, scale);
         return;
     }
     if (view.subtree) add_ancestors_of_part(list, drawn_agents(session.workspace.fitted(), view), view, scale);
@@ -57,7 +61,7 @@ void add_variant(DrawList& list, const Session& session, float scale) {
     const auto pointed = static_cast<std::size_t>(session.what_if.pointed);  // of none beyond all
     if (!found || pointed >= found->variants.size()) return;
     const NodeVariant& variant = found->variants[pointed];
-    const auto owner = owner_in_view(session, session.workspace.selection, variant.tree.get());
+    const auto owner = owner_in_view(active_view(session), session.workspace.selection, variant.tree.get());
     if (!owner) return;
     if (variant.change.split.value_or(0) == 0) {
         add_highlight(list, *owner, {AgentPart::Kind::node, found->node}, Role::ghost, scale);
@@ -77,7 +81,7 @@ void add_hovered_event(DrawList& list, const Session& session, float scale) {
     const mobb::Trace::Event test = query->trace[event];
     for (const auto& [side, node] : {std::pair(0, test.a), std::pair(1, test.b)}) {
         const AgentRef path = agent_in_view(workspace.fitted(), workspace.view(), side);
-        add_highlight_of(list, session, {Selection::Kind::node, path, node}, Role::hover, scale);
+        add_highlight_of(list, active_view(session), {Selection::Kind::node, path, node}, Role::hover, scale);
     }
 }
 
@@ -99,22 +103,30 @@ void add_other_of_conflict(DrawList& list, const Session& session, float scale) 
     if (time < place.time - kNearConflict || time > conflict.begin() + kNearConflict) return;
     if (place.followed.name != session.workspace.view().follow) return;
     const Selection other{Selection::Kind::path, {place.other.agent, -1, 0}, -1};
-    add_highlight_of(list, session, other, Role::conflict, scale);
+    add_highlight_of(list, active_view(session), other, Role::conflict, scale);
+}
+
+void add_pointed_out(DrawList& list, const SceneView& seen, const Selection& selection, const Selection& hovered,
+                     float scale) {
+    add_highlight_of(list, seen, selection, Role::selection, scale);
+    if (hovered != selection) add_highlight_of(list, seen, hovered, Role::hover, scale);
 }
 
 }  // namespace
 
 void add_highlights(DrawList& list, const Session& session, float scale) {
     add_ancestors_of(list, session, scale);
-    add_highlight_of(list, session, session.workspace.selection, Role::selection, scale);
-    if (session.workspace.hovered != session.workspace.selection) {
-        add_highlight_of(list, session, session.workspace.hovered, Role::hover, scale);
-    }
+    add_pointed_out(list, active_view(session), session.workspace.selection, session.workspace.hovered, scale);
     add_hovered_event(list, session, scale);
     add_variant(list, session, scale);
     add_candidate(list, session, scale);
     add_other_of_conflict(list, session, scale);
     if (const auto line = measured_in_view(session.workspace)) add_measured_line(list, *line, scale);
+}
+
+void add_highlights_beside(DrawList& list, const Workspace& workspace, const SceneView& seen, float scale) {
+    const auto there = [&](const Selection& here) { return counterpart(here, workspace.fitted(), *seen.fitted); };
+    add_pointed_out(list, seen, there(workspace.selection), there(workspace.hovered), scale);
 }
 
 }  // namespace mobbscope::app

@@ -11,4 +11,7 @@ namespace mobbscope::app {
 /// measured. `scale`: of line widths.
 void add_highlights(DrawList& list, const Session& session, float scale);
 
+/// The same of another view: what goes there with what is selected and under the mouse.
+void add_highlights_beside(DrawList& list, const Workspace& workspace, const SceneView& seen, float scale);
+
 }  // namespace mobbscope::app

@@ -210,6 +210,9 @@ Viewport::Key Viewport::wanted(const Ui& ui, PictureSize size, const FollowedCho
     // Text follows the panels where they are made larger than the picture would have it by itself.
     const double words = ui.style.scale > 1 ? std::max<double>(ui.style.scale, metrics_of(size).scale) : 0;
     SceneView seen = ui.session.views.at(view_place_);
+    // The title over it says the same.
+    const bool has_title = ui.session.views.count() > 1 && !seen.view.query && !ui.workspace.crowd();
+    if (has_title && seen.view.show == Show::space_time) seen.view.caption = false;
     // The region that the drag began in stays in its place.
     if (drags_on_promise()) seen.view.free_region = false;
     return {seen.fitted,
@@ -217,7 +220,7 @@ Viewport::Key Viewport::wanted(const Ui& ui, PictureSize size, const FollowedCho
             size,
             words,
             choice ? std::pair(choice->agent, choice->play) : std::pair(-1, -1),
-            is_active(ui) ? standing_out(ui.workspace) : "",
+            is_active(ui) || ui.workspace.document().links.selection ? standing_out(ui.workspace) : "",
             seen.view.heat || figure_of(seen.view.color_by) ? figures_->revision() : 0};
 }
 
@@ -285,7 +288,7 @@ void Viewport::follow_test(Ui& ui) {
 bool Viewport::settle(Views& views, Workspace& workspace) {
     const LaidOut laid_out = std::exchange(laid_out_, {});
     if (laid_out.size) views.resize_pictures(*laid_out.size);
-    if (laid_out.framed) views.settle_camera(view_place_, laid_out.framed->first, laid_out.framed->second);
+    if (laid_out.framed) views.frame_camera(view_place_, laid_out.framed->first, laid_out.framed->second);
     if (laid_out.to_see) go_along_with(views, workspace, laid_out.to_see->first, laid_out.to_see->second);
     return laid_out.size || laid_out.framed || laid_out.to_see;
 }
@@ -303,6 +306,9 @@ void Viewport::update_highlights(const Ui& ui) {
             }
         }
         add_highlights(*list_, ui.session, scale);
+    } else if (ui.workspace.document().links.selection) {
+        const float scale = metrics_of(list_->size, key_->scale).scale;
+        add_highlights_beside(*list_, ui.workspace, ui.session.views.at(view_place_), scale);
     }
     if (list_->highlights != shown) unpainted_ = std::max(unpainted_, Changed::highlights);
 }
@@ -374,25 +380,12 @@ void Viewport::draw(Ui& ui, std::size_t place) {
     }
     context_menu(ui, "what is here",
                  [&] { return over_nothing_ ? picture_menu(ui.session) : selection_menu(ui.session); });
-    if (ui.session.views.count() > 1) name_trees(ui, corner);
 }
 
-/// The kind of trees of a view in its lower right corner, which no overlay takes; a frame in the accent's colour around
-/// the active view.
-void Viewport::name_trees(const Ui& ui, ImVec2 corner) const {
-    const std::string name(mobb::info(key_->fitted->options().tree).label);
-    const ImVec2 end{corner.x + static_cast<float>(list_->size.width),
-                     corner.y + static_cast<float>(list_->size.height)};
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const ImVec2 text = ImGui::CalcTextSize(name.c_str());
-    const float gap = ui.px(8);
-    const ImVec2 at{end.x - text.x - 2 * gap, end.y - text.y - 2 * gap};
-    const ImU32 color = is_active(ui) ? ui.style.accent : ui.style.border;
-    draw.AddRectFilled({at.x - gap, at.y - gap / 2}, {at.x + text.x + gap, at.y + text.y + gap / 2}, ui.style.panel,
-                       ui.px(4));
-    draw.AddRect({at.x - gap, at.y - gap / 2}, {at.x + text.x + gap, at.y + text.y + gap / 2}, color, ui.px(4));
-    draw.AddText(at, is_active(ui) ? ui.style.text : ui.style.quiet, name.c_str());
-    if (is_active(ui)) draw.AddRect(corner, end, color);
+const RecordedQuery* Viewport::recorded_in(const SceneView& seen) {
+    const std::optional<int>& query = seen.view.query;
+    recorded_ = query ? seen.fitted->recorded(static_cast<std::size_t>(*query)) : nullptr;
+    return recorded_.get();
 }
 
 // --- the mouse

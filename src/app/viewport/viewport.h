@@ -36,6 +36,9 @@ class Viewport {
     /// empty scene.
     const DrawList* shown() const { return list_ ? &*list_ : nullptr; }
 
+    /// The record of the query that a view of the session shows here; null: it shows none.
+    const RecordedQuery* recorded_in(const SceneView& seen);
+
   private:
     /// All that the picture depends on.
     struct Key {
@@ -57,7 +60,6 @@ class Viewport {
     };
 
     bool is_active(const Ui& ui) const { return view_place_ == ui.session.views.active(); }
-    void name_trees(const Ui& ui, ImVec2 corner) const;
     void update_picture(Ui& ui, PictureSize size);
     Key wanted(const Ui& ui, PictureSize size, const FollowedChoice* choice) const;
     void stand(Ui& ui, Key& next);
@@ -97,8 +99,9 @@ class Viewport {
 
     std::optional<KeptPaths> paths_;  ///< of key_'s scene
     std::shared_ptr<SceneFigures> figures_;
-    std::size_t view_place_ = 0;  ///< of the session's views
-    std::optional<Key> key_;      ///< what the document asks for, a flight apart
+    std::shared_ptr<const RecordedQuery> recorded_;  ///< kept, as long as it is shown
+    std::size_t view_place_ = 0;                     ///< of the session's views
+    std::optional<Key> key_;                         ///< what the document asks for, a flight apart
     std::optional<DrawList> list_;
     std::string why_not_;  ///< there is no list: the reason
     std::optional<Flight> flight_;

@@ -345,7 +345,11 @@ double Shell::frame(PictureSize size, double now) {
     s.size = size;
     s.laid_out_until = now + std::min(wanted, kSignFrame);
     bool changed = false;
-    for (Viewport& viewport : s.viewports) changed |= viewport.settle(s.session.views, s.session.workspace);
+    // The active one first: it says of which size pictures are, and what the others frame is of that size already.
+    for (std::size_t i = 0; i < s.viewports.size(); ++i) {
+        Viewport& viewport = s.viewports[(s.session.views.active() + i) % s.viewports.size()];
+        changed |= viewport.settle(s.session.views, s.session.workspace);
+    }
     if (s.session.queue.run() || changed) s.settling = kFramesToSettle;
     if (!ImGui::IsAnyItemActive() && !s.input.any_button_down()) s.session.workspace.close_group();
     s.cursor = ImGui::GetMouseCursor();

@@ -1,0 +1,28 @@
+/// Fits of a clip side by side, as text and as JSON.
+#pragma once
+
+#include <base/json_writer.h>
+#include <explain/compared_fits.h>
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mobbscope::cli {
+
+struct ClipComparison {
+    std::string clip;
+    std::vector<std::shared_ptr<const mobb::Tree>> trees;
+    ComparedFits fits;
+};
+
+/// Fits them, and finds out what queries of the clip against itself cost under standard placements. Throws
+/// std::invalid_argument if an option is out of range.
+ClipComparison comparison_of(const std::string& clip, const mobb::ClipPtr& samples,
+                             std::span<const mobb::FitOptions> fits);
+
+void print_comparison(const ClipComparison& of);
+void write_comparison(JsonWriter& out, const ClipComparison& of);
+
+}  // namespace mobbscope::cli

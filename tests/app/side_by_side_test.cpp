@@ -1,0 +1,252 @@
+// Several views of a scene side by side: what they have in common, how they are framed, and their titles and table.
+#include <app/script/script.h>
+#include <app/window/headless_window.h>
+#include <explain/compared_fits.h>
+#include <explain/query_progress.h>
+#include <explain/trace_comparison.h>
+#include <render/gl/gl_context.h>
+
+#include "app/crossing_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace mobbscope::app {
+namespace {
+
+struct SideBySide {
+    testing::CrossingFolder folder;
+    Session session{false};
+    HeadlessWindow window;
+
+    SideBySide() : window(GlContext::open(Backend::automatic), session, {1400, 1400}, 1) {
+        session.files.open({folder.write("compared.json", R"({"clips": {"walk": {"source": "walk.csv"}},
+            "agents": [{"name": "A", "clip": "walk"},
+                       {"name": "B", "clip": "walk", "translate": [2, 0.82], "rotate_deg": 180}],
+            "fit": {"leaf": 4}})")});
+        window.settle();
+    }
+    void run(const std::string& script) {
+        std::ostringstream out;
+        Script::parse(script, "test").run(session, window, out);
+        window.settle();
+    }
+    bool has(const std::string& name) { return window.shell().marks().all().contains(name); }
+    const ViewState& here() const { return session.workspace.view(); }
+    SceneView at(std::size_t place) const { return session.views.at(place); }
+};
+
+TEST(SideBySide, EveryLinkCanBeSwitchedOffAndOn) {
+    SideBySide w;
+    w.run("run compare.fits mobb umobb moving,leaf=8");
+    ASSERT_EQ(w.session.views.count(), 3u);
+    // Whether another view is as the active one in what a link is about, after something else was done in that.
+    struct Case {
+        std::string link, first, second;
+        std::function<bool(const ViewState&, const ViewState&)> same;
+    };
+    const std::vector<Case> cases{
+        {"camera", "run view.top", "run view.front",
+         [](const ViewState& a, const ViewState& b) { return a.camera == b.camera; }},
+        {"time", "run time.at 0.2", "run time.at 0.4",
+         [](const ViewState& a, const ViewState& b) { return a.time == b.time; }},
+        {"level", "run view.level 1", "run view.level 3",
+         [](const ViewState& a, const ViewState& b) { return a.levels == b.levels; }},
+        {"query", "run query.select 0", "run query.none",
+         [](const ViewState& a, const ViewState& b) { return a.query == b.query; }},
+    };
+    for (const Case& c : cases) {
+        SCOPED_TRACE(c.link);
+        w.run(c.first);
+        EXPECT_TRUE(c.same(w.at(1).view, w.here()) && c.same(w.at(2).view, w.here()));
+        w.run("click link." + c.link);
+        w.run(c.second);
+        EXPECT_FALSE(c.same(w.at(1).view, w.here()) || c.same(w.at(2).view, w.here()));
+        w.run("click link." + c.link);
+        EXPECT_TRUE(c.same(w.at(1).view, w.here()) && c.same(w.at(2).view, w.here())) << "at once";
+    }
+    w.run("expect /links/camera true\nexpect /views/2/view/levels \"3\"");
+}
+
+TEST(SideBySide, ANodeIsSelectedInEveryTree) {
+    SideBySide w;
+    w.run("run compare.fits mobb,leaf=2 umobb,leaf=8\nrun go.node A 3.2\nframes 3");
+    const mobb::Tree &fine = w.at(0).fitted->tree(0), &coarse = w.at(1).fitted->tree(0);
+    const int node = w.session.workspace.selection.index;
+    const int there = node_over_same_samples(fine, node, coarse);
+    w.run("click view.title.1");
+    ASSERT_EQ(w.session.views.active(), 1u);
+    EXPECT_EQ(w.session.workspace.selection.kind, Selection::Kind::node);
+    EXPECT_EQ(w.session.workspace.selection.index, there);
+    w.run("run view.link_selections\nclick view.title.0");
+    EXPECT_EQ(w.session.workspace.selection.kind, Selection::Kind::path) << "another tree has other nodes";
+}
+
+TEST(SideBySide, WhatIsSelectedStandsOutInEveryPicture) {
+    SideBySide w;
+    w.run("run compare.fits mobb umobb\nrun go.node A 1.1\nframes 3");
+    for (const std::size_t place : {1u, 0u}) {
+        w.run("run view.other");
+        ASSERT_EQ(w.session.views.active(), place);
+        EXPECT_GT(w.window.shell().shown()->highlights.size(), 0u);
+    }
+    // Beside the active one, too: the picture is another one without.
+    const auto picture = [&] { return w.window.shell().read_back().rgba; };
+    const auto linked = picture();
+    w.run("run view.link_selections\nrun view.link_selections");
+    EXPECT_EQ(picture(), linked);
+    w.run("run view.link_selections");
+    EXPECT_NE(picture(), linked);
+}
+
+TEST(SideBySide, AStepTakesTheOtherTraversalToTheSameMoment) {
+    SideBySide w;
+    w.run("run compare.fits mobb,leaf=2 umobb,leaf=8\nrun query.select 0\nrun step.last");
+    const SceneView &a = w.at(0), &b = w.at(1);
+    const std::shared_ptr<const RecordedQuery> first = a.fitted->recorded(0), second = b.fitted->recorded(0);
+    const SceneQuery query = a.fitted->queries()[0];
+    const RecordedTraversal from{a.fitted->placed(query.a), a.fitted->placed(query.b), first.get()};
+    const RecordedTraversal to{b.fitted->placed(query.a), b.fitted->placed(query.b), second.get()};
+    const TraversalComparison both = compared(decisions_of(from.a, from.b, *first), decisions_of(to.a, to.b, *second));
+    const auto step_there = [&] {
+        const SceneView seen = w.at(1);
+        return event_of(seen.view.step, second->trace, *seen.fitted, 0);
+    };
+    int different = 0;
+    for (int step = 0; step < first->trace.size(); ++step) {
+        w.session.workspace.go_to_event(step);
+        EXPECT_EQ(step_there(), matching_step(both, from, to, step)) << step;
+        different += step_there() != step ? 1 : 0;
+    }
+    EXPECT_GT(different, 3);
+    // To become active moves nothing.
+    w.session.workspace.go_to_event(3);
+    const int there = step_there();
+    w.run("key F6\nkey F6");
+    EXPECT_EQ(w.session.workspace.step(), 3);
+    EXPECT_EQ(step_there(), there);
+    w.run("run view.link_queries");
+    w.session.workspace.go_to_event(5);
+    EXPECT_EQ(step_there(), there);
+}
+
+/// How much of the picture's shorter side is left around what is shown: below 0 it is cut off.
+float margin(const DrawList& list) {
+    float out = 1e6f;
+    const glm::vec2 size(list.size.width, list.size.height);
+    for (const DiskInstance& disk : list.disks) {
+        const auto pixel = list.projection.project(glm::vec3(disk.base));
+        if (!pixel) return -1;
+        out = std::min({out, pixel->x, pixel->y, size.x - pixel->x, size.y - pixel->y});
+    }
+    return out;
+}
+
+TEST(SideBySide, APictureHoldsTheWholeHoweverNarrowItIs) {
+    SideBySide w;
+    w.run("run view.front\nrun view.frame_all");
+    const Camera alone = w.here().camera;
+    ASSERT_GT(margin(*w.window.shell().shown()), 0);
+    for (const char* more : {"run view.split", "run compare.add moving", "run compare.add aabb"}) {
+        w.run(more);
+        EXPECT_GT(margin(*w.window.shell().shown()), 0) << more;
+        EXPECT_EQ(w.here().camera.preset, alone.preset) << "the direction stays";
+        EXPECT_NE(w.here().camera.distance, alone.distance);
+    }
+    EXPECT_THROW(run_command(w.session, "compare.add", "hybrid1"), std::invalid_argument) << "four are enough";
+    w.run("click view.close.3\nclick view.close.0");
+    ASSERT_EQ(w.session.views.count(), 2u);
+    EXPECT_EQ(w.session.workspace.fitted().options().tree, mobb::TreeKind::umobb) << "the neighbour is active";
+    w.run("run view.split");
+    EXPECT_EQ(w.here().camera, alone) << "the former frame";
+    w.run("run view.split\nkey Ctrl+Z");
+    ASSERT_EQ(w.session.views.count(), 1u);
+    EXPECT_EQ(w.here().camera, alone) << "after undo, too";
+    // Who has gone nearer stays there.
+    w.run("run view.zoom 3");
+    const double near = w.here().camera.distance;
+    w.run("run view.split");
+    EXPECT_NEAR(w.here().camera.distance, near, 0.15 * near) << "but for the title's height";
+}
+
+TEST(SideBySide, ViewsOutliveExcerptsAndEndWithTheirScene) {
+    SideBySide w;
+    w.run("run compare.fits mobb umobb moving\nrun view.link_times\nrun view.other\nrun query.select 0");
+    const auto kinds = [&] {
+        std::vector<mobb::TreeKind> out;
+        for (std::size_t place = 0; place < w.session.views.count(); ++place)
+            out.push_back(w.at(place).fitted->options().tree);
+        return out;
+    };
+    const auto before = kinds();
+    w.session.excerpts.open(w.session.workspace.fitted().placed_agents()[0],
+                            w.session.workspace.fitted().placed_agents()[1]);
+    w.window.settle();
+    EXPECT_EQ(w.session.views.count(), 1u);
+    w.session.excerpts.leave();
+    w.window.settle();
+    EXPECT_EQ(kinds(), before);
+    EXPECT_EQ(w.session.views.active(), 1u);
+    EXPECT_FALSE(w.session.workspace.document().links.time);
+    w.run("run tree.leaf 6\nkey Ctrl+Z");
+    EXPECT_EQ(kinds(), before);
+    w.session.files.open({w.folder.scene});
+    w.window.settle();
+    EXPECT_EQ(w.session.views.count(), 1u);
+}
+
+TEST(SideBySide, ThePapersComparisonIsOneClick) {
+    SideBySide w;
+    w.run("run query.select 0\nrun compare.paper");
+    ASSERT_EQ(w.session.views.count(), 2u);
+    EXPECT_EQ(w.at(0).fitted->options().tree, mobb::TreeKind::mobb);
+    EXPECT_EQ(w.at(1).fitted->options().tree, mobb::TreeKind::umobb);
+    for (const std::size_t place : {0u, 1u}) {
+        EXPECT_FALSE(w.at(place).view.query);
+        EXPECT_EQ(to_string(w.at(place).view.levels), "2");
+    }
+    for (const char* wrong : {"mobb", "mobb mobb", "mobb umobb moving aabb blocks", "mobb x"})
+        EXPECT_THROW(run_command(w.session, "compare.fits", wrong), std::invalid_argument) << wrong;
+    EXPECT_EQ(w.session.views.count(), 2u);
+}
+
+TEST(SideBySide, ATitleChangesItsOwnView) {
+    SideBySide w;
+    w.run("run compare.fits mobb umobb\nclick view.fit.1\nframes 2\nclick view.fit.1.moving\nframes 3");
+    EXPECT_EQ(w.session.views.active(), 1u);
+    EXPECT_EQ(w.at(1).fitted->options().tree, mobb::TreeKind::moving);
+    EXPECT_EQ(w.at(0).fitted->options().tree, mobb::TreeKind::mobb);
+    w.run("click view.title.0");
+    EXPECT_EQ(w.session.views.active(), 0u);
+}
+
+TEST(SideBySide, TheTableKnowsTheCostsOfAllAndShowsALevel) {
+    SideBySide w;
+    EXPECT_FALSE(w.has("section.compare fits"));
+    w.run("run compare.fits mobb umobb moving");
+    ASSERT_TRUE(w.has("compared.verdict"));
+    const ComparedFits& standard = w.session.fit_costs.compared(0);
+    for (const std::size_t fit : {0u, 1u, 2u}) EXPECT_TRUE(standard.cost.values[fit]) << fit;
+    w.run("click compared.level.3");
+    for (const std::size_t place : {0u, 1u, 2u}) EXPECT_EQ(to_string(w.at(place).view.levels), "3");
+    w.run("run tree.cost_of queries\nframes 6");
+    const ComparedFits& counted = w.session.fit_costs.compared(0);
+    for (const std::size_t fit : {0u, 1u, 2u}) {
+        const SceneCosts costs = scene_costs(*w.at(fit).fitted);
+        ASSERT_TRUE(counted.cost.values[fit]) << fit;
+        EXPECT_EQ(*counted.cost.values[fit], [&] {
+            const TreeCost cost = cost_in_scene(costs, 0, w.at(fit).fitted->shared_tree(0));
+            return cost.ns(cost.tests);
+        }());
+    }
+}
+
+}  // namespace
+}  // namespace mobbscope::app
