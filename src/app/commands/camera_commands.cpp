@@ -104,7 +104,7 @@ std::optional<Bounds> box_of(const Workspace& workspace, const Selection& select
         }
     }
     if (bounds.min.x > bounds.max.x) return std::nullopt;
-    if (workspace.view().show == Show::moment) {
+    if (workspace.view().show != Show::space_time) {
         const std::vector<double> heights = cylinder_heights(shown);
         bounds.min.z = 0;
         bounds.max.z = *std::max_element(heights.begin(), heights.end());
@@ -114,7 +114,7 @@ std::optional<Bounds> box_of(const Workspace& workspace, const Selection& select
 
 std::optional<TestCorners> corners_of_test(const Workspace& workspace) {
     const RecordedQuery* recorded = workspace.recorded();
-    if (!recorded || workspace.view().show == Show::moment) return std::nullopt;
+    if (!recorded || workspace.view().show != Show::space_time) return std::nullopt;
     const auto event = recorded->trace[workspace.step()];
     const std::vector<DrawnAgent> sides = drawn_agents(workspace.fitted(), workspace.view());
     return TestCorners{corners_of_node(sides[0].placed, event.a), corners_of_node(sides[1].placed, event.b)};

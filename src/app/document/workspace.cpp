@@ -126,6 +126,7 @@ void Workspace::share_time_and_camera() {
     for (SceneView& other : next.beside) {
         ViewState view = other.view;
         view.time = next.view.time;
+        view.slab = next.view.slab;
         view.theme = next.view.theme;
         // Heights mean something else in the picture of a moment.
         if (next.linked_cameras && view.show == next.view.show) {

@@ -21,10 +21,26 @@ using Ids = std::span<const std::string_view>;
 
 /// Stands for the toggles that are in the toolbar, too.
 constexpr std::string_view kTogglesAtHand = "toggles";
-constexpr auto kPicture = std::to_array<std::string_view>(
-    {"view.frame", "view.frame_all", "", "view.iso", "view.top", "view.front", "view.side", "", "view.moment",
-     "view.perspective", kTogglesAtHand, "view.past", "view.theme", "", "agent.show_all", "view.arrange", "",
-     "file.export_picture", "file.copy_command"});
+constexpr auto kPicture = std::to_array<std::string_view>({"view.frame",
+                                                           "view.frame_all",
+                                                           "",
+                                                           "view.iso",
+                                                           "view.top",
+                                                           "view.front",
+                                                           "view.side",
+                                                           "",
+                                                           "view.moment",
+                                                           "view.plan",
+                                                           "view.perspective",
+                                                           kTogglesAtHand,
+                                                           "view.past",
+                                                           "view.theme",
+                                                           "",
+                                                           "agent.show_all",
+                                                           "view.arrange",
+                                                           "",
+                                                           "file.export_picture",
+                                                           "file.copy_command"});
 constexpr auto kNode =
     std::to_array<std::string_view>({"view.frame", "go.parent", "go.child", "step.next_of_node", "edit.copy_figures"});
 constexpr auto kSample = std::to_array<std::string_view>(

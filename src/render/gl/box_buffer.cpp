@@ -11,6 +11,11 @@ constexpr float kHiddenEdge = 0.38f;
 
 }  // namespace
 
+glm::vec2 slab_of(const DrawnWorld& world) {
+    constexpr float kFar = 1e30f;
+    return world.slab ? glm::vec2(world.slab->low, world.slab->high) : glm::vec2(-kFar, kFar);
+}
+
 LineStyle edge_style(const BoxInstance& box) { return {box.edge, box.width, box.dash, kHiddenEdge, 0.5f * box.width}; }
 
 void BoxBuffer::keep(const DrawnWorld& world, DrawStatistics& statistics) {
@@ -24,6 +29,10 @@ void BoxBuffer::keep(const DrawnWorld& world, DrawStatistics& statistics) {
         if (box->pickable) {
             shape.id[0] = box->id.r();
             shape.id[1] = box->id.g();
+        } else if (box->triangle) {
+            shape.id[1] = kTriangle;
+        } else if (box->state == BoxState::annotation) {
+            shape.id[1] = kSheet;
         }
         shapes.push_back(shape);
         const LineStyle edge = edge_style(*box);

@@ -17,6 +17,14 @@ struct LineLook {
     friend bool operator==(const LineLook&, const LineLook&) = default;
 };
 
+/// What takes the place of an id where there is none: the half of a sheet, and what a slab cuts whatever it does with
+/// boxes.
+inline constexpr GLuint kTriangle = 1;
+inline constexpr GLuint kSheet = 2;
+
+/// From where to where a picture's world is drawn, for shaders: far beyond it where it has no slab.
+glm::vec2 slab_of(const DrawnWorld& world);
+
 /// How the edges of a box are drawn.
 LineStyle edge_style(const BoxInstance& box);
 
@@ -26,7 +34,8 @@ class BoxBuffer {
     struct Shape {
         glm::vec3 center;
         glm::vec3 extents[3];
-        GLuint id[2];  ///< (0, 0): of nothing that can be pointed at
+        /// Of nothing that can be pointed at (0, 0), or kTriangle, or kSheet.
+        GLuint id[2];
         friend bool operator==(const Shape&, const Shape&) = default;
     };
     struct Look {
