@@ -211,6 +211,29 @@ TEST_P(SlabTest, DraggingItsEndsUploadsNothingOfTheWorld) {
     }
 }
 
+/// Of the world nothing but the plane of the time cursor, and the sections that lie on it.
+TEST_P(SlabTest, ScrubbingUploadsNoBoxes) {
+    KeptPaths paths(std::make_shared<const FittedScene>(scene(mobb::TreeKind::umobb, false)));
+    for (const bool slice : {false, true}) {
+        ViewState view;
+        view.levels = {0, 9, false};
+        view.slice = slice;
+        view.time = 0.2;
+        const auto draw = [&] {
+            renderer().paint(build_draw_list(paths, view, {.size = kSize}), 1);
+            return renderer().statistics();
+        };
+        draw();
+        draw();
+        for (int i = 1; i <= 10; ++i) {
+            *view.time += 0.1;
+            const DrawStatistics statistics = draw();
+            EXPECT_LT(statistics.world_bytes, slice ? 4000u : 100u) << i;
+            EXPECT_LT(statistics.state_bytes, slice ? 4000u : 100u) << i;
+        }
+    }
+}
+
 /// Nothing, one moment, and what lies beyond all time.
 TEST_P(SlabTest, EmptySlabs) {
     for (const bool running : {false, true}) {

@@ -9,6 +9,7 @@
 #include <render/layout/follow.h>
 #include <render/parts/node_boxes.h>
 #include <scene/crowd_run.h>
+#include <scene/drawn_agent.h>
 
 #include <algorithm>
 #include <array>

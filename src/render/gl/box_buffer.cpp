@@ -39,14 +39,8 @@ void BoxBuffer::keep(const DrawnWorld& world, DrawStatistics& statistics) {
         looks.push_back({box->fill, {edge.color, edge.dash, {edge.width, edge.cap, edge.hidden}}});
         orders_.push_back(box->order);
     }
-    if (shapes != shapes_) {
-        shapes_ = std::move(shapes);
-        statistics.world_bytes += upload(shape_buffer_, shapes_);
-    }
-    if (looks != looks_) {
-        looks_ = std::move(looks);
-        statistics.state_bytes += upload(look_buffer_, looks_);
-    }
+    statistics.world_bytes += shapes_.take(std::move(shapes));
+    statistics.state_bytes += looks_.take(std::move(looks));
 }
 
 }  // namespace mobbscope
