@@ -3,13 +3,10 @@
 #include <app/commands/command.h>
 #include <app/document/agents.h>
 #include <base/text.h>
-#include <mobb/traversal.h>
 #include <render/drawlist/camera.h>
 #include <render/drawlist/view_projection.h>
 #include <render/layout/follow.h>
-#include <render/parts/node_boxes.h>
 #include <scene/crowd_run.h>
-#include <scene/drawn_agent.h>
 
 #include <algorithm>
 #include <array>
@@ -51,36 +48,8 @@ bool may_have_perspective(const Workspace& workspace) {
     return has_scene(workspace) && orientation(camera).perspective;
 }
 
-/// What a slab leaves of the paths in space-time, and the boxes too where they are framed; none: there is no slab, or
-/// nothing in it.
-std::optional<Bounds> bounds_of_slab(const Workspace& workspace) {
-    const ViewState& view = workspace.view();
-    if (!view.slab || view.show != Show::space_time || workspace.crowd()) return std::nullopt;
-    Bounds bounds;
-    for (const DrawnAgent& agent : drawn_agents(workspace.fitted(), view)) {
-        if (!agent.is_whole()) continue;
-        const mobb::PlacedClip& clip = agent.clip();
-        const int first = mobb::first_ending_after(clip, 0, clip.count(), view.slab->least);
-        const int end = mobb::first_ending_after(clip, 0, clip.count(), view.slab->most) + 1;
-        if (clip.time(0) <= view.slab->most) add_samples(bounds, clip, {first, std::min(end, clip.count()) - first});
-        if (!view.frame_boxes || view.query || !view.boxes) continue;
-        for (const int node : shown_nodes(agent.placed.tree(), view.levels)) {
-            if (agent.placed.end(agent.placed.node(node)) <= view.slab->least ||
-                agent.placed.begin(agent.placed.node(node)) > view.slab->most)
-                continue;
-            for (const glm::dvec3& corner : corners_of_node(agent.placed, node)) bounds.add(corner);
-        }
-    }
-    if (bounds.min.x > bounds.max.x) return std::nullopt;
-    if (view.cut_boxes || !view.frame_boxes) {
-        bounds.min.z = std::max(bounds.min.z, view.slab->least);
-        bounds.max.z = std::min(bounds.max.z, view.slab->most);
-    }
-    return bounds;
-}
-
 void frame_all(Workspace& workspace, Views& views) {
-    if (const std::optional<Bounds> slab = bounds_of_slab(workspace)) return frame_box(views, workspace, *slab);
+    if (const std::optional<Bounds> slab = box_of_slab(workspace)) return frame_box(views, workspace, *slab);
     workspace.change_view([&](ViewState& view) {
         frame_by_itself(view.camera);
         // What is framed may have become larger since, by another unit or a longer clip.
