@@ -16,6 +16,7 @@ uniform float scale;  // pixels of a metre at distance 1, or anywhere without pe
 uniform float inner;  // radius of the circle inside the corners, in that of the corners
 uniform float near_depth;  // what is nearer to the eye is not drawn
 uniform float most_lean;  // metres over the floor that a disk goes at most
+uniform vec2 slab;  // lowest and highest height that is drawn: disks are cut there
 
 out vec3 surface_normal;
 out float upper;       // share of the disks' faces, the rest being their sides
@@ -27,6 +28,8 @@ flat out uvec2 object_id;
 // How far from the middle towards a corner a face is hidden, so much that nobody can tell: by the disk that stands on
 // this one, or that it stands on. A share of the way; with a margin of many times what depths are rounded by.
 float hidden_until(vec2 at, vec3 by, float radius, vec4 middle) {
+    // One that is cut away hides nothing.
+    if (normal.z > 0.0 ? top_and_radius.z >= slab.y : base_and_radius.z <= slab.x) return 0.0;
     float reach = inner * by.z - 0.02 * radius;
     float height = top_and_radius.z - base_and_radius.z;
     if (length(by.xy) >= reach || height * scale / middle.w < 0.02) return 0.0;
@@ -38,7 +41,18 @@ float hidden_until(vec2 at, vec3 by, float radius, vec4 middle) {
 }
 
 void main() {
+    float low = base_and_radius.z;
+    float high = top_and_radius.z;
+    if (high <= slab.x || (low >= slab.y && low > slab.x)) {
+        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+        return;
+    }
     vec4 end = corner.z > 0.5 ? top_and_radius : base_and_radius;
+    if (high > slab.y || low < slab.x) {
+        float within = clamp(end.z, slab.x, slab.y);
+        end = mix(base_and_radius, top_and_radius, (within - low) / (high - low));
+        end.z = within;
+    }
     mat2 turn = mat2(across, vec2(-across.y, across.x));
     vec2 at = turn * corner.xy * end.w;
     float rim = corner.w;

@@ -9,7 +9,11 @@ layout(location = 4) in vec4 color;
 layout(location = 5) in vec4 dash;
 layout(location = 6) in vec3 shape;  // width and cap in pixels, opacity kept when hidden
 
+layout(location = 7) in uvec2 id;   // of a box
+
 uniform bool edges;
+uniform vec2 slab;  // boxes outside are not drawn
+uniform bool cut;   // ... or they are cut there
 uniform mat4 clip_from_world;
 uniform vec2 viewport;
 uniform bool hidden;
@@ -41,6 +45,25 @@ void main() {
         int low = ((edge % 4) & ((1 << axis) - 1)) | (((edge % 4) >> axis) << (axis + 1));
         begin = box_corner(low);
         finish = box_corner(low | (1 << axis));
+        // As in face.vert.
+        float half_height = abs(to.z) + abs(extent1.z) + abs(extent2.z);
+        float lowest = from.z - half_height;
+        float highest = from.z + half_height;
+        bool outside = half_height > 0.0 && (highest <= slab.x || (lowest >= slab.y && lowest > slab.x));
+        if (half_height > 0.0 && (cut || id == uvec2(0u, 2u))) {
+            vec3 a = begin;
+            vec3 b = finish;
+            float rise = b.z - a.z;
+            outside = outside || max(a.z, b.z) < slab.x || min(a.z, b.z) > slab.y;
+            if (rise != 0.0) {
+                begin = mix(a, b, clamp(((rise > 0.0 ? slab.x : slab.y) - a.z) / rise, 0.0, 1.0));
+                finish = mix(a, b, clamp(((rise > 0.0 ? slab.y : slab.x) - a.z) / rise, 0.0, 1.0));
+            }
+        }
+        if (outside) {
+            gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+            return;
+        }
     }
     line_color = vec4(color.rgb, color.a * (hidden ? shape.z : 1.0));
     pattern = dash;

@@ -122,7 +122,7 @@ Scene scene_at(const Scene& run, double time, CrowdWindow window) {
 
 FittedScene fitted_at(const FittedScene& run, const ViewState& view) {
     CrowdWindow window{view.time_window, view.time_window};
-    if (view.show == Show::moment) {
+    if (view.show != Show::space_time) {
         const bool with_ways = run.scene().crowd->agents.size() <= kMostWithWays;
         window = with_ways ? CrowdWindow{kWaySeconds, kWaySeconds} : CrowdWindow{};
     }

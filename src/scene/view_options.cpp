@@ -512,6 +512,7 @@ std::vector<ViewOption> all_view_options() {
              .what = "Where a slab in time is shown, boxes cut at its planes; else they stay whole",
              .title = "Cut boxes at the slab",
              .menu = "View/Slab",
+             .draws = DrawnPart::surroundings,
              .may_be_seen = [](const ViewState& view) { return view.boxes && view.slab.has_value(); }}),
         toggle<&ViewState::slice>({.key = "slice",
                                    .what = "At the time cursor, the cross-sections of boxes on its plane",

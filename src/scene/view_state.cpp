@@ -2,6 +2,7 @@
 #include <scene/view_state.h>
 
 #include <array>
+#include <cmath>
 
 namespace mobbscope {
 
@@ -64,7 +65,7 @@ std::optional<ValueRange> parse_value_range(const std::string& text) {
     const std::optional<double> least = parse_double(std::string_view(text).substr(0, colon));
     const std::optional<double> most =
         colon == std::string::npos ? std::nullopt : parse_double(std::string_view(text).substr(colon + 1));
-    if (!least || !most || !(*least <= *most))
+    if (!least || !most || !(*least <= *most) || !std::isfinite(*most - *least))
         throw std::invalid_argument(in_quotes(text) + " is no range: give the least and the most, as 0:2.5");
     return ValueRange{*least, *most};
 }

@@ -379,6 +379,12 @@ std::vector<Case> cases() {
              EXPECT_TRUE(w.view().camera.target) << "as it was before";
              run_command(w.session, "view.moment");
          }});
+    look("view.plan", "", [](CommandWorld& w) {
+        EXPECT_EQ(w.view().show, Show::plan);
+        EXPECT_EQ(w.view().camera.preset, CameraPreset::top);
+    });
+    look("view.slab", "0.5:1.25", [](CommandWorld& w) { EXPECT_EQ(w.view().slab, (ValueRange{0.5, 1.25})); });
+    add({"view.no_slab", "", {{"view.slab", "0.5:1.25"}}, [](CommandWorld& w) { EXPECT_FALSE(w.view().slab); }});
     look("view.measure", "", [](CommandWorld& w) {
         EXPECT_TRUE(w.session.workspace.measuring.picks);
         run_command(w.session, "view.measure");

@@ -244,7 +244,7 @@ TEST(Menus, TheMoreMenuHoldsWhatHasNoRoom) {
                 take();
                 all.erase("toolbar.more");
             }
-            EXPECT_EQ(all.size(), 12u);
+            EXPECT_EQ(all.size(), 13u);
             w.run("click toolbar.view.moment\nexpect /view/show \"moment\"");
         }
     }

@@ -1,5 +1,6 @@
 #include <app/commands/camera_commands.h>
 #include <app/document/agents.h>
+#include <mobb/traversal.h>
 #include <render/drawlist/camera.h>
 #include <render/layout/follow.h>
 #include <render/layout/framing.h>
@@ -104,7 +105,7 @@ std::optional<Bounds> box_of(const Workspace& workspace, const Selection& select
         }
     }
     if (bounds.min.x > bounds.max.x) return std::nullopt;
-    if (workspace.view().show == Show::moment) {
+    if (workspace.view().show != Show::space_time) {
         const std::vector<double> heights = cylinder_heights(shown);
         bounds.min.z = 0;
         bounds.max.z = *std::max_element(heights.begin(), heights.end());
@@ -112,9 +113,35 @@ std::optional<Bounds> box_of(const Workspace& workspace, const Selection& select
     return bounds;
 }
 
+std::optional<Bounds> box_of_slab(const Workspace& workspace) {
+    const ViewState& view = workspace.view();
+    if (!view.slab || view.show != Show::space_time || workspace.crowd()) return std::nullopt;
+    Bounds bounds;
+    for (const DrawnAgent& agent : drawn_agents(workspace.fitted(), view)) {
+        if (!agent.is_whole()) continue;
+        const mobb::PlacedClip& clip = agent.clip();
+        const int first = mobb::first_ending_after(clip, 0, clip.count(), view.slab->least);
+        const int end = mobb::first_ending_after(clip, 0, clip.count(), view.slab->most) + 1;
+        if (clip.time(0) <= view.slab->most) add_samples(bounds, clip, {first, std::min(end, clip.count()) - first});
+        if (!view.frame_boxes || view.query || !view.boxes) continue;
+        for (const int node : shown_nodes(agent.placed.tree(), view.levels)) {
+            if (agent.placed.end(agent.placed.node(node)) <= view.slab->least ||
+                agent.placed.begin(agent.placed.node(node)) > view.slab->most)
+                continue;
+            for (const glm::dvec3& corner : corners_of_node(agent.placed, node)) bounds.add(corner);
+        }
+    }
+    if (bounds.min.x > bounds.max.x) return std::nullopt;
+    if (view.cut_boxes || !view.frame_boxes) {
+        bounds.min.z = std::max(bounds.min.z, view.slab->least);
+        bounds.max.z = std::min(bounds.max.z, view.slab->most);
+    }
+    return bounds;
+}
+
 std::optional<TestCorners> corners_of_test(const Workspace& workspace) {
     const RecordedQuery* recorded = workspace.recorded();
-    if (!recorded || workspace.view().show == Show::moment) return std::nullopt;
+    if (!recorded || workspace.view().show != Show::space_time) return std::nullopt;
     const auto event = recorded->trace[workspace.step()];
     const std::vector<DrawnAgent> sides = drawn_agents(workspace.fitted(), workspace.view());
     return TestCorners{corners_of_node(sides[0].placed, event.a), corners_of_node(sides[1].placed, event.b)};

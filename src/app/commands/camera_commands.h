@@ -26,6 +26,10 @@ void move_camera(Views& views, Workspace& workspace,
 /// height). None if it is not in the picture.
 std::optional<Bounds> box_of(const Workspace& workspace, const Selection& selected);
 
+/// What a slab leaves of the paths in space-time, and the boxes too where they are framed; none: there is no slab, or
+/// nothing in it.
+std::optional<Bounds> box_of_slab(const Workspace& workspace);
+
 /// What the pair under test covers, likewise; none without a query in view, or in the picture of a moment.
 std::optional<Bounds> box_of_test(const Workspace& workspace);
 

@@ -168,7 +168,7 @@ Bounds box_of_meeting(const Workspace& workspace, double touch) {
     }
     bounds.min -= glm::dvec3(kAroundMeeting, kAroundMeeting, 0);
     bounds.max += glm::dvec3(kAroundMeeting, kAroundMeeting, 0);
-    if (workspace.view().show == Show::moment) {
+    if (workspace.view().show != Show::space_time) {
         bounds.min.z = 0;
         bounds.max.z = kStanding;
     }

@@ -54,6 +54,7 @@ bool may_have_perspective(const Workspace& workspace) {
 }
 
 void frame_all(Workspace& workspace, Views& views) {
+    if (const std::optional<Bounds> slab = box_of_slab(workspace)) return frame_box(views, workspace, *slab);
     workspace.change_view([&](ViewState& view) {
         frame_by_itself(view.camera);
         // What is framed may have become larger since, by another unit or a longer clip.
@@ -66,7 +67,7 @@ bool is_agent_selected(const Workspace& workspace) {
     const Selection& selected = workspace.selection;
     if (!selected.on_path() || selected.path.agent < 0) return false;
     return selected.kind == Selection::Kind::path ||
-           (selected.kind == Selection::Kind::sample && workspace.view().show == Show::moment);
+           (selected.kind == Selection::Kind::sample && workspace.view().show != Show::space_time);
 }
 
 /// Frames the selected agent while the camera follows one: it follows the selected one from now on, as nobody else
@@ -117,9 +118,10 @@ Command orbit_step(glm::dvec2 way, std::string_view id, std::string_view title, 
 // --- what is drawn
 
 bool shows_moment(const Workspace& workspace) { return workspace.view().show == Show::moment; }
+bool shows_plan(const Workspace& workspace) { return workspace.view().show == Show::plan; }
 
 std::string_view subject(const ViewState& view) {
-    if (view.show == Show::moment) return "moment";
+    if (view.show != Show::space_time) return name(view.show);
     return view.projection ? "disk" : "space-time";
 }
 
@@ -134,15 +136,15 @@ void show_other_picture(Workspace& workspace, const std::function<void(ViewState
             view.camera = known->second;
         } else {
             frame_by_itself(view.camera);
+            // Of a plan north is up, until it is turned.
+            if (view.show == Show::plan) view.camera.preset = CameraPreset::top;
         }
     });
 }
 
 /// Who the camera goes along with stays as near.
-void toggle_moment(Workspace& workspace, Views& views) {
-    const auto toggle = [](ViewState& view) {
-        view.show = view.show == Show::moment ? Show::space_time : Show::moment;
-    };
+void toggle_floor(Workspace& workspace, Views& views, Show show) {
+    const auto toggle = [show](ViewState& view) { view.show = view.show == show ? Show::space_time : show; };
     if (!follows(workspace) || !workspace.view().camera.target) return show_other_picture(workspace, toggle);
     workspace.change_view(toggle);
     center_followed(views, workspace);
@@ -336,7 +338,8 @@ std::vector<Command> direction_commands() {
             "Brings what is selected into the middle, as large as it fits; without a selection the pair under test, "
             "else everything. Following somebody, it goes along with who is selected.",
             frame_selection, {.shortcut = "F"}),
-        Command("view.frame_all", "Frame everything", "Shows the whole scene again from the present direction.",
+        Command("view.frame_all", "Frame everything",
+                "Shows all that there is in the picture again, from the present direction: of a slab what lies in it.",
                 frame_all, {.shortcut = "Home"}),
         Command("view.follow_test", "Follow the test",
                 "Lets the camera go to the pair under test whenever a step's boxes are cut off, lie below a panel, or "
@@ -381,6 +384,7 @@ std::vector<Command> movement_commands() {
                     });
                 },
                 {.menu = kNoMenu, .argument = "DX DY"}),
+        option_command(view_option("frame_boxes")),
     };
     return in_menu("View/Camera", rows);
 }
@@ -389,7 +393,13 @@ std::vector<Command> picture_commands() {
     const std::vector<Command> rows{
         Command("view.moment", "Show the moment",
                 "Shows people in their cylinders on the floor at the moment of the time cursor, or space-time again.",
-                toggle_moment, {.shortcut = "M", .checked = shows_moment}),
+                [](Workspace& workspace, Views& views) { toggle_floor(workspace, views, Show::moment); },
+                {.shortcut = "M", .checked = shows_moment}),
+        Command("view.plan", "Floor plan",
+                "Shows the floor from above at the moment of the time cursor: every disk, and the sections of the "
+                "boxes that are shown; or space-time again.",
+                [](Workspace& workspace, Views& views) { toggle_floor(workspace, views, Show::plan); },
+                {.shortcut = "Shift+G", .checked = shows_plan}),
         Command("view.measure", "Measure",
                 "Measures how far apart two places are, on the floor and in time: the next two clicks in the picture, "
                 "near a disk's centre or edge or a box's corner that. Escape ends it.",
@@ -418,6 +428,26 @@ std::vector<Command> show_commands() {
         if (option.menu == "View/Show" || option.menu == "View/Overlays") out.push_back(option_command(option));
     }
     return out;
+}
+
+bool has_slab(const Workspace& workspace) { return workspace.view().slab.has_value(); }
+
+std::vector<Command> slab_commands() {
+    const ViewOption& slab = view_option("slab");
+    const std::vector<Command> rows{
+        Command("view.slab", "Slab in time",
+                "Shows what lies between two times, in seconds, and cuts the rest away; none shows all.",
+                [&slab](Workspace& workspace, const std::string& text) {
+                    workspace.change_view([&](ViewState& view) { slab.parse(text, view); });
+                },
+                {.argument = "T0:T1|none",
+                 .present = [&slab](const Workspace& workspace) { return slab.text(workspace.view()); }}),
+        option_command(view_option("cut_boxes")),
+        Command("view.no_slab", "No slab", "Shows all of time again.",
+                [](Workspace& workspace) { workspace.change_view([](ViewState& view) { view.slab.reset(); }); },
+                {.enabled = has_slab}),
+    };
+    return in_menu("View/Slab", rows);
 }
 
 std::vector<Command> level_commands() {
@@ -548,7 +578,7 @@ std::vector<Command> time_commands() {
 
 std::vector<Command> view_commands() {
     return joined({direction_commands(), movement_commands(), picture_commands(), side_by_side_commands(),
-                   show_commands(), level_commands(), window_commands(), time_commands()});
+                   show_commands(), slab_commands(), level_commands(), window_commands(), time_commands()});
 }
 
 }  // namespace mobbscope::app

@@ -106,7 +106,10 @@ EditName name_of_looking(const Document& from, const ViewState& to) {
     if (was.levels != to.levels) return {"showing " + words_of_levels(to.levels), "look levels"};
     if (was.query != to.query) return {words_of_query(from, to), "look query"};
     if (was.show != to.show) {
-        return {to.show == Show::moment ? "showing the moment" : "showing space-time", "look subject"};
+        const char* const title = to.show == Show::moment ? "showing the moment"
+                                  : to.show == Show::plan ? "showing the floor plan"
+                                                          : "showing space-time";
+        return {title, "look subject"};
     }
     if (was.projection != to.projection) {
         return {to.projection ? "showing a disk along its box's axes" : "showing space-time", "look subject"};
@@ -117,6 +120,7 @@ EditName name_of_looking(const Document& from, const ViewState& to) {
         return {to.time ? "moving in time to " + seconds_in_words(*to.time) : "taking the time cursor away",
                 "look time"};
     }
+    if (only(&ViewState::slab)) return {to.slab ? "showing a slab in time" : "showing all of time", "look slab"};
     if (only(&ViewState::follow, &ViewState::camera, &ViewState::time_height, &ViewState::time)) {
         return {to.follow.empty() ? "no longer following" : "following " + to.follow, "look follow"};
     }

@@ -66,7 +66,7 @@ void QueryBodies::show(Ui& ui, const std::shared_ptr<const QueryFindings>& findi
                       "Goes to that moment, on the floor"))
         return;
     ui.invoke("time.at", formatted("%.17g", time));
-    if (ui.workspace.view().show != Show::moment) ui.invoke("view.moment");
+    if (ui.workspace.view().show == Show::space_time) ui.invoke("view.moment");
 }
 
 }  // namespace mobbscope::app

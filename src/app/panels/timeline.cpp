@@ -14,6 +14,7 @@
 #include <scene/motion_graph.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace mobbscope::app {
 
@@ -23,6 +24,10 @@ constexpr float kLeastBars = 60;     // width, pixels at scale 1
 constexpr float kMostBar = 26;       // height of a path's bar, pixels at scale 1
 constexpr float kConflictBars = 14;  // height, pixels at scale 1
 constexpr float kProofBar = 7;       // height of the lines of a proof, pixels at scale 1
+constexpr float kHandle = 6;         // of an end of the slab, to either side, pixels at scale 1
+constexpr float kHandleHeight = 7;   // ... upwards and downwards
+constexpr float kNoEnd = -1e9f;      // no end of the slab is dragged
+constexpr float kLeastSlab = 3;      // a shorter drag is a click, pixels at scale 1
 constexpr float kLeastStrip = 60;    // of the strip of steps, which else has a line of its own
 
 /// An empty span has some length too.
@@ -69,6 +74,62 @@ std::vector<DrawnAgent> shown_paths(const Workspace& workspace) {
     return out;
 }
 
+/// The pixel of the end of the slab that stays when a drag begins: the other one's where it begins at an end's handle,
+/// else with Shift its own; none: the drag is not about the slab.
+std::optional<float> fixed_end(const Ui& ui, const ChartAxis& axis, float x) {
+    const bool shift = ImGui::GetIO().KeyShift;
+    const float middle = 0.5f * (ImGui::GetItemRectMin().y + ImGui::GetItemRectMax().y);
+    const bool at_handle = shift || std::abs(ImGui::GetIO().MousePos.y - middle) <= ui.px(kHandleHeight);
+    if (const auto& slab = ui.workspace.view().slab; slab && at_handle) {
+        const float low = axis.pixel(slab->least), high = axis.pixel(slab->most);
+        if (std::abs(x - high) <= ui.px(kHandle)) return low;
+        if (std::abs(x - low) <= ui.px(kHandle)) return high;
+    }
+    return shift ? std::optional(x) : std::nullopt;
+}
+
+/// A drag over the bars with Shift, from one end of the slab to the other, or of an end's handle. A click with Shift
+/// takes the slab away. True while it lasts.
+bool slab_under_drag(Ui& ui, const ChartAxis& axis) {
+    ImGuiStorage& storage = *ImGui::GetStateStorage();
+    const ImGuiID key = ImGui::GetID("slab.fixed");
+    const float x = std::clamp(ImGui::GetIO().MousePos.x, axis.first, axis.last);
+    if (ImGui::IsItemActivated()) storage.SetFloat(key, fixed_end(ui, axis, x).value_or(kNoEnd));
+    const float fixed = storage.GetFloat(key, kNoEnd);
+    if (fixed == kNoEnd || !(ImGui::IsItemActive() || ImGui::IsItemDeactivated())) return false;
+    const float moved = std::abs(ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 0).x);
+    if (ImGui::IsItemActive() && moved >= ui.px(kLeastSlab)) {
+        const double one = axis.value(x), other = axis.value(fixed);
+        ui.later([range = ValueRange{std::min(one, other), std::max(one, other)}](Workspace& workspace) {
+            workspace.change_view([&](ViewState& view) { view.slab = range; });
+        });
+        storage.SetBool(ImGui::GetID("slab.moved"), true);
+    }
+    if (ImGui::IsItemDeactivated()) {
+        const bool click = !storage.GetBool(ImGui::GetID("slab.moved"));
+        if (click && ImGui::GetIO().KeyShift && ui.workspace.view().slab) ui.invoke("view.no_slab");
+        storage.SetBool(ImGui::GetID("slab.moved"), false);
+        storage.SetFloat(key, kNoEnd);
+    }
+    return true;
+}
+
+/// What a slab cuts away is dimmed; its ends are handles.
+void shade_slab(const Ui& ui, const ChartAxis& axis, const ValueRange& slab, float top, float height) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float low = std::clamp(axis.pixel(slab.least), axis.first, axis.last);
+    const float high = std::clamp(axis.pixel(slab.most), axis.first, axis.last);
+    const ImU32 veil = to_im(with_alpha(ui.style.palette.background, 0.72f));
+    draw.AddRectFilled({axis.first, top}, {low, top + height}, veil);
+    draw.AddRectFilled({high, top}, {axis.last, top + height}, veil);
+    for (const float x : {low, high}) {
+        draw.AddLine({x, top}, {x, top + height}, ui.style.text, ui.px(1));
+        const ImVec2 middle{x, top + 0.5f * height};
+        const float half = std::min(ui.px(kHandleHeight), 0.4f * height);
+        draw.AddRectFilled({x - ui.px(3), middle.y - half}, {x + ui.px(3), middle.y + half}, ui.style.text, ui.px(2));
+    }
+}
+
 /// When each path is there, as a bar in its colour, with the time cursor over all of them; drag to scrub.
 void time_bars(Ui& ui, float width, float height) {
     const mobb::Interval span = time_span(ui.workspace);
@@ -85,7 +146,8 @@ void time_bars(Ui& ui, float width, float height) {
             return time_menu(ui.session, axis.value(std::clamp(x, corner.x, corner.x + width)));
         },
         ImVec2{std::clamp(cursor, corner.x, corner.x + width), corner.y + 0.5f * height});
-    if (ImGui::IsItemActive()) {
+    const bool drags_slab = slab_under_drag(ui, axis);
+    if (ImGui::IsItemActive() && !drags_slab) {
         const double at = axis.value(std::clamp(ImGui::GetIO().MousePos.x, corner.x, corner.x + width));
         scrub_to(ui, at);
     }
@@ -117,6 +179,7 @@ void time_bars(Ui& ui, float width, float height) {
             contrast(paths[i].color, Rgba(0, 0, 0, 1)) > contrast(paths[i].color, Rgba(1)) ? Rgba(0, 0, 0, 1) : Rgba(1);
         draw.AddText({left + ui.px(6), y + 0.5f * (each - font)}, to_im(ink), name.c_str());
     }
+    if (const auto& slab = ui.workspace.view().slab) shade_slab(ui, axis, *slab, corner.y, height);
     if (const auto time = ui.workspace.view().time; time && *time >= span.t0 && *time <= span.t1) {
         const float x = axis.pixel(*time);
         draw.AddLine({x, corner.y - ui.px(3)}, {x, corner.y + height + ui.px(3)}, ui.style.text, ui.px(2));

@@ -19,7 +19,7 @@ constexpr double kAround = 0.5;  // seconds around the contact in which a moment
 /// Whether the picture is of a time at which it takes place.
 bool is_now(const Workspace& workspace, const SceneConflict& conflict) {
     const ViewState& view = workspace.view();
-    const bool is_moment = view.show == Show::moment;
+    const bool is_moment = view.show != Show::space_time;
     if (!is_moment && !workspace.crowd()) return true;
     const double time =
         workspace.crowd() ? run_time(workspace.scene(), view) : view.time.value_or(time_span(workspace).t0);
@@ -40,6 +40,7 @@ std::vector<ConflictMark> conflict_marks(const Ui& ui, const ShownPicture& pictu
         const SceneConflict& conflict = (*found)[i];
         const auto place = is_now(ui.workspace, conflict) ? place_of(ui.workspace.scene(), conflict) : std::nullopt;
         if (!place) continue;
+        if (picture.list.slab && (place->z < view.slab->least || place->z > view.slab->most)) continue;
         const double height = picture.list.moment ? 0 : place->z;
         const auto at = picture.at(picture.list.space.point(place->x, place->y, height));
         if (at) out.push_back({index, *at});

@@ -34,7 +34,8 @@ void viewport_toolbar(Ui& ui) {
                                    {nullptr, ""}});
     for (const ViewOption& option : view_options())
         if (option.at_hand) buttons.push_back({option.title.data(), option.command});
-    buttons.insert(buttons.end(), {{nullptr, ""}, {"Moment", "view.moment"}, {"Measure", "view.measure"}});
+    buttons.insert(buttons.end(),
+                   {{nullptr, ""}, {"Moment", "view.moment"}, {"Plan", "view.plan"}, {"Measure", "view.measure"}});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(2), ui.px(4)});
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(6), ui.px(3)});
     ImGui::SetCursorPos({ui.px(6), ui.px(4)});

@@ -147,7 +147,8 @@ struct BoxInstance {
     float width = 1;  ///< of the edges, pixels
     Dash dash = kSolid;
     ObjectId id;
-    bool pickable = true;  ///< stands for what `id` names: a node, or as a cylinder's wall a sample
+    bool pickable = true;   ///< stands for what `id` names: a node, or as a cylinder's wall a sample
+    bool triangle = false;  ///< of a sheet the half around its corner 0 (box_corners) alone: a part of a polygon
     DrawOrder order;
 };
 
@@ -281,9 +282,21 @@ struct PictureFrame {
     std::optional<double> moment;  ///< global seconds: heights are metres and no times, for the floor then
 };
 
+/// What is seen of the world: all between two heights of the drawn space, which are times. Disks and sheets that stand
+/// upright are cut there.
+struct DrawnSlab {
+    float low = 0, high = 0;
+    bool cuts_boxes = false;  ///< else those that reach into it are whole
+
+    /// Whether what reaches from one height to another is seen. Of an empty slab what holds then: it ends later.
+    bool shows(float from, float to) const { return to > low && (from < high || from <= low); }
+    friend bool operator==(const DrawnSlab&, const DrawnSlab&) = default;
+};
+
 /// What changes with the scene, its fits, the step and the time alone; another camera changes no more than the width of
 /// edges. It stays in the renderer's buffers.
 struct DrawnWorld {
+    std::optional<DrawnSlab> slab;  ///< none: all is seen. It is in no buffer
     SharedValues<DiskInstance> disks;
     std::vector<BoxInstance> boxes;
 };

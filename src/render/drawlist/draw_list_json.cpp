@@ -175,6 +175,7 @@ void write_box(JsonWriter& out, const BoxInstance& box, const Objects& objects, 
     write_object(out, objects, id, "node");
     members(out, "level", box.order.level, "state", name_in(kBoxStates, box.state), "center", box.center);
     out.list("extents", box.extents, [&](const glm::vec3& e) { out.value(e); });
+    if (box.triangle) members(out, "triangle", true);
     members(out, "fill", color_text(box.fill), "edge", color_text(box.edge), "width", box.width, "dash", box.dash);
     write_seen(out, objects, id, on_screen(projection, box_corners(box)));
 }
@@ -216,6 +217,9 @@ void write_draw_list(std::ostream& stream, const DrawList& list, const IdImage* 
             color_text(list.background.value_or(list.palette.background)));
     out.values("participants", list.agents);
     write_camera(out, seen_by);
+    if (list.slab) {
+        members(out, "slab", glm::vec2(list.slab->low, list.slab->high), "cuts_boxes", list.slab->cuts_boxes);
+    }
     rows(out, "disks", sorted(list.disks), [&](const DiskInstance& disk) { write_disk(out, disk, objects, seen_by); });
     rows(out, "boxes", sorted(list.boxes), [&](const BoxInstance& box) { write_box(out, box, objects, seen_by); });
     rows(out, "lines", sorted(list.lines), [&](const LineInstance& line) {

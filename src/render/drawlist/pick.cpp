@@ -1,3 +1,4 @@
+#include <render/drawlist/cut.h>
 #include <render/drawlist/pick.h>
 
 #include <glm/geometric.hpp>
@@ -151,14 +152,29 @@ std::vector<Pick> pick(const DrawList& list, glm::vec2 pixel) {
         found.push_back(
             {{id, list.space.place(ray.at(distance)), static_cast<float>(depth)}, normalised(depth) - nearer, order});
     };
+    const std::optional<DrawnSlab>& slab = list.slab;
+    const auto keep_in_slab = [&](Span& span) {
+        const double middle = 0.5 * (static_cast<double>(slab->low) + static_cast<double>(slab->high));
+        span.clip(ray.origin.z - middle, ray.direction.z, static_cast<double>(slab->high) - middle);
+    };
     for (const DiskInstance& disk : list.disks) {
-        const Span span = inside(disk, ray);
+        if (slab && !slab->shows(disk.base.z, disk.top.z)) continue;
+        Span span = inside(disk, ray);
+        if (slab) keep_in_slab(span);
         // From inside a disk nothing of it is drawn.
         if (!span.empty() && span.enter >= nearest) add(disk.id, disk.order, span.enter, 0);
     }
     for (const BoxInstance& box : list.boxes) {
-        if (!box.pickable) continue;
-        const Span span = inside(box, ray);
+        if (!box.pickable || !is_seen(slab, box)) continue;
+        Span span = inside(box, ray);
+        if (slab && is_cut(*slab, box) && !span.empty()) {
+            // Where it is cut it is open: only what is left of its faces is met.
+            Span seen = span;
+            keep_in_slab(seen);
+            if (seen.empty() || (seen.enter > span.enter && seen.leave < span.leave)) continue;
+            if (seen.enter > span.enter) span.enter = span.leave;
+            if (seen.leave < span.leave) span.leave = span.enter;
+        }
         if (span.empty() || span.leave < nearest) continue;
         add(box.id, box.order, span.enter >= nearest ? span.enter : span.leave, kFacesNearer);
     }

@@ -11,6 +11,11 @@ constexpr float kHiddenEdge = 0.38f;
 
 }  // namespace
 
+glm::vec2 slab_of(const DrawnWorld& world) {
+    constexpr float kFar = 1e30f;
+    return world.slab ? glm::vec2(world.slab->low, world.slab->high) : glm::vec2(-kFar, kFar);
+}
+
 LineStyle edge_style(const BoxInstance& box) { return {box.edge, box.width, box.dash, kHiddenEdge, 0.5f * box.width}; }
 
 void BoxBuffer::keep(const DrawnWorld& world, DrawStatistics& statistics) {
@@ -24,20 +29,18 @@ void BoxBuffer::keep(const DrawnWorld& world, DrawStatistics& statistics) {
         if (box->pickable) {
             shape.id[0] = box->id.r();
             shape.id[1] = box->id.g();
+        } else if (box->triangle) {
+            shape.id[1] = kTriangle;
+        } else if (box->state == BoxState::annotation) {
+            shape.id[1] = kSheet;
         }
         shapes.push_back(shape);
         const LineStyle edge = edge_style(*box);
         looks.push_back({box->fill, {edge.color, edge.dash, {edge.width, edge.cap, edge.hidden}}});
         orders_.push_back(box->order);
     }
-    if (shapes != shapes_) {
-        shapes_ = std::move(shapes);
-        statistics.world_bytes += upload(shape_buffer_, shapes_);
-    }
-    if (looks != looks_) {
-        looks_ = std::move(looks);
-        statistics.state_bytes += upload(look_buffer_, looks_);
-    }
+    statistics.world_bytes += shapes_.take(std::move(shapes));
+    statistics.state_bytes += looks_.take(std::move(looks));
 }
 
 }  // namespace mobbscope

@@ -1,6 +1,7 @@
 #include <base/error.h>
 #include <render/drawlist/pen.h>
 #include <render/drawlist/view_projection.h>
+#include <render/gl/box_buffer.h>
 #include <render/gl/disk_pass.h>
 #include <render/gl/gl_objects.h>
 
@@ -69,7 +70,8 @@ int coarse_sides(float radius) {
 }
 
 /// Whether some of a block may be in the picture: its ball reaches into what the camera sees.
-bool block_may_be_seen(const DiskBlock& block, const ViewProjection& projection) {
+bool block_may_be_seen(const DiskBlock& block, const ViewProjection& projection, glm::vec2 slab) {
+    if (block.highest <= slab.x || block.lowest > slab.y) return false;
     if (projection.perspective && projection.depth(block.middle) + block.reach < projection.near_depth) return false;
     const glm::mat4 rows = glm::transpose(projection.clip_from_world);
     const glm::vec4 middle(block.middle, 1);
@@ -78,6 +80,12 @@ bool block_may_be_seen(const DiskBlock& block, const ViewProjection& projection)
         if (glm::dot(edge, middle) < -block.reach * glm::length(glm::vec3(edge))) return false;
     }
     return true;
+}
+
+/// Whether disks of a block end where they are cut. A tube would be open there.
+bool is_cut(const DiskBlock& block, glm::vec2 slab) {
+    const auto reaches = [&](float height) { return block.lowest <= height && height <= block.highest; };
+    return reaches(slab.x) || reaches(slab.y);
 }
 
 }  // namespace
@@ -183,14 +191,14 @@ void DiskPass::store_colors(DrawStatistics& statistics) {
 }
 
 /// Enough sides for the largest disk: one shape for all, so that their edges fit.
-std::vector<DiskPass::Batch> DiskPass::fine_batches(const ViewProjection& projection) const {
+std::vector<DiskPass::Batch> DiskPass::fine_batches(const ViewProjection& projection, glm::vec2 slab) const {
     const PixelScale scale(projection);
     float radius = 0;
     bool from_above = true;
     bool from_below = true;
     std::vector<DiskLevels::Range> seen;
     for (const DiskBlock& block : levels_->blocks()) {
-        if (!block_may_be_seen(block, projection)) continue;
+        if (!block_may_be_seen(block, projection, slab)) continue;
         seen.push_back({block.first, block.count});
         from_above = from_above && !projection.below(block.highest);
         from_below = from_below && projection.below(block.lowest);
@@ -215,7 +223,7 @@ std::vector<DiskPass::Batch> DiskPass::fine_batches(const ViewProjection& projec
     return out;
 }
 
-std::vector<DiskPass::Batch> DiskPass::coarse_batches(const ViewProjection& projection) {
+std::vector<DiskPass::Batch> DiskPass::coarse_batches(const ViewProjection& projection, glm::vec2 slab) {
     const PixelScale scale(projection);
     std::vector<Batch> out;
     Batch tubes, disks;
@@ -229,12 +237,12 @@ std::vector<DiskPass::Batch> DiskPass::coarse_batches(const ViewProjection& proj
     };
     for (std::size_t i = 0; i < levels_->blocks().size(); ++i) {
         const DiskBlock& block = levels_->blocks()[i];
-        if (!block_may_be_seen(block, projection)) continue;
+        if (!block_may_be_seen(block, projection, slab)) continue;
         const float middle = projection.depth(block.middle);
         const float depth = middle - block.reach;
         // What is little nearer than the middle is little larger.
         const float pixels = scale.at_depth(block.reach < kFlatBlock * middle ? middle : depth);
-        const int level = DiskLevels::choose(block, pixels, projection);
+        const int level = is_cut(block, slab) ? 0 : DiskLevels::choose(block, pixels, projection);
         const int sides = coarse_sides(block.usual_radius * pixels);
         const Part part = !projection.below(block.highest) ? Part::side_and_upper_face
                           : projection.below(block.lowest) ? Part::side_and_lower_face
@@ -301,9 +309,10 @@ DiskPass::VisibilityKey DiskPass::visibility_key(const DrawList& list, Detail de
     }
     keep(list);
     const ViewProjection& projection = list.projection;
-    VisibilityKey out{shapes_, detail, {}, projection.clip_from_world, projection.right, projection.back};
+    const glm::vec2 slab = slab_of(list);
+    VisibilityKey out{shapes_, detail, {}, projection.clip_from_world, projection.right, projection.back, slab};
     if (list.disks.empty()) return out;
-    out.batches = detail == Detail::coarse ? coarse_batches(projection) : fine_batches(projection);
+    out.batches = detail == Detail::coarse ? coarse_batches(projection, slab) : fine_batches(projection, slab);
     return out;
 }
 
@@ -327,6 +336,7 @@ bool DiskPass::draw_more(const DrawList& list, std::size_t most, DrawStatistics&
     // Without perspective nothing is too near to be drawn.
     program_.set("near_depth", projection.perspective ? projection.near_depth : std::numeric_limits<float>::lowest());
     program_.set("most_lean", levels_->most_lean());
+    program_.set("slab", slab_of(list));
     program_.set("back", projection.back);
     // With two corners at the sides the outline is right, however few the others are.
     program_.set("across", detail_ == Detail::coarse ? glm::vec2(projection.right) : glm::vec2(1, 0));
@@ -371,7 +381,7 @@ void DiskPass::tint(const DrawList& list, const Texture& visibility, DrawStatist
     tint_.set("viewport", list.size);
     std::vector<BoxInstance> around;
     for (const DiskBlock& block : levels_->blocks()) {
-        if (!block_may_be_seen(block, list.projection)) continue;
+        if (!block_may_be_seen(block, list.projection, slab_of(list))) continue;
         BoxInstance& box = around.emplace_back();
         box.center = block.middle;
         for (int axis = 0; axis < 3; ++axis) box.extents[static_cast<std::size_t>(axis)][axis] = block.reach;

@@ -38,6 +38,7 @@ class DiskPass {
         std::vector<Batch> batches;
         glm::mat4 clip_from_world{1};
         glm::vec3 right{0}, back{0};
+        glm::vec2 slab{0};
         friend bool operator==(const VisibilityKey&, const VisibilityKey&) = default;
     };
 
@@ -74,8 +75,8 @@ class DiskPass {
     const Stored& store(int level, DrawStatistics& statistics);
     const Stored& store_fine(DrawStatistics& statistics);
     void store_colors(DrawStatistics& statistics);
-    std::vector<Batch> fine_batches(const ViewProjection& projection) const;
-    std::vector<Batch> coarse_batches(const ViewProjection& projection);
+    std::vector<Batch> fine_batches(const ViewProjection& projection, glm::vec2 slab) const;
+    std::vector<Batch> coarse_batches(const ViewProjection& projection, glm::vec2 slab);
     void draw(const Batch& batch, DrawStatistics& statistics);
 
     DrawingPolicy policy_;

@@ -35,10 +35,14 @@ void FacePass::draw(const DrawList& list, bool ids, DrawStatistics& statistics) 
     faces_.set("depth_range", glm::vec2(list.projection.near_depth, list.projection.far_depth));
     faces_.set("perspective", list.projection.perspective);
     faces_.set("ids", ids);
+    faces_.set("slab", slab_of(list));
+    faces_.set("cut", list.slab && list.slab->cuts_boxes);
+    for (GLenum plane = 0; list.slab && plane < 2; ++plane) glEnable(GL_CLIP_DISTANCE0 + plane);
     faces_.set("light", towards_light(list.projection));
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glDrawArraysInstanced(GL_TRIANGLES, 0, 36, static_cast<GLsizei>(boxes_.size()));
+    for (GLenum plane = 0; list.slab && plane < 2; ++plane) glDisable(GL_CLIP_DISTANCE0 + plane);
     statistics.triangles += 12 * boxes_.size();
     ++statistics.draw_calls;
 }

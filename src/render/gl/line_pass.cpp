@@ -87,7 +87,7 @@ void LinePass::draw(const Batch& batch, const Buffer& lines, DrawStatistics& sta
     const GLsizei count = static_cast<GLsizei>(drawn);
     if (batch.of_boxes) {
         glBindVertexArray(box_array_.name());
-        boxes_.describe_shapes(batch.range);
+        boxes_.describe_shapes(batch.range).integers(7, 2, offsetof(BoxBuffer::Shape, id));
         describe_look(boxes_.looks_from(batch.range), offsetof(BoxBuffer::Look, line));
         glDrawArraysInstanced(GL_TRIANGLES, 0, 72, count);
     } else {
@@ -144,6 +144,8 @@ void LinePass::draw_scene(const DrawList& list, std::size_t most_boxes, DrawStat
     begin(list.projection.clip_from_world, list.size);
     program_.set("depth_bias", kLineDepthBias);
     program_.set("most_bias", most_line_bias(list.projection));
+    program_.set("slab", slab_of(list));
+    program_.set("cut", list.slab && list.slab->cuts_boxes);
     glEnable(GL_DEPTH_TEST);
     const auto draw_all = [&] {
         for (const Batch& batch : all) draw(batch, scene_lines_, statistics);

@@ -234,6 +234,42 @@ std::vector<LabelRequest> floor_and_axis_labels(const DrawList& list, const Floo
     return out;
 }
 
+std::vector<LabelRequest> time_titles(const DrawList& list, const FloorExtent& s, float size) {
+    constexpr int kPlaces = 24;  // along the axis, and along a side
+    const ViewProjection& projection = list.projection;
+    const glm::dvec2 foot = axis_corner(s, projection.right);
+    const glm::vec2 picture(projection.size.width, projection.size.height);
+    const char* const words = !time_on_end(projection) ? "time, s"
+                              : projection.back.z > 0  ? "time, s: towards you"
+                                                       : "time, s: away from you";
+    std::vector<LabelRequest> out;
+    const auto add = [&](const std::string& text, glm::vec2 anchor, std::vector<glm::vec2> directions) {
+        LabelRequest label;
+        label.text = text;
+        label.size = size;
+        label.color = list.palette.text;
+        label.anchor = anchor;
+        label.directions = std::move(directions);
+        label.distance = 0.6f * size;
+        out.push_back(label);
+    };
+    for (int i = 0; i < kPlaces; ++i) {
+        const double t = s.t1 - (s.t1 - s.t0) * i / kPlaces;
+        const auto at = projection.project(list.space.point(foot.x, foot.y, t));
+        if (!at || !Rect{glm::vec2(0), picture}.contains({*at, *at})) continue;
+        // Beside the ticks, which stand to the left, once there is no room above.
+        add(words, *at, {{0, -1}, {0.7f, -1}, {1, 0}, {-1, -1}});
+    }
+    const std::string away = time_on_end(projection) ? words : "time, s: upwards";
+    for (const float x : {0.0f, picture.x}) {
+        for (int i = 1; i < kPlaces; ++i) {
+            const float y = picture.y * (0.5f + 0.5f * static_cast<float>(i % 2 ? i : -i) / kPlaces);
+            add(away, {x, y}, {{x > 0 ? -1 : 1, 0}});
+        }
+    }
+    return out;
+}
+
 FloorExtent floor_stage(glm::dvec2 area, double begin, double end) {
     const glm::dvec2 half = 0.5 * area;
     const FloorExtent grid = floor_extent_of({-half.x, -half.y, begin}, {half.x, half.y, end});

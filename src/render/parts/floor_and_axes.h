@@ -40,6 +40,10 @@ void add_time_cursor(DrawList& list, const FloorExtent& floor_extent, double tim
 std::vector<LabelRequest> floor_and_axis_labels(const DrawList& list, const FloorExtent& floor_extent, bool floor,
                                                 bool time_axis, float size);
 
+/// What says which way time goes, where it may stand, best first: at the axis, as far up as that is in the picture,
+/// else at the picture's sides. Every picture in space-time has room for one of them.
+std::vector<LabelRequest> time_titles(const DrawList& list, const FloorExtent& floor_extent, float size);
+
 /// True if the camera looks along the floor (its grid is a line) or along the axis of time (it is a point).
 bool floor_on_edge(const ViewProjection& projection);
 bool time_on_end(const ViewProjection& projection);

@@ -1,5 +1,6 @@
 #include <base/text.h>
 #include <mobb/traversal.h>
+#include <render/drawlist/cut.h>
 #include <render/drawlist/pen.h>
 #include <render/parts/highlights.h>
 #include <render/parts/node_boxes.h>
@@ -10,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -65,19 +67,50 @@ Points disk_outline(const DrawnSpace& space, const mobb::Disk& disk, double time
     return out;
 }
 
-Points outline_at_half_height(const DrawnSpace& space, const mobb::PlacedClip& clip, int sample) {
-    const double time = 0.5 * (clip.time(sample) + clip.time(sample + 1));
-    return disk_outline(space, mobb::swept(clip, sample).at(time), time);
+/// Of what is seen of the disk; empty: nothing is.
+Points outline_at_half_height(const DrawList& list, const mobb::PlacedClip& clip, int sample) {
+    double begin = clip.time(sample), end = clip.time(sample + 1);
+    if (list.slab) {
+        const auto height = [&](double t) { return list.space.point(0, 0, t).z; };
+        if (!list.slab->shows(height(begin), height(end))) return {};
+        begin = std::max(begin, list.space.place({0, 0, list.slab->low}).z);
+        end = std::min(end, list.space.place({0, 0, list.slab->high}).z);
+    }
+    const double time = 0.5 * (begin + end);
+    return disk_outline(list.space, mobb::swept(clip, sample).at(time), time);
 }
 
-std::vector<Points> outlines_of_ends(const DrawnSpace& space, const mobb::PlacedClip& clip) {
-    return {outline_at_half_height(space, clip, 0), outline_at_half_height(space, clip, clip.count() - 1)};
+/// Of what is seen of a path.
+std::vector<Points> outlines_of_ends(const DrawList& list, const mobb::PlacedClip& clip) {
+    int first = 0, last = clip.count() - 1;
+    if (list.slab) {
+        const auto sample_at = [&](float height) {
+            const double time = list.space.place({0, 0, height}).z;
+            return std::min(mobb::first_ending_after(clip, 0, clip.count(), time), last);
+        };
+        first = sample_at(list.slab->low);
+        last = sample_at(list.slab->high);
+    }
+    return {outline_at_half_height(list, clip, first), outline_at_half_height(list, clip, last)};
 }
 
-std::vector<Points> box_edges(const BoxInstance& box) {
+/// Of what is seen of the box.
+std::vector<Points> box_edges(const DrawList& list, const BoxInstance& box) {
+    if (!is_seen(list.slab, box)) return {};
+    const bool cut = list.slab && is_cut(*list.slab, box);
     const auto corners = box_corners(box);
     std::vector<Points> out;
-    for (const auto& [a, b] : kBoxEdges) out.push_back({corners[a], corners[b]});
+    for (const auto& [a, b] : kBoxEdges) {
+        glm::vec3 from = corners[a], to = corners[b];
+        if (!cut || cut_line(*list.slab, from, to)) out.push_back({from, to});
+    }
+    if (!cut) return out;
+    for (const float height : {list.slab->low, list.slab->high}) {
+        Points section = level_section(box, height);
+        if (section.empty()) continue;
+        section.push_back(section.front());
+        out.push_back(std::move(section));
+    }
     return out;
 }
 
@@ -152,11 +185,11 @@ bool add_highlight(DrawList& list, const DrawnAgent& agent, const AgentPart& par
         if (!then || part.kind == AgentPart::Kind::node) return false;
         add({disk_outline(list.space, mobb::swept(clip, *then).at(*list.moment), 0)});
     } else if (part.kind == AgentPart::Kind::node) {
-        add(box_edges(node_box(agent, part.index, list.space)));
+        add(box_edges(list, node_box(agent, part.index, list.space)));
     } else if (part.kind == AgentPart::Kind::sample) {
-        add({outline_at_half_height(list.space, clip, part.index)});
+        add({outline_at_half_height(list, clip, part.index)});
     } else {
-        add(outlines_of_ends(list.space, clip));
+        add(outlines_of_ends(list, clip));
     }
     return true;
 }
@@ -187,7 +220,7 @@ void add_way_highlight(DrawList& list, const mobb::PlacedClip& way, Role role, f
 }
 
 void add_ghost(DrawList& list, const mobb::PlacedClip& before, float scale) {
-    std::vector<Points> lines = outlines_of_ends(list.space, before);
+    std::vector<Points> lines = outlines_of_ends(list, before);
     lines.push_back(centres(list, before));
     add_highlight_lines(list, lines, Role::ghost, scale);
 }
@@ -226,7 +259,7 @@ void add_selection(DrawList& list, const FittedScene& fitted, const ViewState& v
     check_part(agent, named.part);
     if (agent.hidden) throw std::invalid_argument(in_quotes(named.agent) + " is hidden: leave it out of --hide");
     if (list.moment && named.part.kind == AgentPart::Kind::node) {
-        throw std::invalid_argument("a node is not shown in the picture of a moment: leave out --show moment");
+        throw std::invalid_argument("a node is not shown in the picture of a moment: leave out --show");
     }
     if (view.ancestors && !of_one && named.part.kind == AgentPart::Kind::node)
         add_ancestors(list, agent, named.part.index, scale);

@@ -1,3 +1,4 @@
+#include <render/drawlist/cut.h>
 #include <render/parts/node_boxes.h>
 
 #include <glm/common.hpp>
@@ -137,7 +138,7 @@ void refine_crowded_boxes(DrawList& list, float scale) {
     InkMap ink(list.size, 12 * scale);
     std::vector<BoxInstance*> boxes;
     for (BoxInstance& box : list.boxes) {
-        if (box.state != BoxState::level) continue;
+        if (box.state != BoxState::level || !is_seen(list.slab, box)) continue;
         const float part = std::clamp(diagonal(box, list.projection) / small, 0.0f, 1.0f);
         box.width *= 0.5f + 0.5f * part;
         box.edge.a *= 0.45f + 0.55f * part;

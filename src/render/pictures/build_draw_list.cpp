@@ -31,7 +31,7 @@ void check_scale(double scale) {
 std::unique_ptr<Picture> picture_of(KeptPaths& kept, const ViewState& view, const PictureOptions& options,
                                     const FollowedChoice* choice) {
     const FittedScene& seen = *kept.fitted();
-    if (view.show == Show::moment) return moment_picture(kept, view, options, choice);
+    if (view.show != Show::space_time) return moment_picture(kept, view, options, choice);
     if (seen.scene().crowd) return crowd_picture(kept, view, options, choice);
     if (view.projection) return disk_projection_picture(seen, view, options);
     return space_time_picture(kept, view, options);
@@ -43,7 +43,7 @@ void check_disks(const FittedScene& fitted, const ViewState& view) {
     const auto samples_of = [&](int clip) {
         return static_cast<std::size_t>(scene.clips[static_cast<std::size_t>(clip)].clip->count());
     };
-    const bool draws_all = view.show != Show::moment && !view.projection && view.disks && !view.query;
+    const bool draws_all = view.show == Show::space_time && !view.projection && view.disks && !view.query;
     if (!draws_all) return;
     const std::unordered_set<std::string_view> hidden(view.hidden.begin(), view.hidden.end());
     std::size_t shown = 0, own = 0;

@@ -7,6 +7,7 @@
 #include <render/parts/floor_and_axes.h>
 #include <render/parts/node_boxes.h>
 #include <render/parts/paths.h>
+#include <render/parts/sections.h>
 #include <render/pictures/candidates.h>
 #include <render/pictures/kept_paths.h>
 #include <render/pictures/picture.h>
@@ -85,6 +86,7 @@ class CrowdPicture final : public Picture {
         // As tall as wide it would be a forest of poles.
         if (view.time_height <= 0) list_.space.time_height = std::min(kFlat * list_.space.time_height, kMostHeight);
         list_.space.anchor = camera_anchor(fitted_, view, time_);
+        list_.slab = slab_of_view(view, list_.space);
         if (view.disks) kept.add_disks_of(list_, agents_, view, std::vector<PathFocus>(agents_.size()));
         if (view.boxes) {
             add_level_boxes(list_, boxed(agents_, view_, followed_), view_.levels, metrics_.scale);
@@ -123,13 +125,10 @@ class CrowdPicture final : public Picture {
             add_walls(list_, crowd_.area, seconds_.begin, seconds_.begin, metrics_.scale);
         }
         if (view_.time_axis) add_time_axis(list_, floor_extent_, metrics_.scale);
+        if (list_.slab) add_slab_planes(list_, floor_extent_, *view_.slab, metrics_.scale);
         add_time_cursor(list_, floor_extent_, time_, metrics_.scale);
-        if (view_.disks) {
-            add_rings_now();
-            for (const DrawnAgent& agent : agents_) {
-                if (agent.outlined && !agent.hidden) add_path_outline(list_, agent, metrics_.scale);
-            }
-        }
+        if (view_.slice) add_slice();
+        if (view_.disks) within_slab([&] { add_rings_and_outlines(); });
         std::vector<LabelRequest> notes;
         if (choice_) notes = add_candidates(list_, fitted_, *choice_, metrics_);
         if (followed_ >= 0) {
@@ -141,6 +140,22 @@ class CrowdPicture final : public Picture {
             notes.insert(notes.end(), names.begin(), names.end());
         }
         return notes;
+    }
+
+    void add_rings_and_outlines() {
+        add_rings_now();
+        for (const DrawnAgent& agent : agents_) {
+            if (agent.outlined && !agent.hidden) add_path_outline(list_, agent, metrics_.scale);
+        }
+    }
+
+    void add_slice() {
+        DrawList drawn;
+        drawn.palette = list_.palette;
+        drawn.space = list_.space;
+        add_level_boxes(drawn, boxed(agents_, view_, followed_), view_.levels, view_.color_by, metrics_.scale);
+        const float height = list_.space.point(0, 0, time_).z;
+        add_sections(list_, drawn.boxes, height, height, metrics_.scale);
     }
 
     /// Around everybody at the time, where they are large enough to be seen.

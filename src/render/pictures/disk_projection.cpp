@@ -65,6 +65,7 @@ class DiskProjectionPicture final : public Picture {
           agent_(checked(agents_, *view.projection)),
           extents_(disk_extents(agent_, view.projection->node, view.projection->sample)),
           time_scale_(agent_.placed.time_scale()) {
+        view_.time_axis = false;  // the axes of the box are its own
         list_.space.origin = {extents_.base.x, extents_.base.y, extents_.base.z / time_scale_};
         list_.space.time_height = view.time_height > 0 ? view.time_height : time_scale_;
         framed_ = ShownPoints(all_points());

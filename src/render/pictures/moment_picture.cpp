@@ -1,16 +1,20 @@
+#include <explain/query_progress.h>
 #include <render/drawlist/pen.h>
 #include <render/layout/annotations.h>
 #include <render/layout/follow.h>
 #include <render/layout/framing.h>
 #include <render/layout/legend.h>
 #include <render/parts/floor_and_axes.h>
+#include <render/parts/node_boxes.h>
 #include <render/parts/paths.h>
+#include <render/parts/sections.h>
 #include <render/pictures/candidates.h>
 #include <render/pictures/kept_paths.h>
 #include <render/pictures/moment.h>
 #include <render/pictures/picture.h>
 #include <render/pictures/standing_agents.h>
 #include <render/query/proof_walls.h>
+#include <render/query/query_boxes.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 
@@ -21,12 +25,21 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace mobbscope {
 
 namespace {
 
 constexpr std::size_t kMostPathsInFull = 12;  // ways of more people would hide one another
+
+/// Straight from above, turned as it is where somebody has turned it.
+Camera camera_of_plan(Camera camera) {
+    if (camera.preset != CameraPreset::free) camera.preset = CameraPreset::top;
+    camera.pitch_deg = 90;
+    camera.perspective = false;
+    return camera;
+}
 
 double beginning(std::span<const DrawnAgent> agents) {
     const auto earlier = [](const DrawnAgent& a, const DrawnAgent& b) { return a.begin() < b.begin(); };
@@ -146,6 +159,7 @@ class MomentPicture final : public Picture {
           heights_(cylinder_heights(agents_)) {
         // Time is no direction of this picture.
         view_.time_axis = false;
+        if (view_.show == Show::plan) become_plan();
         const double time = crowd_ ? run_time(fitted_.scene(), view) : view.time.value_or(beginning(agents_));
         moment_ = moment_of(agents_, heights_, time);
         if (view_.query) moment_.bones = bones_then(agents_, moment_);
@@ -169,11 +183,35 @@ class MomentPicture final : public Picture {
         if (!crowd_) standing_ = standing_room(list_.space, agents_, heights_, 0.02 * floor_extent_.step);
         corners_ = floor_corners(floor_extent_, list_.space);
         framed_ = ShownPoints(crowd_ ? corners_ : standing_);
+        if (view_.show == Show::plan && view_.boxes) find_sections(kept);
         points_ = framed_;
         if (!crowd_) points_.add(std::span(corners_).first(4));
     }
 
   private:
+    /// Nobody has a height in it.
+    void become_plan() {
+        view_.camera = camera_of_plan(view_.camera);
+        for (DrawnAgent& agent : agents_) agent.skeleton = nullptr;
+        std::ranges::fill(heights_, 0.0);
+    }
+
+    /// Of the boxes of levels, or of the pair under test.
+    void find_sections(KeptPaths& kept) {
+        DrawList drawn;
+        drawn.palette = list_.palette;
+        drawn.space = {{list_.space.origin.x, list_.space.origin.y, moment_.time}, 1};
+        if (view_.query) {
+            const RecordedQuery& recorded = kept.recorded(view_);
+            const int event = event_of(view_.step, recorded.trace, fitted_, *view_.query);
+            const QueryProgress progress = progress_at(recorded.trace, event, Past::pair);
+            add_query_boxes(drawn, agents_, progress, pair_outline(view_), metrics_.scale);
+        } else {
+            add_level_boxes(drawn, agents_, view_.levels, view_.color_by, metrics_.scale);
+        }
+        sections_ = std::move(drawn.boxes);
+    }
+
     std::span<const DrawnAgent> persons() const { return std::span(agents_).first(count_); }
 
     /// Of a query whose two sides have skeletons, whenever it is.
@@ -204,7 +242,9 @@ class MomentPicture final : public Picture {
                 add_ways(list_, agents_, moment_, metrics_.scale);
             }
         }
-        add_bodies(list_, agents_, moment_, {view_.disks, view_.boxes}, metrics_.scale);
+        const bool walls = view_.boxes && view_.show == Show::moment;
+        add_bodies(list_, agents_, moment_, {view_.disks, walls}, metrics_.scale);
+        add_sections(list_, sections_, 0, 0, metrics_.scale);
         if (proof_) add_proof_pane(list_, *proof_, moment_.time, kWallHeight, metrics_.scale);
         std::vector<LabelRequest> notes;
         const auto add = [&](const std::vector<LabelRequest>& some) {
@@ -254,6 +294,7 @@ class MomentPicture final : public Picture {
     Bounds bounds_;
     bool outside_ = false;  ///< nobody is there yet, or any more
     std::vector<glm::vec3> standing_, corners_;
+    std::vector<BoxInstance> sections_;  ///< boxes that a plan shows the sections of, the moment at height 0
 };
 
 }  // namespace

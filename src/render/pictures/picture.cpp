@@ -1,6 +1,8 @@
+#include <base/text.h>
 #include <render/drawlist/palette.h>
 #include <render/layout/annotations.h>
 #include <render/layout/framing.h>
+#include <render/parts/sections.h>
 #include <render/pictures/picture.h>
 #include <scene/arrangement.h>
 
@@ -77,6 +79,8 @@ void Picture::mention_view(Caption& caption) const {
     }
     if (!view_.query) mention_foreground(caption, view_.foreground);
     mention_hidden(caption, hidden, view_.query ? agents_.size() : names_in_view(scene).size());
+    if (list_.slab)
+        mention(caption, "from " + to_thousandth(view_.slab->least) + " to " + to_thousandth(view_.slab->most) + " s");
     if (is_in_grid(scene, view_)) mention(caption, "in a grid, not where they are");
 }
 
@@ -89,7 +93,12 @@ const PictureFrame& Picture::aim() {
 std::vector<LabelRequest> Picture::floor_labels() const {
     // Of a grid distances tell nothing but the size of what is in a cell.
     const bool floor = view_.floor && !is_in_grid(fitted_.scene(), view_);
-    return floor_and_axis_labels(list_, floor_extent_, floor, view_.time_axis, metrics_.small);
+    std::vector<LabelRequest> out = floor_and_axis_labels(list_, floor_extent_, floor, view_.time_axis, metrics_.small);
+    if (list_.slab) {
+        const auto times = slab_labels(list_, floor_extent_, *view_.slab, metrics_.small);
+        out.insert(out.begin(), times.begin(), times.end());
+    }
+    return out;
 }
 
 DrawList Picture::draw() {
@@ -110,6 +119,11 @@ DrawList Picture::draw() {
     const std::vector<LabelRequest> notes = content();
     if (!view_.labels) return std::move(list_);
     add_notes(list_, layout, notes, metrics_.scale);
+    if (view_.time_axis) {
+        for (const LabelRequest& title : time_titles(list_, floor_extent_, metrics_.small)) {
+            if (layout.place(title, list_)) break;
+        }
+    }
     for (const LabelRequest& label : floor_labels()) layout.place(label, list_);
     add_names_to(layout);
     return std::move(list_);

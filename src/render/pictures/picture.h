@@ -1,6 +1,7 @@
 /// The way that every picture of a scene is made: who is in it, from where it is seen, what is drawn, the words around.
 #pragma once
 
+#include <render/drawlist/cut.h>
 #include <render/drawlist/draw_list.h>
 #include <render/drawlist/picture_options.h>
 #include <render/drawlist/shown_points.h>
@@ -14,6 +15,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -49,6 +51,14 @@ class Picture {
     virtual void add_map(const Rect&) {}
     /// Adds names, which come last.
     virtual void add_names_to(LabelLayout&) {}
+
+    /// Calls `add`, and cuts the lines that it adds to the slab.
+    template <class Add>
+    void within_slab(const Add& add) {
+        const std::size_t first = list_.lines.size();
+        add();
+        cut_lines(list_, first);
+    }
 
     const FittedScene& fitted_;
     ViewState view_;

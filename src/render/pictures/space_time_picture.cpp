@@ -7,6 +7,7 @@
 #include <render/parts/highlights.h>
 #include <render/parts/node_boxes.h>
 #include <render/parts/paths.h>
+#include <render/parts/sections.h>
 #include <render/pictures/candidates.h>
 #include <render/pictures/kept_paths.h>
 #include <render/pictures/picture.h>
@@ -14,6 +15,9 @@
 #include <render/query/query_boxes.h>
 #include <render/text/labels.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -68,8 +72,11 @@ class SpaceTimePicture final : public Picture {
         const Bounds& bounds = kept.bounds(agents_, view_);
         list_.space = space_for(bounds, view_);
         list_.space.anchor = camera_anchor(fitted_, view_, view_.time.value_or(bounds.min.z));
+        list_.slab = slab_of_view(view_, list_.space);
+        shown_from_ = view_.slab ? std::max(bounds.min.z, view_.slab->least) : bounds.min.z;
+        shown_to_ = view_.slab ? std::min(bounds.max.z, view_.slab->most) : bounds.max.z;
         if (view_.query) ask(kept);
-        emphasis_ = emphasis_of(view_, agents_, bounds.min.z, bounds.max.z, test());
+        emphasis_ = emphasis_of(view_, agents_, shown_from_, shown_to_, test());
         if (view_.boxes && test()) add_query_boxes(list_, agents_, *test(), pair_outline(view_), metrics_.scale);
         const bool levels = view_.boxes && !view_.query;
         if (levels) add_level_boxes(list_, agents_, view_.levels, metrics_.scale);
@@ -80,7 +87,10 @@ class SpaceTimePicture final : public Picture {
         if (!view_.disks) list_.disks = {};
         if (auto bar = kept.heat_bar()) bars_.push_back(std::move(*bar));
         floor_extent_ = floor_extent_of(bounds.min, bounds.max);
-        if (walls_) gaps_ = add_proof_walls(list_, *walls_, view_.time, metrics_.scale);
+        if (walls_) within_slab([&] { gaps_ = add_proof_walls(list_, *walls_, view_.time, metrics_.scale); });
+        if (list_.slab)
+            std::erase_if(gaps_, [&](const WallGap& gap) { return !list_.slab->shows(gap.at.z, gap.at.z); });
+        if (view_.frame_boxes) frame_boxes();
         points_ = framed_;
         if (!view_.foreground.empty()) add_outlines_to(points_, bounds);
         for (const BoxInstance& box : list_.boxes) points_.add(box_corners(box));
@@ -125,7 +135,7 @@ class SpaceTimePicture final : public Picture {
                       : recorded_    ? query_caption(list_.palette, agents_, *recorded_, *progress_)
                                      : scene_caption(fitted_, agents_, view_, box_tests_);
         if (view_.time && !emphasis_.cursor) {
-            mention_cursor_outside(out.caption, *view_.time, floor_extent_.t0, floor_extent_.t1);
+            mention_cursor_outside(out.caption, *view_.time, shown_from_, shown_to_);
         }
         out.bars = bars_;
         out.legend = legend_entries(list_, agents_, view_, emphasis_, test());
@@ -143,12 +153,7 @@ class SpaceTimePicture final : public Picture {
     std::vector<LabelRequest> content() override {
         refine_crowded_boxes(list_, metrics_.scale);
         add_floor_and_axes(list_, agents_, floor_extent_, view_, metrics_.scale);
-        if (view_.disks) {
-            for (const DrawnAgent& agent : agents_) {
-                if (agent.is_whole()) add_thin_path(list_, agent, 1.3f * metrics_.scale);
-                if (agent.outlined && !agent.hidden) add_path_outline(list_, agent, metrics_.scale);
-            }
-        }
+        if (view_.disks) within_slab([&] { add_centre_lines(); });
         if (test() && view_.time_axis && pair_outline(view_) == PairOutline::outcome) {
             add_time_intervals(list_, floor_extent_, agents_, test()->event, metrics_.scale);
         }
@@ -156,16 +161,55 @@ class SpaceTimePicture final : public Picture {
             const float height = list_.space.point(0, 0, floor_extent_.t0).z;
             add_floor_boundary(list_, boundary_, agents_[1], height, metrics_.scale);
         }
+        if (list_.slab) add_slab_planes(list_, floor_extent_, *view_.slab, metrics_.scale);
         if (emphasis_.cursor) add_time_cursor(list_, floor_extent_, *emphasis_.cursor, metrics_.scale);
+        if (emphasis_.cursor && view_.slice) add_slice(*emphasis_.cursor);
         add_ancestors_of_part(list_, agents_, view_, metrics_.scale);
-        add_rings(list_, agents_, emphasis_, metrics_.scale);
+        within_slab([&] { add_rings(list_, agents_, emphasis_, metrics_.scale); });
         if (!recorded_) return names_now();
         std::vector<LabelRequest> notes;
         if (walls_) notes = proof_notes();
         if (!test()) return notes;
-        const std::vector<LabelRequest> found = add_findings(list_, agents_, *recorded_, *test(), metrics_);
-        notes.insert(notes.end(), found.begin(), found.end());
+        const std::size_t lines = list_.lines.size();
+        std::vector<LabelRequest> found;
+        within_slab([&] { found = add_findings(list_, agents_, *recorded_, *test(), metrics_); });
+        // What is cut away needs no number.
+        if (!list_.slab || list_.lines.size() > lines) notes.insert(notes.end(), found.begin(), found.end());
         return notes;
+    }
+
+    void add_centre_lines() {
+        for (const DrawnAgent& agent : agents_) {
+            if (agent.is_whole()) add_thin_path(list_, agent, 1.3f * metrics_.scale);
+            if (agent.outlined && !agent.hidden) add_path_outline(list_, agent, metrics_.scale);
+        }
+    }
+
+    /// Boxes of a query come and go with its steps: the roots' stand for them.
+    void frame_boxes() {
+        if (test()) {
+            for (const DrawnAgent& agent : agents_) framed_.add(box_corners(node_box(agent, 0, list_.space)));
+            return;
+        }
+        for (const BoxInstance& box : list_.boxes) {
+            if (box.state == BoxState::level) framed_.add(box_corners(box));
+        }
+    }
+
+    /// Also of boxes that are not shown themselves.
+    void add_slice(double time) {
+        DrawList drawn;
+        drawn.palette = list_.palette;
+        drawn.space = list_.space;
+        if (view_.boxes) {
+            std::ranges::copy_if(list_.boxes, std::back_inserter(drawn.boxes), &BoxInstance::pickable);
+        } else if (test()) {
+            add_query_boxes(drawn, agents_, *test(), pair_outline(view_), metrics_.scale);
+        } else if (!view_.query) {
+            add_level_boxes(drawn, agents_, view_.levels, view_.color_by, metrics_.scale);
+        }
+        const float height = list_.space.point(0, 0, time).z;
+        add_sections(list_, drawn.boxes, height, height, metrics_.scale);
     }
 
     /// The numbers beside the walls, and the region that is free.
@@ -208,6 +252,7 @@ class SpaceTimePicture final : public Picture {
     const QueryProof* walls_ = nullptr;        ///< null: they are not shown
     bool replaces_test_ = false;               ///< the walls stand alone
     std::vector<WallGap> gaps_;
+    double shown_from_ = 0, shown_to_ = 0;  ///< global seconds
     FloorLines boundary_;
     std::vector<ColorBar> bars_;
     std::optional<double> box_tests_;  ///< for the caption

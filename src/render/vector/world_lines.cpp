@@ -1,3 +1,4 @@
+#include <render/drawlist/cut.h>
 #include <render/gl/box_buffer.h>
 #include <render/gl/gl_objects.h>
 #include <render/gl/line_pass.h>
@@ -142,9 +143,14 @@ std::vector<VectorStroke> world_lines(const DrawList& list, const DepthImage* de
     for (const BoxInstance* box : in_order(list.boxes)) {
         for (; line != lines.end() && !(box->order < (*line)->order); ++line)
             out.add((*line)->from, (*line)->to, **line);
+        if (!is_seen(list.slab, *box)) continue;
+        const bool cut = list.slab && is_cut(*list.slab, *box);
         const std::array<glm::vec3, 8> corners = box_corners(*box);
         const LineStyle style = edge_style(*box);
-        for (const auto& [from, to] : kBoxEdges) out.add(corners[from], corners[to], style);
+        for (const auto& [a, b] : kBoxEdges) {
+            glm::vec3 from = corners[a], to = corners[b];
+            if (!cut || cut_line(*list.slab, from, to)) out.add(from, to, style);
+        }
     }
     for (; line != lines.end(); ++line) out.add((*line)->from, (*line)->to, **line);
     return out.take();
