@@ -142,6 +142,8 @@ requires(!std::invocable<T, const std::string&>) Option Command::add_option(cons
     return Option(*app_->add_option(name, target, help)->type_name(placeholder));
 }
 template Option Command::add_option(const std::string&, std::string&, const std::string&, const std::string&);
+template Option Command::add_option(const std::string&, std::optional<std::string>&, const std::string&,
+                                    const std::string&);
 template Option Command::add_option(const std::string&, std::filesystem::path&, const std::string&, const std::string&);
 template Option Command::add_option(const std::string&, std::optional<std::filesystem::path>&, const std::string&,
                                     const std::string&);

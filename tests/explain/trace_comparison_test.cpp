@@ -98,12 +98,15 @@ TEST(TraversalComparison, AStepHasItsMatchInTheOtherTraversal) {
                 EXPECT_EQ(matching_step(both, first, second, step, middle), both.decision(*both.at(middle), 1).step);
                 ++decided;
             } else if (from[step].parent < 0 && from[step].outcome == mobb::Outcome::overlap && !both.times.empty()) {
-                EXPECT_EQ(to[match].depth, 0) << "the roots go together";
+                // The roots go together, but where a pair below them is about the same time too.
+                const mobb::Node &of_a = second.a.tree().node(to[match].a), &of_b = second.b.tree().node(to[match].b);
+                EXPECT_LE(std::max(second.a.begin(of_a), second.b.begin(of_b)), both.times.front().t0 + 1e-9);
+                EXPECT_GE(std::min(second.a.end(of_a), second.b.end(of_b)), both.times.back().t1 - 1e-9);
                 ++went_on;
             }
         }
     }
-    EXPECT_GT(decided, 100);
+    EXPECT_GT(decided, 50);
     EXPECT_GT(went_on, 10);
 }
 

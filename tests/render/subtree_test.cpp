@@ -22,12 +22,12 @@ using testing::kSmallSize;
 using Kind = AgentPart::Kind;
 using Role = HighlightLine::Role;
 
-const FittedScene& scene() {
+const FittedScene& hit_walks() {
     static const FittedScene fitted = testing::hit_scene();
     return fitted;
 }
 
-DrawList list_at(const ViewState& view) { return build_draw_list(scene(), view, kSmallSize); }
+DrawList list_of_walks(const ViewState& view) { return build_draw_list(hit_walks(), view, kSmallSize); }
 
 int node_at_place(const mobb::Tree& tree, int level, int place) {
     for (int i = 0; i < static_cast<int>(tree.nodes().size()); ++i)
@@ -35,10 +35,10 @@ int node_at_place(const mobb::Tree& tree, int level, int place) {
     return -1;
 }
 
-const mobb::Tree& tree() { return scene().tree(0); }
+const mobb::Tree& tree() { return hit_walks().tree(0); }
 
 /// A view of levels with A's node alone, or with all.
-ViewState levels(LevelRange shown, std::optional<int> node = {}) {
+ViewState with_levels(LevelRange shown, std::optional<int> node = {}) {
     ViewState view;
     view.levels = shown;
     if (node) view.subtree = DrawnNode{0, *node};
@@ -65,8 +65,8 @@ std::vector<HighlightLine> ghosts_of(const DrawList& list) {
 
 TEST(Subtree, ShowsOfItsAgentTheNodesBelowAlone) {
     const int top = node_at_place(tree(), 1, 1);
-    const DrawList all = list_at(levels({3, 3, false}));
-    const DrawList part = list_at(levels({3, 3, false}, top));
+    const DrawList all = list_of_walks(with_levels({3, 3, false}));
+    const DrawList part = list_of_walks(with_levels({3, 3, false}, top));
     std::set<int> below;
     for (const int node : shown_nodes(tree(), {3, 3, false}))
         if (tree().parent(tree().parent(node)) == top) below.insert(node);
@@ -85,13 +85,14 @@ TEST(Subtree, ShowsOfItsAgentTheNodesBelowAlone) {
 TEST(Subtree, HasItsOwnBoxOnItsLevelOrBelowTheLevelsThatAreShown) {
     const int top = node_at_place(tree(), 2, 1);
     for (const LevelRange shown : {LevelRange{2, 2, false}, LevelRange{0, 0, false}, LevelRange{0, 2, false}}) {
-        const DrawList part = list_at(levels(shown, top));
+        const DrawList part = list_of_walks(with_levels(shown, top));
         EXPECT_EQ(boxes_of(part, 0), std::set<int>{top}) << to_string(shown);
         EXPECT_GT(box_of(part, 0, top).fill.a, 0);
     }
     const int leaf = shown_nodes(tree(), {0, 0, true}).back();
-    EXPECT_EQ(boxes_of(list_at(levels({9, 9, false}, leaf)), 0), std::set<int>{leaf}) << "a leaf above the level";
-    std::set<int> range = boxes_of(list_at(levels({1, 3, false}, top)), 0);
+    EXPECT_EQ(boxes_of(list_of_walks(with_levels({9, 9, false}, leaf)), 0), std::set<int>{leaf})
+        << "a leaf above the level";
+    std::set<int> range = boxes_of(list_of_walks(with_levels({1, 3, false}, top)), 0);
     const auto [first, last] = tree().children(top);
     EXPECT_EQ(range, (std::set<int>{top, first, last}));
 }
@@ -99,7 +100,8 @@ TEST(Subtree, HasItsOwnBoxOnItsLevelOrBelowTheLevelsThatAreShown) {
 TEST(Subtree, DimsTheDisksOfItsAgentThatAreOutsideIt) {
     const int top = node_at_place(tree(), 2, 1);
     const mobb::Node& node = tree().node(top);
-    const DrawList all = list_at(levels({2, 2, false})), part = list_at(levels({2, 2, false}, top));
+    const DrawList all = list_of_walks(with_levels({2, 2, false})),
+                   part = list_of_walks(with_levels({2, 2, false}, top));
     ASSERT_EQ(all.disks.size(), part.disks.size());
     for (std::size_t i = 0; i < all.disks.size(); ++i) {
         const DiskInstance &was = all.disks[i], &is = part.disks[i];
@@ -112,25 +114,26 @@ TEST(Subtree, DimsTheDisksOfItsAgentThatAreOutsideIt) {
 }
 
 TEST(Subtree, IsSaidInTheCaption) {
-    const ViewState view = levels({3, 3, false}, node_at_place(tree(), 1, 1));
-    const std::vector<DrawnAgent> agents = drawn_agents(scene(), view);
-    const std::string said = scene_caption(scene(), agents, view).detail;
+    const ViewState view = with_levels({3, 3, false}, node_at_place(tree(), 1, 1));
+    const std::vector<DrawnAgent> agents = drawn_agents(hit_walks(), view);
+    const std::string said = scene_caption(hit_walks(), agents, view).detail;
     EXPECT_TRUE(said.starts_with("only A 1.1 and below")) << said;
     EXPECT_NE(said.find("level 3, 12 boxes"), std::string::npos) << "4 of A and 8 of B: " << said;
     ViewState hidden = view;
     hidden.hidden = {"A"};
-    EXPECT_EQ(scene_caption(scene(), drawn_agents(scene(), hidden), hidden).detail.find("only"), std::string::npos);
+    EXPECT_EQ(scene_caption(hit_walks(), drawn_agents(hit_walks(), hidden), hidden).detail.find("only"),
+              std::string::npos);
 }
 
 TEST(Subtree, IsNoneOfAQueryAndRefusedWhereThereIsNone) {
-    ViewState view = levels({0, 0, true}, 1);
+    ViewState view = with_levels({0, 0, true}, 1);
     view.query = 0;
-    EXPECT_EQ(drawn_agents(scene(), view)[0].subtree, std::nullopt);
+    EXPECT_EQ(drawn_agents(hit_walks(), view)[0].subtree, std::nullopt);
     for (const DrawnNode part : {DrawnNode{2, 0}, DrawnNode{-1, 0}, DrawnNode{0, 1000}, DrawnNode{0, -1}}) {
         ViewState wrong;
         wrong.subtree = part;
         try {
-            list_at(wrong);
+            list_of_walks(wrong);
             ADD_FAILURE() << part.agent << ' ' << part.node;
         } catch (const ViewMismatch& mismatch) {
             EXPECT_EQ(mismatch.key(), "subtree");
@@ -141,13 +144,13 @@ TEST(Subtree, IsNoneOfAQueryAndRefusedWhereThereIsNone) {
 
 TEST(Ancestors, AreDashedOutlinesFainterWithHeight) {
     const int node = node_at_place(tree(), 3, 5);
-    ViewState view = levels({3, 3, false}, node);
-    EXPECT_TRUE(list_at(view).highlights.empty());
+    ViewState view = with_levels({3, 3, false}, node);
+    EXPECT_TRUE(list_of_walks(view).highlights.empty());
     view.ancestors = true;
-    const DrawList list = list_at(view);
+    const DrawList list = list_of_walks(view);
     const std::vector<HighlightLine> ghosts = ghosts_of(list);
     ASSERT_EQ(ghosts.size(), 36u) << "the edges of three boxes";
-    const DrawnAgent agent = drawn_agents(scene(), view)[0];
+    const DrawnAgent agent = drawn_agents(hit_walks(), view)[0];
     int above = node;
     for (std::size_t box = 0; box < 3; ++box) {
         above = tree().parent(above);
@@ -167,21 +170,21 @@ TEST(Ancestors, AreDashedOutlinesFainterWithHeight) {
 }
 
 TEST(Ancestors, AreThoseOfTheSelectedNodeBeforeThoseOfThePart) {
-    ViewState view = levels({2, 2, false}, node_at_place(tree(), 2, 1));
+    ViewState view = with_levels({2, 2, false}, node_at_place(tree(), 2, 1));
     view.ancestors = true;
-    DrawList list = list_at(view);
+    DrawList list = list_of_walks(view);
     EXPECT_EQ(ghosts_of(list).size(), 24u);
-    add_selection(list, scene(), view, {"B", {Kind::node, node_at_place(tree(), 3, 0)}}, 1);
+    add_selection(list, hit_walks(), view, {"B", {Kind::node, node_at_place(tree(), 3, 0)}}, 1);
     EXPECT_EQ(ghosts_of(list).size(), 36u);
     EXPECT_EQ(list.highlights.front().role, Role::ancestor) << "the selection lies over them";
-    const auto root = box_corners(node_box(drawn_agents(scene(), view)[1], 0, list.space));
+    const auto root = box_corners(node_box(drawn_agents(hit_walks(), view)[1], 0, list.space));
     EXPECT_NE(std::ranges::find(root, ghosts_of(list).back().from), root.end()) << "they are B's";
-    list = list_at(view);
-    add_selection(list, scene(), view, {"B", {Kind::sample, 3}}, 1);
+    list = list_of_walks(view);
+    add_selection(list, hit_walks(), view, {"B", {Kind::sample, 3}}, 1);
     EXPECT_EQ(ghosts_of(list).size(), 24u) << "a sample is no node";
     view.ancestors = false;
-    list = list_at(view);
-    add_selection(list, scene(), view, {"B", {Kind::node, node_at_place(tree(), 3, 0)}}, 1);
+    list = list_of_walks(view);
+    add_selection(list, hit_walks(), view, {"B", {Kind::node, node_at_place(tree(), 3, 0)}}, 1);
     EXPECT_TRUE(ghosts_of(list).empty());
 }
 

@@ -14,11 +14,11 @@ namespace mobbscope::app {
 
 namespace {
 
-const std::vector<NamedView>& views_of(const Workspace& workspace) { return workspace.scene().debug.views; }
+const std::vector<NamedView>& named_views(const Workspace& workspace) { return workspace.scene().debug.views; }
 
 std::vector<std::string> view_names(const Workspace& workspace) {
     std::vector<std::string> out;
-    for (const NamedView& named : views_of(workspace)) out.push_back(named.name);
+    for (const NamedView& named : named_views(workspace)) out.push_back(named.name);
     return out;
 }
 
@@ -26,12 +26,13 @@ std::size_t view_named(const Workspace& workspace, const std::string& name) {
     return static_cast<std::size_t>(index_of_name(view_names(workspace), name, "view"));
 }
 
-bool has_views(const Workspace& workspace) { return !views_of(workspace).empty(); }
+bool has_views(const Workspace& workspace) { return !named_views(workspace).empty(); }
 std::string_view why_no_view() { return "the scene has no named view"; }
 
 /// The view that one went to, or saved, last.
 bool has_present(const Workspace& workspace) {
-    return std::ranges::find(views_of(workspace), workspace.named_view, &NamedView::name) != views_of(workspace).end();
+    return std::ranges::find(named_views(workspace), workspace.named_view, &NamedView::name) !=
+           named_views(workspace).end();
 }
 std::string present_name(const Workspace& workspace) { return has_present(workspace) ? workspace.named_view : ""; }
 bool is_present(const Workspace& workspace, const std::string& name) { return workspace.named_view == name; }
@@ -54,7 +55,7 @@ void save_view(Workspace& workspace, Notifications& notifications, Keys& keys, c
 
 /// The window's colours stay.
 void go_to_view(Workspace& workspace, const std::string& name) {
-    const NamedView& named = views_of(workspace)[view_named(workspace, name)];
+    const NamedView& named = named_views(workspace)[view_named(workspace, name)];
     const auto see = [&](ViewState& view) {
         const Theme theme = view.theme;
         view = named.view;

@@ -134,7 +134,7 @@ void mend_finding(Session& session, const std::string& text) {
 // --- a part of a tree alone
 
 /// That of the selected node; none where the picture cannot show it. The agents of a run are others at every time.
-std::optional<DrawnNode> selected_part(const Workspace& workspace) {
+std::optional<DrawnNode> part_of_selection(const Workspace& workspace) {
     const Selection& selected = workspace.selection;
     const bool is_node = selected.kind == Selection::Kind::node && selected.path.agent >= 0;
     if (!is_node || workspace.crowd()) return std::nullopt;
@@ -152,7 +152,7 @@ void show_all_nodes(Workspace& workspace) {
 }
 
 void show_part(Workspace& workspace) {
-    const std::optional<DrawnNode> part = selected_part(workspace);
+    const std::optional<DrawnNode> part = part_of_selection(workspace);
     if (!part || workspace.view().subtree == part) return show_all_nodes(workspace);
     const auto show = [&](ViewState& view) {
         view.subtree = part;
@@ -214,7 +214,7 @@ std::vector<Command> tree_commands() {
                 show_part,
                 {.shortcut = "Shift+I",
                  .enabled = {[](const Workspace& workspace) {
-                                 return selected_part(workspace).has_value() || shows_part(workspace);
+                                 return part_of_selection(workspace).has_value() || shows_part(workspace);
                              },
                              why_no_part},
                  .checked = shows_part}),

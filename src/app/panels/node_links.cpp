@@ -76,8 +76,9 @@ void node_links(Ui& ui) {
     if (!is_node) return;
     const bool is_alone = ui.workspace.view().subtree == DrawnNode{selected.path.agent, node};
     command_button(ui, is_alone ? "show all" : "show alone", "node.isolate", "node.isolate");
-    flow(button_width("boxes above"));
-    command_button(ui, "boxes above", "view.ancestors", "node.ancestors");
+    const char* above = ui.workspace.view().ancestors ? "hide boxes above" : "boxes above";
+    flow(button_width(above));
+    command_button(ui, above, "view.ancestors", "node.ancestors");
 }
 
 }  // namespace mobbscope::app
