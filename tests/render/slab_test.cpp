@@ -28,7 +28,7 @@
 namespace mobbscope {
 namespace {
 
-constexpr PictureSize kSize{480, 360};
+constexpr PictureSize kSlabSize{480, 360};
 
 /// Two paths from 0 to 2 s that cross.
 FittedScene scene(mobb::TreeKind kind, bool running) {
@@ -81,13 +81,13 @@ TEST_P(SlabTest, NothingIsDrawnOutside) {
             view.slab = ValueRange{0.55, 1.21};
             view.cut_boxes = cut;
             view.boxes = cut;  // whole ones reach out of the slab
-            const DrawList list = build_draw_list(fitted, view, kSize);
+            const DrawList list = build_draw_list(fitted, view, kSlabSize);
             const float top = row_of(list, 1.21), bottom = row_of(list, 0.55);
             for (const int samples : {1, 4}) {
                 const Image image = renderer().draw(list, samples);
                 int inside = 0;
-                for (int y = 0; y < kSize.height; ++y) {
-                    for (int x = 0; x < kSize.width; ++x) {
+                for (int y = 0; y < kSlabSize.height; ++y) {
+                    for (int x = 0; x < kSlabSize.width; ++x) {
                         if (is_ground(list, image, x, y)) continue;
                         const float row = static_cast<float>(y) + 0.5f;
                         ASSERT_GE(row, top - 2) << x << ", " << y << " with " << samples << " samples";
@@ -98,8 +98,8 @@ TEST_P(SlabTest, NothingIsDrawnOutside) {
                 EXPECT_GT(inside, 2000);
             }
             const IdImage ids = renderer().draw_ids(list);
-            for (int y = 0; y < kSize.height; ++y) {
-                for (int x = 0; x < kSize.width; ++x) {
+            for (int y = 0; y < kSlabSize.height; ++y) {
+                for (int x = 0; x < kSlabSize.width; ++x) {
                     if (!ids.at(x, y)) continue;
                     ASSERT_GE(static_cast<float>(y) + 0.5f, top - 1);
                     ASSERT_LE(static_cast<float>(y) + 0.5f, bottom + 1);
@@ -122,12 +122,12 @@ TEST_P(SlabTest, WhatIsInsideIsAsItWas) {
     const FittedScene fitted = scene(mobb::TreeKind::mobb, false);
     ViewState view = from_the_front();
     view.boxes = false;
-    const DrawList all = build_draw_list(fitted, view, kSize);
+    const DrawList all = build_draw_list(fitted, view, kSlabSize);
     view.slab = ValueRange{0.55, 1.21};
-    const DrawList list = build_draw_list(fitted, view, kSize);
+    const DrawList list = build_draw_list(fitted, view, kSlabSize);
     const IdImage whole = renderer().draw_ids(all), ids = renderer().draw_ids(list);
     for (int y = static_cast<int>(row_of(list, 1.21)) + 2; y < static_cast<int>(row_of(list, 0.55)) - 2; ++y) {
-        for (int x = 0; x < kSize.width; ++x) ASSERT_EQ(ids.at(x, y), whole.at(x, y)) << x << ", " << y;
+        for (int x = 0; x < kSlabSize.width; ++x) ASSERT_EQ(ids.at(x, y), whole.at(x, y)) << x << ", " << y;
     }
 }
 
@@ -139,15 +139,16 @@ TEST_P(SlabTest, FacesOfCutDisksAreWhole) {
     view.boxes = false;
     view.slab = ValueRange{0.5, 1.21};
     view.hidden = {"B"};
-    const DrawList list = build_draw_list(fitted, view, kSize);
+    const DrawList list = build_draw_list(fitted, view, kSlabSize);
     const DrawnAgent a = drawn_agents(fitted, view)[0];
     const mobb::Disk last = a.clip().disk(36);  // holds from 1.2 s to 1.23 s
     const IdImage ids = renderer().draw_ids(list);
     const glm::vec3 middle = list.space.point(last.x, last.y, 1.21);
     const double radius = last.r * static_cast<double>(list.projection.pixels_per_metre(middle));
     double pixels = 0;
-    for (int y = 0; y < kSize.height; ++y) {
-        for (int x = 0; x < kSize.width; ++x) pixels += ids.at(x, y) == ObjectId{0, ObjectId::Kind::disk, 36} ? 1 : 0;
+    for (int y = 0; y < kSlabSize.height; ++y) {
+        for (int x = 0; x < kSlabSize.width; ++x)
+            pixels += ids.at(x, y) == ObjectId{0, ObjectId::Kind::disk, 36} ? 1 : 0;
     }
     EXPECT_NEAR(pixels, 3.14159 * radius * radius, 0.03 * pixels);
 }
@@ -163,11 +164,11 @@ TEST_P(SlabTest, PickedIsWhatIsDrawn) {
                 view.cut_boxes = cut;
                 view.camera.preset = CameraPreset::free;
                 view.camera.pitch_deg = above ? 35 : -35;
-                const DrawList list = build_draw_list(fitted, view, kSize);
+                const DrawList list = build_draw_list(fitted, view, kSlabSize);
                 const IdImage ids = renderer().draw_ids(list);
                 int shown = 0, differing = 0;
-                for (int y = 2; y < kSize.height; y += 5) {
-                    for (int x = 2; x < kSize.width; x += 5) {
+                for (int y = 2; y < kSlabSize.height; y += 5) {
+                    for (int x = 2; x < kSlabSize.width; x += 5) {
                         const auto drawn = ids.at(x, y);
                         shown += drawn ? 1 : 0;
                         const auto picks =
@@ -198,7 +199,7 @@ TEST_P(SlabTest, DraggingItsEndsUploadsNothingOfTheWorld) {
             view.cut_boxes = cut;
             view.slab = ValueRange{0.2, 0.9};
             const auto draw = [&] {
-                renderer().paint(build_draw_list(paths, view, {.size = kSize}), samples);
+                renderer().paint(build_draw_list(paths, view, {.size = kSlabSize}), samples);
                 return renderer().statistics().world_bytes;
             };
             draw();
@@ -220,7 +221,7 @@ TEST_P(SlabTest, ScrubbingUploadsNoBoxes) {
         view.slice = slice;
         view.time = 0.2;
         const auto draw = [&] {
-            renderer().paint(build_draw_list(paths, view, {.size = kSize}), 1);
+            renderer().paint(build_draw_list(paths, view, {.size = kSlabSize}), 1);
             return renderer().statistics();
         };
         draw();
@@ -243,10 +244,10 @@ TEST_P(SlabTest, EmptySlabs) {
         view.boxes = false;
         const auto disks_seen = [&](ValueRange slab) {
             view.slab = slab;
-            const IdImage ids = renderer().draw_ids(build_draw_list(fitted, view, kSize));
+            const IdImage ids = renderer().draw_ids(build_draw_list(fitted, view, kSlabSize));
             std::set<std::pair<int, int>> out;
-            for (int y = 0; y < kSize.height; ++y) {
-                for (int x = 0; x < kSize.width; ++x) {
+            for (int y = 0; y < kSlabSize.height; ++y) {
+                for (int x = 0; x < kSlabSize.width; ++x) {
                     if (const auto id = ids.at(x, y)) out.emplace(id->agent, id->index);
                 }
             }
@@ -294,7 +295,7 @@ TEST(Slab, TheCaptionSaysIt) {
     ViewState view;
     view.slab = ValueRange{0.5, 1};
     view.time = 1.5;
-    const DrawList list = build_draw_list(fitted, view, {1280, 720});
+    const DrawList list = build_draw_list(fitted, view, PictureSize{1280, 720});
     const auto says = [&](std::string_view words) {
         return std::ranges::any_of(list.texts,
                                    [&](const TextRun& run) { return run.text.find(words) != std::string::npos; });
@@ -312,7 +313,7 @@ TEST(Sections, HaveTheAreaThatTheBoxHasThen) {
         const FittedScene fitted = scene(kind, false);
         ViewState view;
         view.levels = {0, 9, false};
-        const DrawList list = build_draw_list(fitted, view, kSize);
+        const DrawList list = build_draw_list(fitted, view, kSlabSize);
         const std::vector<DrawnAgent> agents = drawn_agents(fitted, view);
         std::set<std::size_t> corners_seen;
         int compared = 0;
@@ -357,7 +358,9 @@ TEST(Sections, HaveTheAreaThatTheBoxHasThen) {
         }
         EXPECT_GT(compared, 50);
         EXPECT_TRUE(corners_seen.contains(4));
-        if (kind == mobb::TreeKind::umobb) EXPECT_GT(corners_seen.size(), 1u) << "free boxes have other sections too";
+        if (kind == mobb::TreeKind::umobb) {
+            EXPECT_GT(corners_seen.size(), 1u) << "free boxes have other sections too";
+        }
     }
 }
 
@@ -377,9 +380,9 @@ TEST(Sections, FillingsCoverThem) {
     ViewState view;
     view.levels = {2, 2, false};
     view.time = 0.7;
-    const DrawList without = build_draw_list(fitted, view, kSize);
+    const DrawList without = build_draw_list(fitted, view, kSlabSize);
     view.slice = true;
-    const DrawList list = build_draw_list(fitted, view, kSize);
+    const DrawList list = build_draw_list(fitted, view, kSlabSize);
     const float height = list.space.point(0, 0, 0.7).z;
     double expected = 0, filled = 0, outlined = 0;
     for (const BoxInstance& box : without.boxes) {
@@ -396,7 +399,7 @@ TEST(Sections, FillingsCoverThem) {
     EXPECT_NEAR(filled, expected, 1e-4 * expected);
     EXPECT_GE(outlined, 8);
     view.boxes = false;
-    const DrawList alone = build_draw_list(fitted, view, kSize);
+    const DrawList alone = build_draw_list(fitted, view, kSlabSize);
     EXPECT_EQ(std::ranges::count_if(alone.boxes, &BoxInstance::triangle),
               std::ranges::count_if(list.boxes, &BoxInstance::triangle))
         << "sections are shown without the boxes too";
@@ -417,9 +420,9 @@ TEST(FloorPlan, HasTheDisksAndSectionsOfItsMoment) {
         view.levels = {1, 2, false};
         view.time = 0.7;
         view.slice = true;
-        const double expected = filled_area(build_draw_list(fitted, view, kSize));
+        const double expected = filled_area(build_draw_list(fitted, view, kSlabSize));
         view.show = Show::plan;
-        const DrawList list = build_draw_list(fitted, view, {1280, 720});
+        const DrawList list = build_draw_list(fitted, view, PictureSize{1280, 720});
         EXPECT_NEAR(filled_area(list), expected, 1e-4 * expected);
         EXPECT_NEAR(list.projection.back.z, 1, 1e-6);
         EXPECT_FALSE(list.projection.perspective);
@@ -439,10 +442,10 @@ TEST(FloorPlan, HasTheDisksAndSectionsOfItsMoment) {
             })) << name;
         }
         view.boxes = false;
-        EXPECT_EQ(filled_area(build_draw_list(fitted, view, kSize)), 0);
+        EXPECT_EQ(filled_area(build_draw_list(fitted, view, kSlabSize)), 0);
         view.boxes = true;
         view.time = 50;
-        const DrawList after = build_draw_list(fitted, view, kSize);
+        const DrawList after = build_draw_list(fitted, view, kSlabSize);
         EXPECT_TRUE(after.disks.empty());
         EXPECT_EQ(filled_area(after), 0);
     }
@@ -456,10 +459,10 @@ TEST(FloorPlan, HasThePairUnderTest) {
     view.query = 0;
     view.step = {Step::Unit::event, 0};
     view.time = 0.7;
-    const DrawList list = build_draw_list(fitted, view, kSize);
+    const DrawList list = build_draw_list(fitted, view, kSlabSize);
     view.show = Show::space_time;
     view.past = Past::pair;
-    const DrawList boxes = build_draw_list(fitted, view, kSize);
+    const DrawList boxes = build_draw_list(fitted, view, kSlabSize);
     const float height = boxes.space.point(0, 0, 0.7).z;
     double expected = 0;
     for (const BoxInstance& box : boxes.boxes) {
@@ -478,13 +481,14 @@ TEST(Framing, HasTheBoxesOnDemand) {
         view.levels = {0, 0, false};
         if (query) view.query = 0, view.step = {Step::Unit::event, 0};
         const auto corners_outside = [&] {
-            const DrawList list = build_draw_list(of, view, kSize);
+            const DrawList list = build_draw_list(of, view, kSlabSize);
             int outside = 0;
             for (const BoxInstance& box : list.boxes) {
                 if (!box.pickable || !box.extents[2].z) continue;
                 for (const glm::vec3& corner : box_corners(box)) {
                     const auto at = list.projection.project(corner);
-                    outside += at && at->x >= 0 && at->y >= 0 && at->x < kSize.width && at->y < kSize.height ? 0 : 1;
+                    outside +=
+                        at && at->x >= 0 && at->y >= 0 && at->x < kSlabSize.width && at->y < kSlabSize.height ? 0 : 1;
                 }
             }
             return outside;
@@ -492,9 +496,9 @@ TEST(Framing, HasTheBoxesOnDemand) {
         view.camera.preset = CameraPreset::side;
         view.frame_boxes = true;
         EXPECT_EQ(corners_outside(), 0) << (query ? "query" : "levels");
-        const double with = build_draw_list(of, view, kSize).camera.distance;
+        const double with = build_draw_list(of, view, kSlabSize).camera.distance;
         view.frame_boxes = false;
-        EXPECT_LT(build_draw_list(of, view, kSize).camera.distance, with);
+        EXPECT_LT(build_draw_list(of, view, kSlabSize).camera.distance, with);
     }
 }
 
