@@ -229,7 +229,7 @@ void CurvePlots::draw(Ui& ui, const ChartAxis& time) {
     }
     const float ruler_height = ui.style.mono->FontSize + ui.px(8);
     const float count = kCurveCount;
-    const float room = ImGui::GetContentRegionAvail().y - ruler_height;
+    const float room = ImGui::GetContentRegionAvail().y - ruler_height - ui.px(8);
     const float height = std::floor(std::clamp(room / count - ui.px(5), ui.px(kLeastPlot), ui.px(kMostPlot)));
     for (const CurveInfo& curve : curve_infos()) plot(ui, curve, time, height);
     ruler(ui, *ui.style.mono, time, ImGui::GetCursorScreenPos().y - ui.px(4), " s");

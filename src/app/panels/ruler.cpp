@@ -29,8 +29,10 @@ void height_lines(const Ui& ui, const Rect& area, const ChartAxis& values, const
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImFont& font = *ui.style.caption;
     const float line = font.FontSize;
-    const auto height_of = [&](const std::string&) { return 2 * line; };
-    const double step = ruler_step(values.from, values.to, values.first - values.last, height_of);
+    const float height = values.first - values.last;
+    // A few are enough, however high the chart is.
+    const float room = beside ? std::max(1.3f * line, 0.25f * height) : 2 * line;
+    const double step = ruler_step(values.from, values.to, height, [&](const std::string&) { return room; });
     for (const double value : ticks(values.from, values.to, step)) {
         const float y = std::floor(values.pixel(value));
         const std::string label = tick_text(value, step) + unit;
