@@ -201,7 +201,7 @@ void add_ancestors(DrawList& list, const DrawnAgent& agent, int node, float scal
     float opacity = kParentOpacity;
     for (int above = tree.parent(node); above >= 0; above = tree.parent(above)) {
         const Rgba color = with_alpha(list.palette.text, std::max(opacity, kLeastAncestorOpacity));
-        for (const Points& edge : box_edges(node_box(agent, above, list.space)))
+        for (const Points& edge : box_edges(list, node_box(agent, above, list.space)))
             list.highlights.push_back(
                 {Role::ancestor, edge.front(), edge.back(), color, kAncestorWidth * scale, kAncestorDash * scale});
         opacity *= kFainterAbove;

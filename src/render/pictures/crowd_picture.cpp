@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -153,7 +154,11 @@ class CrowdPicture final : public Picture {
         DrawList drawn;
         drawn.palette = list_.palette;
         drawn.space = list_.space;
-        add_level_boxes(drawn, boxed(agents_, view_, followed_), view_.levels, view_.color_by, metrics_.scale);
+        if (view_.boxes) {
+            std::ranges::copy_if(list_.boxes, std::back_inserter(drawn.boxes), &BoxInstance::pickable);
+        } else {
+            add_level_boxes(drawn, boxed(agents_, view_, followed_), view_.levels, metrics_.scale);
+        }
         const float height = list_.space.point(0, 0, time_).z;
         add_sections(list_, drawn.boxes, height, height, metrics_.scale);
     }

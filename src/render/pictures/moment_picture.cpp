@@ -207,7 +207,9 @@ class MomentPicture final : public Picture {
             const QueryProgress progress = progress_at(recorded.trace, event, Past::pair);
             add_query_boxes(drawn, agents_, progress, pair_outline(view_), metrics_.scale);
         } else {
-            add_level_boxes(drawn, agents_, view_.levels, view_.color_by, metrics_.scale);
+            drawn.agents = list_.agents;
+            add_level_boxes(drawn, agents_, view_.levels, metrics_.scale);
+            if (auto bar = kept.color_boxes(drawn, agents_, view_)) bars_.push_back(std::move(*bar));
         }
         sections_ = std::move(drawn.boxes);
     }
@@ -221,6 +223,7 @@ class MomentPicture final : public Picture {
 
     OverlayContents words() override {
         OverlayContents out;
+        out.bars = bars_;
         out.caption = moment_caption(list_.palette, agents_, told_, tells_all_ ? count_ : told_.bodies.size());
         if (outside_) mention_cursor_outside(out.caption, moment_.time, bounds_.min.z, bounds_.max.z);
         if (choice_) {
@@ -294,6 +297,7 @@ class MomentPicture final : public Picture {
     Bounds bounds_;
     bool outside_ = false;  ///< nobody is there yet, or any more
     std::vector<glm::vec3> standing_, corners_;
+    std::vector<ColorBar> bars_;
     std::vector<BoxInstance> sections_;  ///< boxes that a plan shows the sections of, the moment at height 0
 };
 

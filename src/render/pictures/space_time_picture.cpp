@@ -206,7 +206,7 @@ class SpaceTimePicture final : public Picture {
         } else if (test()) {
             add_query_boxes(drawn, agents_, *test(), pair_outline(view_), metrics_.scale);
         } else if (!view_.query) {
-            add_level_boxes(drawn, agents_, view_.levels, view_.color_by, metrics_.scale);
+            add_level_boxes(drawn, agents_, view_.levels, metrics_.scale);
         }
         const float height = list_.space.point(0, 0, time).z;
         add_sections(list_, drawn.boxes, height, height, metrics_.scale);
