@@ -107,8 +107,8 @@ class Session {
     /// All parts, for what takes some of them (OfParts).
     template <class AnySession>
     static auto parts(AnySession& s) {
-        return std::tie(s.options, s.settings, s.workspace, s.views, s.queries, s.figures, s.notifications, s.queue, s.keys,
-                        s.dialogs, s.jobs, s.playback, s.edits, s.imports, s.crowds, s.maps, s.answers, s.costs,
+        return std::tie(s.options, s.settings, s.workspace, s.views, s.queries, s.figures, s.notifications, s.queue,
+                        s.keys, s.dialogs, s.jobs, s.playback, s.edits, s.imports, s.crowds, s.maps, s.answers, s.costs,
                         s.fit_costs, s.sweeps, s.what_if, s.notices, s.excerpts, s.files, s.recovery);
     }
 
