@@ -224,6 +224,21 @@ TEST_F(RenderTest, ScaleAndColoursAreTaken) {
     expect_refused(run_program(arguments(kCrossing, out, {"--color-by", "node"})), 2, "agent, level");
 }
 
+TEST_F(RenderTest, BoxesAreColouredByAFigureInARange) {
+    const Image usual = picture(kCrossing, {});
+    const Image empty = picture(kCrossing, {"--color-by", "empty"});
+    EXPECT_NE(empty.rgba, usual.rgba);
+    EXPECT_NE(picture(kCrossing, {"--color-by", "empty", "--color-range", "0:5"}).rgba, empty.rgba);
+    EXPECT_EQ(picture(kCrossing, {"--color-by", "empty", "--color-range", "auto"}).rgba, empty.rgba);
+    EXPECT_NE(picture(kCrossing, {"--heat"}).rgba, usual.rgba);
+    const std::string svg = folder.path() / "a.svg";
+    ASSERT_EQ(run_program({"render", kCrossing, "-o", svg, "--color-by", "tests", "--color-range", "0:20"}).status, 0);
+    const std::string text = slurp(svg);
+    EXPECT_NE(text.find("boxes: number of tests"), std::string::npos);
+    EXPECT_NE(text.find("20<"), std::string::npos) << "the value at an end";
+    expect_refused(run_program(arguments(kCrossing, out, {"--color-range", "5:1"})), 2, "no range");
+}
+
 /// A camera that was moved in the window and saved.
 TEST_F(RenderTest, ASavedCameraIsTaken) {
     const std::string clips = R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1],[1,0,1],[2,1,1],[3,1,1]]}},

@@ -27,21 +27,21 @@ namespace {
 
 using testing::kGoldenSize;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 /// Of the clip that all agents of these scenes play: its node or sample.
 using Count = std::map<int, double>;
 
 /// Two that hit and one beside them, so that two queries find something and one finds nothing.
-FittedScene crossing(mobb::TreeKind kind = mobb::TreeKind::umobb) {
+FittedScene three_paths(mobb::TreeKind kind = mobb::TreeKind::umobb) {
     mobb::FitOptions options;
     options.tree = kind;
     options.leaf = 4;
     return {testing::scene_of({{}, {{1, -1}, 90, 0}, {{0.2, 1.1}, 10, 0}}), options};
 }
 
-DrawList list_of(const FittedScene& fitted, ColorBy color_by, LevelRange levels = {0, 4, false},
-                 std::optional<ValueRange> range = {}) {
+DrawList colored_by(const FittedScene& fitted, ColorBy color_by, LevelRange levels = {0, 4, false},
+                    std::optional<ValueRange> range = {}) {
     ViewState view;
     view.color_by = color_by;
     view.color_range = range;
@@ -161,7 +161,7 @@ double value_of(const FittedScene& fitted, const DrawList& list, const BoxInstan
         case ColorBy::agent:
             break;
     }
-    return kNone;
+    return kNoValue;
 }
 
 /// 0 to 1, of the range from the least to the most.
@@ -176,10 +176,12 @@ double share_of(ColorBy color_by, double value, double least, double most) {
 class BoxFiguresTest : public ::testing::TestWithParam<ColorBy> {};
 
 TEST_P(BoxFiguresTest, ABoxHasTheColourOfItsFigure) {
-    const FittedScene fitted = crossing();
+    const FittedScene fitted = three_paths();
     const ColorBy color_by = GetParam();
     for (const LevelRange levels : {LevelRange{2, 2, false}, LevelRange{0, 2, false}}) {
-        const DrawList list = list_of(fitted, color_by, levels);
+        // On one level boxes lean alike: a grid of points does not tell them apart.
+        if (color_by == ColorBy::overhang && levels.first == levels.last) continue;
+        const DrawList list = colored_by(fitted, color_by, levels);
         std::vector<std::pair<const BoxInstance*, double>> boxes;
         double least = 1e300, most = -1e300;
         for (const BoxInstance& box : list.boxes) {
@@ -213,9 +215,9 @@ INSTANTIATE_TEST_SUITE_P(All, BoxFiguresTest,
                          [](const auto& one) { return std::string(name(one.param)); });
 
 TEST(FigureColors, AChosenRangeIsExactAndWhatIsOutsideStepsBack) {
-    const FittedScene fitted = crossing();
-    const DrawList usual = list_of(fitted, ColorBy::fill),
-                   list = list_of(fitted, ColorBy::fill, {0, 4, false}, {{10, 30}});
+    const FittedScene fitted = three_paths();
+    const DrawList usual = colored_by(fitted, ColorBy::fill),
+                   list = colored_by(fitted, ColorBy::fill, {0, 4, false}, {{10, 30}});
     ASSERT_EQ(list.boxes.size(), usual.boxes.size());
     int inside = 0, outside = 0;
     for (std::size_t i = 0; i < list.boxes.size(); ++i) {
@@ -232,7 +234,7 @@ TEST(FigureColors, AChosenRangeIsExactAndWhatIsOutsideStepsBack) {
 }
 
 TEST(FigureColors, WhatHasNoFigureIsNeutral) {
-    const DrawList list = list_of(crossing(mobb::TreeKind::mobb), ColorBy::overhang);
+    const DrawList list = colored_by(three_paths(mobb::TreeKind::mobb), ColorBy::overhang);
     for (const BoxInstance& box : list.boxes) EXPECT_EQ(with_alpha(box.fill, 1), list.palette.axis);
     const auto said = [&](const char* words) {
         return std::ranges::any_of(list.texts,
@@ -259,27 +261,27 @@ std::vector<Rgba> colors_of_bar(const DrawList& list, const std::string& least, 
 }
 
 TEST(FigureColors, TheBarSaysWhatTheColoursMean) {
-    const FittedScene fitted = crossing();
-    const DrawList list = list_of(fitted, ColorBy::fill, {0, 4, false}, {{10, 30}});
+    const FittedScene fitted = three_paths();
+    const DrawList list = colored_by(fitted, ColorBy::fill, {0, 4, false}, {{20, 30}});
     const auto title =
         std::ranges::find_if(list.texts, [](const TextRun& text) { return text.text == "boxes: fill, %"; });
     ASSERT_NE(title, list.texts.end());
     EXPECT_EQ(title->role, TextRole::legend);
-    const std::vector<Rgba> bar = colors_of_bar(list, "<10", ">30");
+    const std::vector<Rgba> bar = colors_of_bar(list, "<20", ">30");
     ASSERT_GT(bar.size(), 20u);
     // The emptier, the brighter.
     EXPECT_LT(glm::length(bar.front() - quantity_color(1, list.palette)), 0.05f);
     EXPECT_LT(glm::length(bar.back() - quantity_color(0, list.palette)), 0.05f);
     for (const OverlayPanel& panel : list.panels) EXPECT_TRUE((Rect{{0, 0}, {640, 360}}.contains(panel.rect)));
 
-    const DrawList levels = list_of(fitted, ColorBy::level, {1, 3, false});
+    const DrawList levels = colored_by(fitted, ColorBy::level, {1, 3, false});
     const std::vector<Rgba> of_levels = colors_of_bar(levels, "0", "4");
     ASSERT_GT(of_levels.size(), 20u) << "the whole range of levels, whichever are shown";
     EXPECT_LT(glm::length(of_levels.front() - quantity_color(0, levels.palette)), 0.05f);
 }
 
 TEST(FigureColors, NothingIsCountedWhereItIsDoneElsewhere) {
-    const auto fitted = std::make_shared<const FittedScene>(crossing());
+    const auto fitted = std::make_shared<const FittedScene>(three_paths());
     const auto figures = std::make_shared<SceneFigures>(SceneFigures::Counting::elsewhere);
     KeptPaths kept(fitted, figures);
     ViewState view;
@@ -292,7 +294,7 @@ TEST(FigureColors, NothingIsCountedWhereItIsDoneElsewhere) {
     const SceneCosts costs = scene_costs(*fitted);
     figures->take(fitted, &costs, nullptr);
     const DrawList after = build_draw_list(kept, view, {.size = kGoldenSize});
-    const DrawList at_once = list_of(*fitted, ColorBy::tests, view.levels);
+    const DrawList at_once = colored_by(*fitted, ColorBy::tests, view.levels);
     ASSERT_EQ(after.boxes.size(), at_once.boxes.size());
     for (std::size_t i = 0; i < after.boxes.size(); ++i) EXPECT_EQ(after.boxes[i].fill, at_once.boxes[i].fill);
     // Other placements are asked anew.
@@ -304,7 +306,7 @@ TEST(FigureColors, NothingIsCountedWhereItIsDoneElsewhere) {
 }
 
 TEST(Heat, ADiskHasTheColourOfTheTestsThatHoldIt) {
-    const FittedScene fitted = crossing(mobb::TreeKind::mobb);
+    const FittedScene fitted = three_paths(mobb::TreeKind::mobb);
     Count heat;
     double least = 1e300, most = 0;
     for (const auto& [node, tests] : tests_of_nodes(fitted)) {
@@ -359,7 +361,7 @@ TEST(Heat, WithoutQueriesItIsWhatIsExpected) {
 
 /// The kept disks take other colours and give them back.
 TEST(Heat, KeptDisksAreColouredAnew) {
-    const auto fitted = std::make_shared<const FittedScene>(crossing());
+    const auto fitted = std::make_shared<const FittedScene>(three_paths());
     KeptPaths kept(fitted);
     ViewState view;
     const DrawList usual = build_draw_list(kept, view, {.size = kGoldenSize});
@@ -427,19 +429,19 @@ TEST(ColorScale, AChosenRangeIsInTheUnitThatIsShown) {
 TEST(ColorScale, AllOfOneValueAndNoneAreNoFault) {
     const ColorScale one = color_scale(figure_named(NodeField::volume), std::vector<double>{3, 3});
     EXPECT_EQ(one.share(3), 0);
-    const ColorScale none = color_scale(figure_named(NodeField::volume), std::vector<double>{kNone});
+    const ColorScale none = color_scale(figure_named(NodeField::volume), std::vector<double>{kNoValue});
     EXPECT_FALSE(none.known);
     const Palette& colors = palette(Theme::dark);
-    EXPECT_EQ(none.color(kNone, colors), colors.axis);
-    EXPECT_EQ(value_counts(one, std::vector<double>{3, kNone, 3}, 4), (std::vector<std::size_t>{2, 0, 0, 0}));
+    EXPECT_EQ(none.color(kNoValue, colors), colors.axis);
+    EXPECT_EQ(value_counts(one, std::vector<double>{3, kNoValue, 3}, 4), (std::vector<std::size_t>{2, 0, 0, 0}));
 }
 
 TEST(ColorScale, EveryModeButTheAgentsHasAFigure) {
-    EXPECT_EQ(figure_of(ColorBy::agent), nullptr);
+    EXPECT_EQ(color_figure(ColorBy::agent), nullptr);
     for (const ColorBy color_by : {ColorBy::level, ColorBy::volume, ColorBy::empty, ColorBy::fill, ColorBy::floor,
                                    ColorBy::overhang, ColorBy::share, ColorBy::tests, ColorBy::avoidable}) {
-        ASSERT_NE(figure_of(color_by), nullptr) << name(color_by);
-        EXPECT_EQ(figure_of(color_by)->name, name(color_by));
+        ASSERT_NE(color_figure(color_by), nullptr) << name(color_by);
+        EXPECT_EQ(color_figure(color_by)->name, name(color_by));
     }
 }
 

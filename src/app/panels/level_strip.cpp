@@ -3,7 +3,6 @@
 #include <app/ui/swatch.h>
 #include <app/ui/widgets.h>
 #include <base/text.h>
-#include <mobb/clip.h>
 #include <render/drawlist/color_scale.h>
 
 #include <algorithm>
@@ -34,7 +33,7 @@ struct Cell {
 
 /// The figure that the strip is coloured by: the boxes', or where these have no figure of their own the empty space.
 const NodeFieldInfo& strip_field(const ViewState& view) {
-    const NodeFieldInfo* field = figure_of(view.color_by);
+    const NodeFieldInfo* field = color_figure(view.color_by);
     return field && field->field != NodeField::level ? *field : info(NodeField::empty);
 }
 
@@ -80,7 +79,7 @@ std::vector<std::vector<Cell>> cells_of(const Strip& strip) {
     return out;
 }
 
-void draw_cells(Ui& ui, const Strip& strip, const std::vector<std::vector<Cell>>& cells) {
+void draw_nodes(Ui& ui, const Strip& strip, const std::vector<std::vector<Cell>>& cells) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float gap = strip.row > ui.px(6) ? std::floor(ui.px(1)) : 0;
     for (int level = 0; level < strip.depth(); ++level) {
@@ -156,7 +155,7 @@ std::optional<int> node_under(const Strip& strip, const std::vector<std::vector<
     return cell.node;
 }
 
-std::string words_of(const Ui& ui, const Strip& strip, int node) {
+std::string node_words(const Ui& ui, const Strip& strip, int node) {
     const mobb::Node& of = strip.tree.node(node);
     const std::string who = placed_agent_of(ui.workspace.fitted(), strip.path)->name;
     std::string out = who + ' ' + std::to_string(strip.tree.level(node)) + '.' +
@@ -208,21 +207,25 @@ void level_strip(Ui& ui, int clip) {
     const bool clicked = ImGui::InvisibleButton("##levels over time", {right - left, strip.height()});
     ui.mark_only("nodes.levels");
     const bool over = ImGui::IsItemHovered();
-    draw_cells(ui, strip, cells);
     level_numbers(ui, strip, corner.x);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
+    // A query's two may not be there as long as this one.
+    draw.PushClipRect({left - ui.px(2), strip.top - ui.px(2)},
+                      {right + ui.px(2), strip.top + strip.height() + ui.px(2)}, true);
+    draw_nodes(ui, strip, cells);
     if (view.time && *view.time >= span.t0 && *view.time <= span.t1) {
         const float x = strip.time.pixel(*view.time);
         draw.AddLine({x, strip.top - ui.px(2)}, {x, strip.top + strip.height() + ui.px(2)}, ui.style.text, ui.px(1.3f));
     }
     outline(ui, strip, ui.workspace.hovered, ui.style.quiet);
     outline(ui, strip, ui.workspace.selection, ui.style.text);
+    draw.PopClipRect();
     ImGui::SetCursorScreenPos({corner.x, strip.top + strip.height() + ui.px(6)});
     const auto node = over ? node_under(strip, cells, ImGui::GetIO().MousePos) : std::nullopt;
     if (!node) return;
     const Selection at{Selection::Kind::node, *path, *node};
     ui.hovered = at;
-    ImGui::SetTooltip("%s", words_of(ui, strip, *node).c_str());
+    ImGui::SetTooltip("%s", node_words(ui, strip, *node).c_str());
     if (clicked) ui.later([at](Workspace& workspace) { workspace.select(at); });
 }
 

@@ -41,7 +41,7 @@ ChoiceWords choice_words(mobb::Axes axes) {
 
 ChoiceWords choice_words(ColorBy color_by) {
     const std::string label = title_of_choice(*find_command("view.color_by"), std::string(name(color_by)));
-    const NodeFieldInfo* field = figure_of(color_by);
+    const NodeFieldInfo* field = color_figure(color_by);
     if (!field) return {label, "Boxes in their agent's colour"};
     return {label, std::string(field->doc) + (field->field == NodeField::level ? "" : ". The brighter, the worse")};
 }
@@ -214,7 +214,7 @@ void count_figure(Ui& ui, NodeField field) {
 /// How the figures of the boxes in the picture are spread, and the range of the colours.
 void figures_of_boxes(Ui& ui) {
     const std::shared_ptr<const ColoredValues>& boxes = ui.session.figures.boxes;
-    const NodeFieldInfo* field = figure_of(ui.workspace.view().color_by);
+    const NodeFieldInfo* field = color_figure(ui.workspace.view().color_by);
     if (!boxes || !field || boxes->scale.figure != colored_figure(*field)) return;
     const ColorScale& scale = boxes->scale;
     if (!scale.known) {

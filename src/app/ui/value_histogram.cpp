@@ -10,13 +10,13 @@ namespace mobbscope::app {
 namespace {
 
 // Pixels at scale 1.
-constexpr float kBars = 26;     // height
-constexpr float kColorBar = 8;  // of colours below them
-constexpr float kHandle = 5;    // half its width
+constexpr float kBarsHeight = 26;   // height
+constexpr float kColorsHeight = 8;  // of colours below them
+constexpr float kHandle = 5;        // half its width
 constexpr float kLeastRange = 0.01f;
 
 void bars(Ui& ui, const ValueHistogram& shown, ImVec2 at, float width) {
-    const float height = ui.px(kBars), bar = ui.px(kColorBar);
+    const float height = ui.px(kBarsHeight), bar = ui.px(kColorsHeight);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     // Few of one value are seen beside many of another.
     const auto length = [](std::size_t count) { return std::sqrt(static_cast<float>(count)); };
@@ -34,7 +34,7 @@ void bars(Ui& ui, const ValueHistogram& shown, ImVec2 at, float width) {
 
 /// Where it is dragged to; where it stands while it is not.
 float handle(Ui& ui, const std::string& mark, float place, ImVec2 at, float width, bool& dragged) {
-    const float height = ui.px(kBars), bar = ui.px(kColorBar);
+    const float height = ui.px(kBarsHeight), bar = ui.px(kColorsHeight);
     const float x = at.x + width * std::clamp(place, 0.0f, 1.0f);
     ImGui::SetCursorScreenPos({x - ui.px(kHandle), at.y});
     ImGui::InvisibleButton(mark.c_str(), {2 * ui.px(kHandle), height + bar + ui.px(6)});
@@ -54,7 +54,7 @@ float handle(Ui& ui, const std::string& mark, float place, ImVec2 at, float widt
 
 }  // namespace
 
-float histogram_height(const Ui& ui) { return ui.px(kBars + kColorBar + 8) + ui.style.caption->FontSize; }
+float histogram_height(const Ui& ui) { return ui.px(kBarsHeight + kColorsHeight + 8) + ui.style.caption->FontSize; }
 
 HistogramChange value_histogram(Ui& ui, const ValueHistogram& shown, float width) {
     HistogramChange out;
@@ -69,7 +69,7 @@ HistogramChange value_histogram(Ui& ui, const ValueHistogram& shown, float width
         out.ends = {moves_from ? std::max(0.0f, std::min(from, to - kLeastRange)) : from,
                     moves_from ? to : std::min(1.0f, std::max(to, from + kLeastRange))};
     }
-    const float below = at.y + ui.px(kBars + kColorBar + 8);
+    const float below = at.y + ui.px(kBarsHeight + kColorsHeight + 8);
     ImGui::SetCursorScreenPos({at.x, below});
     text_line(ui.style.quiet, shown.from_text, ui.style.caption);
     if (shown.chosen) {
@@ -81,7 +81,8 @@ HistogramChange value_histogram(Ui& ui, const ValueHistogram& shown, float width
     ImGui::SetCursorScreenPos({at.x + width - text_size(*ui.style.caption, shown.to_text).x, below});
     text_line(ui.style.quiet, shown.to_text, ui.style.caption);
     const ImVec2 mouse = ImGui::GetIO().MousePos;
-    const bool over = mouse.x >= at.x && mouse.x < at.x + width && mouse.y >= at.y && mouse.y < at.y + ui.px(kBars);
+    const bool over =
+        mouse.x >= at.x && mouse.x < at.x + width && mouse.y >= at.y && mouse.y < at.y + ui.px(kBarsHeight);
     if (!over || !ImGui::IsWindowHovered()) return out;
     const auto all = static_cast<float>(shown.counts.size());
     const float part = std::floor((mouse.x - at.x) / width * all);

@@ -221,7 +221,7 @@ Viewport::Key Viewport::wanted(const Ui& ui, PictureSize size, const FollowedCho
             words,
             choice ? std::pair(choice->agent, choice->play) : std::pair(-1, -1),
             is_active(ui) || ui.workspace.document().links.selection ? standing_out(ui.workspace) : "",
-            seen.view.heat || figure_of(seen.view.color_by) ? figures_->revision() : 0};
+            seen.view.heat || color_figure(seen.view.color_by) ? figures_->revision() : 0};
 }
 
 /// Gives the view a camera that stands.

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -28,6 +31,13 @@ bool is_a_decade(const ColoredFigure& figure, double least, double most) {
     return figure.spans_decades && least + more > 0 && most + more >= kDecade * (least + more);
 }
 
+/// The value at a place of the sorted ones.
+double nth_value(std::vector<double>& values, std::size_t place) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(place);
+    std::ranges::nth_element(values, at);
+    return *at;
+}
+
 }  // namespace
 
 ColoredFigure colored_figure(const NodeFieldInfo& field) {
@@ -41,7 +51,7 @@ ColoredFigure colored_figure(const NodeFieldInfo& field) {
             .whole_range = field.field == level};
 }
 
-const NodeFieldInfo* figure_of(ColorBy color_by) {
+const NodeFieldInfo* color_figure(ColorBy color_by) {
     for (const NodeFieldInfo& field : node_fields()) {
         if (field.colors && field.name == name(color_by)) return &field;
     }
@@ -95,28 +105,26 @@ std::string ColorScale::most_text() const {
 ColorScale color_scale(const ColoredFigure& figure, std::span<const double> values,
                        const std::optional<ValueRange>& chosen) {
     ColorScale out{.figure = figure, .chosen = chosen.has_value()};
-    std::vector<double> sorted;
-    sorted.reserve(values.size());
-    std::ranges::copy_if(values, std::back_inserter(sorted), [](double value) { return !std::isnan(value); });
-    std::ranges::sort(sorted);
-    out.known = !sorted.empty();
+    std::vector<double> known;
+    known.reserve(values.size());
+    std::ranges::copy_if(values, std::back_inserter(known), [](double value) { return !std::isnan(value); });
+    out.known = !known.empty();
     if (chosen) {
         const double unit = shown_per_value(figure);
         out.least = chosen->least / unit;
         out.most = chosen->most / unit;
     } else if (out.known) {
-        const std::size_t left_out = figure.whole_range ? 0 : sorted.size() / kOneIn;
-        out.least = sorted[left_out];
-        out.most = sorted[sorted.size() - 1 - left_out];
+        const std::size_t left_out = figure.whole_range ? 0 : known.size() / kOneIn;
+        out.least = nth_value(known, left_out);
+        out.most = nth_value(known, known.size() - 1 - left_out);
         // Nothing has no logarithm: the scale begins at what is more.
-        const auto more = std::ranges::upper_bound(sorted, 0.0);
-        if (out.least <= 0 && !figure.counts && more != sorted.end() && is_a_decade(figure, *more, out.most))
-            out.least = *more;
+        double more = std::numeric_limits<double>::infinity();
+        for (const double value : known) more = value > 0 ? std::min(more, value) : more;
+        if (out.least <= 0 && !figure.counts && is_a_decade(figure, more, out.most)) out.least = more;
     }
     out.logarithmic = is_a_decade(figure, out.least, out.most);
-    if (!out.known) return out;
-    out.has_less = sorted.front() < out.least;
-    out.has_more = sorted.back() > out.most;
+    out.has_less = std::ranges::any_of(known, [&](double value) { return value < out.least; });
+    out.has_more = std::ranges::any_of(known, [&](double value) { return value > out.most; });
     return out;
 }
 

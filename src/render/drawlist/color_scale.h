@@ -27,7 +27,7 @@ struct ColoredFigure {
 ColoredFigure colored_figure(const NodeFieldInfo& field);
 
 /// The figure that boxes are coloured by; null: their agents' colours.
-const NodeFieldInfo* figure_of(ColorBy color_by);
+const NodeFieldInfo* color_figure(ColorBy color_by);
 
 struct ColorScale {
     ColoredFigure figure;

@@ -9,10 +9,10 @@ namespace mobbscope {
 
 namespace {
 
-constexpr int kSteps = 48;           // of the gradient
-constexpr float kBarLength = 7;      // in sizes of text
-constexpr float kBarHeight = 0.72f;  // likewise
-constexpr float kBarGap = 0.5f;      // between the bar and the values at its ends
+constexpr int kSteps = 48;                // of the gradient
+constexpr float kGradientLength = 7;      // in sizes of text
+constexpr float kGradientHeight = 0.72f;  // likewise
+constexpr float kGradientGap = 0.5f;      // between the bar and the values at its ends
 
 std::string title_of(const ColorBar& bar) {
     const std::string title = bar.of + ": " + bar.scale.title();
@@ -21,7 +21,7 @@ std::string title_of(const ColorBar& bar) {
 
 float width_of(const std::string& text, float size) { return Font::of(FontFace::text).width(text, size); }
 
-int rows_of(const ColorBar& bar) { return bar.scale.known ? 2 : 1; }
+int lines_of(const ColorBar& bar) { return bar.scale.known ? 2 : 1; }
 
 }  // namespace
 
@@ -29,9 +29,10 @@ glm::vec2 color_bars_size(std::span<const ColorBar> bars, float text_size) {
     glm::vec2 out(0);
     for (const ColorBar& bar : bars) {
         out.x = std::max(out.x, width_of(title_of(bar), text_size));
-        out.y += legend_row(text_size) * static_cast<float>(rows_of(bar));
+        out.y += legend_row(text_size) * static_cast<float>(lines_of(bar));
         if (!bar.scale.known) continue;
-        out.x = std::max(out.x, width_of(bar.scale.least_text(), text_size) + (kBarLength + 2 * kBarGap) * text_size +
+        out.x = std::max(out.x, width_of(bar.scale.least_text(), text_size) +
+                                    (kGradientLength + 2 * kGradientGap) * text_size +
                                     width_of(bar.scale.most_text(), text_size));
     }
     return {std::ceil(out.x), out.y};
@@ -47,10 +48,11 @@ void add_color_bars(DrawList& list, std::span<const ColorBar> bars, glm::vec2 co
         corner.y += legend_row(text_size);
         if (!bar.scale.known) continue;
         add_text(bar.scale.least_text(), corner);
-        const float from = std::round(corner.x + width_of(bar.scale.least_text(), text_size) + kBarGap * text_size);
-        const float to = from + std::round(kBarLength * text_size);
-        const float top = std::round(corner.y + 0.5f * (height - kBarHeight * text_size));
-        const float bottom = top + std::round(kBarHeight * text_size);
+        const float from =
+            std::round(corner.x + width_of(bar.scale.least_text(), text_size) + kGradientGap * text_size);
+        const float to = from + std::round(kGradientLength * text_size);
+        const float top = std::round(corner.y + 0.5f * (height - kGradientHeight * text_size));
+        const float bottom = top + std::round(kGradientHeight * text_size);
         // Each reaches to the end and the next lies over it: no ground is seen between two.
         for (int i = 0; i < kSteps; ++i) {
             const float left = std::round(from + (to - from) * static_cast<float>(i) / kSteps);
@@ -58,7 +60,7 @@ void add_color_bars(DrawList& list, std::span<const ColorBar> bars, glm::vec2 co
             list.panels.push_back(
                 {{{left, top}, {to, bottom}}, 0, bar.scale.color_at(share, list.palette), Rgba(0), 0});
         }
-        add_text(bar.scale.most_text(), {to + kBarGap * text_size, corner.y});
+        add_text(bar.scale.most_text(), {to + kGradientGap * text_size, corner.y});
         corner.y += legend_row(text_size);
     }
 }

@@ -72,7 +72,7 @@ int KeptPaths::clip_of(const DrawnAgent& agent) const {
 std::optional<ColorBar> KeptPaths::color_boxes(DrawList& list, std::span<const DrawnAgent> agents,
                                                const ViewState& view) {
     colored_boxes_.reset();
-    const NodeFieldInfo* field = figure_of(view.color_by);
+    const NodeFieldInfo* field = color_figure(view.color_by);
     if (!field || view.query || !view.boxes) return std::nullopt;
     std::vector<std::span<const double>> figures(list.agents.size());
     int deepest = 1;
