@@ -34,18 +34,16 @@ PathCurve without_values(const mobb::Clip& clip) {
 
 const std::array<CurveInfo, kCurveCount>& curve_infos() {
     static constexpr std::array<CurveInfo, kCurveCount> all{
-        {{Curve::radius, "radius", "Radius", "m", "Radius of the disk"},
-         {Curve::speed, "speed", "Speed", "m/s", "From each sample to the next", true},
-         {Curve::turning, "turning", "Turning", "\u00B0/s",
+        {{CurveKind::radius, "radius", "Radius", "m", "Radius of the disk"},
+         {CurveKind::speed, "speed", "Speed", "m/s", "From each sample to the next", true},
+         {CurveKind::turning, "turning", "Turning", "\u00B0/s",
           "To the left above 0, over a quarter of a second before and after; nobody turns who is slower than 0.1 m/s",
           false, 1},
-         {Curve::cost, "cost", "Cost", "%/s",
+         {CurveKind::cost, "cost", "Cost", "%/s",
           "Part of all box tests of a query, for each second of the node of the shown level that holds the sample",
           true}}};
     return all;
 }
-
-const CurveInfo& info(Curve curve) { return curve_infos()[static_cast<std::size_t>(curve)]; }
 
 bool PathCurve::has(int sample) const { return !std::isnan(values[static_cast<std::size_t>(sample)]); }
 

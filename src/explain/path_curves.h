@@ -15,10 +15,10 @@
 
 namespace mobbscope {
 
-enum class Curve { radius, speed, turning, cost };
+enum class CurveKind { radius, speed, turning, cost };
 
 struct CurveInfo {
-    Curve curve;
+    CurveKind kind;
     std::string_view name;   ///< for scripts
     std::string_view title;  ///< "Turning"
     std::string_view unit;
@@ -30,7 +30,6 @@ struct CurveInfo {
 inline constexpr std::size_t kCurveCount = 4;
 /// In the order of the enumeration.
 const std::array<CurveInfo, kCurveCount>& curve_infos();
-const CurveInfo& info(Curve curve);
 
 /// Turning is measured from the way of so many seconds before a sample to that of as many after it: between single
 /// samples it would be that of their noise.

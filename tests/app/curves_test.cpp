@@ -78,8 +78,8 @@ TEST(Curves, TheSampleAtTheMouseLightsUpAndItsValueIsCopied) {
     CurvesWindow w;
     w.run("agents.hide", "B");
     w.run("agents.hide", "C");
-    w.move("curves.speed", 0.2, 0.5);
-    // 0.5 s of 2.5 s at 30 a second.
+    w.move("curves.speed", 0.206, 0.5);
+    // 0.515 s of 2.5 s at 30 a second.
     EXPECT_EQ(w.session.workspace.hovered, (Selection{Selection::Kind::sample, {0, -1, 0}, 15}));
     w.window.shell().feed(KeyPress{Key::ctrl, true});
     w.window.settle();

@@ -28,7 +28,7 @@ Clip walked_circle(double radius, double speed, int count, Motion motion = Motio
     return {kDt, disks, motion};
 }
 
-Clip standing(int count) { return {kDt, std::vector<Disk>(static_cast<std::size_t>(count), Disk{1, 2, 0.3})}; }
+Clip standing_clip(int count) { return {kDt, std::vector<Disk>(static_cast<std::size_t>(count), Disk{1, 2, 0.3})}; }
 
 TEST(PathCurves, ACircleHasItsSpeedAndTurnsEvenly) {
     for (const Motion motion : {Motion::held, Motion::linear}) {
@@ -57,7 +57,7 @@ TEST(PathCurves, ToTheRightIsBelowZero) {
 }
 
 TEST(PathCurves, WhoStandsHasASpeedOfZeroAndDoesNotTurn) {
-    const Clip clip = standing(20);
+    const Clip clip = standing_clip(20);
     const PathCurve speed = speed_curve(clip), turn = turn_curve(clip);
     for (int i = 0; i < 19; ++i) EXPECT_EQ(speed.values[static_cast<std::size_t>(i)], 0);
     for (int i = 0; i < 20; ++i) EXPECT_FALSE(turn.has(i));
@@ -72,7 +72,7 @@ TEST(PathCurves, WhoStandsHasASpeedOfZeroAndDoesNotTurn) {
 }
 
 TEST(PathCurves, OneSampleHasARadiusAlone) {
-    const Clip clip = standing(1);
+    const Clip clip = standing_clip(1);
     EXPECT_EQ(radius_curve(clip).values, std::vector<double>{0.3});
     EXPECT_FALSE(speed_curve(clip).has(0));
     EXPECT_FALSE(turn_curve(clip).has(0));
@@ -133,7 +133,7 @@ TEST(PathCurves, CostIsThatOfTheNodeForEachOfItsSeconds) {
 
 TEST(PathCurves, EachIsDescribed) {
     for (std::size_t i = 0; i < kCurveCount; ++i) {
-        EXPECT_EQ(static_cast<std::size_t>(curve_infos()[i].curve), i);
+        EXPECT_EQ(static_cast<std::size_t>(curve_infos()[i].kind), i);
         EXPECT_FALSE(curve_infos()[i].unit.empty());
         EXPECT_FALSE(curve_infos()[i].doc.empty());
     }

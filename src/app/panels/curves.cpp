@@ -86,7 +86,7 @@ ChartAxis CurvePlots::values_of(const CurveInfo& curve, const Rect& area) const 
     ValueColumn all;
     if (curve.from_zero) all.add(0, 0);
     for (const Path& path : paths_) {
-        for (const ValueColumn& column : path.columns[static_cast<std::size_t>(curve.curve)])
+        for (const ValueColumn& column : path.columns[static_cast<std::size_t>(curve.kind)])
             if (column.any) all.add(column.least, column.most);
     }
     const double range = std::max({all.most - all.least, 1e-3, 0.05 * std::abs(all.most)});
@@ -102,7 +102,7 @@ void CurvePlots::lines(const Ui& ui, const CurveInfo& curve, const Rect& area, c
     for (const Path& path : paths_) {
         const bool stands_out = !some_stand_out || is_selected(ui.workspace, path.ref);
         const Rgba color = with_alpha(readable(path.agent.color, ui.style.palette), stands_out ? 1 : kOther);
-        const std::vector<ValueColumn>& columns = path.columns[static_cast<std::size_t>(curve.curve)];
+        const std::vector<ValueColumn>& columns = path.columns[static_cast<std::size_t>(curve.kind)];
         std::vector<ImVec2> line;
         const auto finish = [&] {
             if (line.size() == 1) line.push_back({line.front().x + 1, line.front().y});
@@ -130,7 +130,7 @@ std::vector<CurvePlots::Point> CurvePlots::points_at(const CurveInfo& curve, con
                                                      double time) const {
     std::vector<Point> out;
     for (const Path& path : paths_) {
-        const auto value = value_at(path.curves[static_cast<std::size_t>(curve.curve)], path.agent.clip(), time);
+        const auto value = value_at(path.curves[static_cast<std::size_t>(curve.kind)], path.agent.clip(), time);
         if (value) out.push_back({&path, value->first, value->second, values.pixel(value->second)});
     }
     return out;
@@ -185,7 +185,7 @@ void CurvePlots::plot(Ui& ui, const CurveInfo& curve, const ChartAxis& time, flo
 
     draw.AddRectFilled({area.min.x, area.min.y}, {area.max.x, area.max.y}, ui.style.raised);
     const auto any = [&](const Path& path) {
-        return std::ranges::any_of(path.columns[static_cast<std::size_t>(curve.curve)], &ValueColumn::any);
+        return std::ranges::any_of(path.columns[static_cast<std::size_t>(curve.kind)], &ValueColumn::any);
     };
     if (std::ranges::any_of(paths_, any)) {
         height_lines(ui, area, values, beside ? "" : " " + unit, beside);
@@ -193,7 +193,7 @@ void CurvePlots::plot(Ui& ui, const CurveInfo& curve, const ChartAxis& time, flo
         lines(ui, curve, area, values);
         draw.PopClipRect();
     } else {
-        const char* why = curve.curve == Curve::cost ? "not known" : "no values";
+        const char* why = curve.kind == CurveKind::cost ? "not known" : "no values";
         draw_text(draw, *ui.style.caption, {area.min.x + ui.px(6), area.center().y}, ui.style.quiet, why);
     }
     const std::string named = title + ", " + unit;

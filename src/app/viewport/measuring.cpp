@@ -8,6 +8,7 @@
 #include <render/parts/measured_line.h>
 #include <scene/drawn_agent.h>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -20,27 +21,38 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr int kNearSamples = 2000;  // before and after the disk under the mouse, among which a centre is looked for
-constexpr float kEndReach = 7;      // pixels at scale 1 around an end that take hold of it
-constexpr float kEnd = 4;           // its radius
-constexpr float kFlat = 1e-3f;      // m: a drawn corner is that of its node within this
+constexpr int kNearSamples = 2000;   // before and after the disk under the mouse, among which a centre is looked for
+constexpr float kEndReach = 7;       // pixels at scale 1 around an end that take hold of it
+constexpr float kEndSize = 4;        // its radius
+constexpr float kSamePlace = 0.25f;  // pixels between what is seen in one place
+constexpr float kFlat = 1e-3f;       // m and s: a drawn corner is that of its node within this
 
-/// The nearest to a pixel of what was offered so far, within reach.
+/// The nearest to a pixel of what was offered so far, within reach; of what is seen in one place what lies in front.
 class Nearest {
   public:
-    Nearest(glm::vec2 pixel, float reach) : pixel_(pixel), least_(reach) {}
+    Nearest(const ViewProjection& projection, glm::vec2 pixel, float reach)
+        : projection_(projection), pixel_(pixel), least_(reach) {}
 
-    /// Whether it is the nearest now. `at`: where it is seen.
-    bool offer(const std::optional<glm::vec2>& at) {
-        const float away = at ? glm::length(*at - pixel_) : least_;
-        if (!(away < least_)) return false;
+    /// Whether it is the nearest now. In drawn space.
+    bool offer(glm::vec3 point) {
+        const auto at = projection_.project(point);
+        if (!at) return false;
+        const float away = glm::length(*at - pixel_);
+        const float depth = projection_.depth(point);
+        const bool in_one_place = found_ && std::abs(away - least_) < kSamePlace;
+        if (in_one_place ? depth >= depth_ : away >= least_) return false;
         least_ = away;
+        depth_ = depth;
+        found_ = true;
         return true;
     }
 
   private:
+    const ViewProjection& projection_;
     glm::vec2 pixel_;
     float least_;
+    float depth_ = 0;
+    bool found_ = false;
 };
 
 /// Who is drawn as ObjectId::agent has it, where it is drawn.
@@ -48,7 +60,7 @@ std::vector<DrawnAgent> drawn_in(const Workspace& workspace) {
     return drawn_agents(workspace.fitted(), workspace.view());
 }
 
-std::string name_of(const DrawList& list, const ObjectId& id) {
+std::string agent_name_in(const DrawList& list, const ObjectId& id) {
     return list.agents.at(static_cast<std::size_t>(id.agent));
 }
 
@@ -57,13 +69,13 @@ glm::dvec3 exact_corner(const DrawnAgent& agent, int node, std::size_t corner, g
     const mobb::Box box = world_box(agent.placed, node);
     glm::dvec3 out = mobb::corners(box)[corner];
     out.z /= agent.placed.time_scale();
-    return glm::length(glm::dvec2(out - drawn)) < kFlat ? out : drawn;
+    return glm::length(out - drawn) < kFlat ? out : drawn;
 }
 
 /// A disk's centre, its rim, or where the mouse is on it.
 MeasuredEnd on_disk(const DrawList& list, const DrawnAgent& agent, const Pick& hit, Nearest& nearest) {
     const mobb::PlacedClip& clip = agent.clip();
-    const std::string name = name_of(list, hit.id);
+    const std::string name = agent_name_in(list, hit.id);
     const int here = hit.id.index;
     const double time = list.moment ? *list.moment : std::clamp(hit.place.z, clip.time(here), clip.time(here + 1));
     const mobb::Disk disk = mobb::swept(clip, here).at(time);
@@ -76,7 +88,7 @@ MeasuredEnd on_disk(const DrawList& list, const DrawnAgent& agent, const Pick& h
         const glm::dvec2 rim = glm::dvec2(disk.x, disk.y) + disk.r / away * from_centre;
         // The side is the rim wherever the mouse is on it: a centre that is near goes before.
         const bool on_side = std::abs(away - disk.r) < kFlat;
-        if (on_side || nearest.offer(list.projection.project(list.space.point(rim.x, rim.y, hit.place.z))))
+        if (on_side || nearest.offer(list.space.point(rim.x, rim.y, hit.place.z)))
             out = {{rim, time}, name + sample + ", edge"};
     }
     const int first = list.moment ? here : std::max(0, here - kNearSamples);
@@ -85,8 +97,8 @@ MeasuredEnd on_disk(const DrawList& list, const DrawnAgent& agent, const Pick& h
         const mobb::Disk centre = list.moment ? disk : clip.disk(i);
         const double then = list.moment ? time : clip.time(i);
         const double height = list.moment ? hit.place.z : then;
-        const auto seen = [&](double at) { return list.projection.project(list.space.point(centre.x, centre.y, at)); };
-        const bool is_nearest = nearest.offer(seen(height)) || (list.moment && nearest.offer(seen(0)));
+        const auto at = [&](double z) { return list.space.point(centre.x, centre.y, z); };
+        const bool is_nearest = nearest.offer(at(height)) || (list.moment && nearest.offer(at(0)));
         if (is_nearest) out = {{centre.x, centre.y, then}, name + ", sample " + std::to_string(i) + ", centre"};
     }
     return out;
@@ -102,19 +114,67 @@ std::optional<ImVec2> seen_at(const ShownPicture& picture, const MeasuredEnd& en
     return picture.at(picture.list.space.point(end.place.x, end.place.y, height));
 }
 
+/// From the middle of the line to that of words of a size beside it: above it or to its right.
+glm::vec2 beside_line(const ShownPicture& picture, const Measuring& measuring, glm::vec2 size, float gap) {
+    const auto from = seen_at(picture, *measuring.from), to = seen_at(picture, *measuring.to);
+    const glm::vec2 way = from && to ? glm::vec2(to->x - from->x, to->y - from->y) : glm::vec2(1, 0);
+    const glm::vec2 along = glm::length(way) > 1 ? glm::normalize(way) : glm::vec2(1, 0);
+    glm::vec2 across(along.y, -along.x);
+    if (across.y > 0.05f || (across.y > -0.05f && across.x < 0)) across = -across;
+    return across * (0.5f * glm::dot(glm::abs(across), size) + gap);
+}
+
 void draw_end(const Ui& ui, ImVec2 at, bool lit) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddCircleFilled(at, ui.px(lit ? kEnd + 1.5f : kEnd), to_im(ui.style.palette.background));
-    draw.AddCircle(at, ui.px(lit ? kEnd + 1.5f : kEnd), ui.style.accent, 0, ui.px(1.8f));
+    draw.AddCircleFilled(at, ui.px(lit ? kEndSize + 1.5f : kEndSize), to_im(ui.style.palette.background));
+    draw.AddCircle(at, ui.px(lit ? kEndSize + 1.5f : kEndSize), ui.style.accent, 0, ui.px(1.8f));
 }
 
 std::string place_text(glm::dvec3 place) { return formatted("%.3f, %.3f m at %.3f s", place.x, place.y, place.z); }
+
+/// The numbers beside the line, which copy themselves; whether the mouse is on one.
+bool measured_label(Ui& ui, const ShownPicture& picture, const MeasuredLine& line) {
+    const auto middle = middle_in_view(picture.list, line);
+    if (!middle) return false;
+    const ImFont& font = *ui.style.mono;
+    const std::string words = measured_words(line);
+    const ImVec2 text = text_size(font, words);
+    const glm::vec2 size(text.x, text.y), pad(ui.px(5), ui.px(3));
+    const glm::vec2 low = glm::vec2(picture.corner.x, picture.corner.y) + pad;
+    const glm::vec2 high = low + glm::vec2(picture.list.size.width, picture.list.size.height) - 2.0f * pad - size;
+    const glm::vec2 wanted =
+        low - pad + *middle + beside_line(picture, ui.workspace.measuring, size, ui.px(12)) - 0.5f * size;
+    const glm::vec2 at = glm::clamp(wanted, low, glm::max(low, high)), from = at - pad, to = at + size + pad;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddRectFilled({from.x, from.y}, {to.x, to.y}, ui.style.panel, ui.px(4));
+    draw.AddRect({from.x, from.y}, {to.x, to.y}, ui.style.accent, ui.px(4));
+    draw_text(draw, font, {at.x, at.y}, ui.style.text, words);
+    ui.marks.add("measure.words", {at, at + size});
+    return copies_numbers(ui, words, {at.x, at.y}, font, numbers_of(line));
+}
+
+/// The end that a click would take.
+void next_end(Ui& ui, const ShownPicture& picture, const MeasuredEnd& next) {
+    const Measuring& measuring = ui.workspace.measuring;
+    const auto at = seen_at(picture, next);
+    if (!at) return;
+    std::string told = next.what + "\n" + place_text(next.place);
+    if (measuring.from) {
+        if (const auto from = seen_at(picture, *measuring.from))
+            ImGui::GetWindowDrawList()->AddLine(*from, *at, ui.style.accent, ui.px(1.2f));
+        told += "\n" + measured_words({measuring.from->place, next.place});
+    }
+    draw_end(ui, *at, true);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(9), ui.px(7)});
+    ImGui::SetTooltip("%s", told.c_str());
+    ImGui::PopStyleVar();
+}
 
 }  // namespace
 
 std::optional<MeasuredEnd> end_at(const Workspace& workspace, const DrawList& list, glm::vec2 pixel, float reach) {
     const std::vector<DrawnAgent> agents = drawn_in(workspace);
-    Nearest nearest(pixel, reach);
+    Nearest nearest(list.projection, pixel, reach);
     std::optional<MeasuredEnd> out;
     const auto of_agent = [&](const ObjectId& id) -> const DrawnAgent& {
         return agents.at(static_cast<std::size_t>(id.agent));
@@ -134,7 +194,7 @@ std::optional<MeasuredEnd> end_at(const Workspace& workspace, const DrawList& li
         if (!box.pickable || box.id.kind != ObjectId::Kind::box || box.edge.a == 0) continue;
         const auto corners = box_corners(box);
         for (std::size_t i = 0; i < corners.size(); ++i) {
-            if (!nearest.offer(list.projection.project(corners[i]))) continue;
+            if (!nearest.offer(corners[i])) continue;
             const glm::dvec3 drawn = list.space.place(corners[i]);
             const DrawnAgent& agent = of_agent(box.id);
             out = MeasuredEnd{exact_corner(agent, box.id.index, i, drawn), node_name(agent, box.id.index) + ", corner"};
@@ -161,43 +221,15 @@ bool draw_measuring(Ui& ui, const ShownPicture& picture, const std::optional<Mea
     const auto end = [&](const std::optional<MeasuredEnd>& at, LineEnd which, const char* mark) {
         const auto seen = at ? seen_at(picture, *at) : std::nullopt;
         if (!seen) return;
-        draw_end(ui, *seen, held == which && which != LineEnd::none);
+        draw_end(ui, *seen, held == which);
         ui.marks.add(mark, {{seen->x - 1, seen->y - 1}, {seen->x + 1, seen->y + 1}});
     };
     end(measuring.from, LineEnd::from, "measure.from");
     end(measuring.to, LineEnd::to, "measure.to");
-    bool copied = false;
     const auto line = measuring.line();
-    if (const auto middle = line ? middle_of(picture.list, *line) : std::nullopt) {
-        const ImFont& font = *ui.style.mono;
-        const std::string words = measured_words(*line);
-        const ImVec2 size = text_size(font, words);
-        const float pad = ui.px(5);
-        const ImVec2 end_of{picture.corner.x + static_cast<float>(picture.list.size.width),
-                            picture.corner.y + static_cast<float>(picture.list.size.height)};
-        const auto within = [](float at, float low, float high) { return std::clamp(at, low, std::max(low, high)); };
-        const ImVec2 at{
-            within(picture.corner.x + middle->x + ui.px(12), picture.corner.x + pad, end_of.x - size.x - pad),
-            within(picture.corner.y + middle->y - 0.5f * size.y, picture.corner.y + pad, end_of.y - size.y - pad)};
-        ImDrawList& draw = *ImGui::GetWindowDrawList();
-        const ImVec2 low{at.x - pad, at.y - 0.6f * pad}, high{at.x + size.x + pad, at.y + size.y + 0.6f * pad};
-        draw.AddRectFilled(low, high, ui.style.panel, ui.px(4));
-        draw.AddRect(low, high, ui.style.accent, ui.px(4));
-        draw_text(draw, font, at, ui.style.text, words);
-        ui.marks.add("measure.words", {{at.x, at.y}, {at.x + size.x, at.y + size.y}});
-        copied = !measuring.picks && copies_numbers(ui, words, at, font, numbers_of(*line));
-    }
-    const auto at = next ? seen_at(picture, *next) : std::nullopt;
-    if (!at || !ImGui::IsItemHovered()) return copied;
-    if (const auto from = measuring.from && !measuring.to ? seen_at(picture, *measuring.from) : std::nullopt)
-        ImGui::GetWindowDrawList()->AddLine(*from, *at, ui.style.accent, ui.px(1.2f));
-    draw_end(ui, *at, true);
-    std::string told = next->what + "\n" + place_text(next->place);
-    if (measuring.from && !measuring.to) told += "\n" + measured_words({measuring.from->place, next->place});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(9), ui.px(7)});
-    ImGui::SetTooltip("%s", told.c_str());
-    ImGui::PopStyleVar();
-    return copied;
+    const bool on_number = line && measured_label(ui, picture, *line);
+    if (next && ImGui::IsItemHovered()) next_end(ui, picture, *next);
+    return on_number && !measuring.picks;
 }
 
 }  // namespace mobbscope::app

@@ -515,11 +515,11 @@ void Viewport::press(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) {
     const auto hold = list_ && is_active(ui) ? take_hold(ui, picture, pixel) : std::nullopt;
     if (io.MouseDown[1] || io.MouseDown[2] || io.KeyShift) {
         drag_ = Drag::pan;
-    } else if (on_measured_) {
-        drag_ = Drag::none;
     } else if (end != LineEnd::none) {
         drag_ = Drag::measured;
         held_end_ = end;
+    } else if (on_measured_) {
+        drag_ = Drag::none;
     } else if (hold) {
         drag_ = Drag::handle;
         handle_drag_ = *hold;

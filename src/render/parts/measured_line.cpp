@@ -91,13 +91,13 @@ void add_measured_line(DrawList& list, const MeasuredLine& line, float scale) {
     add_highlight_lines(list, lines, HighlightLine::Role::measure, scale);
 }
 
-std::optional<glm::vec2> middle_of(const DrawList& list, const MeasuredLine& line) {
+std::optional<glm::vec2> middle_in_view(const DrawList& list, const MeasuredLine& line) {
     return list.projection.project(0.5f * (drawn(list, line.from) + drawn(list, line.to)));
 }
 
 void add_measure(DrawList& list, const MeasuredLine& line, const Metrics& metrics, bool has_words) {
     add_measured_line(list, line, metrics.scale);
-    const auto middle = has_words ? middle_of(list, line) : std::nullopt;
+    const auto middle = has_words ? middle_in_view(list, line) : std::nullopt;
     if (!middle) return;
     LabelLayout layout(list);
     layout.place({.text = measured_words(line),

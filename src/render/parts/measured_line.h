@@ -33,7 +33,7 @@ std::string text_of(const MeasuredLine& line);
 void add_measured_line(DrawList& list, const MeasuredLine& line, float scale);
 
 /// Where the middle of the line is seen, and its words stand; none behind the eye.
-std::optional<glm::vec2> middle_of(const DrawList& list, const MeasuredLine& line);
+std::optional<glm::vec2> middle_in_view(const DrawList& list, const MeasuredLine& line);
 
 /// With its words beside it, out of the way of all that is written so far, or without.
 void add_measure(DrawList& list, const MeasuredLine& line, const Metrics& metrics, bool has_words);
