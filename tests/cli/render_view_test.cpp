@@ -254,7 +254,7 @@ TEST(RenderView, ASelectionThatIsNoneIsRefused) {
         {{"A:node:x"}, "not of an agent 'A:node:x'"},
         {{""}, "give AGENT, AGENT:path, AGENT:node:N or AGENT:sample:N"},
         {{"A", "--ui"}, "--ui and --select"},
-        {{"A:node:0", "--show", "moment"}, "leave out --show moment"},
+        {{"A:node:0", "--show", "moment"}, "leave out --show"},
         {{"A", "--show", "moment", "--time", "900"}, "'A' is not there at 900 s"},
     };
     for (const auto& [options, why] : cases) {

@@ -229,8 +229,8 @@ TEST_P(SlabTest, ScrubbingUploadsNoBoxes) {
         for (int i = 1; i <= 10; ++i) {
             *view.time += 0.1;
             const DrawStatistics statistics = draw();
-            EXPECT_LT(statistics.world_bytes, slice ? 4000u : 100u) << i;
-            EXPECT_LT(statistics.state_bytes, slice ? 4000u : 100u) << i;
+            EXPECT_LT(statistics.world_bytes, slice ? 6000u : 100u) << i;
+            EXPECT_LT(statistics.state_bytes, slice ? 6000u : 100u) << i;
         }
     }
 }
@@ -321,7 +321,7 @@ TEST(Sections, HaveTheAreaThatTheBoxHasThen) {
             const DrawnAgent& agent = agents[static_cast<std::size_t>(box.id.agent)];
             const mobb::Box exact = world_box(agent.placed, box.id.index);
             const glm::vec2 heights = heights_of(box);
-            for (const float share : {0.03f, 0.3f, 0.61f, 0.98f}) {
+            for (const float share : {0.004f, 0.03f, 0.3f, 0.61f, 0.98f, 0.997f}) {
                 const float height = heights.x + share * (heights.y - heights.x);
                 const std::vector<glm::vec3> section = level_section(box, height);
                 ASSERT_GE(section.size(), 3u);
@@ -335,7 +335,7 @@ TEST(Sections, HaveTheAreaThatTheBoxHasThen) {
                 }
                 const double w = agent.placed.time_scale();
                 const double t = list.space.place({0, 0, height}).z;
-                constexpr int kCells = 200;
+                constexpr int kCells = 80;
                 int inside = 0;
                 for (int i = 0; i < kCells * kCells; ++i) {
                     const glm::dvec2 share_of((0.5 + i % kCells) / kCells, (0.5 + i / kCells) / kCells);
@@ -352,7 +352,7 @@ TEST(Sections, HaveTheAreaThatTheBoxHasThen) {
                 }
                 const glm::dvec2 extent(high - low);
                 const double counted = extent.x * extent.y * inside / (kCells * kCells);
-                EXPECT_NEAR(area_of(section), counted, 0.02 * extent.x * extent.y);
+                EXPECT_NEAR(area_of(section), counted, 0.03 * extent.x * extent.y);
                 ++compared;
             }
         }

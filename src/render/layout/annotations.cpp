@@ -205,8 +205,18 @@ void add_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAgent> 
     const bool all = all_are_named(agents);
     for (const DrawnAgent& agent : agents) {
         if (agent.hidden || !(all || agent.named)) continue;
-        const mobb::Disk last = agent.clip().disk(agent.clip().count() - 1);
-        const glm::vec3 top = list.space.point(last.x, last.y, agent.end());
+        const mobb::PlacedClip& clip = agent.clip();
+        int sample = clip.count() - 1;
+        double time = agent.end();
+        if (list.slab) {
+            // The upper end of what is seen.
+            const auto height = [&](double t) { return list.space.point(0, 0, t).z; };
+            if (!list.slab->shows(height(agent.begin()), height(time))) continue;
+            time = std::min(time, list.space.place({0, 0, list.slab->high}).z);
+            sample = std::min(sample, mobb::first_ending_after(clip, 0, clip.count(), time));
+        }
+        const mobb::Disk last = clip.disk(sample);
+        const glm::vec3 top = list.space.point(last.x, last.y, time);
         auto label = name_label(list, agent, top, last.r, metrics.text);
         if (!label) continue;
         label->border = with_alpha(list.palette.panel, 0);

@@ -15,7 +15,7 @@ namespace mobbscope {
 
 namespace {
 
-constexpr float kFill = 0.2f;  // opacity of sections
+constexpr float kFill = 0.1f;  // opacity of sections
 
 /// The times of the planes that cut something.
 std::vector<double> planes_of(const FloorExtent& s, const ValueRange& slab) {

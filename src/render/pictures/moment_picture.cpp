@@ -184,16 +184,17 @@ class MomentPicture final : public Picture {
         corners_ = floor_corners(floor_extent_, list_.space);
         framed_ = ShownPoints(crowd_ ? corners_ : standing_);
         if (view_.show == Show::plan && view_.boxes) find_sections(kept);
+        // A plan has its numbers along the edges of the floor.
+        if (view_.show == Show::plan) framed_.add(std::span(corners_).first(4));
         points_ = framed_;
         if (!crowd_) points_.add(std::span(corners_).first(4));
     }
 
   private:
-    /// Nobody has a height in it.
+    /// Nobody has a body in it.
     void become_plan() {
         view_.camera = camera_of_plan(view_.camera);
         for (DrawnAgent& agent : agents_) agent.skeleton = nullptr;
-        std::ranges::fill(heights_, 0.0);
     }
 
     /// Of the boxes of levels, or of the pair under test.
@@ -247,7 +248,8 @@ class MomentPicture final : public Picture {
         }
         const bool walls = view_.boxes && view_.show == Show::moment;
         add_bodies(list_, agents_, moment_, {view_.disks, walls}, metrics_.scale);
-        add_sections(list_, sections_, 0, 0, metrics_.scale);
+        // Over the disks.
+        add_sections(list_, sections_, 0, static_cast<float>(*std::ranges::max_element(heights_)), metrics_.scale);
         if (proof_) add_proof_pane(list_, *proof_, moment_.time, kWallHeight, metrics_.scale);
         std::vector<LabelRequest> notes;
         const auto add = [&](const std::vector<LabelRequest>& some) {
