@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -76,8 +77,8 @@ TEST(NamedViews, AreSavedAndGoneToByTheirPictures) {
     // The window's colours stay, and a view that names what is not there is cut to what is.
     w.run("run view.theme light\nrun view.go from above");
     EXPECT_EQ(w.view().theme, Theme::light);
-    w.run("run query.select 2\nrun view.save_as query\nrun query.none\nrun agent.remove");
-    EXPECT_EQ(w.names(), "boxes, from above, query");
+    w.run("run query.select 2\nrun view.save_as query\nrun query.none\nrun go.agent C\nrun agent.remove");
+    EXPECT_EQ(w.session.workspace.scene().debug.views.at(2).view.query, std::nullopt) << "B against C is gone";
 }
 
 TEST(NamedViews, AreEditsOfTheScene) {
@@ -115,7 +116,7 @@ TEST(NamedViews, HaveAMenu) {
     EXPECT_EQ(w.names(), "uno, two");
     w.run("click named_view.1 right\nclick context.view.remove");
     EXPECT_EQ(w.names(), "uno");
-    w.run("key Ctrl+P\ntype uno\nkey Enter");
+    w.run("key Ctrl+P\ntype go to uno\nkey Enter");
     EXPECT_EQ(w.session.workspace.history.look_back_title(), "going to the view uno") << "the palette knows the name";
 }
 

@@ -90,7 +90,7 @@ std::vector<Command> named_view_commands() {
         Command(
             "view.save_as", "Save this view...",
             "Keeps how the scene is seen now under a name, as a bookmark to come back to; it is saved with the scene.",
-            save_view, {.argument = "NAME", .present = present_name}),
+            save_view, {.argument = "NAME"}),
         Command("view.go", "Go to view", "Sees the scene as a named view has it, with the trees that are fitted now.",
                 go_to_view,
                 {.argument = "NAME", .enabled = {has_views, why_no_view}, .choices = view_names, .chosen = is_present}),
