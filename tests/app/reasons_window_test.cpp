@@ -180,7 +180,9 @@ TEST(ReasonsWindow, AllQueriesAreCountedAndTheWorstShown) {
     EXPECT_FALSE(w.session.costs.sandwich()->above.empty());
     EXPECT_TRUE(w.has("above.0"));
     EXPECT_FALSE(w.has("query.stopped.all_queries"));
-    w.session.workspace.derived().costs->in_part = 2;
+    auto in_part = std::make_shared<SceneCosts>(*w.session.workspace.derived().costs);
+    in_part->in_part = 2;
+    w.session.workspace.derived().costs = in_part;
     w.run("frames 2");
     EXPECT_TRUE(w.has("query.stopped.all_queries")) << "sums are of what was recorded";
     w.run("run tree.leaf 8");
