@@ -4,6 +4,7 @@
 #include <crowd/graph/build_graph.h>
 #include <render/gl/gl_context.h>
 #include <render/image/png.h>
+#include <scene/arrangement.h>
 #include <scene/motion_graph.h>
 
 #include "app/crossing_folder.h"
@@ -136,7 +137,8 @@ TEST(BuildGraph, IsThatOfTheCommandLine) {
     ASSERT_TRUE(w.scene().graph) << all_messages(w.session);
     const GraphOptions options = parse_graph_options(kSmallGraph);
     const Scene recordings = load_recordings(clip_files({kClips}), kClips / "graph.json", {}, true).scene;
-    const BuiltGraph built = make_graph(recordings, options, "clips");
+    BuiltGraph built = make_graph(recordings, options, "clips");
+    lay_out_clips(built.scene);
     EXPECT_EQ(*w.scene().graph, *built.scene.graph);
     EXPECT_EQ(to_json(w.scene()), to_json(built.scene));
     // Unsaved, and said in a line.

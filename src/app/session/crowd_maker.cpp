@@ -4,6 +4,7 @@
 #include <crowd/graph/build_graph.h>
 #include <crowd/graph/build_words.h>
 #include <crowd/simulation/move_set.h>
+#include <scene/arrangement.h>
 #include <scene/motion_graph.h>
 #include <scene/scene_edits.h>
 
@@ -112,6 +113,7 @@ void CrowdMaker::build_graph(const GraphOptions& options) {
                        file = file_beside("graph.json"), place = workspace_.title(), options](JobControl& control) {
         BuiltGraph built = make_graph(recordings_of_clips(*open, file), options, place, progress_of_graph(control));
         if (built.scene.graph->moves.empty()) throw InputError(place + ": " + why_no_move(built.report));
+        lay_out_clips(built.scene);
         return made_graph(told, std::move(built));
     };
     files_.open_made("Building a motion graph", make, Replaces::another);
