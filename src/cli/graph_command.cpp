@@ -5,17 +5,17 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <crowd/graph/build_graph.h>
+#include <crowd/graph/build_words.h>
+#include <crowd/graph/graph_options.h>
 #include <render/drawlist/picture_options.h>
 #include <render/pictures/graph_picture.h>
 #include <render/vector/vector_picture.h>
 #include <scene/motion_graph.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <iostream>
-#include <memory>
-#include <stdexcept>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -23,14 +23,10 @@ namespace mobbscope::cli {
 
 namespace {
 
-constexpr double kMostSeconds = 3600;  // of a move
-constexpr int kMostCount = 10'000;
-
 struct BuildArguments {
     std::vector<std::filesystem::path> places;
     std::filesystem::path out;
     GraphOptions options;
-    bool whole = false;
     bool strict = false;
     bool inline_samples = false;
     ImportOptions import_options;
@@ -46,37 +42,6 @@ struct DrawArguments {
     std::filesystem::path out;
     DrawingArguments drawing;
 };
-
-std::string moves_text(std::size_t count) { return counted(count, "move", "moves"); }
-
-std::string hubs_text(std::size_t count) { return counted(count, "hub", "hubs"); }
-
-void print_report(const BuildReport& report) {
-    std::cout << "from " << counted(report.recordings, "recording", "recordings") << ", " << brief(report.seconds)
-              << " s of " << counted(report.rigs, "rig", "rigs") << ": " << counted(report.pieces, "piece", "pieces")
-              << " between the hubs\n"
-              << "left out: " << report.alike << " that go like others or are more than --moves; "
-              << moves_text(report.dead_ends) << " and " << hubs_text(report.dropped_hubs)
-              << " at dead ends or in parts of fewer than --least-moves\n"
-              << "measured again from the files: " << counted(report.joints_checked, "join", "joins") << "; "
-              << moves_text(report.broken) << " dropped that broke a bound\n";
-    if (report.rigs_left_out > 0) {
-        warn(counted(report.rigs_left_out, "rig has", "rigs have") +
-             " no pose that comes again often enough, and no part in the graph");
-    }
-    if (report.without_joints > 0) {
-        warn(counted(report.without_joints, "clip has", "clips have") + " no joints, and no part in the graph");
-    }
-    if (report.too_long > 0) {
-        warn(counted(report.too_long, "clip has", "clips have") +
-             " too many samples to keep the joints of each, and no part in the graph; lower --fps");
-    }
-}
-
-BuiltGraph whole_graph(Scene recordings) {
-    recordings.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(recordings));
-    return {std::move(recordings), {}};
-}
 
 /// What names the input in a message.
 std::string place_of(const std::vector<std::filesystem::path>& places) {
@@ -100,20 +65,22 @@ int build(const BuildArguments& arguments) {
     warn_of_left_out(recordings.left_out, files.size());
     check_output(arguments.out);  // again: now the files are known
     const std::string place = place_of(arguments.places);
-    BuiltGraph built = arguments.whole
-                           ? whole_graph(std::move(recordings.scene))
-                           : build_graph(recordings.scene, arguments.options, place, tell("compared", "moments"));
-    if (!arguments.whole) check_graph(built, arguments.options.least_moves, tell("measured", "clips"));
+    const BuiltGraph built =
+        make_graph(std::move(recordings.scene), arguments.options, place,
+                   [comparing = tell("compared", "moments"), measuring = tell("measured", "clips")](
+                       GraphStage stage, std::size_t done, std::size_t all) {
+                       (stage == GraphStage::comparing ? comparing : measuring)(done, all);
+                   });
     if (built.scene.graph->moves.empty()) {
-        complain(place + ": measured again from the files no move keeps the bounds (" +
-                 moves_text(built.report.broken) + " dropped that broke one), so no graph is written");
+        complain(place + ": " + why_no_move(built.report) + ", so no graph is written");
         return kFailed;
     }
     write_file(arguments.out, to_json(built.scene, arguments.inline_samples));
-    const MotionGraph& graph = *built.scene.graph;
-    std::cout << cleaned(arguments.out.string()) << ": " << hubs_text(graph.hubs.size()) << ", "
-              << moves_text(graph.moves.size()) << '\n';
-    if (!arguments.whole) print_report(built.report);
+    std::cout << cleaned(arguments.out.string()) << ": " << size_in_words(*built.scene.graph) << '\n';
+    if (!arguments.options.whole) {
+        for (const std::string& sentence : in_words(built.report)) std::cout << sentence << '\n';
+        for (const std::string& warning : warnings_of(built.report)) warn(warning);
+    }
     flush_results();
     return kDone;
 }
@@ -146,41 +113,13 @@ void draw(const DrawArguments& arguments) {
     write_file(arguments.out, picture_bytes(arguments.out, list, kPictureSamples, arguments.drawing.backend));
 }
 
-/// "1:4" in seconds.
-std::pair<double, double> parse_seconds(const std::string& text) {
-    const auto range = parse_range(text);
-    if (!range || !(range->first > 0) || !(range->second >= range->first) || range->second > kMostSeconds) {
-        throw std::invalid_argument(in_quotes(text) + " is no range of seconds over 0 and up to " +
-                                    brief(kMostSeconds) + "; write it like 1:4");
-    }
-    return *range;
-}
-
 void add_build_options(Command& command, BuildArguments& arguments) {
     GraphOptions& options = arguments.options;
     command.add_option("PLACE", arguments.places, "Clip files, and folders of them with their subfolders", "")
         .required();
     command.add_option("-o,--output", arguments.out, "The graph, a scene", "GRAPH.json").required();
-    add_parsed(command, "--pose-distance", options.bounds.pose_distance, number_within(0, 1e9),
-               "Metres that poses may differ by where moves join: root mean square over the joints (0.16)", "D");
-    add_parsed(command, "--root-speed", options.bounds.root_speed, number_within(0, 1e9),
-               "Metres per second that the root's velocity may change by there (0.6)", "V");
-    const auto set_seconds = [&options](const std::string& text) {
-        std::tie(options.least_seconds, options.most_seconds) = parse_seconds(text);
-    };
-    command.add_option("--seconds", set_seconds, "How long moves last (1:4)", "A:B");
-    add_parsed(command, "--warp", options.warp, number_within(0, kMostSeconds),
-               "Seconds over which a move is warped at either end to its hub's pose and velocity; 0: not at all (0.3)",
-               "S");
-    add_parsed(command, "--hubs", options.hubs, whole_number_within(1, kMostCount), "Most hubs for each rig (8)", "N");
-    add_parsed(command, "--moves", options.moves, whole_number_within(1, kMostCount),
-               "Most moves from one hub to another; those that differ most are taken (16)", "N");
-    add_parsed(command, "--least-moves", options.least_moves, whole_number_within(1, kMostCount),
-               "Parts of the graph with fewer are left out (3)", "N");
-    add_parsed(command, "--candidates", options.candidates, whole_number_within(1, kMostCount),
-               "Moments of each rig that are looked at as hubs (400)", "N");
-    add_parsed(command, "--seed", options.seed, parse_seed, "Decides which moments those are (1)", "S");
-    command.add_flag("--whole", arguments.whole, "Takes clips whole, from one hub to itself, and bounds nothing");
+    add_number_options(command, graph_options(), options);
+    command.add_flag("--whole", options.whole, std::string(kWholeHelp));
     command.add_flag("--strict", arguments.strict, "A bad file in a folder ends the build; without it it is left out");
     command.add_flag("--inline", arguments.inline_samples,
                      "Writes samples, so that the file stands alone; without it clips lead to their files");

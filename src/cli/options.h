@@ -1,7 +1,9 @@
 /// Options that several commands share, and what they mean for a scene.
 #pragma once
 
+#include <base/number_options.h>
 #include <base/text.h>
+#include <cli/command_line.h>
 #include <render/gl/gl_context.h>
 #include <render/image/image.h>
 #include <scene/fitted_scene.h>
@@ -10,13 +12,11 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 
 namespace mobbscope::cli {
-
-class Command;
-class Option;
 
 /// The fit options as given; an empty one leaves the scene's.
 struct FitArguments {
@@ -48,6 +48,17 @@ void add_fit_options(Command& command, FitArguments& arguments, Brute brute = Br
 /// Adds --fps --unit --up --root --trim --dt --radius --columns --motion --id --animation. `options` must live until
 /// the command has run.
 void add_import_options(Command& command, ImportOptions& options);
+
+/// Adds an option for each row; `options` must live until the command has run.
+template <class Options>
+void add_number_options(Command& command, std::span<const NumberOption<Options>> rows, Options& options) {
+    for (const NumberOption<Options>& row : rows) {
+        command.add_option(
+            std::string("--").append(row.key),
+            [&row, &options](const std::string& text) { row.set(options, parse_numbers(row, text)); }, help_of(row),
+            std::string(row.placeholder));
+    }
+}
 
 /// Adds FILE, --json and the options of fits and imports; gives --json. `arguments` must live until the command has
 /// run.

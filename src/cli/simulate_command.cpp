@@ -8,6 +8,7 @@
 #include <cli/program.h>
 #include <crowd/graph/build_graph.h>
 #include <crowd/graph/continuity.h>
+#include <crowd/simulation/crowd_order.h>
 #include <crowd/simulation/simulate.h>
 #include <import/import.h>
 #include <scene/crowd_run.h>
@@ -43,30 +44,13 @@ struct SimulateCommandArguments {
     bool inline_samples = false;
     bool whole = false;
     bool json = false;
-    SimulateOptions options;
-    double turn_rate = kDefaultTurnRate;
+    CrowdOrder order;
     FitArguments fit;
 };
 
-/// "30x40" in metres.
-glm::dvec2 parse_area(const std::string& text) {
-    const std::size_t cross = text.find('x');
-    const double width = parse_double(text.substr(0, cross)).value_or(0);
-    const double depth = cross == std::string::npos ? 0 : parse_double(text.substr(cross + 1)).value_or(0);
-    const auto is_length = [](double value) { return value >= kMinArea && value <= kMaxArea; };
-    if (!is_length(width) || !is_length(depth)) {
-        throw std::invalid_argument(in_quotes(text) + " is no area; give metres like 30x40, each from " +
-                                    brief(kMinArea) + " to " + brief(kMaxArea));
-    }
-    return {width, depth};
-}
-
 /// The scene whose graph is played, and nothing else of it.
 Scene load_moves(const SimulateCommandArguments& arguments, Importer& importer) {
-    Scene scene = load_files({arguments.graph}, {}, {}, &importer);
-    scene.agents.clear();
-    scene.queries.clear();
-    if (scene.graph) remove_run(scene);
+    Scene scene = played_part(load_files({arguments.graph}, {}, {}, &importer));
     if (arguments.whole) scene.graph = std::make_shared<const MotionGraph>(graph_of_whole_clips(scene));
     if (!scene.graph) {
         throw InputError(arguments.graph,
@@ -74,7 +58,6 @@ Scene load_moves(const SimulateCommandArguments& arguments, Importer& importer) 
                          "follow every other");
     }
     check_moves(scene, *scene.graph, arguments.graph.string());
-    scene.view = {};
     scene.fit = arguments.fit.over(scene.fit);
     return scene;
 }
@@ -150,8 +133,7 @@ void print_run_json(const Scene& scene, const Summary& summary) {
 
 void print_run_text(const Summary& summary) {
     const SimulationCounts& c = summary.counts;
-    std::cout << counted(c.agents, "agent", "agents") << " for " << brief(c.simulated)
-              << " s: " << counted(c.plays, "play", "plays") << ", " << counted(c.choices, "choice", "choices") << '\n'
+    std::cout << in_words(c) << '\n'
               << counted(c.candidates, "candidate", "candidates") << ": " << c.off_floor << " leave the floor, "
               << c.colliding << " collide, " << c.no_way_on << " have no way on, " << c.in_the_way
               << " end in somebody's way\n"
@@ -178,21 +160,22 @@ void run_simulate(const SimulateCommandArguments& arguments) {
     check_run_outputs(arguments);  // again: now all that is read is known
     const mobb::FitOptions fit = scene.fit;
     const FittedScene fitted(std::move(scene), fit);
-    const MoveSet moves(fitted, arguments.turn_rate, queried_by(arguments.fit));
+    const MoveSet moves(fitted, arguments.order.turn_rate, queried_by(arguments.fit));
     std::optional<QuerySample> sample;
     if (!arguments.record.empty()) {
         const bool all = arguments.record_all_pairs || arguments.record_within;
         const int most = arguments.record_queries > 0 ? arguments.record_queries : kMostRecorded;
-        sample.emplace(all ? Recorded::all : Recorded::asked, static_cast<std::size_t>(most), arguments.options.seed,
+        sample.emplace(all ? Recorded::all : Recorded::asked, static_cast<std::size_t>(most),
+                       arguments.order.options.seed,
                        arguments.record_within.value_or(std::numeric_limits<double>::infinity()));
     }
     Summary summary;
     const auto begin = std::chrono::steady_clock::now();
     Simulation simulation =
-        simulate(moves, arguments.options, sample ? &*sample : nullptr, Report(arguments.options.seconds));
+        simulate(moves, arguments.order.options, sample ? &*sample : nullptr, Report(arguments.order.options.seconds));
     summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     summary.counts = simulation.counts;
-    summary.turn_rate = arguments.turn_rate;
+    summary.turn_rate = arguments.order.turn_rate;
     std::string record;
     if (sample) {
         summary.recorded.emplace(sample->size(), sample->offered());
@@ -209,25 +192,13 @@ void run_simulate(const SimulateCommandArguments& arguments) {
 }
 
 void add_simulate_options(Command& command, SimulateCommandArguments& arguments) {
-    SimulateOptions& options = arguments.options;
     add_parsed(command, "GRAPH", arguments.graph, parse_file_name,
                "A scene with a motion graph; with --whole clips, or a folder of them", "")
         .required();
     add_parsed(command, "-o,--output", arguments.out, parse_file_name, "The run, as a scene", "OUT.json").required();
-    add_parsed(command, "--agents", options.agents, whole_number_within(1, kMaxAgents), "How many (100)", "N");
-    add_parsed(command, "--area", options.area, parse_area, "The floor, in metres (30x40)", "WxH");
-    add_parsed(command, "--seconds", options.seconds, number_within(kMinSimulated, kMaxSimulated), "Simulated (120)",
-               "S");
-    add_parsed(command, "--seed", options.seed, parse_seed, "Another seed, another run (1)", "N");
-    add_parsed(command, "--ahead", options.ahead, number_within(0, kMaxSimulated),
-               "Seconds before its begin at which a move is chosen (0)", "S");
-    add_parsed(command, "--grace", options.grace, number_within(0, kMaxSimulated),
-               "Seconds for which room is kept where moves end; 0: none, as in the paper (1)", "S");
-    add_parsed(command, "--plan", options.plan, number_within(0, kMaxSimulated),
-               "Seconds for which each choice plans how to go on; 0: not at all, as in the paper (8)", "S");
-    add_parsed(command, "--turn-rate", arguments.turn_rate, number_within(0, kMaxTurnRate),
-               "Largest angular speed at which agents turn on the way of a move; 0: they do not (120)", "DEG_PER_S");
-    add_parsed(command, "--threads", options.threads, whole_number_within(1, kMaxThreads), "At most (all)", "N");
+    add_number_options(command, crowd_options(), arguments.order);
+    add_parsed(command, "--threads", arguments.order.options.threads, whole_number_within(1, kMaxThreads),
+               "At most (all)", "N");
     const Option record = add_parsed(command, "--record", arguments.record, parse_file_name,
                                      "Queries that were asked, as a scene", "FILE.json");
     add_parsed(command, "--record-queries", arguments.record_queries, whole_number_within(0, kMostRecorded),

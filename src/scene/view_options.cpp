@@ -458,6 +458,7 @@ std::vector<ViewOption> all_view_options() {
                                                     .title = "Theme",
                                                     .menu = "View",
                                                     .shortcut = "T",
+                                                    .also = "dark light mode night appearance settings preferences",
                                                     .choices = {"dark", "light"},
                                                     .refused_in_file = "{} is no theme",
                                                     .refused_in_window = "a theme cannot be {}"}),

@@ -67,7 +67,8 @@ struct ViewOption {
     std::string_view title{};
     std::string_view menu{};
     std::string_view shortcut{};
-    bool at_hand = false;  ///< of a toggle: in the toolbar and the menu of the picture, too
+    std::string_view also{};  ///< other words that people have for it
+    bool at_hand = false;     ///< of a toggle: in the toolbar and the menu of the picture, too
 
     DrawnPart draws = DrawnPart::agents;  ///< of a toggle
 

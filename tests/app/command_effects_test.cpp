@@ -138,6 +138,19 @@ std::vector<Case> cases() {
              EXPECT_TRUE(w.view().floor);
              EXPECT_EQ(w.session.workspace.file, w.folder.scene);
          }});
+    look("crowd.build_graph", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialogs.now, Dialog::build_graph); });
+    look("crowd.build_graph", "whole", [](CommandWorld& w) {
+        ASSERT_TRUE(w.session.workspace.scene().graph);
+        EXPECT_EQ(w.session.workspace.scene().graph->moves.size(), 2u);
+        EXPECT_TRUE(w.session.workspace.modified());
+    });
+    add({"crowd.simulate", "", {{"crowd.build_graph", "whole"}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.session.dialogs.now, Dialog::simulate);
+         }});
+    add({"crowd.simulate", "agents=2 area=30x30 seconds=4", {{"crowd.build_graph", "whole"}}, [](CommandWorld& w) {
+             ASSERT_TRUE(w.session.workspace.crowd());
+             EXPECT_EQ(w.session.workspace.crowd()->agents.size(), 2u);
+         }});
     add({"file.save", "", {kSelectB, {"agent.move", "4 5"}}, [](CommandWorld& w) {
              EXPECT_FALSE(w.session.workspace.modified());
              EXPECT_EQ(load_scene(w.folder.scene).agents[1].placement.translate, glm::dvec2(4, 5));

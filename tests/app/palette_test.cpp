@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -118,6 +121,131 @@ TEST(PaletteEntries, AgentsClipsQueriesAndNodesAreFound) {
     EXPECT_TRUE(std::any_of(agents.begin(), agents.end(),
                             [](const auto& e) { return e.command->id == "go.agent" && e.argument == "B"; }));
     EXPECT_NE(p.first_id("b 99.1"), "go.node");
+}
+
+/// What people say who come from other tools, and what they must find among the first three.
+TEST(PaletteEntries, AreFoundByWhatPeopleSay) {
+    const std::vector<std::pair<std::string, std::vector<std::string>>> table{
+        {"compare", {"view.split", "compare.with", "tree.sweep"}},
+        {"side by side", {"view.split"}},
+        {"waste", {"tree.next_finding", "query.blame", "step.next_avoidable"}},
+        {"tight", {"tree.kind", "tree.axes", "tree.next_finding"}},
+        {"loose", {"tree.next_finding", "tree.kind"}},
+        {"worst", {"query.worst"}},
+        {"best", {"tree.sweep"}},
+        {"fastest", {"tree.sweep"}},
+        {"breakpoint", {"breakpoint.add"}},
+        {"record", {"file.export_picture", "time.play"}},
+        {"video", {"file.export_picture", "file.copy_command", "time.play"}},
+        {"film", {"file.export_picture", "time.play"}},
+        {"animation", {"time.play"}},
+        {"screenshot", {"file.export_picture", "file.copy_picture"}},
+        {"svg", {"file.export_picture"}},
+        {"pdf", {"file.export_picture"}},
+        {"why", {"reasons.of_selection", "reasons.at"}},
+        {"isolate", {"agent.solo", "agents.solo"}},
+        {"heat map", {"map.panel"}},
+        {"table", {"events.show"}},
+        {"event browser", {"events.show"}},
+        {"csv", {"events.copy_csv"}},
+        {"bookmark", {"bookmark.add"}},
+        {"plan", {"view.top"}},
+        {"home", {"view.frame_all"}},
+        {"reset", {"view.frame_all"}},
+        {"zoom to fit", {"view.frame_all", "view.frame"}},
+        {"focus", {"view.frame"}},
+        {"orthographic", {"view.perspective"}},
+        {"isometric", {"view.iso"}},
+        {"undo", {"edit.undo"}},
+        {"revert", {"edit.undo"}},
+        {"dark mode", {"view.theme"}},
+        {"preferences", {"view.theme", "window.scale"}},
+        {"font", {"window.larger", "window.smaller"}},
+        {"delete", {"agent.remove"}},
+        {"clone", {"agent.duplicate"}},
+        {"translate", {"agent.move"}},
+        {"rotate", {"agent.turn", "view.orbit"}},
+        {"unhide", {"agent.show_all"}},
+        {"import", {"file.open", "file.add", "clip.import"}},
+        {"append", {"file.add"}},
+        {"collision", {"conflicts.find", "query.select"}},
+        {"certificate", {"proof.save"}},
+        {"depth", {"view.level"}},
+        {"hotkeys", {"help.shortcuts"}},
+        {"exit", {"file.quit"}},
+        {"motion graph", {"crowd.build_graph"}},
+        {"simulation", {"crowd.simulate"}},
+    };
+    PaletteWindow p;
+    run_command(p.session, "query.select", "0");
+    run_command(p.session, "go.agent", "A");
+    for (const auto& [words, wanted] : table) {
+        std::vector<std::string> first;
+        for (const PaletteEntry& entry : palette_entries(p.session, words)) {
+            if (first.size() < 3) first.emplace_back(entry.command->id);
+        }
+        for (const std::string& id : wanted) {
+            EXPECT_NE(std::ranges::find(first, id), first.end())
+                << words << " finds " << (first.empty() ? "nothing" : first[0]) << ", not " << id;
+        }
+    }
+}
+
+TEST(PaletteEntries, StrewnLettersDrownNoWord) {
+    const PaletteWindow p;
+    const auto finds = [&](const std::string& text, std::string_view id) {
+        const auto entries = palette_entries(p.session, text);
+        return std::ranges::any_of(entries, [&](const PaletteEntry& entry) { return entry.command->id == id; });
+    };
+    EXPECT_FALSE(finds("waste", "picture.write"));
+    EXPECT_FALSE(finds("tight", "view.theme"));
+    EXPECT_TRUE(finds("tk", "tree.kind")) << "where there is no word, letters are found";
+    EXPECT_TRUE(finds("xport", "file.export_picture")) << "and so is the middle of a word";
+}
+
+TEST(PaletteEntries, OtherWordsFindLessThanTheTitle) {
+    const PaletteWindow p;
+    EXPECT_EQ(p.first_id("history"), "edit.history");
+    EXPECT_EQ(p.first_id("play"), "time.play");
+    const PaletteEntry svg = p.first("svg");
+    EXPECT_EQ(svg.title, "Export picture...");
+    EXPECT_TRUE(svg.says.starts_with("Writes the picture ")) << "its title does not say why it is there";
+    EXPECT_EQ(p.first("export").says, "");
+}
+
+TEST(PaletteEntries, CommandsAreFoundWithWhatTheyTake) {
+    PaletteWindow p;
+    run_command(p.session, "query.select", "0");
+    const std::vector<std::array<std::string, 4>> table{
+        {"step 400", "step.to", "400", "Go to step: 400"},
+        {"go to step 3", "step.to", "3", "Go to step: 3"},
+        {"leaf 20", "tree.leaf", "20", "Samples in a leaf: 20"},
+        {"level 3", "view.level", "3", "Show levels: 3"},
+        {"levels 1:2", "view.level", "1:2", "Show levels: 1:2"},
+        {"time 2.5", "time.at", "2.5", "Time cursor at: 2.5"},
+        {"speed 2", "time.speed", "2", "Speed of playing: 2"},
+        {"tree umobb", "tree.kind", "umobb", "Tree kind: umobb"},
+        {"place agent 1.5 -2", "agent.move", "1.5 -2", "Place agent at: 1.5 -2"},
+    };
+    run_command(p.session, "go.agent", "A");
+    for (const auto& [text, id, argument, title] : table) {
+        const PaletteEntry entry = p.first(text);
+        ASSERT_NE(entry.command, nullptr) << text;
+        EXPECT_EQ(entry.command->id, id) << text;
+        EXPECT_EQ(entry.argument, argument) << text;
+        EXPECT_EQ(entry.title, title) << text;
+        EXPECT_EQ(entry.why_not, "") << text;
+    }
+    run_command(p.session, "step.to", "2");
+    const PaletteEntry step = p.first("step 1");
+    run_command(p.session, step.command->id, step.argument);
+    EXPECT_EQ(p.session.workspace.step(), 1);
+    for (const PaletteEntry& entry : palette_entries(p.session, "leaf twenty")) {
+        EXPECT_NE(entry.argument, "twenty") << "no number";
+    }
+    for (const PaletteEntry& entry : palette_entries(p.session, "leaf 2.5")) {
+        EXPECT_NE(entry.argument, "2.5") << "no whole number: " << entry.title;
+    }
 }
 
 TEST(PaletteEntries, WhatCannotBeDoneSaysWhy) {

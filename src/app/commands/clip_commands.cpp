@@ -110,7 +110,10 @@ std::vector<Command> clip_commands() {
     const std::vector<Command> rows{
         Command("clip.import", "Import options...",
                 "Shows how a clip is read from its file, what was guessed and why, and changes it.", open_dialog,
-                {.argument = "[CLIP [OPTION]]", .enabled = {can_import, why_no_import}, .choices = names_of_sources}),
+                {.argument = "[CLIP [OPTION]]",
+                 .enabled = {can_import, why_no_import},
+                 .choices = names_of_sources,
+                 .also = "unit scale axis radius root fps"}),
         Command("clip.set", "Set import option",
                 "Reads the selected clip from its file with another value of an import option; without a value as the "
                 "file says.",
@@ -127,7 +130,8 @@ std::vector<Command> clip_commands() {
                         const std::string& motion) {
                          const int clip = clip_to_move(dialogs, imports, workspace);
                          return clip >= 0 && name(workspace.fitted().tree(clip).clip().motion()) == motion;
-                     }}),
+                     },
+                 .also = "interpolate interpolation"}),
     };
     return in_menu("Edit", rows);
 }

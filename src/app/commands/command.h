@@ -117,6 +117,8 @@ struct CommandTraits {
     /// Of a command with choices: whether this one is what is now. Null: no choice is.
     OfParts<bool, const Session> chosen{};
     OfParts<std::string, const Session> title_end{};  ///< what its title goes on with in menus: " moving A"
+    /// Other words that people have for it, apart from those of its title: the palette finds it by them.
+    std::string_view also{};
 };
 
 struct Command : CommandTraits {

@@ -16,13 +16,18 @@ std::vector<Command> help_commands() {
     const std::vector<Command> rows{
         Command("help.shortcuts", "Help",
                 "Says what can be done now, then lists all keys and what the mouse does; a search finds commands.",
-                &Dialogs::open_help, {.shortcut = "F1", .enabled = always, .where = Where::everywhere}),
-        Command("help.messages", "Messages", "Lists what was said: what went wrong, what to do, and what was done.",
-                [](Dialogs& dialogs, Notifications& notifications) {
-                    dialogs.open(Dialog::messages);
-                    notifications.mark_read();
-                },
-                {.shortcut = "F8", .enabled = always, .where = Where::everywhere}),
+                &Dialogs::open_help,
+                {.shortcut = "F1",
+                 .enabled = always,
+                 .where = Where::everywhere,
+                 .also = "keys keyboard manual documentation hotkeys"}),
+        Command(
+            "help.messages", "Messages", "Lists what was said: what went wrong, what to do, and what was done.",
+            [](Dialogs& dialogs, Notifications& notifications) {
+                dialogs.open(Dialog::messages);
+                notifications.mark_read();
+            },
+            {.shortcut = "F8", .enabled = always, .where = Where::everywhere, .also = "log console warnings errors"}),
         Command("help.clear_messages", "Clear messages", "Empties the list of messages.", &Notifications::clear,
                 {.enabled = {[](const Notifications& notifications) { return !notifications.all().empty(); },
                              []() -> std::string_view { return "there are none"; }},
@@ -165,7 +170,7 @@ std::string_view first_shortcut(const Command& command) {
 }
 
 Command option_command(const ViewOption& option) {
-    CommandTraits traits{.menu = option.menu, .shortcut = option.shortcut, .enabled = always};
+    CommandTraits traits{.menu = option.menu, .shortcut = option.shortcut, .enabled = always, .also = option.also};
     if (const auto value = option.toggle) {
         const auto flip = [value](Workspace& workspace) {
             workspace.change_view([&](ViewState& view) { view.*value = !(view.*value); });

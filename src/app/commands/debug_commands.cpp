@@ -313,7 +313,11 @@ void copy_link(const Session& session) {
 std::vector<Command> event_commands() {
     const std::vector<Command> rows{
         Command("events.show", "List of events", "Lists the tests of the query in view in place of its recursion.",
-                show_list, {.shortcut = "R", .enabled = with_events(), .checked = shows_list}),
+                show_list,
+                {.shortcut = "R",
+                 .enabled = with_events(),
+                 .checked = shows_list,
+                 .also = "table spreadsheet event browser log trace calls"}),
         Command("events.filter", "Filter by", "Lists the events that pass a filter: gap < 0.05 and level(a) >= 3.",
                 filter_events,
                 {.menu = kNoMenu, .argument = "FILTER", .enabled = with_events(), .present = filter_now}),
@@ -360,9 +364,11 @@ std::vector<Command> event_commands() {
         Command("events.remove_saved", "Remove a saved filter", "Removes a filter that is saved with the scene.",
                 remove_filter, {.argument = "NAME", .enabled = {has_filters, why_no_filter}, .choices = filter_names}),
         Command("events.copy", "Copy the list", "Copies the rows of the list of events, with tabs between columns.",
-                [](Session& session) { copy_with_note(session, copy_rows<'\t'>); }, {.enabled = with_events()}),
+                [](Session& session) { copy_with_note(session, copy_rows<'\t'>); },
+                {.enabled = with_events(), .also = "table spreadsheet clipboard"}),
         Command("events.copy_csv", "Copy the list as CSV", "Copies the rows of the list of events as CSV.",
-                [](Session& session) { copy_with_note(session, copy_rows<','>); }, {.enabled = with_events()}),
+                [](Session& session) { copy_with_note(session, copy_rows<','>); },
+                {.enabled = with_events(), .also = "table spreadsheet excel export"}),
     };
     return in_menu("Query/Events", rows);
 }
@@ -371,15 +377,15 @@ std::vector<Command> breakpoint_commands() {
     const std::vector<Command> rows{
         Command("breakpoint.here", "Break at these two nodes",
                 "Adds a breakpoint that holds when the present two nodes are tested, or removes it.", break_here,
-                {.shortcut = "F9", .enabled = with_events(), .checked = breaks_here}),
+                {.shortcut = "F9", .enabled = with_events(), .checked = breaks_here, .also = "breakpoint toggle stop"}),
         Command("breakpoint.next", "Run to the next breakpoint",
                 "Shows the next test at which a breakpoint holds that is on.", to_next_break,
-                {.shortcut = "F4", .repeats = true, .enabled = {has_breaks, why_no_break}}),
+                {.shortcut = "F4", .repeats = true, .enabled = {has_breaks, why_no_break}, .also = "continue resume"}),
         Command("breakpoint.previous", "Run back to a breakpoint",
                 "Shows the last test before at which a breakpoint holds that is on.", to_previous_break,
                 {.shortcut = "Shift+F4", .repeats = true, .enabled = {has_breaks, why_no_break}}),
         Command("breakpoint.add", "Break when...", "Adds a breakpoint, written as a filter: outcome = hit.",
-                add_breakpoint, {.argument = "FILTER"}),
+                add_breakpoint, {.argument = "FILTER", .also = "breakpoint watch condition stop"}),
         Command("breakpoint.switch", "Switch a breakpoint", "Switches a breakpoint on or off.", switch_breakpoint,
                 {.argument = "FILTER", .enabled = {has_breakpoints, why_no_breakpoint}, .choices = breakpoint_texts}),
         Command("breakpoint.remove", "Remove a breakpoint", "Removes a breakpoint.", remove_breakpoint,
@@ -392,7 +398,10 @@ std::vector<Command> bookmark_commands() {
     const std::vector<Command> rows{
         Command("bookmark.add", "Bookmark this step",
                 "Keeps the present step with the scene, under a name if one is given.", add_bookmark,
-                {.shortcut = "Ctrl+B", .argument = "[NAME]", .enabled = with_events()}),
+                {.shortcut = "Ctrl+B",
+                 .argument = "[NAME]",
+                 .enabled = with_events(),
+                 .also = "flag marker remember save"}),
         Command("bookmark.go", "Go to a bookmark", "Shows the query and the step of a bookmark.", go_to_bookmark,
                 {.argument = "NAME", .enabled = {has_bookmarks, why_no_bookmark}, .choices = bookmark_names}),
         Command("bookmark.rename", "Rename the bookmark...", "Gives the bookmark of the present step another name.",

@@ -98,16 +98,22 @@ std::vector<Command> export_commands() {
                     file.empty() ? open_export_dialog(session.dialogs, session.workspace, session.settings)
                                  : write_and_tell(session, order_of_viewport(session.workspace, session.views), file);
                 },
-                {.shortcut = "Ctrl+E", .argument = "[FILE.png]"}),
+                {.shortcut = "Ctrl+E",
+                 .argument = "[FILE.png]",
+                 .also = "screenshot snapshot image png svg pdf vector print figure paper render save video film movie "
+                         "record animation"}),
         Command("file.copy_picture", "Copy picture", "Copies the picture in the middle of the window.",
                 [](Session& session) { copy_picture_of(session, order_of_viewport(session.workspace, session.views)); },
-                {.enabled = kHasPictureClipboard}),
+                {.enabled = kHasPictureClipboard, .also = "screenshot snapshot image clipboard"}),
         Command("file.copy_command", "Copy as command",
-                "Copies the command line that draws this picture again without a window.",
+                "Copies the command line that draws this picture again without a window; with --play it draws all "
+                "frames of the "
+                "motion, as for a film.",
                 [](Session& session) {
                     copy_line_of(session, order_of_viewport(session.workspace, session.views), "picture.png", false);
                 },
-                {.shortcut = "Ctrl+Shift+C"}),
+                {.shortcut = "Ctrl+Shift+C",
+                 .also = "shell terminal script render frames video film movie record animation"}),
         Command("picture.file", "Picture file", "Says where the export dialog writes to.",
                 [](Dialogs& dialogs, Workspace& workspace, const std::string& file) {
                     check_file_name(file);

@@ -38,6 +38,16 @@ CommandTraits left_behind() {
     return traits;
 }
 
+void build_graph(Dialogs& dialogs, CrowdMaker& maker, const std::string& options) {
+    if (options.empty()) return dialogs.open(Dialog::build_graph);
+    maker.build_graph(parse_graph_options(options));
+}
+
+void simulate(Dialogs& dialogs, CrowdMaker& maker, const std::string& options) {
+    if (options.empty()) return dialogs.open(Dialog::simulate);
+    maker.simulate(parse_crowd_order(options));
+}
+
 void save_as(Dialogs& dialogs, Files& files, const std::string& file) {
     if (file.empty()) return dialogs.open(Dialog::save_as);
     files.save_as(file);
@@ -51,12 +61,21 @@ std::vector<Command> file_commands() {
             "file.open", "Open...",
             "Opens a scene, a capture, clips, or a folder of clips, in place of what is open. Several files stand in "
             "quotes.",
-            open_file, {.shortcut = "Ctrl+O", .argument = "[FILE]", .enabled = always, .where = Where::everywhere}),
+            open_file,
+            {.shortcut = "Ctrl+O",
+             .argument = "[FILE]",
+             .enabled = always,
+             .where = Where::everywhere,
+             .also = "import load browse"}),
         Command("file.add", "Add files...", "Adds clips, or the agents and clips of another scene, to what is open.",
-                add_file, {.argument = "[FILE]", .enabled = always}),
+                add_file, {.argument = "[FILE]", .enabled = always, .also = "import append merge load"}),
         Command("file.recent", "Open recent", "Opens a file that was open before.",
                 [](Files& files, const std::string& file) { files.open({file}); },
-                {.argument = "FILE", .enabled = always, .where = Where::everywhere, .choices = recent_names}),
+                {.argument = "FILE",
+                 .enabled = always,
+                 .where = Where::everywhere,
+                 .choices = recent_names,
+                 .also = "history"}),
         Command(
             "file.reopen_last", "Reopen last session",
             "Opens what was open when the window was closed last, as it was seen.", &Files::reopen_last,
@@ -79,16 +98,33 @@ std::vector<Command> file_commands() {
                 [](Files& files, Workspace& workspace) {
                     files.open(std::vector<std::filesystem::path>(workspace.opened));
                 },
-                {.shortcut = "F5", .enabled = [](const Workspace& workspace) { return !workspace.opened.empty(); }}),
+                {.shortcut = "F5",
+                 .enabled = [](const Workspace& workspace) { return !workspace.opened.empty(); },
+                 .also = "refresh reimport"}),
+        Command("crowd.build_graph", "Build a motion graph...",
+                "Cuts a motion graph out of the open clips; options as hubs=4 seconds=1:3 build it without a dialog.",
+                build_graph,
+                {.argument = "[OPTION=VALUE...]",
+                 .enabled = {[](const CrowdMaker& maker) { return maker.why_no_graph().empty(); },
+                             &CrowdMaker::why_no_graph},
+                 .also = "crowd cut recordings"}),
+        Command("crowd.simulate", "Simulate a crowd...",
+                "Lets a crowd play the open motion graph; options as agents=50 area=20x20 begin without a dialog.",
+                simulate,
+                {.argument = "[OPTION=VALUE...]",
+                 .enabled = {[](const CrowdMaker& maker) { return maker.why_no_crowd().empty(); },
+                             &CrowdMaker::why_no_crowd},
+                 .also = "simulation agents run people"}),
         Command("file.save", "Save", "Writes the scene and how it is seen to its file.", &Files::save,
-                {.shortcut = "Ctrl+S"}),
+                {.shortcut = "Ctrl+S", .also = "write store"}),
         Command("file.save_as", "Save as...",
                 "Writes the scene to another file; its clips are still read from where they are.", save_as,
                 {.shortcut = "Ctrl+Shift+S", .argument = "[FILE]"}),
     };
     const std::vector<Command> end{
         Command("file.quit", "Quit", "Ends the program; asks first if there are unsaved changes.",
-                &Files::request_close, {.shortcut = "Ctrl+Q", .enabled = always, .where = Where::everywhere}),
+                &Files::request_close,
+                {.shortcut = "Ctrl+Q", .enabled = always, .where = Where::everywhere, .also = "exit close"}),
     };
     return in_menu("File", joined({rows, export_commands(), end}));
 }

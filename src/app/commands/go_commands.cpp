@@ -175,7 +175,7 @@ std::vector<Command> go_commands() {
     const std::vector<Command> rows{
         Command("go.palette", "Search...", "Finds commands, agents, clips, queries and nodes by a few letters.",
                 [](Dialogs& dialogs) { dialogs.open(Dialog::palette); },
-                {.shortcut = "Ctrl+P", .enabled = always, .where = Where::everywhere}),
+                {.shortcut = "Ctrl+P", .enabled = always, .where = Where::everywhere, .also = "find commands"}),
         Command("go.agent", "Agent", "Selects an agent.", go_agent,
                 {.argument = "NAME", .choices = [](const Session& session) { return NamedPaths(session).names; }}),
         Command("go.clip", "Clip", "Selects a clip.", go_clip, {.argument = "NAME", .choices = clip_names}),

@@ -1,41 +1,88 @@
 #include <app/commands/arguments.h>
 #include <app/commands/palette_entries.h>
 #include <app/document/agents.h>
+#include <base/text.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cstddef>
+#include <functional>
 #include <initializer_list>
 #include <limits>
 #include <optional>
+#include <span>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::app {
 
 namespace {
 
-// A word that a title has says more than the same in the id or the explanation.
-constexpr double kIdShare = 0.8;
+// What it counts that a word of a text is the one that is looked for, begins with it, or holds it.
+constexpr double kWhole = 1;
+constexpr double kBegin = 0.8;
+constexpr double kWithin = 0.3;
+constexpr std::size_t kLeastWithin = 3;  // letters
+// ... that its letters are strewn about, at most.
+constexpr double kStrewn = 0.1;
+// A title says more than the same word elsewhere.
+constexpr double kAlsoShare = 0.7;
+constexpr double kIdShare = 0.6;
 constexpr double kDocShare = 0.3;
+constexpr double kOtherPlaces = 0.1;  // of the same word in the other fields
+constexpr double kPerLetter = 1e-4;   // shorter titles say more of what was meant
 constexpr std::size_t kMostQueries = 2000;
+
+// ... of the letters of fuzzy_score.
+constexpr double kLetter = 1;
+constexpr double kWordStart = 6;
+constexpr double kRun = 7;
+constexpr double kLeastPerLetter = 4;  // below, the letters are strewn about
+constexpr double kPerLength = 0.02;    // shorter texts say more of what was meant
+constexpr double kNone = -std::numeric_limits<double>::infinity();
+
+bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || static_cast<unsigned char>(c) >= 0x80; }
+
+char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
 struct SearchField {
     std::string_view text;
     double share = 1;
-    bool sentence = false;
+    bool by_words = false;  ///< many words, in which a few letters would be found always
 };
 
+/// What letters of a word are looked for where no word begins with it.
+enum class Letters { together, strewn };
+
+/// What it counts that a word is found in a field; 0: it is not.
+double found_in(std::string_view word, const SearchField& field, Letters letters) {
+    if (const auto begun = word_score(word, field.text)) return *begun;
+    if (field.by_words) return 0;
+    const bool within = !std::ranges::search(field.text, word, {}, lower, lower).empty();
+    if (within && word.size() >= kLeastWithin) return kWithin;
+    if (letters == Letters::together) return 0;
+    const double most = (kLetter + kRun) * static_cast<double>(word.size());
+    return kStrewn * std::max(fuzzy_score(word, field.text).value_or(0), 0.0) / most;
+}
+
 /// Every word must be found in some field, in any order.
-std::optional<double> score(const std::vector<std::string>& words, std::initializer_list<SearchField> fields) {
+std::optional<double> score(const std::vector<std::string>& words, std::initializer_list<SearchField> fields,
+                            Letters letters) {
     double sum = 0;
     for (const std::string& word : words) {
-        std::optional<double> best;
+        double best = 0;
+        double all = 0;
         for (const SearchField& field : fields) {
-            const auto found = field.sentence ? word_score(word, field.text) : fuzzy_score(word, field.text);
-            if (found) best = std::max(best.value_or(0), *found * field.share);
+            const double here = field.share * found_in(word, field, letters);
+            best = std::max(best, here);
+            all += here;
         }
-        if (!best) return std::nullopt;
-        sum += *best;
+        if (best == 0) return std::nullopt;
+        sum += best + kOtherPlaces * (all - best);
     }
     return sum;
 }
@@ -47,18 +94,36 @@ struct Scored {
 
 class Collector {
   public:
-    Collector(const Session& session, const std::string& text) : session_(session), words_(words_of(text)) {}
+    Collector(const Session& session, const std::string& text, Letters letters)
+        : session_(session), words_(words_of(text)), letters_(letters) {}
 
-    void add(std::string_view id, std::string argument, std::string title, std::string detail,
-             std::initializer_list<SearchField> fields) {
-        const auto found = score(words_, fields);
+    /// `extra` counts besides what is found. `says`: the words that stand beside the title where it has not all that
+    /// was looked for.
+    void add(const Command& command, std::string argument, std::string title, std::string_view detail,
+             std::initializer_list<SearchField> fields, std::span<const std::string> words, double extra = 0) {
+        const std::vector<std::string> looked_for(words.begin(), words.end());
+        const auto found = score(looked_for, fields, letters_);
         if (!found) return;
-        const Command* command = find_command(id, commands(session_));
-        found_.push_back({*found,
-                          {command, std::move(argument), std::move(title), std::move(detail),
-                           std::string(first_shortcut(*command)), std::string(why_not(session_, *command))}});
+        const bool in_title = score(looked_for, {{title}}, letters_).has_value();
+        const double points = *found + extra - kPerLetter * static_cast<double>(title.size());
+        found_.push_back({points,
+                          {&command, std::move(argument), std::move(title), std::string(detail),
+                           std::string(in_title ? std::string_view() : command.doc),
+                           std::string(first_shortcut(command)), std::string(why_not(session_, command))}});
     }
+    /// ... of a thing.
+    void add(std::string_view id, std::string argument, std::string title, std::string_view detail,
+             std::initializer_list<SearchField> fields) {
+        add(*find_command(id, commands(session_)), std::move(argument), std::move(title), detail, fields, words_);
+    }
+    const std::vector<std::string>& words() const { return words_; }
     bool has_words() const { return !words_.empty(); }
+    /// Whether one of the words is found in a text.
+    bool is_any_in(std::string_view text) const {
+        return std::ranges::any_of(words_,
+                                   [&](const std::string& word) { return found_in(word, {text}, letters_) > 0; });
+    }
+    bool empty() const { return found_.empty(); }
 
     std::vector<PaletteEntry> sorted() && {
         std::stable_sort(found_.begin(), found_.end(), [](const Scored& a, const Scored& b) {
@@ -74,24 +139,93 @@ class Collector {
   private:
     const Session& session_;
     std::vector<std::string> words_;
+    Letters letters_;
     std::vector<Scored> found_;
 };
 
-void add_command(Collector& out, const Session& session, const Command& command) {
-    const std::string title(command.title);
-    const std::string menu(command.menu);
-    out.add(command.id, "", title, menu, {{title}, {command.id, kIdShare}, {command.doc, kDocShare, true}});
-    // Those of `go` are the things themselves.
-    if (!out.has_words() || !command.choices || command.id.starts_with("go.")) return;
-    for (const std::string& choice : command.choices(session)) {
-        std::string named = title;
-        named.append(": ").append(title_of_choice(command, choice));
-        // Scripts' name for it is found too, where menus have another.
-        out.add(command.id, choice, named, menu, {{named}, {command.id, kIdShare}, {choice, kIdShare}});
+// --- arguments in the text
+
+std::string_view without_dots(std::string_view title) {
+    return title.ends_with("...") ? title.substr(0, title.size() - 3) : title;
+}
+
+/// The parts of a text between the characters of `separators`.
+std::vector<std::string_view> parts_of(std::string_view text, std::string_view separators) {
+    std::vector<std::string_view> out;
+    while (true) {
+        const std::size_t end = text.find_first_of(separators);
+        out.push_back(text.substr(0, end));
+        if (end == std::string_view::npos) return out;
+        text.remove_prefix(end + 1);
     }
 }
 
-char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+/// Whether a word can stand for one of a command's argument: "N" for a whole number, "S", "DX" or "FACTOR" for a
+/// number, "leaves" for itself. What stands for a name takes anything, and is not guessed.
+bool fits_placeholder(std::string_view placeholder, std::string_view word) {
+    static constexpr std::array<std::string_view, 7> kNumbers{"DEG", "DX", "DY", "FACTOR", "FROM", "SECONDS", "TO"};
+    if (placeholder == "N" || placeholder == "K") return parse_int(word).has_value();
+    if (placeholder.size() == 1 || std::ranges::find(kNumbers, placeholder) != kNumbers.end()) {
+        return parse_double(word).has_value();
+    }
+    return placeholder == word && std::ranges::all_of(word, [](char c) { return c >= 'a' && c <= 'z'; });
+}
+
+/// "N", "A:B", "auto": one alternative of a word.
+bool fits_word(std::string_view wanted, std::string_view word) {
+    const auto placeholders = parts_of(wanted, ":,");
+    const auto words = parts_of(word, ":,");
+    return std::ranges::equal(placeholders, words, fits_placeholder);
+}
+
+/// How many words at the end of a text are what a command takes; 0: none are.
+std::size_t words_of_argument(std::string_view argument, const std::vector<std::string>& words) {
+    if (argument.starts_with('[')) argument = argument.substr(1, argument.size() - 2);
+    for (const std::string_view alternative : parts_of(argument, "|")) {
+        const std::vector<std::string> wanted = words_of(alternative);
+        if (wanted.empty() || wanted.size() >= words.size()) continue;
+        const auto last = words.end() - static_cast<std::ptrdiff_t>(wanted.size());
+        if (std::equal(wanted.begin(), wanted.end(), last, fits_word)) return wanted.size();
+    }
+    return 0;
+}
+
+/// "step 400" is the command "Go to step..." with what it takes.
+void add_with_argument(Collector& out, const Command& command) {
+    const std::size_t count = words_of_argument(command.argument, out.words());
+    if (count == 0) return;
+    const std::span<const std::string> all(out.words());
+    const auto head = all.first(all.size() - count);
+    // A letter or two begin too many words.
+    if (std::ranges::any_of(head, [](const std::string& word) { return word.size() < 3; })) return;
+    std::string argument;
+    for (const std::string& word : all.last(count)) argument.append(argument.empty() ? "" : " ").append(word);
+    const std::string title(without_dots(command.title));
+    std::string with = title;
+    with.append(": ").append(argument);
+    out.add(command, argument, std::move(with), command.menu,
+            {{title}, {command.also, kAlsoShare, true}, {command.id, kIdShare, true}}, head,
+            static_cast<double>(count) * kWhole);
+}
+
+void add_command(Collector& out, const Session& session, const Command& command) {
+    const std::string title(command.title);
+    out.add(command, "", title, command.menu,
+            {{title}, {command.also, kAlsoShare, true}, {command.id, kIdShare}, {command.doc, kDocShare, true}},
+            out.words());
+    // Those of `go` are the things themselves.
+    if (!out.has_words() || command.id.starts_with("go.")) return;
+    if (!command.choices) return add_with_argument(out, command);
+    for (const std::string& choice : command.choices(session)) {
+        std::string named(without_dots(title));
+        named.append(": ").append(title_of_choice(command, choice));
+        // What only the other words of the command say is no more about this choice than about the next.
+        if (!out.is_any_in(named) && !out.is_any_in(choice)) continue;
+        // Scripts' name for it is found too, where menus have another.
+        out.add(command, choice, named, command.menu,
+                {{named}, {command.also, kAlsoShare, true}, {command.id, kIdShare}, {choice, kIdShare}}, out.words());
+    }
+}
 
 /// "A 2.1".
 void add_node(Collector& out, const Session& session, const std::string& text) {
@@ -123,42 +257,45 @@ void add_things(Collector& out, const Session& session) {
     }
 }
 
-constexpr double kLetter = 1;
-constexpr double kWordStart = 6;
-constexpr double kRun = 7;
-constexpr double kLeastPerLetter = 4;  // below, the letters are strewn about
-constexpr double kPerLength = 0.02;    // shorter texts say more of what was meant
-constexpr double kNone = -std::numeric_limits<double>::infinity();
-
-bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || static_cast<unsigned char>(c) >= 0x80; }
-
-}  // namespace
-
-std::vector<PaletteEntry> palette_entries(const Session& session, const std::string& text) {
-    Collector out(session, text);
+void collect(Collector& out, const Session& session, const std::string& text) {
     const bool names = out.has_words();
     if (names && !session.screen) add_node(out, session, text);
     for (const Command& command : commands(session)) {
         if (belongs_here(session, command)) add_command(out, session, command);
     }
-    if (!names) return std::move(out).sorted();
+    if (!names) return;
     if (!session.screen) add_things(out, session);
     for (const NamedThing& thing : session.screen ? session.screen->things() : std::vector<NamedThing>()) {
-        out.add(thing.command, thing.name, thing.name, std::string(thing.kind), {{thing.name}, {thing.kind}});
+        out.add(thing.command, thing.name, thing.name, thing.kind, {{thing.name}, {thing.kind}});
     }
-    return std::move(out).sorted();
+}
+
+}  // namespace
+
+std::vector<PaletteEntry> palette_entries(const Session& session, const std::string& text) {
+    Collector out(session, text, Letters::together);
+    collect(out, session, text);
+    if (!out.empty()) return std::move(out).sorted();
+    // Letters that are strewn about are found nearly everywhere, so words go first.
+    Collector strewn(session, text, Letters::strewn);
+    collect(strewn, session, text);
+    return std::move(strewn).sorted();
 }
 
 std::vector<std::string> matching_choices(const Session& session, const Command& command, const std::string& text) {
-    std::vector<std::pair<double, std::string>> found;
-    if (command.choices) {
-        for (std::string& choice : command.choices(session)) {
-            if (const auto points = score(words_of(text), {{choice}})) found.emplace_back(*points, std::move(choice));
+    if (!command.choices) return {};
+    const std::vector<std::string> all = command.choices(session);
+    std::vector<std::pair<double, std::string>> matching;
+    for (const Letters letters : {Letters::together, Letters::strewn}) {
+        for (const std::string& choice : all) {
+            const auto points = score(words_of(text), {{choice}, {title_of_choice(command, choice)}}, letters);
+            if (points) matching.emplace_back(*points, choice);
         }
+        if (!matching.empty()) break;
     }
-    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::stable_sort(matching.begin(), matching.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<std::string> out;
-    for (auto& [points, choice] : found) out.push_back(std::move(choice));
+    for (auto& [points, choice] : matching) out.push_back(std::move(choice));
     return out;
 }
 
@@ -189,12 +326,15 @@ std::optional<double> fuzzy_score(std::string_view word, std::string_view text) 
 }
 
 std::optional<double> word_score(std::string_view word, std::string_view text) {
+    std::optional<double> best;
     for (std::size_t at = 0; at + word.size() <= text.size(); ++at) {
         if (at > 0 && in_word(text[at - 1])) continue;
-        const std::string_view here = text.substr(at, word.size());
-        if (std::ranges::equal(word, here, {}, lower, lower)) return fuzzy_score(word, here);
+        if (!std::ranges::equal(word, text.substr(at, word.size()), {}, lower, lower)) continue;
+        const std::size_t end = at + word.size();
+        if (end == text.size() || !in_word(text[end])) return kWhole;
+        best = kBegin;
     }
-    return std::nullopt;
+    return best;
 }
 
 }  // namespace mobbscope::app

@@ -68,7 +68,7 @@ std::vector<Command> proof_commands() {
                 to_numbered, {.menu = kNoMenu, .argument = "N", .enabled = kHasLines}),
         Command("proof.save", "Save the proof...",
                 "Writes the proof of the query in view, which `mobbscope verify` checks against the samples alone.",
-                save_proof, {.argument = "[FILE.json]", .enabled = kHasLines}),
+                save_proof, {.argument = "[FILE.json]", .enabled = kHasLines, .also = "certificate export"}),
     };
 }
 

@@ -214,7 +214,7 @@ void show_worst(CostInspector& costs, QueryInspector& queries, Keys& keys) {
 std::vector<Command> query_commands() {
     const std::vector<Command> rows{
         Command("query.select", "Show query", "Shows a query, by its number from 0, with its answer.", select,
-                {.menu = kNoMenu, .argument = "N", .enabled = has_queries}),
+                {.menu = kNoMenu, .argument = "N", .enabled = has_queries, .also = "pair collision ray"}),
         Command("query.next", "Next query", "Shows the next query of the list with its answer.", show_beside<1>,
                 {.shortcut = "PageDown", .repeats = true, .enabled = has_query_beside<1>}),
         Command("query.previous", "Previous query", "Shows the previous query of the list with its answer.",
@@ -230,11 +230,14 @@ std::vector<Command> query_commands() {
                          return kQueryOrders[static_cast<std::size_t>(costs.order)] == text;
                      }}),
         Command("query.worst", "Costliest query", "Shows the query with the most tests.", show_worst,
-                {.enabled = {has_queries, why_no_query}}),
+                {.enabled = {has_queries, why_no_query}, .also = "worst slowest expensive hot"}),
         Command("query.none", "Close the query", "Leaves the query in view for the levels of all trees.", leave,
-                {.shortcut = "Q", .enabled = {in_query, why_no_step}}),
+                {.shortcut = "Q", .enabled = {in_query, why_no_step}, .also = "exit leave back"}),
         Command("query.add", "Ask against", "Asks whether the selected agent collides with another.", add_against,
-                {.argument = "AGENT", .enabled = {has_selected_of_several, why_no_agent}, .choices = others}),
+                {.argument = "AGENT",
+                 .enabled = {has_selected_of_several, why_no_agent},
+                 .choices = others,
+                 .also = "new collide collision test"}),
         Command("query.remove", "Remove the query", "Asks the selected query, or that in view, no more.", remove_edited,
                 {.enabled =
                      [](const Workspace& workspace) { return edited_query(workspace) && query_total(workspace) > 1; }}),
@@ -242,22 +245,23 @@ std::vector<Command> query_commands() {
             "query.capture", "Open as a capture",
             "Opens the two of a query as a scene of their own, their samples inside and the answer expected; saved, "
             "it stands alone.",
-            capture, {.argument = "[N]", .enabled = {may_capture, why_no_capture}}),
+            capture, {.argument = "[N]", .enabled = {may_capture, why_no_capture}, .also = "save repro bug"}),
         Command("query.copy_command", "Copy the query as command",
                 "Shows a query and copies the command line that draws it again without a window.", copy_query_command,
                 {.argument = "[N]", .enabled = {has_queries, why_no_query}}),
         Command("query.copy_answer", "Copy the answer in words",
                 "Shows a query and copies whether the two collide, and why.", copy_answer,
-                {.argument = "[N]", .enabled = {has_queries, why_no_query}}),
+                {.argument = "[N]", .enabled = {has_queries, why_no_query}, .also = "why"}),
         Command("query.judge", "Judge all overlaps",
                 "Finds out which overlaps of the query in view were avoidable, where there are too many to do so at "
                 "once.",
-                judge_all, {.enabled = {in_query, why_no_step}}),
+                judge_all, {.enabled = {in_query, why_no_step}, .also = "waste avoidable false positive"}),
         Command(
             "query.blame", "Sum avoidable overlaps by node",
             "Asks all queries and counts, by node, the overlaps that a tighter box would have avoided; the facts of "
             "a selected node say it then.",
-            count_blame, {.enabled = {has_queries, why_no_query}}),
+            count_blame,
+            {.enabled = {has_queries, why_no_query}, .also = "waste wasted loose worst false positive unnecessary"}),
         Command("query.expect", "Expect this answer",
                 "Writes the present answer into the scene: `mobbscope query` then says when it has changed.", expect,
                 {.enabled = [](const Workspace& workspace) { return edited_query(workspace).has_value(); },

@@ -143,7 +143,7 @@ std::vector<Command> reason_commands() {
         Command("reasons.at", "Reasons at a moment",
                 "Lists the tests, from the roots on, that decided about a moment in seconds, and puts the time cursor "
                 "there.",
-                reasons_at, {.menu = kNoMenu, .argument = "S", .enabled = in_query}),
+                reasons_at, {.menu = kNoMenu, .argument = "S", .enabled = in_query, .also = "why explain because"}),
         Command("reasons.of_point", "Reasons at a point of the recursion map",
                 "Lists the tests that decided about a moment of A and one of B, in seconds.", reasons_of_point,
                 {.menu = kNoMenu, .argument = "TIME_A TIME_B", .enabled = in_query}),
@@ -158,12 +158,13 @@ std::vector<Command> reason_commands() {
                 {.enabled = {[](const Workspace& workspace) { return side_of_sample(workspace).has_value(); },
                              [](const Workspace& workspace) -> std::string_view {
                                  return workspace.view().query ? "no sample of the query is selected" : kNoQuery;
-                             }}}),
+                             }},
+                 .also = "reason explain because"}),
         Command("reasons.none", "No reasons", "Empties the list of reasons.", no_reasons,
                 {.menu = kNoMenu, .enabled = has_place_asked}),
         Command("focus.branch", "Focus on this branch",
                 "Restricts lists and counts to the pair under test, or that of a step, and to those below it.",
-                focus_branch, {.argument = "[N]", .enabled = in_query}),
+                focus_branch, {.argument = "[N]", .enabled = in_query, .also = "isolate zoom only"}),
         Command("focus.time", "Focus on a time...",
                 "Restricts lists and counts to pairs with a part in a time, in seconds.", focus_time,
                 {.argument = "FROM:TO", .enabled = in_query}),
@@ -186,7 +187,8 @@ std::vector<Command> reason_commands() {
              .chosen =
                  [](const CostInspector& costs, const std::string& text) {
                      return kBranchesOf[static_cast<std::size_t>(costs.branches_of)] == text;
-                 }}),
+                 },
+             .also = "hot path profile expensive worst waste"}),
         Command("branches.of_node", "Costs of a node",
                 "Lists over all queries which pairs called pairs with a node of a clip's tree, and which those called.",
                 show_sandwich, {.menu = kNoMenu, .argument = "CLIP NODE", .enabled = with_queries}),

@@ -20,10 +20,14 @@ std::string_view why_nobody(const Workspace& workspace) {
 
 /// About those that are selected.
 Command of_selected(std::string_view id, std::string_view title, std::string_view key, std::string_view doc,
-                    Change change, Holds holds) {
+                    Change change, Holds holds, std::string_view also) {
     const auto act = [change](Workspace& workspace) { change(workspace, selected_agents(workspace)); };
     const auto is_so = [holds](const Workspace& workspace) { return holds(workspace, selected_agents(workspace)); };
-    return {id, title, doc, act, {.shortcut = key, .enabled = {has_selected_agents, why_nobody}, .checked = is_so}};
+    return {id,
+            title,
+            doc,
+            act,
+            {.shortcut = key, .enabled = {has_selected_agents, why_nobody}, .checked = is_so, .also = also}};
 }
 
 /// What agents_meant takes.
@@ -41,13 +45,18 @@ std::vector<std::string> meanings(const Workspace& workspace) {
 }
 
 /// The same about others, as the lists' buttons have it.
-Command of_named(std::string_view id, std::string_view title, std::string_view doc, Change change) {
+Command of_named(std::string_view id, std::string_view title, std::string_view doc, Change change,
+                 std::string_view also) {
     const auto act = [change](Workspace& workspace, const std::string& text) {
         const AgentNames who = agents_meant(workspace, text);
         if (who.empty()) throw std::invalid_argument("no agent plays it");
         change(workspace, who);
     };
-    return {id, title, doc, act, {.menu = kNoMenu, .argument = "NAME|clip:NAME|group:NAME", .choices = meanings}};
+    return {id,
+            title,
+            doc,
+            act,
+            {.menu = kNoMenu, .argument = "NAME|clip:NAME|group:NAME", .choices = meanings, .also = also}};
 }
 
 /// Where a run's people stand is what it is about.
@@ -71,36 +80,39 @@ std::vector<Command> shown_commands() {
         of_selected("agent.hide", "Hide", "V",
                     "Takes the selected agent, or the agents of the selected clip, out of the picture, or brings them "
                     "back; answers stay.",
-                    toggle_hidden, are_hidden),
+                    toggle_hidden, are_hidden, "invisible visibility eye"),
         of_selected("agent.solo", "Show alone", "I",
                     "Hides all but the selected agent, or the selected clip's, and those that are pinned; once more "
                     "shows what was in the picture before.",
-                    toggle_isolated, are_isolated),
+                    toggle_isolated, are_isolated, "isolate only local solo"),
         of_selected("agent.pin", "Pin", "P",
                     "Keeps the selected agent in the picture when another is shown alone, and its colour where others "
                     "dim.",
-                    toggle_pinned, are_pinned),
+                    toggle_pinned, are_pinned, "keep lock"),
         Command("agent.show_all", "Show all", "Brings everybody who is hidden back into the picture.", show_all,
                 {.shortcut = "Shift+V",
                  .enabled = {[](const Workspace& workspace) { return !workspace.view().hidden.empty(); },
-                             [] { return std::string_view("nobody is hidden"); }}}),
+                             [] { return std::string_view("nobody is hidden"); }},
+                 .also = "unhide reveal visible everybody"}),
         of_selected("agent.foreground", "In the foreground", "",
                     "Draws the selected agent, or the selected clip's, whole and named beside those in the foreground, "
                     "and leaves an outline of all others; once more takes it back.",
-                    toggle_foreground, are_in_foreground),
+                    toggle_foreground, are_in_foreground, "highlight spotlight ghost others"),
         Command("agent.all_in_full", "Everybody in full",
                 "Ends the foreground: draws everybody, seen from where they were seen before.", show_in_full,
-                {.enabled = [](const Workspace& workspace) { return !workspace.view().foreground.empty(); }}),
+                {.enabled = [](const Workspace& workspace) { return !workspace.view().foreground.empty(); },
+                 .also = "unhide reveal reset"}),
         arrange_command(),
         of_named("agents.hide", "Hide by name", "Hides an agent, or all of a clip or a group of clips, or shows them.",
-                 toggle_hidden),
+                 toggle_hidden, "invisible visibility"),
         of_named("agents.solo", "Show alone by name",
                  "Shows an agent, or all of a clip or a group of clips, with those that are pinned alone.",
-                 toggle_isolated),
+                 toggle_isolated, "isolate only solo filter"),
         of_named("agents.foreground", "In the foreground by name",
                  "Draws an agent, or all of a clip or a group of clips, whole and named, and outlines of all others.",
-                 toggle_foreground),
-        of_named("agents.pin", "Pin by name", "Pins an agent, or all of a clip or a group of clips.", toggle_pinned),
+                 toggle_foreground, "highlight spotlight"),
+        of_named("agents.pin", "Pin by name", "Pins an agent, or all of a clip or a group of clips.", toggle_pinned,
+                 "keep lock"),
     };
     return in_menu("View/Agents", rows);
 }

@@ -193,11 +193,11 @@ std::vector<Command> step_commands() {
     const CommandTraits of_depth{.menu = kNoMenu, .argument = "K", .enabled = {has_queries, why_no_step}};
     const std::vector<Command> rows{
         Command("step.first", "First step", "Shows the first test of the query.", first,
-                {.shortcut = "Shift+Left", .enabled = {has_queries, why_no_step}}),
+                {.shortcut = "Shift+Left", .enabled = {has_queries, why_no_step}, .also = "rewind restart beginning"}),
         Command("step.back", "Step back", "Shows the test before.", back,
-                {.shortcut = "Left", .repeats = true, .enabled = {has_queries, why_no_step}}),
+                {.shortcut = "Left", .repeats = true, .enabled = {has_queries, why_no_step}, .also = "previous"}),
         Command("step.forward", "Step forward", "Shows the next test.", forward,
-                {.shortcut = "Right", .repeats = true, .enabled = {has_queries, why_no_step}}),
+                {.shortcut = "Right", .repeats = true, .enabled = {has_queries, why_no_step}, .also = "next"}),
         Command("step.last", "Last step", "Shows the last test, with the answer.", last,
                 {.shortcut = "Shift+Right", .enabled = {has_queries, why_no_step}}),
         Command("step.before", "Step looked at before",
@@ -208,7 +208,8 @@ std::vector<Command> step_commands() {
                 {.shortcut = "Ctrl+G",
                  .argument = "[N]",
                  .enabled = {in_any_query, why_no_step},
-                 .present = [](const Workspace& workspace) { return std::to_string(workspace.step()); }}),
+                 .present = [](const Workspace& workspace) { return std::to_string(workspace.step()); },
+                 .also = "event jump frame"}),
         found_row<Way::next>("step.next_separated", "Next separation", "S", kSeparated,
                              "Shows the next test that found two boxes separated in space."),
         found_row<Way::next>("step.next_overlap", "Next overlap", "O", kOverlap,
@@ -227,7 +228,7 @@ std::vector<Command> step_commands() {
                                  "Shows the last test of the two leaves before."),
         Command("step.next_avoidable", "Next avoidable overlap",
                 "Shows the next test that found an overlap although one line keeps the disks apart.", to_avoidable<1>,
-                {.shortcut = "U", .enabled = {has_queries, why_no_step}}),
+                {.shortcut = "U", .enabled = {has_queries, why_no_step}, .also = "waste wasted loose false positive"}),
         Command("step.previous_avoidable", "Previous avoidable overlap",
                 "Shows the last test before that found an overlap although one line keeps the disks apart.",
                 to_avoidable<-1>, {.shortcut = "Shift+U", .enabled = {has_queries, why_no_step}}),
@@ -251,7 +252,8 @@ std::vector<Command> step_commands() {
                  .enabled = {[](const Workspace& workspace, const QueryInspector& queries) {
                                  return first_below(workspace, queries).has_value();
                              },
-                             why_no_step}}),
+                             why_no_step},
+                 .also = "down enter descend"}),
         Command("step.over", "Step over", "Shows the next test that is not about parts of the present two nodes.",
                 [](Workspace& workspace, QueryInspector& queries) {
                     workspace.go_to_event(*event_after_pair(workspace, queries));
@@ -280,7 +282,8 @@ std::vector<Command> step_commands() {
                  .enabled = {[](const Workspace& workspace) {
                                  return in_any_query(workspace) && parent_event(workspace) >= 0;
                              },
-                             why_no_step}}),
+                             why_no_step},
+                 .also = "up return parent"}),
         Command("step.percent", "Go to a percentage of the steps",
                 "Shows the test at a percentage of the way, 0 to 100.", percent,
                 {.menu = kNoMenu, .argument = "P", .enabled = {in_any_query, why_no_step}}),

@@ -39,12 +39,12 @@ void frame_by_itself(Camera& camera) {
 
 /// The camera turns about its target, and stays as far from it.
 Command see_from(CameraPreset preset, std::string_view id, std::string_view title, std::string_view key,
-                 std::string_view doc) {
+                 std::string_view doc, std::string_view also) {
     const auto see = [preset](Workspace& workspace) {
         workspace.change_view([&](ViewState& view) { view.camera.preset = preset; });
     };
     const auto is_seen = [preset](const Workspace& workspace) { return workspace.view().camera.preset == preset; };
-    return {id, title, doc, see, {.shortcut = key, .checked = is_seen}};
+    return {id, title, doc, see, {.shortcut = key, .checked = is_seen, .also = also}};
 }
 
 bool may_have_perspective(const Workspace& workspace) {
@@ -319,28 +319,31 @@ void play(Playback& playback) {
 
 std::vector<Command> direction_commands() {
     const std::vector<Command> rows{
-        see_from(CameraPreset::iso, "view.iso", "View from a corner", "1", "Looks from above a corner of the floor."),
+        see_from(CameraPreset::iso, "view.iso", "View from a corner", "1", "Looks from above a corner of the floor.",
+                 "iso isometric 3d"),
         see_from(CameraPreset::top, "view.top", "View from above", "2",
-                 "Looks down on the floor: the paths as on a map."),
+                 "Looks down on the floor: the paths as on a map.", "top plan overhead bird 2d"),
         see_from(CameraPreset::front, "view.front", "View from the front", "3",
-                 "Looks along y: x to the right, time upwards."),
-        see_from(CameraPreset::side, "view.side", "View from the side", "4", "Looks along x: y across, time upwards."),
-        Command(
-            "view.perspective", "Perspective", "Draws what is farther smaller; without it, equal lengths stay equal.",
-            [](Workspace& workspace) {
-                workspace.change_view([](ViewState& view) { view.camera.perspective = !view.camera.perspective; });
-            },
-            {.shortcut = "5",
-             .enabled = may_have_perspective,
-             .checked = [](const Workspace& workspace) { return orientation(workspace.view().camera).perspective; }}),
+                 "Looks along y: x to the right, time upwards.", "elevation"),
+        see_from(CameraPreset::side, "view.side", "View from the side", "4", "Looks along x: y across, time upwards.",
+                 "right left elevation"),
+        Command("view.perspective", "Perspective",
+                "Draws what is farther smaller; without it, equal lengths stay equal.",
+                [](Workspace& workspace) {
+                    workspace.change_view([](ViewState& view) { view.camera.perspective = !view.camera.perspective; });
+                },
+                {.shortcut = "5",
+                 .enabled = may_have_perspective,
+                 .checked = [](const Workspace& workspace) { return orientation(workspace.view().camera).perspective; },
+                 .also = "orthographic ortho lens"}),
         Command(
             "view.frame", "Frame the selection",
             "Brings what is selected into the middle, as large as it fits; without a selection the pair under test, "
             "else everything. Following somebody, it goes along with who is selected.",
-            frame_selection, {.shortcut = "F"}),
+            frame_selection, {.shortcut = "F", .also = "zoom to fit focus centre center"}),
         Command("view.frame_all", "Frame everything",
                 "Shows all that there is in the picture again, from the present direction: of a slab what lies in it.",
-                frame_all, {.shortcut = "Home"}),
+                frame_all, {.shortcut = "Home", .also = "home reset zoom to fit all centre center"}),
         Command("view.follow_test", "Follow the test",
                 "Lets the camera go to the pair under test whenever a step's boxes are cut off, lie below a panel, or "
                 "are small in the picture.",
@@ -356,10 +359,10 @@ std::vector<Command> movement_commands() {
                 [](Views& views, Workspace& workspace, const std::string& text) {
                     zoom(views, workspace, number_in(text, "the factor", 1e-3, 1e3));
                 },
-                {.menu = kNoMenu, .argument = "FACTOR"}),
+                {.menu = kNoMenu, .argument = "FACTOR", .also = "closer"}),
         Command("view.zoom_in", "Zoom in", "Goes nearer.",
                 [](Views& views, Workspace& workspace) { zoom(views, workspace, kKeyZoom); },
-                {.shortcut = "=", .repeats = true}),
+                {.shortcut = "=", .repeats = true, .also = "closer"}),
         Command("view.zoom_out", "Zoom out", "Goes farther away.",
                 [](Views& views, Workspace& workspace) { zoom(views, workspace, 1 / kKeyZoom); },
                 {.shortcut = "-", .repeats = true}),
@@ -367,7 +370,7 @@ std::vector<Command> movement_commands() {
                 [](Views& views, Workspace& workspace, const std::string& text) {
                     orbit(views, workspace, two_numbers(text, "the angles"));
                 },
-                {.menu = kNoMenu, .argument = "DX DY"}),
+                {.menu = kNoMenu, .argument = "DX DY", .also = "rotate tumble"}),
         orbit_step({-1, 0}, "view.orbit_left", "Turn to the left", "Alt+Left",
                    "Turns the scene to the left by 5 degrees."),
         orbit_step({1, 0}, "view.orbit_right", "Turn to the right", "Alt+Right",
@@ -383,7 +386,7 @@ std::vector<Command> movement_commands() {
                         return panned(camera, pixels, picture.size);
                     });
                 },
-                {.menu = kNoMenu, .argument = "DX DY"}),
+                {.menu = kNoMenu, .argument = "DX DY", .also = "move track"}),
         option_command(view_option("frame_boxes")),
     };
     return in_menu("View/Camera", rows);
@@ -394,7 +397,7 @@ std::vector<Command> picture_commands() {
         Command("view.moment", "Show the moment",
                 "Shows people in their cylinders on the floor at the moment of the time cursor, or space-time again.",
                 [](Workspace& workspace, Views& views) { toggle_floor(workspace, views, Show::moment); },
-                {.shortcut = "M", .checked = shows_moment}),
+                {.shortcut = "M", .checked = shows_moment, .also = "floor people instant cylinders now"}),
         Command("view.plan", "Floor plan",
                 "Shows the floor from above at the moment of the time cursor: every disk, and the sections of the "
                 "boxes that are shown; or space-time again.",
@@ -466,23 +469,26 @@ std::vector<Command> level_commands() {
                 set_shown_levels,
                 {.menu = kNoMenu,
                  .argument = "N|A:B|leaves",
-                 .present = [](const Workspace& workspace) { return to_string(workspace.view().levels); }}),
+                 .present = [](const Workspace& workspace) { return to_string(workspace.view().levels); },
+                 .also = "depth lod"}),
         Command("view.finer", "Finer level", "Shows the boxes one level further down the trees.", finer,
-                {.shortcut = "]", .repeats = true, .enabled = {can_be_finer, why_no_level}}),
+                {.shortcut = "]", .repeats = true, .enabled = {can_be_finer, why_no_level}, .also = "deeper down"}),
         Command("view.coarser", "Coarser level", "Shows the boxes one level nearer to the roots.", coarser,
-                {.shortcut = "[", .repeats = true, .enabled = {can_be_coarser, why_no_level}}),
+                {.shortcut = "[", .repeats = true, .enabled = {can_be_coarser, why_no_level}, .also = "shallower up"}),
         Command(
             "view.leaves", "Leaves", "Shows the leaves of the trees, whatever their level; leaves the query in view.",
             [](Workspace& workspace) { set_shown_levels(workspace, "leaves"); },
             {.shortcut = "E",
              .checked =
-                 [](const Workspace& workspace) { return !workspace.view().query && workspace.view().levels.leaves; }}),
+                 [](const Workspace& workspace) { return !workspace.view().query && workspace.view().levels.leaves; },
+             .also = "leaf deepest bottom"}),
         Command(
             "view.time_height", "Height of a second",
             "Draws a second so many metres high; auto makes the scene about as tall as wide.", set_time_height,
             {.menu = kNoMenu,
              .argument = "M|auto",
-             .present = [](const Workspace& workspace) { return view_option("time_height").text(workspace.view()); }}),
+             .present = [](const Workspace& workspace) { return view_option("time_height").text(workspace.view()); },
+             .also = "vertical scale exaggerate"}),
     };
     return in_menu("View/Levels", rows);
 }
@@ -518,15 +524,21 @@ std::vector<Command> window_commands() {
                  .argument = "X",
                  .enabled = always,
                  .where = Where::everywhere,
-                 .present = [](const Session& session) { return format_double(session.ui_scale()); }}),
+                 .present = [](const Session& session) { return format_double(session.ui_scale()); },
+                 .also = "ui font size dpi settings preferences"}),
         Command("window.larger", "Larger text", "Makes text and panels larger.", larger,
-                {.shortcut = "Ctrl+=", .repeats = true, .enabled = always, .where = Where::everywhere}),
-        Command("window.smaller", "Smaller text", "Makes text and panels smaller.", smaller,
-                {.shortcut = "Ctrl+-", .repeats = true, .enabled = always, .where = Where::everywhere}),
+                {.shortcut = "Ctrl+=",
+                 .repeats = true,
+                 .enabled = always,
+                 .where = Where::everywhere,
+                 .also = "font bigger ui"}),
+        Command(
+            "window.smaller", "Smaller text", "Makes text and panels smaller.", smaller,
+            {.shortcut = "Ctrl+-", .repeats = true, .enabled = always, .where = Where::everywhere, .also = "font ui"}),
         Command("window.scale_reset", "Usual text size",
                 "Makes text and panels as large as the monitor's scale asks for.",
                 [](Settings& settings) { settings.ui_scale = 0; },
-                {.shortcut = "Ctrl+0", .enabled = always, .where = Where::everywhere}),
+                {.shortcut = "Ctrl+0", .enabled = always, .where = Where::everywhere, .also = "reset font ui"}),
     };
     return in_menu("View/Window", rows);
 }
@@ -542,7 +554,8 @@ std::vector<Command> time_commands() {
                  .present =
                      [](const Workspace& workspace) {
                          return workspace.view().time ? format_double(*workspace.view().time) : std::string();
-                     }}),
+                     },
+                 .also = "moment seek scrub goto frame"}),
         Command(
             "time.clear", "No time cursor", "Takes the time cursor out of the picture.",
             [](Playback& playback, Workspace& workspace) {
@@ -552,24 +565,28 @@ std::vector<Command> time_commands() {
             {.enabled =
                  [](const Workspace& workspace) { return workspace.view().time.has_value() && !workspace.crowd(); }}),
         Command("time.play", "Play", "Lets the time cursor run, or stops it.", play,
-                {.shortcut = "Space", .checked = [](const Playback& playback) { return playback.playing(); }}),
+                {.shortcut = "Space",
+                 .checked = [](const Playback& playback) { return playback.playing(); },
+                 .also = "animate animation pause stop run video film movie record"}),
         Command("time.start", "To the first moment", "Puts the time cursor where the first path begins.",
-                [](Workspace& workspace) { set_time(workspace, time_span(workspace).t0); }),
+                [](Workspace& workspace) { set_time(workspace, time_span(workspace).t0); },
+                {.also = "rewind beginning first frame"}),
         Command("time.end", "To the last moment", "Puts the time cursor where the last path ends.",
-                [](Workspace& workspace) { set_time(workspace, time_span(workspace).t1); }),
+                [](Workspace& workspace) { set_time(workspace, time_span(workspace).t1); }, {.also = "last frame"}),
         Command("time.forward", "A sample on", "Moves the time cursor on by a sample.",
                 [](Workspace& workspace, Playback& playback) { step_time(workspace, playback, 1); },
-                {.shortcut = ".", .repeats = true}),
+                {.shortcut = ".", .repeats = true, .also = "next frame"}),
         Command("time.back", "A sample back", "Moves the time cursor back by a sample.",
                 [](Workspace& workspace, Playback& playback) { step_time(workspace, playback, -1); },
-                {.shortcut = ",", .repeats = true}),
+                {.shortcut = ",", .repeats = true, .also = "previous frame"}),
         Command("time.speed", "Speed of playing", "Plays so many seconds of the scene in a second, 0.01 to 100.",
                 [](Playback& playback, const std::string& text) {
                     playback.speed = number_in(text, "the speed", 0.01, 100);
                 },
                 {.argument = "X",
                  .enabled = always,
-                 .present = [](const Playback& playback) { return format_double(playback.speed); }}),
+                 .present = [](const Playback& playback) { return format_double(playback.speed); },
+                 .also = "fps rate slow motion playback"}),
     };
     return in_menu("View/Time", rows);
 }

@@ -80,7 +80,7 @@ void dropped(Ui& ui) {
 void ask_for_file(Ui& ui) { file_dialog(ui, ui.session.dialogs, ui.session.settings); }
 
 using Draw = void (*)(Ui&);
-constexpr std::array<std::pair<Dialog, Draw>, 15> kDrawn{
+constexpr std::array<std::pair<Dialog, Draw>, 17> kDrawn{
     {{Dialog::open, ask_for_file},
      {Dialog::add, ask_for_file},
      {Dialog::save_as, ask_for_file},
@@ -95,7 +95,9 @@ constexpr std::array<std::pair<Dialog, Draw>, 15> kDrawn{
      {Dialog::dropped, dropped},
      {Dialog::messages, [](Ui& ui) { message_list(ui, ui.session.dialogs, ui.session.notifications); }},
      {Dialog::import_clip, [](Ui& ui) { import_dialog(ui, ui.session.imports); }},
-     {Dialog::history, history_list}}};
+     {Dialog::history, history_list},
+     {Dialog::build_graph, [](Ui& ui) { graph_dialog(ui, ui.session.crowd_maker); }},
+     {Dialog::simulate, [](Ui& ui) { simulate_dialog(ui, ui.session.crowd_maker); }}}};
 
 }  // namespace
 

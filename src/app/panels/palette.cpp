@@ -9,9 +9,19 @@ namespace mobbscope::app {
 
 namespace {
 
+constexpr float kLeastSays = 60;  // pixels at scale 1
+
+/// What a line of the list shows.
+struct PaletteRow {
+    std::string text;
+    std::string says{};    ///< behind it
+    std::string detail{};  ///< at the right
+    std::string key{};
+    bool enabled = true;
+};
+
 /// One line of the list: what it is, and to the right what it belongs to and its key.
-bool palette_row(Ui& ui, int index, bool picked, const std::string& text, const std::string& detail,
-                 const std::string& key, bool enabled) {
+bool palette_row(Ui& ui, int index, bool picked, const PaletteRow& row) {
     const float height = ImGui::GetTextLineHeight() + ui.px(8);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x;
@@ -20,20 +30,28 @@ bool palette_row(Ui& ui, int index, bool picked, const std::string& text, const 
     ImGui::PopID();
     ui.mark_only("palette." + std::to_string(index));
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const float y = at.y + (height - ImGui::GetFontSize()) / 2;
+    const float text_height = ImGui::GetFontSize();
+    const float y = at.y + (height - text_height) / 2;
     const float pad = ui.px(8);
     float right = at.x + width - pad;
     const auto put = [&](const ImFont& font, const std::string& what) {
         if (what.empty()) return;
         right -= text_size(font, what).x;
-        draw_text(draw, font, {right, y + (ImGui::GetFontSize() - font.FontSize) / 2}, ui.style.quiet, what);
+        draw_text(draw, font, {right, y + (text_height - font.FontSize) / 2}, ui.style.quiet, what);
         right -= 2 * pad;
     };
-    put(*ui.style.mono, key);
-    put(*ui.style.caption, detail);
-    const std::string shown = fitted_name(text, right - at.x - pad);
-    draw.AddText({at.x + pad, y}, enabled ? ui.style.text : ui.style.quiet, shown.c_str());
-    tell_whole(ui, shown, text);
+    put(*ui.style.mono, row.key);
+    put(*ui.style.caption, row.detail);
+    const std::string shown = fitted_name(row.text, right - at.x - pad);
+    draw.AddText({at.x + pad, y}, row.enabled ? ui.style.text : ui.style.quiet, shown.c_str());
+    tell_whole(ui, shown, row.text);
+    const float says = at.x + pad + ImGui::CalcTextSize(shown.c_str()).x + 2 * pad;
+    if (!row.says.empty() && right - says > ui.px(kLeastSays)) {
+        ImGui::PushFont(ui.style.caption);
+        draw_text(draw, *ui.style.caption, {says, y + (text_height - ui.style.caption->FontSize) / 2}, ui.style.quiet,
+                  fitted_text(row.says, right - says));
+        ImGui::PopFont();
+    }
     return clicked;
 }
 
@@ -72,7 +90,7 @@ int pick_from_list(DialogInput& input, int count, bool entered, const Draw& draw
 
 void all(Ui& ui, Dialogs& dialogs) {
     DialogInput& input = dialogs.input;
-    const bool entered = text_field(ui, "Search commands, agents, clips, queries, nodes (A 2.1)").entered;
+    const bool entered = text_field(ui, "Search commands, agents, clips, queries, nodes (A 2.1), step 400").entered;
     ui.mark("palette.input");
     ImGui::Dummy({0, ui.px(2)});
     const std::vector<PaletteEntry> entries = palette_entries(ui.session, input.text);
@@ -80,7 +98,8 @@ void all(Ui& ui, Dialogs& dialogs) {
     const auto draw = [&](int i, bool picked) {
         const PaletteEntry& entry = entries[static_cast<std::size_t>(i)];
         const std::string detail = entry.why_not.empty() ? entry.detail : entry.why_not;
-        const bool clicked = palette_row(ui, i, picked, entry.title, detail, entry.shortcut, entry.why_not.empty());
+        const bool clicked =
+            palette_row(ui, i, picked, {entry.title, entry.says, detail, entry.shortcut, entry.why_not.empty()});
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(entry.command->doc).c_str());
         return clicked;
     };
@@ -106,7 +125,7 @@ void argument(Ui& ui, Dialogs& dialogs, const Command& command) {
     const auto draw = [&](int i, bool picked) {
         const std::string& choice = choices[static_cast<std::size_t>(i)];
         const bool chosen = command.chosen && command.chosen(ui.session, choice);
-        return palette_row(ui, i, picked, title_of_choice(command, choice), chosen ? "now" : "", "", true);
+        return palette_row(ui, i, picked, {.text = title_of_choice(command, choice), .detail = chosen ? "now" : ""});
     };
     const int taken = pick_from_list(input, static_cast<int>(choices.size()), entered, draw);
     if (taken >= 0) return run(ui.session, command, choices[static_cast<std::size_t>(taken)]);

@@ -70,6 +70,8 @@ void import_dialog(Ui& ui, Imports& imports);  ///< how a clip is read from its 
 /// The clip in the import dialog as it is: path, skeleton, radius over time, trim.
 void import_preview(Ui& ui, Imports& imports, const SceneClip& clip);
 void export_dialog(Ui& ui);  ///< how a picture is exported: size, background, what is left out, a preview, the command
-void history_list(Ui& ui);   ///< what can be undone and redone, and the way there
+void graph_dialog(Ui& ui, CrowdMaker& maker);     ///< the options of a motion graph that is cut out of the open clips
+void simulate_dialog(Ui& ui, CrowdMaker& maker);  ///< ... of a crowd that plays the open one
+void history_list(Ui& ui);                        ///< what can be undone and redone, and the way there
 
 }  // namespace mobbscope::app

@@ -41,6 +41,8 @@ constexpr auto kDialogs = std::to_array<DialogRow>({
      .about_scene = true,
      .over = Dialog::export_picture},
     {.name = "save_proof", .has_field = true, .question = &kSaveProof, .about_scene = true},
+    {.name = "build_graph", .about_scene = true, .before_escape = BeforeEscape::popup_or_text},
+    {.name = "simulate", .about_scene = true, .before_escape = BeforeEscape::popup_or_text},
 });
 
 }  // namespace

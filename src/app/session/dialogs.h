@@ -32,7 +32,9 @@ enum class Dialog {
     history,
     folder,       ///< that a screen looks into, see Dialogs::ask_for_folder
     export_file,  ///< where Dialog::export_picture writes to
-    save_proof
+    save_proof,
+    build_graph,
+    simulate
 };
 
 /// A file or a folder that is asked for.

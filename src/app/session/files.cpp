@@ -119,7 +119,7 @@ void Files::tell_of(const std::vector<std::filesystem::path>& changed) {
     }
 }
 
-void Files::load(const std::string& title, const Opening& opening) {
+void Files::load(const std::string& title, const Opening& opening, Replaces replaces) {
     const auto begin = [this, title, opening] {
         // What is opened last is meant.
         parts_.jobs.drop(JobPurpose::opens);
@@ -135,7 +135,7 @@ void Files::load(const std::string& title, const Opening& opening) {
         parts_.jobs.start(title, work, JobPurpose::opens);
     };
     // The scene of a case stays until the file is known to load: what is open before and after is asked for then.
-    suspended_ ? begin() : after_asking(begin);
+    suspended_ || replaces == Replaces::what_it_holds ? begin() : after_asking(begin);
 }
 
 void Files::load_scene(const std::string& title, const LoadAll& load_all,
@@ -145,6 +145,21 @@ void Files::load_scene(const std::string& title, const LoadAll& load_all,
         if (view) document.view = *view;
         return [this, document = std::move(document), files] { replace(document, files); };
     });
+}
+
+void Files::open_made(const std::string& title, const std::function<MadeScene(JobControl&)>& make, Replaces replaces) {
+    load(
+        title,
+        [this, make](JobControl& control) -> std::function<void()> {
+            MadeScene made = make(control);
+            return
+                [this, document = document_of(std::move(made.scene), nullptr, progress_of(control)), then = made.then] {
+                    replace(document, {});
+                    parts_.workspace.saved = document_of({}, nullptr).fitted;
+                    then();
+                };
+        },
+        replaces);
 }
 
 void Files::open_unsaved(const std::filesystem::path& copy, const std::string& title,

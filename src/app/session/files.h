@@ -12,6 +12,15 @@
 
 namespace mobbscope::app {
 
+/// A scene that was made in a job, and what is said once it is open.
+struct MadeScene {
+    Scene scene;
+    std::function<void()> then;
+};
+
+/// Whether what is opened holds all that it replaces: then nobody is asked about unsaved changes.
+enum class Replaces { another, what_it_holds };
+
 class Files {
   public:
     struct Parts {
@@ -35,6 +44,8 @@ class Files {
     void open(const std::vector<std::filesystem::path>& files);
     /// A scene that was read from those files already.
     void open_scene(const Scene& scene, const std::vector<std::filesystem::path>& files);
+    /// What `make` gives, as a scene that is not saved.
+    void open_made(const std::string& title, const std::function<MadeScene(JobControl&)>& make, Replaces replaces);
     /// The scene that comes with the program.
     void open_demo();
     /// Opens settings.last, seen as it was.
@@ -92,7 +103,7 @@ class Files {
     using Opening = std::function<std::function<void()>(JobControl&)>;
     /// Does so after asking if there are unsaved changes. What cannot be loaded leaves all as it was: what `opening`
     /// throws (InputError, MachineError, std::invalid_argument, Cancelled) becomes a message.
-    void load(const std::string& title, const Opening& opening);
+    void load(const std::string& title, const Opening& opening, Replaces replaces = Replaces::another);
     using LoadAll = std::function<Scene(JobControl&)>;
     /// Loads what `load_all` gives, seen as that says or as `view`.
     void load_scene(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files,

@@ -6,6 +6,7 @@
 #include <app/document/query_inspector.h>
 #include <app/document/views.h>
 #include <app/session/cost_inspector.h>
+#include <app/session/crowd_maker.h>
 #include <app/session/excerpts.h>
 #include <app/session/files.h>
 #include <app/session/fit_costs.h>
@@ -102,6 +103,7 @@ class Session {
     Excerpts excerpts{workspace, jobs, playback, crowds, counts};
     Files files{{workspace, jobs, edits, imports, dialogs, notifications, playback, settings, settings_file, counts,
                  options, screen}};
+    CrowdMaker crowd_maker{workspace, files, notifications};
     Recovery recovery{workspace, files, notifications, desktop};
     std::vector<std::unique_ptr<Screen>> screens;          ///< that there are (add_screen)
     std::shared_ptr<const std::vector<Command>> commands;  ///< the table with theirs; null: without
@@ -111,7 +113,8 @@ class Session {
     static auto parts(AnySession& s) {
         return std::tie(s.options, s.settings, s.workspace, s.views, s.queries, s.figures, s.nodes, s.notifications,
                         s.queue, s.keys, s.dialogs, s.jobs, s.playback, s.edits, s.imports, s.crowds, s.maps, s.answers,
-                        s.costs, s.fit_costs, s.sweeps, s.what_if, s.notices, s.excerpts, s.files, s.recovery);
+                        s.costs, s.fit_costs, s.sweeps, s.what_if, s.notices, s.excerpts, s.files, s.crowd_maker,
+                        s.recovery);
     }
 
     /// The screen of a type, which add_screen was given.

@@ -458,6 +458,17 @@ void check_move(const Scene& scene, const GraphMove& move) {
                      "begins or ends more than " + format_double(kMostStance) + " m from the origin; move it there");
 }
 
+/// The clips of files as one scene. Paths decide where the content does not: files are in their order.
+Scene in_content_order(std::vector<Scene> files, const std::filesystem::path& scene_file) {
+    std::stable_sort(files.begin(), files.end(),
+                     [](const Scene& a, const Scene& b) { return in_turn(a.clips, b.clips, content_order) < 0; });
+    Scene out;
+    for (Scene& of_file : files) merge(out, std::move(of_file));
+    lay_out_clips(out);
+    move_to_file(out, scene_file);
+    return out;
+}
+
 }  // namespace
 
 std::vector<ClipFile> clip_files(const std::vector<std::filesystem::path>& places) {
@@ -512,12 +523,39 @@ Recordings load_recordings(const std::vector<ClipFile>& files, const std::filesy
         throw InputError(out.left_out.front() +
                          (others > 0 ? "; nor can " + counted(others, "other file", "other files") + " be read" : ""));
     }
-    // Paths decide where the content does not: files are in their order.
-    std::stable_sort(loaded.begin(), loaded.end(),
-                     [](const Scene& a, const Scene& b) { return in_turn(a.clips, b.clips, content_order) < 0; });
-    for (Scene& of_file : loaded) merge(out.scene, std::move(of_file));
-    lay_out_clips(out.scene);
-    move_to_file(out.scene, scene_file);
+    out.scene = in_content_order(std::move(loaded), scene_file);
+    return out;
+}
+
+Scene recordings_of_clips(const Scene& scene, const std::filesystem::path& scene_file) {
+    check_rate(scene);
+    std::vector<Scene> files;
+    for (const SceneClip& clip : scene.clips) {
+        const bool of_same = !files.empty() && clip.source && files.back().clips.back().source == clip.source;
+        if (!of_same) files.emplace_back().file = scene.file;
+        files.back().clips.push_back(clip);
+    }
+    Scene out = in_content_order(std::move(files), scene_file);
+    out.fit = scene.fit;
+    return out;
+}
+
+BuiltGraph make_graph(Scene recordings, const GraphOptions& options, const std::string& place,
+                      const GraphProgress& progress) {
+    if (options.whole) {
+        recordings.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(recordings));
+        BuiltGraph out{std::move(recordings), {}};
+        out.report.recordings = out.scene.clips.size();
+        out.report.rigs = out.scene.graph->rigs.size();
+        for (const SceneClip& clip : out.scene.clips) out.report.seconds += clip.clip->duration();
+        return out;
+    }
+    const auto progress_in = [&](GraphStage stage) -> Progress {
+        if (!progress) return {};
+        return [&progress, stage](std::size_t done, std::size_t all) { progress(stage, done, all); };
+    };
+    BuiltGraph out = build_graph(recordings, options, place, progress_in(GraphStage::comparing));
+    check_graph(out, options.least_moves, progress_in(GraphStage::measuring));
     return out;
 }
 
@@ -531,12 +569,13 @@ BuiltGraph build_graph(const Scene& recordings, const GraphOptions& options, con
                          "--trim");
     }
     if (out.report.without_joints == out.report.recordings) {
-        throw InputError(place, "no clip has joints, so no pose can be compared; give motion files, or --whole");
+        throw InputError(
+            place, "no clip has joints, so no pose can be compared; give motion files, or take clips whole (--whole)");
     }
     if (out.scene.graph->moves.empty()) {
         throw InputError(place,
-                         "no pose comes again often enough; allow more with --pose-distance and --root-speed, or take "
-                         "clips as they are with --whole");
+                         "no pose comes again often enough; allow more pose distance and root speed (--pose-distance, "
+                         "--root-speed), or take clips whole (--whole)");
     }
     return out;
 }

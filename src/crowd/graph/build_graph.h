@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,19 @@ struct Recordings {
 /// are left out, and for motion of joints that is sampled more than 1000 times a second.
 Recordings load_recordings(const std::vector<ClipFile>& files, const std::filesystem::path& scene_file,
                            const ImportOptions& options, bool strict, const Progress& progress = {});
+
+/// The clips of a scene that was read, likewise: as they are in it, with their import options. Throws InputError as
+/// load_recordings.
+Scene recordings_of_clips(const Scene& scene, const std::filesystem::path& scene_file);
+
+/// What is done on the way to a graph, for progress.
+enum class GraphStage { comparing, measuring };
+using GraphProgress = std::function<void(GraphStage stage, std::size_t done, std::size_t all)>;
+
+/// All of the way: build_graph and check_graph, or of options.whole graph_of_whole_clips. No move may be left. Throws
+/// as these do.
+BuiltGraph make_graph(Scene recordings, const GraphOptions& options, const std::string& place,
+                      const GraphProgress& progress = {});
 
 /// Cuts a graph out of the scene's clips, which are whole recordings (load_recordings). Every joint of the graph is
 /// within options.bounds: each cut is within half of them of its hub, and distances obey the triangle inequality. The

@@ -21,6 +21,7 @@ struct GraphOptions {
     int candidates = 400;      ///< moments looked at as hubs, for each rig, at least 1
     int least_moves = 3;       ///< hubs and moves that all lead to each other stay if they have so many moves
     std::uint64_t seed = 1;    ///< decides which moments are looked at
+    bool whole = false;        ///< takes clips whole instead: graph_of_whole_clips
 };
 
 /// A moment, and the places in the recordings that are like it.

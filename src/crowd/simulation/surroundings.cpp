@@ -99,12 +99,12 @@ void Surroundings::find_first(const PlayedMove& candidate, FirstMet& found) cons
 void Surroundings::find_first_in(std::span<const PlayedMove* const> candidates, std::size_t from,
                                  std::span<FirstMet> found) const {
     const std::size_t end = std::min(near_.size(), from + kAtATime);
-    struct Search {
+    struct Pending {
         std::size_t candidate;
         std::uint64_t left;  // of the motions near it
         std::size_t next() const { return static_cast<std::size_t>(std::countr_zero(left)); }
     };
-    std::array<Search, kAtATime> searches;
+    std::array<Pending, kAtATime> searches;
     std::size_t count = 0;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
         std::uint64_t near = 0;
@@ -117,13 +117,13 @@ void Surroundings::find_first_in(std::span<const PlayedMove* const> candidates, 
     // Each is asked about one motion at a time: most that collide with any collide with the first or second.
     while (count > 0) {
         for (std::size_t i = 0; i < count; ++i) {
-            const Search& search = searches[i];
+            const Pending& search = searches[i];
             pairs[i] = {&candidates[search.candidate]->placed, &near_[from + search.next()].motion->placed};
         }
         mobb::intersects_each(std::span(pairs).first(count), std::span(meet).first(count));
         std::size_t open = 0;
         for (std::size_t i = 0; i < count; ++i) {
-            Search search = searches[i];
+            Pending search = searches[i];
             FirstMet& of = found[search.candidate];
             ++of.asked;
             of.index = meet[i] ? from + search.next() : FirstMet::kNobody;

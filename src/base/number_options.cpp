@@ -1,0 +1,51 @@
+#include <base/number_options.h>
+
+#include <charconv>
+#include <cstdint>
+#include <optional>
+#include <system_error>
+
+namespace mobbscope {
+
+namespace {
+
+std::string text_of_one(const NumberOptionInfo& option, double number) {
+    return option.whole ? std::to_string(static_cast<std::int64_t>(number)) : format_double(number);
+}
+
+double parse_whole(const NumberOptionInfo& option, const std::string& text) {
+    std::int64_t number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    const auto value = static_cast<double>(number);
+    if (error == std::errc{} && stop == end && value >= option.least && value <= option.most) return value;
+    throw std::invalid_argument(in_quotes(text) + " is no whole number from " + text_of_one(option, option.least) +
+                                " to " + text_of_one(option, option.most));
+}
+
+}  // namespace
+
+std::string text_of(const NumberOptionInfo& option, Numbers numbers) {
+    std::string out = text_of_one(option, numbers[0]);
+    if (option.between != 0) out.append(1, option.between).append(text_of_one(option, numbers[1]));
+    return out;
+}
+
+Numbers parse_numbers(const NumberOptionInfo& option, const std::string& text) {
+    if (option.whole) return {parse_whole(option, text), 0};
+    if (option.between == 0) return {parse_number_within(text, option.least, option.most), 0};
+    const std::size_t middle = text.find(option.between);
+    const std::optional<double> first = parse_double(text.substr(0, middle));
+    const std::optional<double> second =
+        middle == std::string::npos ? std::nullopt : parse_double(text.substr(middle + 1));
+    const auto is_allowed = [&](const std::optional<double>& number) {
+        return number && *number >= option.least && *number <= option.most;
+    };
+    const bool in_order = option.between != ':' || (first && second && *first <= *second);
+    if (is_allowed(first) && is_allowed(second) && in_order) return {*first, *second};
+    throw std::invalid_argument(in_quotes(text) + " is not like " + std::string(option.placeholder) +
+                                ", two numbers from " + brief(option.least) + " to " + brief(option.most) +
+                                (in_order ? "" : ", the smaller one first"));
+}
+
+}  // namespace mobbscope
