@@ -109,7 +109,7 @@ void EventTable::draw(Ui& ui, QueryInspector& queries) {
                      const ImU32 color = column.field == EventField::outcome
                                              ? mark_text(ui.style, mark_of(event.test, event.outcome))
                                              : ui.style.text;
-                     const EventValues::Range exact = values.value(column.field, column.side, step);
+                     const auto exact = values.value(column.field, column.side, step);
                      return TableCell{values.text(column.field, column.side, step), color, {exact.least, exact.most}};
                  },
              .sort = [&](const std::string& column) { ui.invoke("events.sort", column); },
