@@ -12,7 +12,7 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
 /// Edges that are shorter along time than this part of the longest add nothing that is seen, but rounding.
 constexpr double kLeastEdge = 1e-4;
 
@@ -77,7 +77,7 @@ double overhang_in_time(const mobb::Box& box, double time_scale, double t0, doub
 NodeValues::NodeValues(std::shared_ptr<const mobb::Tree> tree, std::span<const double> shares)
     : tree_(std::move(tree)) {
     const auto all = static_cast<std::size_t>(size());
-    for (std::vector<double>& column : columns_) column.assign(all, kNone);
+    for (std::vector<double>& column : columns_) column.assign(all, kNoFigure);
     const bool leans = std::ranges::any_of(
         tree_->nodes(), [](const mobb::Node& node) { return mobb::info(node.kind).axes == mobb::BoxAxes::space_time; });
     for (int i = 0; i < size(); ++i) {
@@ -118,7 +118,7 @@ void NodeValues::add_avoidable(const BlameInScene& blame, int clip) {
         of(NodeField::avoidable)[static_cast<std::size_t>(i)] = static_cast<double>(blame.of(clip, i));
 }
 
-void NodeValues::forget(NodeField field) { std::ranges::fill(of(field), kNone); }
+void NodeValues::forget(NodeField field) { std::ranges::fill(of(field), kNoFigure); }
 
 bool NodeValues::has(NodeField field) const {
     return std::ranges::any_of(column(field), [](double value) { return !std::isnan(value); });
