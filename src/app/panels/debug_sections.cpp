@@ -78,7 +78,7 @@ void break_when(Ui& ui, QueryInspector& queries) {
                             .fields = event_field_table(),
                             .hint = "outcome = hit",
                             .hits = [&](const std::string& filter) { return hits_text(queries, EventFilter(filter)); }};
-    const std::optional<std::string> entered = filter_field(ui, field);
+    const std::optional<std::string> entered = table_filter_field(ui, field);
     filter_words(ui, field);
     if (entered && !entered->empty()) ui.invoke("breakpoint.add", *entered);
     const std::vector<Breakpoint>& all = ui.workspace.scene().debug.breakpoints;

@@ -15,7 +15,7 @@ namespace mobbscope::app {
 namespace {
 
 /// As wide as any value of the column.
-std::string widest_text(const TableField& field) {
+std::string widest_event_text(const TableField& field) {
     switch (field.kind) {
         case FieldKind::word:
             return std::string(*std::ranges::max_element(field.values, {}, &std::string_view::size));
@@ -30,7 +30,7 @@ std::string widest_text(const TableField& field) {
     return field.unit.empty() ? "0000000" : "-00.000";
 }
 
-const std::vector<TableColumn>& table_columns() {
+const std::vector<TableColumn>& event_table_columns() {
     static const std::vector<TableColumn> all = [] {
         std::vector<TableColumn> out;
         for (const EventColumn& column : event_columns()) {
@@ -40,7 +40,7 @@ const std::vector<TableColumn>& table_columns() {
             out.push_back({.name = column_name(column),
                            .heading = std::string(column.heading),
                            .doc = std::move(doc),
-                           .widest = widest_text(field),
+                           .widest = widest_event_text(field),
                            .is_number = field.kind == FieldKind::number || field.kind == FieldKind::range});
         }
         return out;
@@ -95,7 +95,7 @@ void EventTable::draw(Ui& ui, QueryInspector& queries) {
     const EventList& list = ui.workspace.events;
     table_.draw(
         ui, {.mark = "events",
-             .columns = table_columns(),
+             .columns = event_table_columns(),
              .rows = rows,
              .present = ui.workspace.step(),
              .hovered = ui.workspace.hovered_event,

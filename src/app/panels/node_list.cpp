@@ -16,7 +16,7 @@ namespace mobbscope::app {
 namespace {
 
 /// As wide as any value of the column.
-std::string widest_text(NodeField field) {
+std::string widest_node_text(NodeField field) {
     switch (field) {
         case NodeField::node:
             return "00.00000";
@@ -27,14 +27,14 @@ std::string widest_text(NodeField field) {
     }
 }
 
-std::vector<TableColumn> table_columns(const NodeInspector& nodes) {
+std::vector<TableColumn> node_table_columns(const NodeInspector& nodes) {
     std::vector<TableColumn> out;
     for (const NodeField field : nodes.columns()) {
         const NodeFieldInfo& about = info(field);
         out.push_back({.name = std::string(about.name),
                        .heading = column_heading(field),
                        .doc = std::string(about.doc),
-                       .widest = widest_text(field),
+                       .widest = widest_node_text(field),
                        .is_number = field != NodeField::node});
     }
     return out;
@@ -103,7 +103,7 @@ void node_list(Ui& ui, DataTable& table) {
     if (rows->empty()) return words(ui.style.quiet, "No node passes the filter.");
     const std::shared_ptr<const NodeValues> values = nodes.values();
     const std::vector<NodeField> fields = nodes.columns();
-    const std::vector<TableColumn> columns = table_columns(nodes);
+    const std::vector<TableColumn> columns = node_table_columns(nodes);
     table.draw(ui,
                {.mark = "nodes",
                 .columns = columns,

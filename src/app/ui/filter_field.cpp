@@ -117,7 +117,7 @@ void candidates(Ui& ui, const FilterField& field) {
 
 }  // namespace
 
-std::optional<std::string> filter_field(Ui& ui, const FilterField& field) {
+std::optional<std::string> table_filter_field(Ui& ui, const FilterField& field) {
     FieldInput& input = ui.field;
     if (ui.session.keys.field == field.mark) {
         ui.session.keys.field.clear();
@@ -203,7 +203,7 @@ void filter_line(Ui& ui, const std::string& of, FilterField field, const char* m
     field.mark = of + ".filter";
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     field.right = button_width("all") + button_width("\u00BB") + 2 * gap;
-    const std::optional<std::string> entered = filter_field(ui, field);
+    const std::optional<std::string> entered = table_filter_field(ui, field);
     ImGui::SameLine();
     const std::string all = of + ".all";
     command_button(ui, "all", all.c_str(), all);

@@ -24,7 +24,7 @@ struct FilterField {
 /// The field, which has the keys where Keys::field asks for that, and how many rows pass what is typed. Tab takes
 /// what may follow, Up and Down choose among that; Enter gives the filter, of which an empty one is none, and Escape
 /// takes all back.
-std::optional<std::string> filter_field(Ui& ui, const FilterField& field);
+std::optional<std::string> table_filter_field(Ui& ui, const FilterField& field);
 
 /// Below the field, as wide as there is room: the filter in words, or where it is wrong and why; while it is typed,
 /// what may follow.
