@@ -77,7 +77,7 @@ TEST(ComparedFits, HaveTheFiguresOfEachTree) {
     for (const ComparedLevel& level : both.levels) {
         const double mobb = *level.volume.values[0], umobb = *level.volume.values[1];
         ASSERT_GT(std::abs(mobb - umobb), 0.01 * mobb);
-        EXPECT_EQ(level.volume.best, umobb < mobb ? 1 : 0) << level.name();
+        EXPECT_EQ(level.volume.best, umobb < mobb ? 1 : 0) << level.level;
         EXPECT_EQ(level.fill.best, level.volume.best) << "the disks are the same";
         EXPECT_NEAR(level.volume.difference(1).value(), umobb / mobb - 1, 1e-12);
         EXPECT_EQ(level.volume.difference(0), 0.0);
@@ -95,7 +95,6 @@ TEST(ComparedFits, OfOtherDepthsHaveARowOfLeaves) {
     EXPECT_TRUE(last.volume.values[0]);
     EXPECT_FALSE(last.volume.values[1]);
     EXPECT_EQ(all.levels[1].volume.difference(1), 0.0) << "the same boxes";
-    EXPECT_EQ(all.leaves.name(), "leaves");
     EXPECT_EQ(all.leaves.volume.values[1], mobb::level_figures(*trees[1]).back().volume);
     EXPECT_TRUE(all.cost.values[2]) << "counted";
     EXPECT_FALSE(all.levels[0].cost.values[2]) << "by no level";
