@@ -69,7 +69,7 @@ ClipComparison comparison_of(const std::string& clip, const mobb::ClipPtr& sampl
     return out;
 }
 
-void print_comparison(const ClipComparison& of) {
+void print_compared_fits(const ClipComparison& of) {
     const ComparedFits& fits = of.fits;
     std::cout << cleaned(of.clip) << ": " << verdict(fits) << '\n';
     const std::vector<ComparedRow> rows = compared_rows(fits);
@@ -100,7 +100,7 @@ void print_comparison(const ClipComparison& of) {
     print_columns(columns, true);
 }
 
-void write_comparison(JsonWriter& out, const ClipComparison& of) {
+void write_compared_fits(JsonWriter& out, const ClipComparison& of) {
     out.begin_object();
     out.members("clip", of.clip, "verdict", verdict(of.fits));
     out.begin_array("fits");

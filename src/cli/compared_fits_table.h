@@ -22,7 +22,7 @@ struct ClipComparison {
 ClipComparison comparison_of(const std::string& clip, const mobb::ClipPtr& samples,
                              std::span<const mobb::FitOptions> fits);
 
-void print_comparison(const ClipComparison& of);
-void write_comparison(JsonWriter& out, const ClipComparison& of);
+void print_compared_fits(const ClipComparison& of);
+void write_compared_fits(JsonWriter& out, const ClipComparison& of);
 
 }  // namespace mobbscope::cli

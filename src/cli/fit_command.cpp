@@ -158,12 +158,12 @@ void print_comparisons(const FittedScene& fitted, const FitCommandArguments& arg
     std::vector<ClipComparison> all;
     for (const SceneClip& clip : fitted.scene().clips) all.push_back(comparison_of(clip.name, clip.clip, fits));
     if (!arguments.json) {
-        std::ranges::for_each(all, print_comparison);
+        std::ranges::for_each(all, print_compared_fits);
         return;
     }
     JsonWriter out(std::cout);
     out.begin_object();
-    out.list("compared", all, [&out](const ClipComparison& found) { write_comparison(out, found); });
+    out.list("compared", all, [&out](const ClipComparison& found) { write_compared_fits(out, found); });
     out.end_object();
 }
 

@@ -30,9 +30,6 @@ struct ComparedLevel {
     ComparedFigure volume;  ///< m^2*s; the less the better
     ComparedFigure fill;    ///< the part of it that the disks take, 0 to 1; the more the better
     ComparedFigure cost;    ///< ns of a query, for pairs of this level; the less the better
-
-    /// "L7", "leaves"
-    std::string name() const { return level < 0 ? "leaves" : "L" + std::to_string(level); }
 };
 
 struct ComparedFits {

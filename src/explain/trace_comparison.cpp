@@ -201,7 +201,7 @@ TraversalComparison compared(std::vector<Decision> first, std::vector<Decision> 
 namespace {
 
 /// When both nodes of an event are there.
-mobb::Interval common_time(const RecordedTraversal& of, const mobb::Trace::Event& event) {
+mobb::Interval time_of_both(const RecordedTraversal& of, const mobb::Trace::Event& event) {
     const mobb::Node &a = of.a.tree().node(event.a), &b = of.b.tree().node(event.b);
     const double t0 = std::max(of.a.begin(a), of.b.begin(b)), t1 = std::min(of.a.end(a), of.b.end(b));
     // Of nodes that are apart in time, what lies between them.
@@ -222,7 +222,7 @@ int matching_step(const TraversalComparison& both, const RecordedTraversal& firs
     if (to.empty()) return 0;
     const int last = to.size() - 1;
     if (step + 1 >= from.size()) return last;
-    const mobb::Interval time = common_time(first, from[step]);
+    const mobb::Interval time = time_of_both(first, from[step]);
     const bool is_in_it = moment && time.t0 <= *moment && *moment <= time.t1;
     double at = is_in_it ? *moment : 0.5 * (time.t0 + time.t1);
     // Behind a contact nothing was to be decided.
@@ -231,7 +231,7 @@ int matching_step(const TraversalComparison& both, const RecordedTraversal& firs
     if (!there) return static_cast<int>(std::lround(static_cast<double>(step) * last / (from.size() - 1)));
     int out = both.decision(*there, 1).step;
     if (std::ranges::find(both.decisions[0], step, &Decision::step) != both.decisions[0].end()) return out;
-    for (int parent = to[out].parent; parent >= 0 && !covers(common_time(second, to[out]), time);
+    for (int parent = to[out].parent; parent >= 0 && !covers(time_of_both(second, to[out]), time);
          parent = to[out].parent) {
         out = parent;
     }

@@ -26,7 +26,7 @@ Trees trees_of(const std::vector<mobb::FitOptions>& fits, const std::string& sce
     return out;
 }
 
-Costs costs_of(const Trees& trees) {
+Costs standard_costs(const Trees& trees) {
     Costs out;
     for (const auto& tree : trees) out.push_back(std::make_shared<const TreeCost>(standard_cost(tree)));
     return out;
@@ -57,7 +57,7 @@ ComparedFits made_up(std::vector<std::string> names, const std::vector<std::vect
 
 TEST(ComparedFits, HaveTheFiguresOfEachTree) {
     const Trees trees = trees_of({{.tree = mobb::TreeKind::mobb}, {.tree = mobb::TreeKind::umobb}});
-    const Costs costs = costs_of(trees);
+    const Costs costs = standard_costs(trees);
     const ComparedFits both = compared(trees, costs);
     EXPECT_EQ(both.names, (std::vector<std::string>{"MOBB", "UMOBB"}));
     for (std::size_t fit = 0; fit < 2; ++fit) {
@@ -77,7 +77,7 @@ TEST(ComparedFits, HaveTheFiguresOfEachTree) {
     for (const ComparedLevel& level : both.levels) {
         const double mobb = *level.volume.values[0], umobb = *level.volume.values[1];
         ASSERT_GT(std::abs(mobb - umobb), 0.01 * mobb);
-        EXPECT_EQ(level.volume.best, umobb < mobb ? 1 : 0) << level.name();
+        EXPECT_EQ(level.volume.best, umobb < mobb ? 1 : 0) << level.level;
         EXPECT_EQ(level.fill.best, level.volume.best) << "the disks are the same";
         EXPECT_NEAR(level.volume.difference(1).value(), umobb / mobb - 1, 1e-12);
         EXPECT_EQ(level.volume.difference(0), 0.0);
@@ -86,7 +86,7 @@ TEST(ComparedFits, HaveTheFiguresOfEachTree) {
 
 TEST(ComparedFits, OfOtherDepthsHaveARowOfLeaves) {
     const Trees trees = trees_of({{.leaf = 10}, {.leaf = 40}, {.tree = mobb::TreeKind::blocks}});
-    const ComparedFits all = compared(trees, costs_of(trees));
+    const ComparedFits all = compared(trees, standard_costs(trees));
     EXPECT_EQ(all.names[0], "MOBB, leaf 10");
     EXPECT_EQ(all.names[1], "MOBB, leaf 40");
     ASSERT_EQ(static_cast<int>(all.levels.size()), trees[0]->depth());
@@ -95,7 +95,6 @@ TEST(ComparedFits, OfOtherDepthsHaveARowOfLeaves) {
     EXPECT_TRUE(last.volume.values[0]);
     EXPECT_FALSE(last.volume.values[1]);
     EXPECT_EQ(all.levels[1].volume.difference(1), 0.0) << "the same boxes";
-    EXPECT_EQ(all.leaves.name(), "leaves");
     EXPECT_EQ(all.leaves.volume.values[1], mobb::level_figures(*trees[1]).back().volume);
     EXPECT_TRUE(all.cost.values[2]) << "counted";
     EXPECT_FALSE(all.levels[0].cost.values[2]) << "by no level";
@@ -107,7 +106,7 @@ TEST(ComparedFits, WithoutCostsSayHowTightTheyAre) {
     EXPECT_FALSE(both.cost.values[0]);
     EXPECT_EQ(both.cost.best, -1);
     EXPECT_EQ(verdict(both).find("cost"), std::string::npos) << verdict(both);
-    const Costs known = costs_of(trees);
+    const Costs known = standard_costs(trees);
     EXPECT_NE(verdict(compared(trees, known)).find("cost"), std::string::npos);
 }
 

@@ -25,14 +25,14 @@ mobb::FitOptions with_kind(mobb::FitOptions fit, mobb::TreeKind kind) {
 }
 
 /// How a new view's fit is called.
-std::string label_of(const mobb::FitOptions& fit) { return std::string(mobb::info(fit.tree).label); }
+std::string name_of_view(const mobb::FitOptions& fit) { return std::string(mobb::info(fit.tree).label); }
 
 void toggle_split(Views& views, Workspace& workspace) {
     if (is_split(views)) return views.close_others();
     const mobb::FitOptions& now = workspace.fitted().options();
     const mobb::FitOptions other =
         with_kind(now, now.tree == mobb::TreeKind::umobb ? mobb::TreeKind::mobb : mobb::TreeKind::umobb);
-    views.split(label_of(other), other);
+    views.split(name_of_view(other), other);
 }
 
 mobb::FitOptions parsed_fit(const std::string& text, const mobb::FitOptions& base) {
@@ -43,7 +43,7 @@ mobb::FitOptions parsed_fit(const std::string& text, const mobb::FitOptions& bas
 
 void add_fit(Views& views, Workspace& workspace, const std::string& text) {
     const mobb::FitOptions fit = parsed_fit(text, workspace.fitted().options());
-    views.split(label_of(fit), fit);
+    views.split(name_of_view(fit), fit);
 }
 
 void compare_fits_of(Views& views, Workspace& workspace, const std::string& text) {
@@ -75,7 +75,7 @@ void close_view(Views& views, const std::string& text) {
                              : static_cast<std::size_t>(whole_number_in(text, "the number of the view", 0, last)));
 }
 
-std::vector<std::string> kinds() {
+std::vector<std::string> compared_kinds() {
     const auto names = mobb::tree_kind_names();
     return {names.begin(), names.end()};
 }
@@ -119,9 +119,10 @@ std::vector<Command> side_by_side_commands() {
                 "Shows two to four fits side by side, as mobb,leaf=10 moving,leaf=40, with a table by level: which is "
                 "tighter, and which costs less.",
                 compare_fits_of, {.argument = "FIT FIT...", .present = present_fits}),
-        Command("compare.add", "Compare with another fit",
-                "Shows one more fit side by side: other trees, or all of a fit, as moving,leaf=40.", add_fit,
-                {.argument = "FIT", .enabled = {has_room, why_no_room}, .choices = kinds, .chosen = is_in_view}),
+        Command(
+            "compare.add", "Compare with another fit",
+            "Shows one more fit side by side: other trees, or all of a fit, as moving,leaf=40.", add_fit,
+            {.argument = "FIT", .enabled = {has_room, why_no_room}, .choices = compared_kinds, .chosen = is_in_view}),
         Command("view.close", "Close the view",
                 "Of several views: closes the active one, or that of a number, from 0 at the left.", close_view,
                 {.argument = "[N]", .enabled = {is_split, why_not_split}}),

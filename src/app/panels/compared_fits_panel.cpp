@@ -48,11 +48,12 @@ struct FitColumns {
         const auto digits = [&](const char* text) { return text_size(*ui.style.mono, text).x; };
         float widest = 0;
         for (const std::string& each : names) widest = std::max(widest, text_size(*ui.style.body, each).x);
-        name = digits("leaves ");
-        cost = width - digits(" -100 %");
-        fill = cost - digits(" 00000");
-        volume = fill - digits(" 100 %");
-        bar_end = volume - digits(" 000.0");
+        const float gap = ui.px(7);
+        name = digits("leaf") + gap;
+        cost = width - digits("-100 %") - gap;
+        fill = cost - digits("0000") - gap;
+        volume = fill - digits("100 %") - gap;
+        bar_end = volume - digits("00.00") - gap;
         bar = std::min(name + widest + ui.px(6), bar_end);
     }
     bool has_bar(const Ui& ui) const { return bar_end - bar > ui.px(16); }
@@ -141,7 +142,8 @@ class FitTable {
             draw.AddRectFilled({corner.x - ui_.px(4), corner.y},
                                {corner.x + at_.width + ui_.px(4), corner.y + height()}, ui_.style.raised, ui_.px(3));
         const ImU32 usual = lit || over ? ui_.style.text : ui_.style.quiet;
-        draw_text(draw, *ui_.style.mono, {corner.x, corner.y + 1}, usual, level.name());
+        draw_text(draw, *ui_.style.mono, {corner.x, corner.y + 1}, usual,
+                  level.level < 0 ? "leaf" : "L" + std::to_string(level.level));
         for (std::size_t fit = 0; fit < names_.size(); ++fit) {
             const ImVec2 row = begin_row(corner, fit, usual);
             ending(row, at_.volume, color_of(level.volume, fit, usual), value_text(level.volume.values[fit]));

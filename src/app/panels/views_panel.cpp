@@ -34,31 +34,46 @@ std::string title_of_view(const ComparedFits& fits, std::size_t place, const mob
     return out;
 }
 
+/// A line, and shorter ones for where it has no room.
+using Lines = std::vector<std::vector<Told>>;
+
 /// "level 7: 262 m2s, fill 47 %, 938 ns", of the clip in focus.
-std::vector<Told> told_of_level(const ComparedFits& fits, std::size_t place, const LevelRange& shown) {
+Lines told_of_level(const ComparedFits& fits, std::size_t place, const LevelRange& shown) {
     const auto has_level = [&](const ComparedLevel& level) { return level.volume.values[place].has_value(); };
     const int depth = static_cast<int>(std::ranges::count_if(fits.levels, has_level));
     const int last = std::min(shown.last, depth - 1);
     const ComparedLevel& level = shown.leaves ? fits.leaves : fits.levels[static_cast<std::size_t>(last)];
-    std::vector<Told> out{{shown.leaves ? "leaves:" : "level " + std::to_string(last) + ':'}};
     const std::optional<double> volume = level.volume.values[place], fill = level.fill.values[place];
     const std::optional<double> cost = fits.cost.values[place];
-    if (volume) out.push_back({figure(*volume, 3) + " m\u00B2\u00B7s", is_best_at(level.volume, place)});
-    if (fill) out.push_back({"fill " + formatted("%.0f %%", 100 * *fill), is_best_at(level.fill, place)});
-    if (cost) out.push_back({figure(*cost, 3) + " ns", is_best_at(fits.cost, place)});
-    return out;
+    const auto line = [&](const char* at, const char* unit, const char* filled) {
+        std::vector<Told> out{{shown.leaves ? "leaves:" : at + std::to_string(last) + ':'}};
+        if (volume) out.push_back({figure(*volume, 3) + unit, is_best_at(level.volume, place)});
+        if (fill) out.push_back({filled + formatted("%.0f %%", 100 * *fill), is_best_at(level.fill, place)});
+        if (cost) out.push_back({figure(*cost, 3) + " ns", is_best_at(fits.cost, place)});
+        return out;
+    };
+    return {line("level ", " m\u00B2\u00B7s", "fill "), line("L", " m\u00B2\u00B7s", ""), line("L", "", "")};
 }
 
 /// "step 12 of 53, 54 tests: miss"; `least`: no other view made as few.
-std::vector<Told> told_of_query(const SceneView& seen, const RecordedQuery& recorded, bool least) {
+Lines told_of_query(const SceneView& seen, const RecordedQuery& recorded, bool least) {
     const int events = recorded.trace.size();
-    std::vector<Told> out;
-    if (events > 0) {
-        const int step = event_of(seen.view.step, recorded.trace, *seen.fitted, *seen.view.query);
-        out.push_back({"step " + std::to_string(step) + " of " + std::to_string(events - 1)});
+    const std::vector<Told> answer{{counted(recorded.tests.all(), "test", "tests"), least},
+                                   {recorded.contact ? "hit" : "miss"}};
+    if (events == 0) return {answer};
+    const int step = event_of(seen.view.step, recorded.trace, *seen.fitted, *seen.view.query);
+    std::vector<Told> whole{{"step " + std::to_string(step) + " of " + std::to_string(events - 1)}};
+    whole.insert(whole.end(), answer.begin(), answer.end());
+    return {whole, answer};
+}
+
+/// The parts as they stand one behind the other.
+std::vector<std::string> parts_of_line(const std::vector<Told>& told) {
+    std::vector<std::string> out;
+    for (std::size_t i = 0; i < told.size(); ++i) {
+        const bool last = i + 1 == told.size();
+        out.push_back(told[i].text + (last || told[i].text.ends_with(':') ? "" : ","));
     }
-    out.push_back({counted(recorded.tests.all(), "test", "tests"), least});
-    out.push_back({recorded.contact ? "hit" : "miss"});
     return out;
 }
 
@@ -89,8 +104,7 @@ void kinds_menu(Ui& ui, std::size_t place, mobb::TreeKind now) {
 float title_height(const Ui& ui) { return ui.style.body->FontSize + ui.style.mono->FontSize + ui.px(12); }
 
 /// A click on it makes the view the active one.
-void view_title(Ui& ui, std::size_t place, const SceneView& seen, const std::string& title,
-                const std::vector<Told>& told) {
+void view_title(Ui& ui, std::size_t place, const SceneView& seen, const std::string& title, const Lines& lines) {
     const bool active = place == ui.session.views.active();
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 size{std::max(1.0f, ImGui::GetContentRegionAvail().x), title_height(ui)};
@@ -114,13 +128,19 @@ void view_title(Ui& ui, std::size_t place, const SceneView& seen, const std::str
     const float below = corner.y + ui.px(7) + ui.style.body->FontSize;
     float x = corner.x + pad;
     std::string whole = title + '\n';
+    for (const std::string& part : parts_of_line(lines.front())) whole.append(part).append(1, ' ');
+    const auto fits = [&](const std::vector<Told>& told) {
+        float width = pad;
+        for (const std::string& part : parts_of_line(told)) width += text_size(mono, part + ' ').x;
+        return width <= size.x;
+    };
+    const auto chosen = std::ranges::find_if(lines, fits);
+    const std::vector<Told>& told = chosen == lines.end() ? lines.back() : *chosen;
+    const std::vector<std::string> parts = parts_of_line(told);
     draw.PushClipRect(corner, end, true);
     for (std::size_t i = 0; i < told.size(); ++i) {
-        std::string text = told[i].text;
-        if (i + 1 < told.size() && !text.ends_with(':')) text += ',';
-        whole.append(1, i > 0 ? ' ' : '\n').append(text);
-        draw_text(draw, mono, {x, below}, told[i].best ? better : active ? ui.style.text : ui.style.quiet, text);
-        x += text_size(mono, text + ' ').x;
+        draw_text(draw, mono, {x, below}, told[i].best ? better : active ? ui.style.text : ui.style.quiet, parts[i]);
+        x += text_size(mono, parts[i] + ' ').x;
     }
     draw.PopClipRect();
     if (hovered) ImGui::SetTooltip("%s%s", whole.c_str(), active ? "" : "\n\nclick: panels and commands are about it");
