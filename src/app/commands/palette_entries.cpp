@@ -197,7 +197,7 @@ void add_with_argument(Collector& out, const Command& command) {
     const std::span<const std::string> all(out.words());
     const auto head = all.first(all.size() - count);
     // A letter or two begin too many words.
-    if (std::ranges::any_of(head, [](const std::string& word) { return word.size() < 3; })) return;
+    if (std::ranges::none_of(head, [](const std::string& word) { return word.size() >= 3; })) return;
     std::string argument;
     for (const std::string& word : all.last(count)) argument.append(argument.empty() ? "" : " ").append(word);
     const std::string title(without_dots(command.title));
@@ -219,8 +219,8 @@ void add_command(Collector& out, const Session& session, const Command& command)
     for (const std::string& choice : command.choices(session)) {
         std::string named(without_dots(title));
         named.append(": ").append(title_of_choice(command, choice));
-        // What only the other words of the command say is no more about this choice than about the next.
-        if (!out.is_any_in(named) && !out.is_any_in(choice)) continue;
+        // What is said of the command alone is no more about this choice than about the next.
+        if (!out.is_any_in(title_of_choice(command, choice)) && !out.is_any_in(choice)) continue;
         // Scripts' name for it is found too, where menus have another.
         out.add(command, choice, named, command.menu,
                 {{named}, {command.also, kAlsoShare, true}, {command.id, kIdShare}, {choice, kIdShare}}, out.words());
