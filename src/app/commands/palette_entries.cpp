@@ -33,8 +33,8 @@ constexpr double kStrewn = 0.1;
 constexpr double kAlsoShare = 0.7;
 constexpr double kIdShare = 0.6;
 constexpr double kDocShare = 0.3;
-constexpr double kOtherPlaces = 0.1;  // of the same word in the other fields
-constexpr double kPerLetter = 1e-4;   // shorter titles say more of what was meant
+constexpr double kOtherPlaces = 0.05;  // of the same word in the other fields
+constexpr double kPerLetter = 1e-3;    // shorter titles say more of what was meant
 constexpr std::size_t kMostQueries = 2000;
 
 // ... of the letters of fuzzy_score.
@@ -97,8 +97,7 @@ class Collector {
     Collector(const Session& session, const std::string& text, Letters letters)
         : session_(session), words_(words_of(text)), letters_(letters) {}
 
-    /// `extra` counts besides what is found. `says`: the words that stand beside the title where it has not all that
-    /// was looked for.
+    /// A command by `words`; `extra` counts besides what is found of them.
     void add(const Command& command, std::string argument, std::string title, std::string_view detail,
              std::initializer_list<SearchField> fields, std::span<const std::string> words, double extra = 0) {
         const std::vector<std::string> looked_for(words.begin(), words.end());
