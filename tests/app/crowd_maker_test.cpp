@@ -113,6 +113,7 @@ TEST(GraphOptions, AreReadAsTheCommandLineHasThem) {
     EXPECT_EQ(refused("hubbs=3"), "there is no option 'hubbs' (did you mean 'hubs'?)");
     EXPECT_EQ(refused("hubs"), "hubs needs a value: hubs=8");
     EXPECT_EQ(refused("hubs=2.5"), "'2.5' is no whole number from 1 to 10000");
+    EXPECT_NE(refused("seed=9007199254740993"), "") << "a double cannot tell it from the largest";
     EXPECT_EQ(refused("seconds=3:1"), "'3:1' is not like A:B, two numbers from 0.001 to 3600, the smaller one first");
 }
 
