@@ -17,8 +17,10 @@ double parse_whole(const NumberOptionInfo& option, const std::string& text) {
     std::int64_t number = 0;
     const char* const end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, number);
-    const auto value = static_cast<double>(number);
-    if (error == std::errc{} && stop == end && value >= option.least && value <= option.most) return value;
+    // As doubles, the largest seed and the next number would be one.
+    const auto least = static_cast<std::int64_t>(option.least);
+    const auto most = static_cast<std::int64_t>(option.most);
+    if (error == std::errc{} && stop == end && number >= least && number <= most) return static_cast<double>(number);
     throw std::invalid_argument(in_quotes(text) + " is no whole number from " + text_of_one(option, option.least) +
                                 " to " + text_of_one(option, option.most));
 }

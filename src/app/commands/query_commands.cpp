@@ -237,7 +237,7 @@ std::vector<Command> query_commands() {
                 {.argument = "AGENT",
                  .enabled = {has_selected_of_several, why_no_agent},
                  .choices = others,
-                 .also = "new collide collision test"}),
+                 .also = "new collide test"}),
         Command("query.remove", "Remove the query", "Asks the selected query, or that in view, no more.", remove_edited,
                 {.enabled =
                      [](const Workspace& workspace) { return edited_query(workspace) && query_total(workspace) > 1; }}),
@@ -251,11 +251,11 @@ std::vector<Command> query_commands() {
                 {.argument = "[N]", .enabled = {has_queries, why_no_query}}),
         Command("query.copy_answer", "Copy the answer in words",
                 "Shows a query and copies whether the two collide, and why.", copy_answer,
-                {.argument = "[N]", .enabled = {has_queries, why_no_query}, .also = "why"}),
+                {.argument = "[N]", .enabled = {has_queries, why_no_query}}),
         Command("query.judge", "Judge all overlaps",
                 "Finds out which overlaps of the query in view were avoidable, where there are too many to do so at "
                 "once.",
-                judge_all, {.enabled = {in_query, why_no_step}, .also = "waste avoidable false positive"}),
+                judge_all, {.enabled = {in_query, why_no_step}, .also = "avoidable false positive"}),
         Command(
             "query.blame", "Sum avoidable overlaps by node",
             "Asks all queries and counts, by node, the overlaps that a tighter box would have avoided; the facts of "

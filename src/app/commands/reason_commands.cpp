@@ -188,7 +188,7 @@ std::vector<Command> reason_commands() {
                  [](const CostInspector& costs, const std::string& text) {
                      return kBranchesOf[static_cast<std::size_t>(costs.branches_of)] == text;
                  },
-             .also = "hot path profile expensive worst waste"}),
+             .also = "hot path profile expensive worst"}),
         Command("branches.of_node", "Costs of a node",
                 "Lists over all queries which pairs called pairs with a node of a clip's tree, and which those called.",
                 show_sandwich, {.menu = kNoMenu, .argument = "CLIP NODE", .enabled = with_queries}),

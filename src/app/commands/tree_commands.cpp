@@ -182,7 +182,7 @@ std::vector<Command> tree_commands() {
                  .choices = [] { return as_strings(mobb::axes_names()); },
                  .chosen = [](const Workspace& workspace,
                               const std::string& axes) { return name(workspace.fitted().options().axes) == axes; },
-                 .also = "tight loose orientation rotation obb pca principal"}),
+                 .also = "tight orientation rotation obb pca principal"}),
         Command(
             "tree.leaf", "Samples in a leaf...", "Makes a node of at most N samples a leaf; 10 is the usual number.",
             set_leaf,
@@ -233,7 +233,7 @@ std::vector<Command> tree_commands() {
                 },
                 {.enabled = {[](const WhatIfInspector& what_if) { return what_if.why_not().empty(); },
                              [](const WhatIfInspector& what_if) { return what_if.why_not(); }},
-                 .also = "try alternative refit tight waste"}),
+                 .also = "try alternative refit tight"}),
         Command("tree.next_finding", "Next finding",
                 "Says what stands out in the tree in focus, one after the other, and shows where.", next_finding,
                 {.also = "waste loose tight problem warning lint noticed worst advice check"}),

@@ -538,7 +538,7 @@ std::vector<Command> window_commands() {
         Command("window.scale_reset", "Usual text size",
                 "Makes text and panels as large as the monitor's scale asks for.",
                 [](Settings& settings) { settings.ui_scale = 0; },
-                {.shortcut = "Ctrl+0", .enabled = always, .where = Where::everywhere, .also = "reset font ui"}),
+                {.shortcut = "Ctrl+0", .enabled = always, .where = Where::everywhere, .also = "font ui"}),
     };
     return in_menu("View/Window", rows);
 }
@@ -555,7 +555,7 @@ std::vector<Command> time_commands() {
                      [](const Workspace& workspace) {
                          return workspace.view().time ? format_double(*workspace.view().time) : std::string();
                      },
-                 .also = "moment seek scrub goto frame"}),
+                 .also = "time moment seek scrub goto frame"}),
         Command(
             "time.clear", "No time cursor", "Takes the time cursor out of the picture.",
             [](Playback& playback, Workspace& workspace) {
