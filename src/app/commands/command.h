@@ -192,7 +192,7 @@ std::vector<Command> export_commands();  ///< among those of files
 std::vector<Command> edit_commands();
 std::vector<Command> clip_commands();
 std::vector<Command> view_commands();
-std::vector<Command> named_view_commands();  ///< among those of the view
+std::vector<Command> named_view_commands();    ///< among those of the view
 std::vector<Command> side_by_side_commands();  ///< among those of views
 std::vector<Command> shown_commands();
 std::vector<Command> tree_commands();

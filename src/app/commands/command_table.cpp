@@ -57,10 +57,10 @@ std::vector<Command> commands_with(std::vector<Command> of_screens) {
     const std::vector<Command> behind(placed, of_screens.end());
     of_screens.erase(placed, of_screens.end());
     std::vector<Command> table =
-        joined({file_commands(), edit_commands(), clip_commands(), view_commands(), named_view_commands(), shown_commands(), tree_commands(),
-                node_commands(), sweep_commands(), query_commands(), step_commands(), reason_commands(),
-                compare_commands(), map_commands(), debug_commands(), go_commands(), row_commands(), crowd_commands(),
-                of_screens, help_commands()});
+        joined({file_commands(),  edit_commands(),   clip_commands(),    view_commands(),  named_view_commands(),
+                shown_commands(), tree_commands(),   node_commands(),    sweep_commands(), query_commands(),
+                step_commands(),  reason_commands(), compare_commands(), map_commands(),   debug_commands(),
+                go_commands(),    row_commands(),    crowd_commands(),   of_screens,       help_commands()});
     for (const Command& row : behind) table.insert(std::ranges::find(table, row.behind, &Command::id) + 1, row);
     return only_where_shown(std::move(table));
 }

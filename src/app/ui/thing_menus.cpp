@@ -42,8 +42,8 @@ constexpr auto kPicture = std::to_array<std::string_view>({"view.frame",
                                                            "",
                                                            "file.export_picture",
                                                            "file.copy_command"});
-constexpr auto kNode =
-    std::to_array<std::string_view>({"view.frame", "go.parent", "go.child", "node.isolate", "view.ancestors", "step.next_of_node", "edit.copy_figures"});
+constexpr auto kNode = std::to_array<std::string_view>({"view.frame", "go.parent", "go.child", "node.isolate",
+                                                        "view.ancestors", "step.next_of_node", "edit.copy_figures"});
 constexpr auto kSample = std::to_array<std::string_view>(
     {"view.frame", "reasons.of_selection", "go.parent", "view.projection", "edit.copy_figures"});
 constexpr auto kPath = std::to_array<std::string_view>({"view.frame", "go.child", "edit.copy_figures"});

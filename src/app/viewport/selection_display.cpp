@@ -49,7 +49,8 @@ void add_ancestors_of(DrawList& list, const Session& session, float scale) {
     if (!view.ancestors || view.projection) return;
     const Selection& selected = session.workspace.selection;
     if (selected.kind == Selection::Kind::node) {
-        if (const auto owner = owner_in_view(active_view(session), selected)) add_ancestors(list, *owner, selected.index, scale);
+        if (const auto owner = owner_in_view(active_view(session), selected))
+            add_ancestors(list, *owner, selected.index, scale);
         return;
     }
     if (view.subtree) add_ancestors_of_part(list, drawn_agents(session.workspace.fitted(), view), view, scale);

@@ -7,8 +7,8 @@
 #include <render/gl/gl_context.h>
 #include <render/parts/highlights.h>
 #include <render/parts/measured_line.h>
-#include <scene/scene.h>
 #include <scene/fitted_scene.h>
+#include <scene/scene.h>
 #include <scene/view_state.h>
 
 #include <glm/vec2.hpp>
