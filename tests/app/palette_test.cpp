@@ -91,7 +91,7 @@ TEST(PaletteEntries, CommandsAreFoundByAFewLetters) {
     EXPECT_EQ(p.first_id("export"), "file.export_picture");
     EXPECT_EQ(p.first_id("theme"), "view.theme");
     EXPECT_EQ(p.first_id("step forward"), "step.forward");
-    EXPECT_EQ(p.first_id("compare"), "compare.fits");
+    EXPECT_EQ(p.first_id("compare"), "compare.paper");
     EXPECT_EQ(p.first_id("compare mobb umobb"), "compare.paper");
     for (const char* asked : {"side by side", "tighter"})
         EXPECT_TRUE(p.first_id(asked).starts_with("compare.")) << asked << ": " << p.first_id(asked);

@@ -31,7 +31,7 @@ namespace {
 constexpr PictureSize kSlabSize{480, 360};
 
 /// Two paths from 0 to 2 s that cross.
-FittedScene scene(mobb::TreeKind kind, bool running) {
+FittedScene walks_of(mobb::TreeKind kind, bool running) {
     mobb::FitOptions options;
     options.tree = kind;
     options.leaf = 4;
@@ -75,7 +75,7 @@ class SlabTest : public testing::OnEachBackend {};
 
 TEST_P(SlabTest, NothingIsDrawnOutside) {
     for (const bool running : {false, true}) {
-        const FittedScene fitted = scene(mobb::TreeKind::umobb, running);
+        const FittedScene fitted = walks_of(mobb::TreeKind::umobb, running);
         for (const bool cut : {false, true}) {
             ViewState view = from_the_front();
             view.slab = ValueRange{0.55, 1.21};
@@ -119,7 +119,7 @@ TEST_P(SlabTest, NothingIsDrawnOutside) {
 
 /// Between the planes the picture is that of all of time, wherever nothing else stands there.
 TEST_P(SlabTest, WhatIsInsideIsAsItWas) {
-    const FittedScene fitted = scene(mobb::TreeKind::mobb, false);
+    const FittedScene fitted = walks_of(mobb::TreeKind::mobb, false);
     ViewState view = from_the_front();
     view.boxes = false;
     const DrawList all = build_draw_list(fitted, view, kSlabSize);
@@ -133,7 +133,7 @@ TEST_P(SlabTest, WhatIsInsideIsAsItWas) {
 
 /// A disk that is cut shows its full circle where it is cut, whatever stood on it.
 TEST_P(SlabTest, FacesOfCutDisksAreWhole) {
-    const FittedScene fitted = scene(mobb::TreeKind::mobb, false);
+    const FittedScene fitted = walks_of(mobb::TreeKind::mobb, false);
     ViewState view = from_the_front();
     view.camera.preset = CameraPreset::top;
     view.boxes = false;
@@ -155,7 +155,7 @@ TEST_P(SlabTest, FacesOfCutDisksAreWhole) {
 
 TEST_P(SlabTest, PickedIsWhatIsDrawn) {
     for (const mobb::TreeKind kind : {mobb::TreeKind::umobb, mobb::TreeKind::moving}) {
-        const FittedScene fitted = scene(kind, kind == mobb::TreeKind::moving);
+        const FittedScene fitted = walks_of(kind, kind == mobb::TreeKind::moving);
         for (const bool cut : {false, true}) {
             for (const bool above : {true, false}) {
                 ViewState view;
@@ -191,7 +191,7 @@ TEST_P(SlabTest, PickedIsWhatIsDrawn) {
 }
 
 TEST_P(SlabTest, DraggingItsEndsUploadsNothingOfTheWorld) {
-    KeptPaths paths(std::make_shared<const FittedScene>(scene(mobb::TreeKind::umobb, false)));
+    KeptPaths paths(std::make_shared<const FittedScene>(walks_of(mobb::TreeKind::umobb, false)));
     for (const int samples : {1, 4}) {
         for (const bool cut : {false, true}) {
             ViewState view;
@@ -214,7 +214,7 @@ TEST_P(SlabTest, DraggingItsEndsUploadsNothingOfTheWorld) {
 
 /// Of the world nothing but the plane of the time cursor, and the sections that lie on it.
 TEST_P(SlabTest, ScrubbingUploadsNoBoxes) {
-    KeptPaths paths(std::make_shared<const FittedScene>(scene(mobb::TreeKind::umobb, false)));
+    KeptPaths paths(std::make_shared<const FittedScene>(walks_of(mobb::TreeKind::umobb, false)));
     for (const bool slice : {false, true}) {
         ViewState view;
         view.levels = {0, 9, false};
@@ -238,7 +238,7 @@ TEST_P(SlabTest, ScrubbingUploadsNoBoxes) {
 /// Nothing, one moment, and what lies beyond all time.
 TEST_P(SlabTest, EmptySlabs) {
     for (const bool running : {false, true}) {
-        const FittedScene fitted = scene(mobb::TreeKind::mobb, running);
+        const FittedScene fitted = walks_of(mobb::TreeKind::mobb, running);
         ViewState view = from_the_front();
         view.camera.preset = CameraPreset::top;
         view.boxes = false;
@@ -291,7 +291,7 @@ TEST(Slab, RangesThatAreNone) {
 
 /// The caption says what is cut away, and where the time cursor lies outside.
 TEST(Slab, TheCaptionSaysIt) {
-    const FittedScene fitted = scene(mobb::TreeKind::mobb, false);
+    const FittedScene fitted = walks_of(mobb::TreeKind::mobb, false);
     ViewState view;
     view.slab = ValueRange{0.5, 1};
     view.time = 1.5;
@@ -310,7 +310,7 @@ TEST(Slab, TheCaptionSaysIt) {
 TEST(Sections, HaveTheAreaThatTheBoxHasThen) {
     std::mt19937 random(7);
     for (const mobb::TreeKind kind : {mobb::TreeKind::mobb, mobb::TreeKind::umobb, mobb::TreeKind::moving}) {
-        const FittedScene fitted = scene(kind, false);
+        const FittedScene fitted = walks_of(kind, false);
         ViewState view;
         view.levels = {0, 9, false};
         const DrawList list = build_draw_list(fitted, view, kSlabSize);
@@ -376,7 +376,7 @@ TEST(Sections, CountFromTheBeginToBeforeTheEnd) {
 
 /// The triangles that fill a section cover it once.
 TEST(Sections, FillingsCoverThem) {
-    const FittedScene fitted = scene(mobb::TreeKind::umobb, false);
+    const FittedScene fitted = walks_of(mobb::TreeKind::umobb, false);
     ViewState view;
     view.levels = {2, 2, false};
     view.time = 0.7;
@@ -415,7 +415,7 @@ double filled_area(const DrawList& list) {
 
 TEST(FloorPlan, HasTheDisksAndSectionsOfItsMoment) {
     for (const bool running : {false, true}) {
-        const FittedScene fitted = scene(mobb::TreeKind::umobb, running);
+        const FittedScene fitted = walks_of(mobb::TreeKind::umobb, running);
         ViewState view;
         view.levels = {1, 2, false};
         view.time = 0.7;
@@ -474,7 +474,7 @@ TEST(FloorPlan, HasThePairUnderTest) {
 
 /// A camera that frames the scene by itself has the boxes in the picture on demand, all corners of them.
 TEST(Framing, HasTheBoxesOnDemand) {
-    const FittedScene fitted = scene(mobb::TreeKind::umobb, false);
+    const FittedScene fitted = walks_of(mobb::TreeKind::umobb, false);
     for (const bool query : {false, true}) {
         const FittedScene& of = query ? testing::hit_scene(mobb::TreeKind::umobb) : fitted;
         ViewState view;
@@ -504,7 +504,7 @@ TEST(Framing, HasTheBoxesOnDemand) {
 
 /// "time, s" is in every picture of space-time.
 TEST(TimeTitle, IsInEveryView) {
-    const FittedScene fitted = scene(mobb::TreeKind::mobb, false);
+    const FittedScene fitted = walks_of(mobb::TreeKind::mobb, false);
     for (const PictureSize size : {PictureSize{1280, 720}, {640, 360}, {320, 240}, {200, 150}, {300, 600}}) {
         for (const CameraPreset preset :
              {CameraPreset::iso, CameraPreset::top, CameraPreset::front, CameraPreset::side}) {

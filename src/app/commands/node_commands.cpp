@@ -103,7 +103,8 @@ std::vector<Command> node_commands() {
                 {.argument = "COLUMN",
                  .choices = [](const Session&) { return node_column_names(); },
                  .chosen = [](const NodeInspector& nodes,
-                              const std::string& column) { return info(nodes.by).name == column; }}),
+                              const std::string& column) { return info(nodes.by).name == column; },
+                 .also = "worst waste loose order"}),
         Command("nodes.count", "Count tests and avoidable overlaps",
                 "Counts the tests of each node, and the avoidable overlaps it is to blame for, over all queries.",
                 count_all_of_nodes, {.enabled = {can_count_nodes, why_not_counted}}),
@@ -119,7 +120,7 @@ std::vector<Command> row_commands() {
     const std::vector<Command> rows{
         Command("rows.find", "Filter the list below...",
                 "Waits for a filter of the nodes where these are listed, else of the events of the query in view.",
-                find_rows, {.shortcut = "Ctrl+F"}),
+                find_rows, {.shortcut = "Ctrl+F", .also = "search"}),
         Command("rows.next", "Next row",
                 "Selects the next node in the order of the table, or shows the next event in that of the list.",
                 to_row<1>, {.shortcut = "F3", .repeats = true, .enabled = {has_rows, why_no_rows}}),

@@ -222,7 +222,8 @@ std::vector<Command> tree_commands() {
                                  return part_of_selection(workspace).has_value() || shows_part(workspace);
                              },
                              why_no_part},
-                 .checked = shows_part}),
+                 .checked = shows_part,
+                 .also = "isolate solo subtree only"}),
         Command("node.show_all", "Show all nodes", "Draws all boxes again after those of a node alone.", show_all_nodes,
                 {.enabled = {shows_part, [] { return std::string_view("no node is shown alone"); }}}),
         Command("tree.what_if", "What if this node were other?",

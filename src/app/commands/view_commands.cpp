@@ -402,7 +402,7 @@ std::vector<Command> picture_commands() {
                 "Shows the floor from above at the moment of the time cursor: every disk, and the sections of the "
                 "boxes that are shown; or space-time again.",
                 [](Workspace& workspace, Views& views) { toggle_floor(workspace, views, Show::plan); },
-                {.shortcut = "Shift+G", .checked = shows_plan}),
+                {.shortcut = "Shift+G", .checked = shows_plan, .also = "map 2d top cross section"}),
         Command("view.measure", "Measure",
                 "Measures how far apart two places are, on the floor and in time: the next two clicks in the picture, "
                 "near a disk's centre or edge or a box's corner that. Escape ends it.",
@@ -415,7 +415,8 @@ std::vector<Command> picture_commands() {
                      [](const Workspace& workspace) {
                          const auto line = workspace.measuring.line();
                          return line ? text_of(*line) : std::string();
-                     }}),
+                     },
+                 .also = "ruler distance gap length dimension"}),
         Command("view.copy_measured", "Copy what is measured",
                 "Copies the measured distance, time and speed with all digits, and the two places.", copy_measured,
                 {.enabled = {is_measured, []() -> std::string_view { return "nothing is measured"; }}}),
@@ -444,7 +445,8 @@ std::vector<Command> slab_commands() {
                     workspace.change_view([&](ViewState& view) { slab.parse(text, view); });
                 },
                 {.argument = "T0:T1|none",
-                 .present = [&slab](const Workspace& workspace) { return slab.text(workspace.view()); }}),
+                 .present = [&slab](const Workspace& workspace) { return slab.text(workspace.view()); },
+                 .also = "clip clipping cut crop range section"}),
         option_command(view_option("cut_boxes")),
         Command("view.no_slab", "No slab", "Shows all of time again.",
                 [](Workspace& workspace) { workspace.change_view([](ViewState& view) { view.slab.reset(); }); },
@@ -463,7 +465,8 @@ std::vector<Command> level_commands() {
             set_color_range,
             {.menu = kNoMenu,
              .argument = "A:B|auto",
-             .present = [](const Workspace& workspace) { return view_option("color_range").text(workspace.view()); }}),
+             .present = [](const Workspace& workspace) { return view_option("color_range").text(workspace.view()); },
+             .also = "histogram scale minimum maximum"}),
         Command("view.level", "Show levels",
                 "Shows the boxes of a level, of a range of levels, or the leaves; leaves the query in view.",
                 set_shown_levels,
@@ -517,7 +520,8 @@ std::vector<Command> window_commands() {
                  .chosen =
                      [](const Settings& settings, const std::string& name) {
                          return name == bottom_tab_names()[static_cast<std::size_t>(settings.bottom_tab)];
-                     }}),
+                     },
+                 .also = "table list spreadsheet sort waste worst plot graph speed radius"}),
         Command("window.scale", "Scale of text and panels", "Makes text and panels so many times as large, 0.5 to 4.",
                 set_scale,
                 {.menu = kNoMenu,

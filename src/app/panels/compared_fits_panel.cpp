@@ -29,7 +29,7 @@ std::vector<std::string> short_fit_names(const ComparedFits& fits) {
     return differ(kinds) ? kinds : differ(rests) ? rests : fits.names;
 }
 
-std::string value_text(const std::optional<double>& value) { return value ? figure(*value, 3) : "-"; }
+std::string value_or_dash(const std::optional<double>& value) { return value ? figure(*value, 3) : "-"; }
 std::string share_text(const std::optional<double>& value) { return value ? formatted("%.0f %%", 100 * *value) : "-"; }
 
 /// "+12 %", "-28 %"; empty of the first fit, with which the others are compared.
@@ -146,9 +146,9 @@ class FitTable {
                   level.level < 0 ? "leaf" : "L" + std::to_string(level.level));
         for (std::size_t fit = 0; fit < names_.size(); ++fit) {
             const ImVec2 row = begin_row(corner, fit, usual);
-            ending(row, at_.volume, color_of(level.volume, fit, usual), value_text(level.volume.values[fit]));
+            ending(row, at_.volume, color_of(level.volume, fit, usual), value_or_dash(level.volume.values[fit]));
             ending(row, at_.fill, color_of(level.fill, fit, usual), share_text(level.fill.values[fit]));
-            ending(row, at_.cost, color_of(level.cost, fit, usual), value_text(level.cost.values[fit]));
+            ending(row, at_.cost, color_of(level.cost, fit, usual), value_or_dash(level.cost.values[fit]));
             ending(row, at_.width, color_of(level.volume, fit, usual), more_text(level.volume, fit));
             const double cost = level.cost.values[fit].value_or(0);
             if (cost <= 0 || !at_.has_bar(ui_)) continue;
@@ -190,7 +190,7 @@ class FitTable {
         for (std::size_t fit = 0; fit < names_.size(); ++fit) {
             const ImVec2 row = begin_row(below, fit, ui_.style.text);
             const ImU32 color = color_of(fits_.cost, fit, ui_.style.text);
-            ending(row, at_.cost, color, value_text(fits_.cost.values[fit]));
+            ending(row, at_.cost, color, value_or_dash(fits_.cost.values[fit]));
             ending(row, at_.width, color, more_text(fits_.cost, fit));
         }
     }

@@ -20,15 +20,15 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr float kLeastBars = 60;     // width, pixels at scale 1
-constexpr float kMostBar = 26;       // height of a path's bar, pixels at scale 1
-constexpr float kConflictBars = 14;  // height, pixels at scale 1
-constexpr float kProofBar = 7;       // height of the lines of a proof, pixels at scale 1
-constexpr float kHandle = 6;         // of an end of the slab, to either side, pixels at scale 1
-constexpr float kHandleHeight = 7;   // ... upwards and downwards
-constexpr float kNoEnd = -1e9f;      // no end of the slab is dragged
-constexpr float kLeastSlab = 3;      // a shorter drag is a click, pixels at scale 1
-constexpr float kLeastStrip = 60;    // of the strip of steps, which else has a line of its own
+constexpr float kLeastBars = 60;        // width, pixels at scale 1
+constexpr float kMostBar = 26;          // height of a path's bar, pixels at scale 1
+constexpr float kConflictBars = 14;     // height, pixels at scale 1
+constexpr float kProofBar = 7;          // height of the lines of a proof, pixels at scale 1
+constexpr float kSlabHandle = 6;        // of an end of the slab, to either side, pixels at scale 1
+constexpr float kSlabHandleHeight = 7;  // ... upwards and downwards
+constexpr float kNoEnd = -1e9f;         // no end of the slab is dragged
+constexpr float kLeastSlab = 3;         // a shorter drag is a click, pixels at scale 1
+constexpr float kLeastStrip = 60;       // of the strip of steps, which else has a line of its own
 
 /// An empty span has some length too.
 ChartAxis time_axis(const mobb::Interval& span, float left, float width) {
@@ -79,11 +79,11 @@ std::vector<DrawnAgent> shown_paths(const Workspace& workspace) {
 std::optional<float> fixed_end(const Ui& ui, const ChartAxis& axis, float x) {
     const bool shift = ImGui::GetIO().KeyShift;
     const float middle = 0.5f * (ImGui::GetItemRectMin().y + ImGui::GetItemRectMax().y);
-    const bool at_handle = shift || std::abs(ImGui::GetIO().MousePos.y - middle) <= ui.px(kHandleHeight);
+    const bool at_handle = shift || std::abs(ImGui::GetIO().MousePos.y - middle) <= ui.px(kSlabHandleHeight);
     if (const auto& slab = ui.workspace.view().slab; slab && at_handle) {
         const float low = axis.pixel(slab->least), high = axis.pixel(slab->most);
-        if (std::abs(x - high) <= ui.px(kHandle)) return low;
-        if (std::abs(x - low) <= ui.px(kHandle)) return high;
+        if (std::abs(x - high) <= ui.px(kSlabHandle)) return low;
+        if (std::abs(x - low) <= ui.px(kSlabHandle)) return high;
     }
     return shift ? std::optional(x) : std::nullopt;
 }
@@ -125,7 +125,7 @@ void shade_slab(const Ui& ui, const ChartAxis& axis, const ValueRange& slab, flo
     for (const float x : {low, high}) {
         draw.AddLine({x, top}, {x, top + height}, ui.style.text, ui.px(1));
         const ImVec2 middle{x, top + 0.5f * height};
-        const float half = std::min(ui.px(kHandleHeight), 0.4f * height);
+        const float half = std::min(ui.px(kSlabHandleHeight), 0.4f * height);
         draw.AddRectFilled({x - ui.px(3), middle.y - half}, {x + ui.px(3), middle.y + half}, ui.style.text, ui.px(2));
     }
 }

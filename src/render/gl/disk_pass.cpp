@@ -83,7 +83,7 @@ bool block_may_be_seen(const DiskBlock& block, const ViewProjection& projection,
 }
 
 /// Whether disks of a block end where they are cut. A tube would be open there.
-bool is_cut(const DiskBlock& block, glm::vec2 slab) {
+bool crosses_slab(const DiskBlock& block, glm::vec2 slab) {
     const auto reaches = [&](float height) { return block.lowest <= height && height <= block.highest; };
     return reaches(slab.x) || reaches(slab.y);
 }
@@ -242,7 +242,7 @@ std::vector<DiskPass::Batch> DiskPass::coarse_batches(const ViewProjection& proj
         const float depth = middle - block.reach;
         // What is little nearer than the middle is little larger.
         const float pixels = scale.at_depth(block.reach < kFlatBlock * middle ? middle : depth);
-        const int level = is_cut(block, slab) ? 0 : DiskLevels::choose(block, pixels, projection);
+        const int level = crosses_slab(block, slab) ? 0 : DiskLevels::choose(block, pixels, projection);
         const int sides = coarse_sides(block.usual_radius * pixels);
         const Part part = !projection.below(block.highest) ? Part::side_and_upper_face
                           : projection.below(block.lowest) ? Part::side_and_lower_face
