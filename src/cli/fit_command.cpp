@@ -46,7 +46,7 @@ void print_json(const FittedScene& fitted) {
 /// A row for each node; a cell of what there is none of is empty.
 void print_csv(const FittedScene& fitted) {
     std::cout << "clip,tree,leaf,axes,time_scale,index,parent,level,first,count,is_leaf,kind,t0,t1,volume,tightness,"
-                 "share,box_tests,empty,floor,overhang\n";
+                 "share,box_tests,empty,floor,overhang,waste\n";
     for (int clip = 0; clip < static_cast<int>(fitted.scene().clips.size()); ++clip) {
         const mobb::Tree& tree = fitted.tree(clip);
         const mobb::FitOptions& options = tree.options();
@@ -68,7 +68,7 @@ void print_csv(const FittedScene& fitted) {
                       << figure_of(NodeField::volume, i) << ',' << figure_of(NodeField::fill, i) << ','
                       << figure_of(NodeField::share, i) << ','
                       << (expected ? format_double(values.value(NodeField::share, i) * expected->tests.boxes()) : "");
-            for (const NodeField field : {NodeField::empty, NodeField::floor, NodeField::overhang})
+            for (const NodeField field : {NodeField::empty, NodeField::floor, NodeField::overhang, NodeField::waste})
                 std::cout << ',' << figure_of(field, i);
             std::cout << '\n';
         }
@@ -145,18 +145,19 @@ void print_variants(const FittedScene& fitted, const std::string& node, bool as_
 }
 
 /// Of every clip. Throws InputError for what is no fit.
-void print_comparisons(const FittedScene& fitted, const FitCommandArguments& arguments) {
+void print_comparisons(const Scene& scene, const FitCommandArguments& arguments) {
+    const mobb::FitOptions base = arguments.fit.over(scene.fit);
     std::vector<mobb::FitOptions> fits;
     for (const std::string& text : arguments.compare) {
         try {
-            fits.push_back(parse_fit(text, fitted.options()));
+            fits.push_back(parse_fit(text, base));
         } catch (const std::invalid_argument& error) {
             throw InputError(std::string("--compare: ") + error.what());
         }
     }
     if (fits.size() < 2) throw InputError("--compare: give two fits or more, such as mobb,leaf=10 moving");
     std::vector<ClipComparison> all;
-    for (const SceneClip& clip : fitted.scene().clips) all.push_back(comparison_of(clip.name, clip.clip, fits));
+    for (const SceneClip& clip : scene.clips) all.push_back(comparison_of(clip.name, clip.clip, fits));
     if (!arguments.json) {
         std::ranges::for_each(all, print_compared_fits);
         return;
@@ -168,15 +169,18 @@ void print_comparisons(const FittedScene& fitted, const FitCommandArguments& arg
 }
 
 void run_fit(const FitCommandArguments& arguments) {
-    const FittedScene scene = fitted(load(arguments.file, arguments.import_options), arguments.fit);
+    Scene scene = load(arguments.file, arguments.import_options);
     if (!arguments.compare.empty()) {
         print_comparisons(scene, arguments);
-    } else if (!arguments.what_if) {
+        return flush_results();
+    }
+    const FittedScene trees = fitted(std::move(scene), arguments.fit);
+    if (!arguments.what_if) {
         const auto print = arguments.csv ? print_csv : arguments.json ? print_json : print_trees;
-        print(scene);
+        print(trees);
     } else {
         try {
-            print_variants(scene, *arguments.what_if, arguments.json);
+            print_variants(trees, *arguments.what_if, arguments.json);
         } catch (const std::invalid_argument& error) {
             throw InputError(arguments.file, error.what());
         }

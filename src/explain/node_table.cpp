@@ -12,9 +12,9 @@ namespace mobbscope {
 
 namespace {
 
-constexpr std::array kNodeColumns{NodeField::node,  NodeField::level,  NodeField::sample,   NodeField::empty,
-                                  NodeField::fill,  NodeField::volume, NodeField::floor,    NodeField::overhang,
-                                  NodeField::share, NodeField::tests,  NodeField::avoidable};
+constexpr std::array kNodeColumns{NodeField::node,     NodeField::level, NodeField::sample, NodeField::waste,
+                                  NodeField::empty,    NodeField::fill,  NodeField::volume, NodeField::floor,
+                                  NodeField::overhang, NodeField::share, NodeField::tests,  NodeField::avoidable};
 constexpr int kFigureDigits = 3;
 
 std::string number_text(const NodeFieldInfo& about, double value, bool exact) {

@@ -25,10 +25,11 @@ void write_vector(JsonWriter& out, const glm::dvec3& v, int count) {
     count == 2 ? out.value(glm::dvec2(v)) : out.value(v);
 }
 
-constexpr std::array<std::pair<std::string_view, NodeField>, 4> kNodeFigures{{{"share", NodeField::share},
+constexpr std::array<std::pair<std::string_view, NodeField>, 5> kNodeFigures{{{"share", NodeField::share},
                                                                               {"empty", NodeField::empty},
                                                                               {"floor", NodeField::floor},
-                                                                              {"overhang", NodeField::overhang}}};
+                                                                              {"overhang", NodeField::overhang},
+                                                                              {"waste", NodeField::waste}}};
 
 void write_node(JsonWriter& out, const NodeValues& values, int index) {
     const mobb::Tree& tree = values.tree();

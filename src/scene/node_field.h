@@ -19,6 +19,7 @@ enum class NodeField : std::uint8_t {
     leaf,
     volume,
     empty,
+    waste,
     fill,
     floor,
     overhang,
@@ -26,7 +27,7 @@ enum class NodeField : std::uint8_t {
     tests,
     avoidable,
 };
-inline constexpr std::size_t kNodeFieldCount = 14;
+inline constexpr std::size_t kNodeFieldCount = 15;
 
 struct NodeFieldInfo : TableField {
     NodeField field;

@@ -208,6 +208,11 @@ ViewOption with_its_own_range(ViewOption row) {
         parse(text, view);
         if (view.color_by != before) view.color_range.reset();
     };
+    row.read = [read = row.read](const JsonPlace& place, ViewState& view) {
+        const ColorBy before = view.color_by;
+        read(place, view);
+        if (view.color_by != before) view.color_range.reset();
+    };
     return row;
 }
 
@@ -408,9 +413,9 @@ std::vector<ViewOption> all_view_options() {
              .menu = "View",
              .shortcut = "C",
              .also = "heatmap color waste worst loose tight histogram",
-             .choices = {"agent", "level", "volume", "empty", "fill", "floor", "overhang", "share", "tests",
+             .choices = {"agent", "level", "volume", "empty", "waste", "fill", "floor", "overhang", "share", "tests",
                          "avoidable"},
-             .choice_titles = {"agent", "level", "volume", "empty space", "fill", "area on the floor",
+             .choice_titles = {"agent", "level", "volume", "empty space", "wasted space", "fill", "area on the floor",
                                "overhang in time", "part of the cost", "tests", "avoidable overlaps"},
              .refused_in_file = "boxes cannot be coloured by {}",
              .refused_in_window = "colours cannot be by {}"})),

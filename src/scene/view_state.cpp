@@ -1,8 +1,8 @@
 #include <base/text.h>
+#include <mobb/clip.h>
 #include <scene/view_state.h>
 
 #include <array>
-#include <cmath>
 
 namespace mobbscope {
 
@@ -18,7 +18,7 @@ std::optional<int> level(std::string_view text) {
 // In the order of their enumerations.
 constexpr std::array<std::string_view, 5> kPresets{"iso", "top", "front", "side", "free"};
 constexpr std::array<std::string_view, 2> kThemes{"dark", "light"};
-constexpr std::array<std::string_view, 10> kColorings{"agent", "level",    "volume", "empty", "fill",
+constexpr std::array<std::string_view, 11> kColorings{"agent", "level",    "volume", "empty", "waste",    "fill",
                                                       "floor", "overhang", "share",  "tests", "avoidable"};
 constexpr std::array<std::string_view, 4> kPasts{"pair", "ancestors", "siblings", "all"};
 constexpr std::array<std::string_view, 2> kArrangements{"none", "grid"};
@@ -65,8 +65,13 @@ std::optional<ValueRange> parse_value_range(const std::string& text) {
     const std::optional<double> least = parse_double(std::string_view(text).substr(0, colon));
     const std::optional<double> most =
         colon == std::string::npos ? std::nullopt : parse_double(std::string_view(text).substr(colon + 1));
-    if (!least || !most || !(*least <= *most) || !std::isfinite(*most - *least))
-        throw std::invalid_argument(in_quotes(text) + " is no range: give the least and the most, as 0:2.5");
+    // As files have them.
+    const bool within = least && most && *least >= -mobb::kMaxTime && *most <= mobb::kMaxTime;
+    if (!within || !(*least <= *most)) {
+        throw std::invalid_argument(in_quotes(text) +
+                                    " is no range: give the least and the most, such as 0:2.5, from " +
+                                    brief(-mobb::kMaxTime) + " to " + brief(mobb::kMaxTime));
+    }
     return ValueRange{*least, *most};
 }
 

@@ -17,7 +17,7 @@ namespace mobbscope {
 enum class CameraPreset { iso, top, front, side, free };
 enum class Theme { dark, light };
 /// What the colour of a level's boxes says: whose they are, or a figure of their node.
-enum class ColorBy { agent, level, volume, empty, fill, floor, overhang, share, tests, avoidable };
+enum class ColorBy { agent, level, volume, empty, waste, fill, floor, overhang, share, tests, avoidable };
 
 /// What a picture is of: the stacks and boxes in space-time; the floor at one moment, with people in their cylinders;
 /// or a plan of it, the disks and the cross-sections of boxes at that moment.

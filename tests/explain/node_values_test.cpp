@@ -114,6 +114,17 @@ TEST(NodeValues, LevelsAddUpToTheirFigures) {
     }
 }
 
+TEST(NodeValues, WasteAddsUpToTheEmptySpaceOfTheRoot) {
+    for (const mobb::TreeKind kind : {mobb::TreeKind::mobb, mobb::TreeKind::umobb, mobb::TreeKind::blocks}) {
+        const auto tree = tree_of(kind);
+        const NodeValues values(tree, {});
+        double sum = 0;
+        for (const double waste : values.column(NodeField::waste)) sum += waste;
+        const double empty = values.value(NodeField::volume, 0) * (1 - values.value(NodeField::fill, 0));
+        EXPECT_NEAR(sum, empty, 1e-9 * values.value(NodeField::volume, 0)) << mobb::name(kind);
+    }
+}
+
 TEST(NodeValues, TestsAndBlameAreThoseOfTheClip) {
     const auto tree = tree_of(mobb::TreeKind::mobb);
     NodeValues values(tree, std::vector<double>(tree->nodes().size(), 0.25));

@@ -146,6 +146,14 @@ double value_of(const FittedScene& fitted, const DrawList& list, const BoxInstan
             return volume;
         case ColorBy::empty:
             return volume - filled;
+        case ColorBy::waste: {
+            // The list has the children of no leaf, and of other nodes all: their volumes are those of the tree.
+            double below = tree.is_leaf(box.id.index) ? filled : 0;
+            for (int i = 0; i < static_cast<int>(tree.nodes().size()); ++i) {
+                if (tree.parent(i) == box.id.index) below += mobb::volume(tree.box(i), tree.time_scale());
+            }
+            return volume - below;
+        }
         case ColorBy::fill:
             return filled / volume;
         case ColorBy::floor:
@@ -209,9 +217,9 @@ TEST_P(BoxFiguresTest, ABoxHasTheColourOfItsFigure) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BoxFiguresTest,
-                         ::testing::Values(ColorBy::level, ColorBy::volume, ColorBy::empty, ColorBy::fill,
-                                           ColorBy::floor, ColorBy::overhang, ColorBy::share, ColorBy::tests,
-                                           ColorBy::avoidable),
+                         ::testing::Values(ColorBy::level, ColorBy::volume, ColorBy::empty, ColorBy::waste,
+                                           ColorBy::fill, ColorBy::floor, ColorBy::overhang, ColorBy::share,
+                                           ColorBy::tests, ColorBy::avoidable),
                          [](const auto& one) { return std::string(name(one.param)); });
 
 TEST(FigureColors, AChosenRangeIsExactAndWhatIsOutsideStepsBack) {

@@ -31,10 +31,10 @@ struct Cell {
     double value = 0;
 };
 
-/// The figure that the strip is coloured by: the boxes', or where these have no figure of their own the empty space.
+/// The figure that the strip is coloured by: the boxes', or where these have no figure of their own the wasted space.
 const NodeFieldInfo& strip_field(const ViewState& view) {
     const NodeFieldInfo* field = color_figure(view.color_by);
-    return field && field->field != NodeField::level ? *field : info(NodeField::empty);
+    return field && field->field != NodeField::level ? *field : info(NodeField::waste);
 }
 
 /// Whose nodes they are, on the picture's clock.

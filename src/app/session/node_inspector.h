@@ -19,7 +19,7 @@ class NodeInspector {
     NodeInspector(Workspace& workspace, NodeFigures& figures) : workspace_(workspace), figures_(figures) {}
 
     std::optional<NodeFilter> filter;  ///< none: all
-    NodeField by = NodeField::empty;
+    NodeField by = NodeField::waste;
     bool descending = true;  ///< the worst first
 
     /// By another column, the worst first; by the same one the other way round.
@@ -58,7 +58,7 @@ class NodeInspector {
     struct Order {
         std::shared_ptr<const NodeValues> of;
         std::string filter;
-        NodeField by = NodeField::empty;
+        NodeField by = NodeField::waste;
         bool descending = false;
         friend bool operator==(const Order&, const Order&) = default;
     };
