@@ -412,7 +412,7 @@ std::vector<ViewOption> all_view_options() {
              .title = "Colour boxes by",
              .menu = "View",
              .shortcut = "C",
-             .also = "heatmap color waste worst loose tight histogram",
+             .also = "heatmap color waste worst loose tight histogram volume",
              .choices = {"agent", "level", "volume", "empty", "waste", "fill", "floor", "overhang", "share", "tests",
                          "avoidable"},
              .choice_titles = {"agent", "level", "volume", "empty space", "wasted space", "fill", "area on the floor",
@@ -512,7 +512,7 @@ std::vector<ViewOption> all_view_options() {
                                   .what = "The disks in the colour of how many tests of boxes hold them",
                                   .title = "Heat of tests on the disks",
                                   .menu = "View/Show",
-                                  .also = "heatmap hot cost",
+                                  .also = "heatmap map hot cost",
                                   .draws = DrawnPart::colors,
                                   .may_be_seen = [](const ViewState& view) { return view.disks && !view.query; }}),
         toggle<&ViewState::cut_boxes>(
@@ -539,7 +539,7 @@ std::vector<ViewOption> all_view_options() {
                                          .what = "The boxes too, where the camera frames the scene",
                                          .title = "Frame boxes too",
                                          .menu = "View/Camera",
-                                         .also = "home fit bounds",
+                                         .also = "fit bounds",
                                          .draws = DrawnPart::surroundings}),
         toggle<&ViewState::proof>({.key = "proof",
                                    .what = "The lines that keep the two of a query apart: as walls at its last step, "

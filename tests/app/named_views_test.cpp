@@ -116,7 +116,7 @@ TEST(NamedViews, HaveAMenu) {
     EXPECT_EQ(w.names(), "uno, two");
     w.run("click named_view.1 right\nclick context.view.remove");
     EXPECT_EQ(w.names(), "uno");
-    w.run("key Ctrl+P\ntype go to uno\nkey Enter");
+    w.run("run view.leaves\nkey Ctrl+P\ntype go to uno\nkey Enter");
     EXPECT_EQ(w.session.workspace.history.look_back_title(), "going to the view uno") << "the palette knows the name";
 }
 

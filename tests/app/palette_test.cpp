@@ -93,7 +93,9 @@ TEST(PaletteEntries, CommandsAreFoundByAFewLetters) {
     EXPECT_EQ(p.first_id("step forward"), "step.forward");
     EXPECT_EQ(p.first_id("compare"), "compare.paper");
     EXPECT_EQ(p.first_id("compare mobb umobb"), "compare.paper");
-    for (const char* asked : {"side by side", "tighter"})
+    EXPECT_EQ(p.first_id("best"), "tree.sweep");
+    EXPECT_EQ(p.first("volume").title, "Colour boxes by: volume");
+    for (const char* asked : {"side by side", "tighter", "better"})
         EXPECT_TRUE(p.first_id(asked).starts_with("compare.")) << asked << ": " << p.first_id(asked);
     EXPECT_EQ(p.first_id("zzqx"), "");
 }
@@ -126,13 +128,21 @@ TEST(PaletteEntries, AgentsClipsQueriesAndNodesAreFound) {
 /// What people say who come from other tools, and what they must find among the first three.
 TEST(PaletteEntries, AreFoundByWhatPeopleSay) {
     const std::vector<std::pair<std::string, std::vector<std::string>>> table{
-        {"compare", {"view.split", "compare.with"}},
-        {"side by side", {"view.split"}},
-        {"waste", {"tree.next_finding", "query.blame", "step.next_avoidable"}},
+        {"compare", {"compare.with", "compare.paper", "compare.add"}},
+        {"side by side", {"compare.paper", "compare.fits", "compare.add"}},
+        {"tighter", {"compare.paper", "compare.fits", "tree.kind"}},
+        {"better", {"compare.paper", "compare.fits"}},
+        {"waste", {"tree.next_finding", "view.color_by", "bottom.show"}},
+        {"false positive", {"query.blame", "step.next_avoidable"}},
         {"tight", {"tree.kind", "tree.axes", "tree.next_finding"}},
-        {"loose", {"tree.next_finding", "tree.kind"}},
-        {"worst", {"query.worst"}},
+        {"loose", {"tree.next_finding", "tree.kind", "view.color_by"}},
+        {"worst", {"query.worst", "nodes.sort", "tree.next_finding"}},
         {"best", {"tree.sweep"}},
+        {"volume", {"view.color_by", "nodes.sort"}},
+        {"histogram", {"view.color_by", "view.color_range"}},
+        {"heat", {"view.heat"}},
+        {"slice", {"view.slice"}},
+        {"measure", {"view.measure"}},
         {"fastest", {"tree.sweep"}},
         {"breakpoint", {"breakpoint.add"}},
         {"record", {"file.export_picture", "time.play"}},
@@ -144,12 +154,12 @@ TEST(PaletteEntries, AreFoundByWhatPeopleSay) {
         {"pdf", {"file.export_picture"}},
         {"why", {"reasons.at"}},
         {"isolate", {"agent.solo", "agents.solo"}},
-        {"heat map", {"map.panel"}},
-        {"table", {"events.show"}},
+        {"heat map", {"map.panel", "view.heat"}},
+        {"table", {"events.show", "bottom.show"}},
         {"event browser", {"events.show"}},
         {"csv", {"events.copy_csv"}},
-        {"bookmark", {"bookmark.add"}},
-        {"plan", {"view.top"}},
+        {"bookmark", {"bookmark.add", "view.save_as"}},
+        {"plan", {"view.plan", "view.top"}},
         {"home", {"view.frame_all"}},
         {"reset", {"view.frame_all"}},
         {"zoom to fit", {"view.frame_all", "view.frame"}},

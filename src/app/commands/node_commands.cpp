@@ -5,9 +5,11 @@
 #include <base/text.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -104,13 +106,13 @@ std::vector<Command> node_commands() {
                  .choices = [](const Session&) { return node_column_names(); },
                  .chosen = [](const NodeInspector& nodes,
                               const std::string& column) { return info(nodes.by).name == column; },
-                 .also = "worst waste loose order"}),
+                 .also = "worst order rank"}),
         Command("nodes.count", "Count tests and avoidable overlaps",
                 "Counts the tests of each node, and the avoidable overlaps it is to blame for, over all queries.",
                 count_all_of_nodes, {.enabled = {can_count_nodes, why_not_counted}}),
-        Command("nodes.copy", "Copy the table", "Copies the rows of the table of nodes, with tabs between columns.",
+        Command("nodes.copy", "Copy the nodes", "Copies the rows of the table of nodes, with tabs between columns.",
                 copy_nodes<'\t'>),
-        Command("nodes.copy_csv", "Copy the table as CSV", "Copies the rows of the table of nodes as CSV.",
+        Command("nodes.copy_csv", "Copy the nodes as CSV", "Copies the rows of the table of nodes as CSV.",
                 copy_nodes<','>),
     };
     return in_menu("Tree/Nodes", rows);

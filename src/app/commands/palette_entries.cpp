@@ -104,7 +104,9 @@ class Collector {
         const auto found = score(looked_for, fields, letters_);
         if (!found) return;
         const bool in_title = score(looked_for, {{title}}, letters_).has_value();
-        const double points = *found + extra - kPerLetter * static_cast<double>(title.size());
+        // Where nothing is looked for, commands stay as the menus have them.
+        const double letters = looked_for.empty() ? 0 : static_cast<double>(title.size());
+        const double points = *found + extra - kPerLetter * letters;
         found_.push_back({points,
                           {&command, std::move(argument), std::move(title), std::string(detail),
                            std::string(in_title ? std::string_view() : command.doc),

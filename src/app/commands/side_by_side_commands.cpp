@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mobbscope::app {
@@ -106,7 +107,7 @@ std::vector<Command> side_by_side_commands() {
         Command("view.split", "Split",
                 "Shows the scene twice, side by side: beside these trees UMOBB trees, or MOBB trees where these are "
                 "UMOBB. Of several views, closes all but the active one.",
-                toggle_split, {.menu = "View", .checked = is_split, .also = "compare side by side dual two"}),
+                toggle_split, {.menu = "View", .checked = is_split, .also = "compare dual two"}),
         Command("view.other", "Go to the other view",
                 "Of several views: commands and panels are about the next one from now on.",
                 [](Views& views) { views.activate((views.active() + 1) % views.count()); },
