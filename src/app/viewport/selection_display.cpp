@@ -44,16 +44,13 @@ void add_highlight_of(DrawList& list, const SceneView& seen, const Selection& wh
 }
 
 /// The boxes above the selected node, or else above the part that is shown alone.
-void add_ancestors_of(DrawList& list, const Session& session, float scale) {
-    const ViewState& view = session.workspace.view();
-    if (!view.ancestors || view.projection) return;
-    const Selection& selected = session.workspace.selection;
+void add_ancestors_of(DrawList& list, const SceneView& seen, const Selection& selected, float scale) {
+    if (!seen.view.ancestors || seen.view.projection) return;
     if (selected.kind == Selection::Kind::node) {
-        if (const auto owner = owner_in_view(active_view(session), selected))
-            add_ancestors(list, *owner, selected.index, scale);
+        if (const auto owner = owner_in_view(seen, selected)) add_ancestors(list, *owner, selected.index, scale);
         return;
     }
-    if (view.subtree) add_ancestors_of_part(list, drawn_agents(session.workspace.fitted(), view), view, scale);
+    if (seen.view.subtree) add_ancestors_of_part(list, drawn_agents(*seen.fitted, seen.view), seen.view, scale);
 }
 
 /// The box that is tried in place of the selected node's, or those of its children where it is split otherwise.
@@ -116,7 +113,7 @@ void add_pointed_out(DrawList& list, const SceneView& seen, const Selection& sel
 }  // namespace
 
 void add_highlights(DrawList& list, const Session& session, float scale) {
-    add_ancestors_of(list, session, scale);
+    add_ancestors_of(list, active_view(session), session.workspace.selection, scale);
     add_pointed_out(list, active_view(session), session.workspace.selection, session.workspace.hovered, scale);
     add_hovered_event(list, session, scale);
     add_variant(list, session, scale);
@@ -127,6 +124,7 @@ void add_highlights(DrawList& list, const Session& session, float scale) {
 
 void add_highlights_beside(DrawList& list, const Workspace& workspace, const SceneView& seen, float scale) {
     const auto there = [&](const Selection& here) { return counterpart(here, workspace.fitted(), *seen.fitted); };
+    add_ancestors_of(list, seen, there(workspace.selection), scale);
     add_pointed_out(list, seen, there(workspace.selection), there(workspace.hovered), scale);
 }
 
