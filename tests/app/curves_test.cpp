@@ -8,8 +8,13 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <cstddef>
+#include <memory>
 #include <string>
+#include <thread>
+#include <vector>
 
 namespace mobbscope::app {
 namespace {
@@ -96,6 +101,61 @@ TEST(Curves, SayWhatIsLeftOut) {
     w.run("go.agent", "C");
     for (int i = 0; i < 11; ++i) w.run("agent.duplicate");
     EXPECT_TRUE(w.has("curves.left_out")) << "14 agents";
+}
+
+/// A scene with so many clips, each with an agent of its own.
+std::string clips_scene(const CrossingFolder& folder, int count) {
+    std::string clips, agents;
+    for (int i = 0; i < count; ++i) {
+        const std::string name = "c" + std::to_string(i);
+        const std::string comma = i > 0 ? "," : "";
+        folder.write(name + ".csv", testing::walk_csv());
+        clips.append(comma).append("\"" + name + "\": {\"source\": \"" + name + ".csv\"}");
+        agents.append(comma).append("{\"name\": \"" + name + "\", \"clip\": \"" + name + "\"}");
+    }
+    return "{\"clips\": {" + clips + "}, \"agents\": [" + agents + "]}";
+}
+
+TEST(Curves, CostsAreFoundOnceAndOnlyOfTheActiveView) {
+    constexpr int kClips = 12;
+    CurvesWindow w;
+    w.run("file.open", w.folder.write("clips.json", clips_scene(w.folder, kClips)).string());
+    w.run("compare.fits", "mobb umobb moving aabb");
+    const Workspace& workspace = w.session.workspace;
+    ASSERT_EQ(w.session.views.count(), 4u);
+    std::vector<std::shared_ptr<const TreeCost>> known;
+    for (int clip = 0; clip < kClips; ++clip) {
+        known.push_back(workspace.cost_of(clip));
+        EXPECT_TRUE(known.back()) << clip;
+        EXPECT_EQ(workspace.cost_of(*w.session.views.at(1).fitted, clip) != nullptr, clip == 0) << clip;
+    }
+    for (int frame = 0; frame < 3; ++frame) w.window.settle();
+    for (int clip = 0; clip < kClips; ++clip) EXPECT_EQ(workspace.cost_of(clip), known[static_cast<std::size_t>(clip)]);
+}
+
+TEST(Curves, NoCostIsGivenUpForThatOfAnotherClip) {
+    constexpr int kClips = 4;
+    const CrossingFolder folder;
+    testing::TestDesktop desktop;
+    Session session{true};
+    session.desktop = &desktop;
+    session.options.may_write = false;
+    session.files.open({folder.write("clips.json", clips_scene(folder, kClips))});
+    session.options.patience = {};
+    while (session.jobs.job()) session.poll();
+    const auto all_known = [&] {
+        // As panels ask in each frame; none is waited for.
+        session.fit_costs.update(0);
+        for (int clip = 1; clip < kClips; ++clip) session.fit_costs.find_when_idle(clip);
+        for (int clip = 0; clip < kClips; ++clip) {
+            if (!session.workspace.cost_of(clip)) return false;
+        }
+        return true;
+    };
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!all_known() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    EXPECT_TRUE(all_known());
+    session.end_work();
 }
 
 }  // namespace

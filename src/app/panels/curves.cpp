@@ -31,12 +31,6 @@ std::string value_text(const CurveInfo& curve, double value) {
     return formatted("%.*f", curve.decimals, value) + (joined ? "" : " ") + std::string(curve.unit);
 }
 
-/// Costs of one tree after the other are worked out; that of the tree in focus has its own place.
-void find_cost(Ui& ui, int clip) {
-    const Workspace& workspace = ui.workspace;
-    if (!workspace.cost_of(clip) && workspace.cost_of(clip_in_focus(workspace))) ui.session.fit_costs.update(clip);
-}
-
 }  // namespace
 
 void CurvePlots::update(Ui& ui, const ChartAxis& time) {
@@ -63,7 +57,7 @@ void CurvePlots::update(Ui& ui, const ChartAxis& time) {
     for (const DrawnAgent& agent : agents) {
         key.refs.push_back(ref_of(agent));
         const auto who = placed_agent_of(fitted, key.refs.back());
-        if (who && !workspace.crowd()) find_cost(ui, who->clip);
+        if (who && !workspace.crowd()) ui.session.fit_costs.find_when_idle(who->clip);
         key.costs.push_back(who ? workspace.cost_of(who->clip) : nullptr);
     }
     if (key_ == key) return;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <exception>
+#include <optional>
 #include <utility>
 
 namespace mobbscope::app {
@@ -11,56 +12,88 @@ namespace mobbscope::app {
 namespace {
 
 constexpr std::chrono::milliseconds kAtOnce{15};  // no frame is later by more
-constexpr std::size_t kCountedByItself = 2000;    // queries; more are counted where somebody asks for it
+constexpr std::size_t kCountedByItself = 2000;    // queries; more are counted in the active view, by a button
 
 }  // namespace
 
-std::shared_ptr<const FittedScene> FitCosts::next_unknown(int clip) const {
+bool FitCosts::Task::operator==(const Task& other) const {
+    if (counts != other.counts) return false;
+    if (counts) return in == other.in || ask_the_same(*in, *other.in);
+    return in->shared_tree(clip) == other.in->shared_tree(other.clip);
+}
+
+/// Nor is one begun again that failed.
+bool FitCosts::is_known(const Task& task) const {
+    return workspace_.cost_of(*task.in, task.clip) || std::ranges::find(failed_, task) != failed_.end();
+}
+
+std::optional<FitCosts::Task> FitCosts::next_unknown(int clip) const {
     const bool counts = workspace_.workload() == QueryWorkload::Kind::queries;
+    // Of the active view somebody asks for it (wants_count).
+    if (counts && !workspace_.cost_of(clip)) return std::nullopt;
     for (const SceneView& seen : views_of(workspace_.document())) {
-        if (seen.fitted->shared_tree(clip) == of_ || workspace_.cost_of(*seen.fitted, clip)) continue;
-        // Of the active view somebody asks for it (wants_count).
-        if (counts && !workspace_.cost_of(clip)) continue;
-        return seen.fitted;
+        if (counts && seen.fitted->queries().size() > kCountedByItself) continue;
+        const Task task{seen.fitted, clip, counts};
+        if (!is_known(task)) return task;
     }
-    return nullptr;
+    return std::nullopt;
+}
+
+bool FitCosts::is_shown(const Task& task) const {
+    if (task.counts != (workspace_.workload() == QueryWorkload::Kind::queries)) return false;
+    const auto shows = [&](const SceneView& seen) {
+        const auto clip = static_cast<std::size_t>(task.clip);
+        return clip < seen.fitted->scene().clips.size() && task == Task{seen.fitted, task.clip, task.counts};
+    };
+    return std::ranges::any_of(views_of(workspace_.document()), shows);
+}
+
+void FitCosts::begin(const Task& task, std::chrono::milliseconds patience) {
+    task_ = task;
+    job_ = std::make_unique<Job>(
+        "Costs of a tree",
+        [this, task](JobControl& control) -> Job::Finish {
+            if (task.counts) {
+                auto costs = std::make_shared<const SceneCosts>(scene_costs(*task.in, progress_of(control)));
+                return [this, of = task.in, costs = std::move(costs)] { workspace_.keep_counted(of, costs); };
+            }
+            auto cost =
+                std::make_shared<const TreeCost>(standard_cost(task.in->shared_tree(task.clip), progress_of(control)));
+            return [this, cost = std::move(cost)] { workspace_.keep_standard_cost(cost); };
+        },
+        [&at = *desktop_] { at.wake(); });
+    job_->wait(options_.attended ? std::min(patience, options_.patience) : std::chrono::hours(24));
+}
+
+void FitCosts::take_result() {
+    if (!job_ || !job_->done()) return;
+    try {
+        job_->finish();
+    } catch (const std::exception& error) {
+        failed_.push_back(task_);
+        notifications_.tell(MessageLevel::error, error.what());
+    }
+    end_work();
 }
 
 void FitCosts::update(int clip) {
-    if (job_ && job_->done()) {
-        try {
-            job_->finish();
-        } catch (const std::exception& error) {
-            notifications_.tell(MessageLevel::error, error.what());
-        }
-        job_.reset();
+    take_result();
+    std::erase_if(failed_, [&](const Task& task) { return !is_shown(task); });
+    if (job_ && !is_shown(task_)) end_work();
+    while (const std::optional<Task> task = next_unknown(clip)) {
+        // That of another clip gives way.
+        if (job_ && (task_.counts || task_.clip == clip)) return;
+        begin(*task, kAtOnce);
+        take_result();
     }
-    const auto views = views_of(workspace_.document());
-    const auto is_shown = [&](const SceneView& seen) { return seen.fitted->shared_tree(clip) == of_; };
-    if (std::ranges::none_of(views, is_shown)) end_work();
-    const std::shared_ptr<const FittedScene> of = job_ ? nullptr : next_unknown(clip);
-    if (!of) return;
-    of_ = of->shared_tree(clip);
-    const bool counts = workspace_.workload() == QueryWorkload::Kind::queries;
-    job_ = std::make_unique<Job>(
-        "Costs of a tree",
-        [this, of, clip, counts](JobControl& control) -> Job::Finish {
-            if (counts) {
-                auto costs = std::make_shared<const SceneCosts>(scene_costs(*of, progress_of(control)));
-                return [this, of, costs = std::move(costs)] {
-                    of_.reset();
-                    workspace_.keep_counted(of, costs);
-                };
-            }
-            auto cost = std::make_shared<const TreeCost>(standard_cost(of->shared_tree(clip), progress_of(control)));
-            return [this, cost = std::move(cost)] {
-                of_.reset();
-                workspace_.keep_standard_cost(cost);
-            };
-        },
-        [&at = *desktop_] { at.wake(); });
-    if (!job_->wait(options_.attended ? kAtOnce : std::chrono::hours(24))) return;
-    update(clip);
+}
+
+void FitCosts::find_when_idle(int clip) {
+    take_result();
+    const Task task{workspace_.document().fitted, clip, false};
+    if (job_ || workspace_.workload() != QueryWorkload::Kind::placements || is_known(task)) return;
+    begin(task, std::chrono::milliseconds(0));
+    take_result();
 }
 
 const ComparedFits& FitCosts::compared(int clip) {
@@ -86,7 +119,7 @@ bool FitCosts::wants_count() {
 
 void FitCosts::end_work() {
     job_.reset();
-    of_.reset();
+    task_ = {};
 }
 
 }  // namespace mobbscope::app

@@ -7,7 +7,9 @@
 #include <app/session/session_options.h>
 #include <explain/compared_fits.h>
 
+#include <chrono>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace mobbscope::app {
@@ -20,9 +22,12 @@ class FitCosts {
     FitCosts(const FitCosts&) = delete;
     FitCosts& operator=(const FitCosts&) = delete;
 
-    /// Whoever shows a clip's cost calls this before each frame: under standard placements it is worked out, and in the
-    /// scene's queries counted for the views beside the active one, once it is for that.
+    /// Whoever shows the cost of the clip in focus calls this before each frame: under standard placements it is worked
+    /// out of all views, and in the scene's queries counted for the views beside the active one, once it is for that,
+    /// unless these are many.
     void update(int clip);
+    /// For other clips: under standard placements the cost in the active view, where nothing else is under way.
+    void find_when_idle(int clip);
     /// The fits of all views over a clip, as far as their costs are known.
     const ComparedFits& compared(int clip);
     /// Whether the tests of the scene's queries are to be counted now for that: once for a scene, of few queries.
@@ -34,11 +39,25 @@ class FitCosts {
     Notifications& notifications_;
     const SessionOptions& options_;
     Desktop*& desktop_;
-    /// What is to be found out next; null: nothing, or it is under way.
-    std::shared_ptr<const FittedScene> next_unknown(int clip) const;
 
-    std::shared_ptr<const mobb::Tree> of_;  ///< the job's, or one of which it failed
+    /// What a job finds out: the cost of a clip's tree, or the counts of a whole scene.
+    struct Task {
+        std::shared_ptr<const FittedScene> in;
+        int clip = 0;
+        bool counts = false;
+        bool operator==(const Task& other) const;  ///< the same comes out
+    };
+    bool is_known(const Task& task) const;
+    /// Whether a view still has what the task is about.
+    bool is_shown(const Task& task) const;
+    std::optional<Task> next_unknown(int clip) const;
+    /// An attended window waits for it so long at most.
+    void begin(const Task& task, std::chrono::milliseconds patience);
+    void take_result();
+
+    Task task_;  ///< the job's
     std::unique_ptr<Job> job_;
+    std::vector<Task> failed_;  ///< of what views show: not begun again
     struct Compared {
         std::vector<std::shared_ptr<const mobb::Tree>> trees;
         std::vector<std::shared_ptr<const TreeCost>> costs;
