@@ -7,6 +7,7 @@
 #include <render/image/picture_names.h>
 #include <render/image/png.h>
 #include <render/pictures/build_draw_list.h>
+#include <render/pictures/kept_paths.h>
 #include <scene/arrangement.h>
 #include <scene/drawn_agent.h>
 #include <scene/scene_edits.h>
@@ -19,6 +20,7 @@
 #include <initializer_list>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::app {
@@ -96,7 +98,8 @@ std::optional<std::string> view_options_between(const ViewState& file, const Vie
     ViewState reached = file;  // as `render` applies the options
     reached.camera = now.camera;
     reached.subtree = now.subtree;
-    if (now.subtree != file.subtree) out += subtree_option(now, agents);
+    // A query shows no part of a tree alone.
+    if (now.subtree != file.subtree && !now.query) out += subtree_option(now, agents);
     for (const ViewOption& option : view_options()) {
         const bool needed = option.needed ? option.needed(reached, now) : !option.same(reached, now);
         if (!needed) continue;
@@ -214,9 +217,10 @@ PictureOrder order_to_export(const Settings& settings, const Workspace& workspac
     return out;
 }
 
-DrawList draw_list_of(const Workspace& workspace, const PictureOrder& order) {
+DrawList draw_list_of(const Workspace& workspace, const PictureOrder& order, std::shared_ptr<SceneFigures> figures) {
     check(order.options);
-    DrawList list = build_draw_list(*workspace.document().fitted, order.view, order.options);
+    KeptPaths paths(workspace.document().fitted, std::move(figures));
+    DrawList list = build_draw_list(paths, order.view, order.options);
     if (order.select) {
         const float scale = metrics_of(order.options.size, order.options.scale).scale;
         add_selection(list, workspace.fitted(), order.view, *order.select, scale);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <app/session/session.h>
+#include <explain/scene_figures.h>
 #include <render/drawlist/draw_list.h>
 #include <render/drawlist/picture_options.h>
 #include <render/parts/highlights.h>
@@ -10,6 +11,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -29,8 +31,10 @@ PictureOrder order_of_viewport(const Workspace& workspace, const Views& views);
 /// The same as the settings of the export dialog say. Its size may be one that `check` refuses.
 PictureOrder order_to_export(const Settings& settings, const Workspace& workspace, const Views& views);
 
-/// Throws std::invalid_argument if it cannot be drawn.
-DrawList draw_list_of(const Workspace& workspace, const PictureOrder& order);
+/// As `render` draws it, which counts the scene's queries where that is shown; `figures`: of what these have. Throws
+/// std::invalid_argument if it cannot be drawn.
+DrawList draw_list_of(const Workspace& workspace, const PictureOrder& order,
+                      std::shared_ptr<SceneFigures> figures = std::make_shared<SceneFigures>());
 
 /// The bytes of its PNG file. Throws std::invalid_argument if it cannot be drawn, or there is no window to draw it;
 /// MachineError if the machine cannot.

@@ -5,6 +5,7 @@
 #include <render/image/image.h>
 #include <scene/view_state.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -71,10 +72,11 @@ struct ExportDialog {
         PictureOptions options;
         std::string select;
         int divisor = 1;
+        std::int64_t counted = 0;  ///< SceneFigures::revision
         bool same_picture(const Preview& other) const {
             return of == other.of && view == other.view && options.size == other.options.size &&
                    options.scale == other.options.scale && options.background == other.options.background &&
-                   select == other.select && divisor == other.divisor;
+                   select == other.select && divisor == other.divisor && counted == other.counted;
         }
     };
     Preview wanted{}, shown{};

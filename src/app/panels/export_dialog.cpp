@@ -278,8 +278,10 @@ void make_preview(Session& session) {
     dialog.why_not.clear();
     try {
         const int divisor = dialog.shown.divisor;
+        // What has not been counted of the scene's queries is not for a preview: that takes long.
         const DrawList list =
-            draw_list_of(session.workspace, order_to_export(session.settings, session.workspace, session.views));
+            draw_list_of(session.workspace, order_to_export(session.settings, session.workspace, session.views),
+                         session.figures.known());
         dialog.image =
             std::make_shared<const Image>(shrunk(session.picture_maker->draw_coarse(list, divisor), divisor));
     } catch (const std::exception& error) {
@@ -293,9 +295,12 @@ void want_preview(Ui& ui, const PictureOrder& order, ImVec2 room) {
     ExportDialog& dialog = ui.session.dialogs.exporting;
     const PictureSize size = order.options.size;
     const double times = std::max(size.width / std::max<double>(room.x, 1), size.height / std::max<double>(room.y, 1));
-    ExportDialog::Preview wanted{ui.workspace.document().fitted, order.view, order.options,
+    ExportDialog::Preview wanted{ui.workspace.document().fitted,
+                                 order.view,
+                                 order.options,
                                  order.select ? text_of(*order.select) : "",
-                                 std::max(1, static_cast<int>(std::ceil(times)))};
+                                 std::max(1, static_cast<int>(std::ceil(times))),
+                                 ui.session.figures.known()->revision()};
     if (!wanted.same_picture(dialog.wanted)) {
         dialog.wanted = std::move(wanted);
         dialog.wanted_since = ui.now;

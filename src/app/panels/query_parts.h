@@ -14,6 +14,7 @@
 #include <render/query/map_colors.h>
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -88,7 +89,7 @@ class MapPicture {
     std::vector<PixelLine> hatch_;
 };
 
-/// The scene's named views as small pictures, each drawn when it is shown first.
+/// The scene's named views as small pictures: one is drawn a frame, when it is shown first, and none amid a drag.
 class ViewPictures {
   public:
     /// Nothing where the scene has none.
@@ -96,16 +97,18 @@ class ViewPictures {
 
   private:
     struct Kept {
-        std::shared_ptr<const FittedScene> fitted;  ///< null: none is made yet
-        ViewState view;
-        PictureSize size;
-        std::shared_ptr<const Image> image;  ///< null: it cannot be drawn
-        bool shows(const FittedScene& now, const ViewState& seen, PictureSize as) const;
+        std::shared_ptr<const FittedScene> fitted{};  ///< null: none is made yet
+        ViewState view{};
+        PictureSize size{};
+        std::int64_t counted = 0;              ///< the revision of the figures that colour it; 0: none do
+        std::shared_ptr<const Image> image{};  ///< null: it cannot be drawn
+        bool shows(const Kept& wanted) const;
     };
     void one(Ui& ui, std::size_t index, ImVec2 size);
-    void make(Session& session, std::size_t index, const ViewState& seen, PictureSize size);
+    void make(Session& session, std::size_t index, Kept wanted);
 
     std::vector<Kept> kept_;  ///< by the views' places in the scene
+    bool makes_one_ = false;  ///< in this frame, and has not yet
 };
 
 /// How near the bones of the query in view come to each other.

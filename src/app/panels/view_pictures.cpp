@@ -1,14 +1,18 @@
 #include <app/document/document.h>
 #include <app/panels/query_parts.h>
 #include <app/ui/command_menu.h>
+#include <render/drawlist/color_scale.h>
 #include <render/image/image.h>
 #include <render/pictures/build_draw_list.h>
+#include <render/pictures/kept_paths.h>
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace mobbscope::app {
 
@@ -30,21 +34,24 @@ ViewState without_words(const Workspace& workspace, const ViewState& named) {
 
 }  // namespace
 
-bool ViewPictures::Kept::shows(const FittedScene& now, const ViewState& seen, PictureSize as) const {
-    return fitted && view == seen && size == as && (fitted.get() == &now || ask_the_same(*fitted, now));
+bool ViewPictures::Kept::shows(const Kept& wanted) const {
+    return fitted && view == wanted.view && size == wanted.size && counted == wanted.counted &&
+           (fitted == wanted.fitted || ask_the_same(*fitted, *wanted.fitted));
 }
 
-void ViewPictures::make(Session& session, std::size_t index, const ViewState& seen, PictureSize size) {
+/// What has been counted of the scene's queries is shown, and nothing is for a picture: that takes long.
+void ViewPictures::make(Session& session, std::size_t index, Kept wanted) {
     kept_.resize(std::max(kept_.size(), index + 1));
-    Kept& kept = kept_[index];
-    kept = {session.workspace.document().fitted, seen, size, nullptr};
     try {
-        const PictureSize finer{kFiner * size.width, kFiner * size.height};
-        const DrawList list = build_draw_list(*kept.fitted, seen, finer, kLineScale);
-        kept.image = std::make_shared<const Image>(shrunk(session.picture_maker->draw_coarse(list, 1), kFiner));
+        KeptPaths paths(wanted.fitted, session.figures.known());
+        const PictureOptions finer{.size = {kFiner * wanted.size.width, kFiner * wanted.size.height},
+                                   .scale = kLineScale};
+        const DrawList list = build_draw_list(paths, wanted.view, finer);
+        wanted.image = std::make_shared<const Image>(shrunk(session.picture_maker->draw_coarse(list, 1), kFiner));
     } catch (const std::exception&) {
         // Its place stays empty: going there says why.
     }
+    kept_[index] = std::move(wanted);
 }
 
 void ViewPictures::one(Ui& ui, std::size_t index, ImVec2 size) {
@@ -59,7 +66,8 @@ void ViewPictures::one(Ui& ui, std::size_t index, ImVec2 size) {
     const bool hovered = ImGui::IsItemHovered();
     if (hovered) ImGui::SetTooltip("%s\nClick to see the scene so", named.name.c_str());
     context_menu(ui, [&, name = named.name]() -> std::vector<MenuEntry> {
-        ui.workspace.named_view = name;
+        // That of the menu is the present one, which is renamed.
+        if (ui.workspace.named_view != name) ui.later([name](Workspace& workspace) { workspace.named_view = name; });
         return {{"view.go", name, "Go there"},
                 {"view.save_as", name, "Make it as the scene is seen now"},
                 {"view.rename"},
@@ -68,12 +76,17 @@ void ViewPictures::one(Ui& ui, std::size_t index, ImVec2 size) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(corner, end, ui.style.window, ui.px(3));
     const PictureSize drawn{static_cast<int>(size.x), static_cast<int>(size.y)};
-    const ViewState seen = without_words(ui.workspace, named.view);
-    const bool is_made = index < kept_.size() && kept_[index].shows(*ui.workspace.document().fitted, seen, drawn);
-    if (!is_made && ImGui::IsRectVisible(corner, end))
-        ui.later([this, index, seen, drawn](Session& session) { make(session, index, seen, drawn); });
-    if (is_made && kept_[index].image) {
-        if (const ImTextureID texture = ui.painter.image(kFirstSlot + index, kept_[index].image, true))
+    Kept wanted{
+        .fitted = ui.workspace.document().fitted, .view = without_words(ui.workspace, named.view), .size = drawn};
+    if (color_figure(wanted.view.color_by) || wanted.view.heat) wanted.counted = ui.session.figures.known()->revision();
+    const Kept kept = index < kept_.size() ? kept_[index] : Kept{};
+    if (!kept.shows(wanted) && makes_one_ && ImGui::IsRectVisible(corner, end)) {
+        makes_one_ = false;
+        ui.later([this, index, wanted](Session& session) { make(session, index, wanted); });
+    }
+    // Until then it is as it was before the scene was edited.
+    if (kept.image && kept.view == wanted.view) {
+        if (const ImTextureID texture = ui.painter.image(kFirstSlot + index, kept.image, true))
             draw.AddImage(texture, corner, end);
     }
     const bool present = ui.workspace.named_view == named.name;
@@ -93,6 +106,8 @@ void ViewPictures::section(Ui& ui) {
     const float width =
         std::max(1.0f, std::floor((room - gap * static_cast<float>(columns - 1)) / static_cast<float>(columns)));
     const ImVec2 size{width, std::max(1.0f, std::floor(width / kSides))};
+    // Whoever drags does not wait for them.
+    makes_one_ = !ImGui::IsMouseDown(ImGuiMouseButton_Left) && !ui.workspace.history.has_open_group();
     for (std::size_t i = 0; i < count; ++i) {
         if (i % columns > 0) ImGui::SameLine(0, gap);
         one(ui, i, size);
