@@ -136,5 +136,49 @@ TEST(NamedViews, WhatAViewLacksInTheSceneIsLeftOut) {
     EXPECT_EQ(w.view().levels, (LevelRange{1, 1, false}));
 }
 
+/// Counts the pictures that it has somebody else draw.
+struct CountingMaker : PictureMaker {
+    explicit CountingMaker(PictureMaker& to_) : to(to_) {}
+    Image draw(const DrawList& list, int samples) override { return to.draw(list, samples); }
+    Image draw_coarse(const DrawList& list, int divisor) override {
+        ++drawn;
+        return to.draw_coarse(list, divisor);
+    }
+    PictureMaker& to;
+    int drawn = 0;
+};
+
+TEST(NamedViews, OnePictureIsDrawnAFrameAndNoneAmidADrag) {
+    ViewsWindow w;
+    PictureMaker* const maker = w.session.picture_maker;
+    CountingMaker counting(*maker);
+    w.session.picture_maker = &counting;
+    w.run("run view.save_as one\nrun view.save_as two\nrun view.save_as three\nrun go.agent A");
+    EXPECT_EQ(counting.drawn, 3);
+    w.window.shell().feed(MouseMove{{800, 300}});
+    w.window.shell().feed(MouseButton{0, true});
+    w.window.settle();
+    run_command(w.session, "agent.nudge", "1 0");
+    w.window.settle();
+    EXPECT_EQ(counting.drawn, 3);
+    w.window.shell().feed(MouseButton{0, false});
+    for (int before = counting.drawn, frame = 0; frame < 8; before = counting.drawn, ++frame) {
+        w.window.frame();
+        EXPECT_LE(counting.drawn, before + 1);
+    }
+    EXPECT_EQ(counting.drawn, 6);
+    w.session.picture_maker = maker;
+}
+
+TEST(NamedViews, PicturesDoNotCountTheQueries) {
+    ViewsWindow w;
+    w.run("run view.color_by tests\nrun view.save_as tests\nrun view.color_by agent");
+    const std::size_t before = w.colors_at("named_view.0");
+    EXPECT_GT(before, 100u) << "its picture is drawn";
+    run_command(w.session, "nodes.count");
+    w.window.settle();
+    EXPECT_NE(w.colors_at("named_view.0"), before) << "its picture shows what is counted now";
+}
+
 }  // namespace
 }  // namespace mobbscope::app

@@ -1,6 +1,7 @@
 /// The tabs of the panel below the picture.
 #pragma once
 
+#include <app/panels/level_strip.h>
 #include <app/ui/data_table.h>
 #include <app/ui/ui.h>
 
@@ -13,9 +14,7 @@ bool is_high(BottomTab tab);
 /// On one line.
 void bottom_tabs(Ui& ui);
 
-/// The nodes of the tree in focus as a table.
-void node_list(Ui& ui, DataTable& table);
-/// Above it: one row a level, over time.
-void level_strip(Ui& ui, int clip);
+/// The nodes of the tree in focus as a table, and above it, where there is room, its levels on the timeline's axis.
+void node_list(Ui& ui, DataTable& table, LevelStrip& levels, const ChartAxis& time);
 
 }  // namespace mobbscope::app

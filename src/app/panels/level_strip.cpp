@@ -1,16 +1,17 @@
 #include <app/document/agents.h>
-#include <app/panels/bottom_tabs.h>
+#include <app/panels/level_strip.h>
 #include <app/ui/swatch.h>
-#include <app/ui/widgets.h>
 #include <base/text.h>
-#include <render/drawlist/color_scale.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::app {
@@ -20,16 +21,11 @@ namespace {
 // Pixels at scale 1.
 constexpr float kMostRow = 15;
 constexpr float kLeastRow = 3;
-constexpr float kMostPart = 0.45f;  // of the room that the strip takes
-constexpr float kBarLength = 90;    // of the colour bar
+constexpr float kBelow = 6;
+constexpr float kBarLength = 90;  // of the colour bar
 constexpr int kBarSteps = 32;
 
-/// A node, or several that stand on one pixel: the worst of them.
-struct Cell {
-    float left = 0, right = 0;  ///< pixels
-    int node = 0;
-    double value = 0;
-};
+using Cell = LevelStrip::Cell;
 
 /// The figure that the strip is coloured by: the boxes', or where these have no figure of their own the wasted space.
 const NodeFieldInfo& strip_field(const ViewState& view) {
@@ -43,7 +39,7 @@ struct Strip {
     mobb::PlacedTree placed;
     AgentRef path;
     std::span<const double> values;
-    ColorScale scale;
+    const ColorScale& scale;
     ChartAxis time;
     float top = 0, row = 0;
 
@@ -58,9 +54,8 @@ struct Strip {
     }
 };
 
-/// By level, in the order of time.
-std::vector<std::vector<Cell>> cells_of(const Strip& strip) {
-    std::vector<std::vector<Cell>> out(static_cast<std::size_t>(strip.depth()));
+LevelStrip::Rows rows_of(const Strip& strip) {
+    LevelStrip::Rows out(static_cast<std::size_t>(strip.depth()));
     for (int node = 0; node < static_cast<int>(strip.tree.nodes().size()); ++node) {
         std::vector<Cell>& level = out[static_cast<std::size_t>(strip.tree.level(node))];
         const float left = strip.left_of(node), right = strip.right_of(node);
@@ -79,12 +74,12 @@ std::vector<std::vector<Cell>> cells_of(const Strip& strip) {
     return out;
 }
 
-void draw_nodes(Ui& ui, const Strip& strip, const std::vector<std::vector<Cell>>& cells) {
+void draw_nodes(Ui& ui, const Strip& strip, const LevelStrip::Rows& rows) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float gap = strip.row > ui.px(6) ? std::floor(ui.px(1)) : 0;
     for (int level = 0; level < strip.depth(); ++level) {
         const float top = strip.top_of(level), bottom = strip.top_of(level + 1) - gap;
-        for (const Cell& cell : cells[static_cast<std::size_t>(level)]) {
+        for (const Cell& cell : rows[static_cast<std::size_t>(level)]) {
             // Wide ones are told apart.
             const float right = cell.right - (cell.right - cell.left > 3 ? 1.0f : 0.0f);
             const ImU32 color = to_im(strip.scale.color(cell.value, ui.style.palette));
@@ -144,10 +139,10 @@ void header(Ui& ui, const ColorScale& scale, float left, float right) {
 }
 
 /// The node under the mouse, by the cell that is drawn there.
-std::optional<int> node_under(const Strip& strip, const std::vector<std::vector<Cell>>& cells, ImVec2 mouse) {
+std::optional<int> node_under(const Strip& strip, const LevelStrip::Rows& rows, ImVec2 mouse) {
     const int level = static_cast<int>(std::floor((mouse.y - strip.top) / strip.row));
     if (level < 0 || level >= strip.depth()) return std::nullopt;
-    const std::vector<Cell>& row = cells[static_cast<std::size_t>(level)];
+    const std::vector<Cell>& row = rows[static_cast<std::size_t>(level)];
     const auto after = std::ranges::upper_bound(row, mouse.x, {}, &Cell::left);
     if (after == row.begin()) return std::nullopt;
     const Cell& cell = *std::prev(after);
@@ -167,42 +162,54 @@ std::string node_words(const Ui& ui, const Strip& strip, int node) {
     return out + "\nclick to select it";
 }
 
+/// Byte by byte, as a value may be NaN.
+bool are_same(std::span<const double> a, std::span<const double> b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
+}
+
 }  // namespace
 
-void level_strip(Ui& ui, int clip) {
+void LevelStrip::draw(Ui& ui, int clip, const ChartAxis& time, float most_height) {
     const auto path = player_of(ui.workspace, clip);
     if (!path || ui.workspace.crowd()) return;
     const FittedScene& fitted = ui.workspace.fitted();
     const auto who = placed_agent_of(fitted, *path);
     const ViewState& view = ui.workspace.view();
+    const mobb::Tree& tree = fitted.tree(who->clip);
+    const auto depth = static_cast<float>(tree.depth());
+    const float heading = ui.style.caption->FontSize + ui.px(1), below = ui.px(kBelow);
+    const float row = std::floor(std::min((most_height - heading - below) / depth, ui.px(kMostRow)));
+    if (row < std::floor(ui.px(kLeastRow)) || time.last - time.first < 1) return;
+
     const NodeFieldInfo& field = strip_field(view);
     const std::span<const double> values = ui.session.figures.column(clip, field.field);
+    const mobb::PlacedTree placed = fitted.placed(*who);
+    Key key{.tree = fitted.shared_tree(who->clip), .figure = colored_figure(field)};
+    key.times = {placed.begin(tree.node(0)), placed.end(tree.node(0)), time.from, time.to, time.first, time.last};
+    const bool are_new = key_ != key || !are_same(values_, values);
+    if (are_new) {
+        values_.assign(values.begin(), values.end());
+        scale_ = color_scale(key.figure, values_);
+    }
     // Where boxes in the picture have these colours, they mean the same here.
-    const auto& boxes = ui.session.figures.boxes;
-    const ColoredFigure figure = colored_figure(field);
-    const bool shared = boxes && boxes->scale.known && boxes->scale.figure == figure;
-    const ColorScale scale = shared ? boxes->scale : color_scale(figure, values);
-
+    const auto& boxes = ui.session.figures.boxes();
+    const bool shared = boxes && boxes->scale.known && boxes->scale.figure == key.figure;
+    const ColorScale& scale = shared ? boxes->scale : scale_;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const ImVec2 room = ImGui::GetContentRegionAvail();
-    const auto& marks = ui.marks.all();
-    const auto bars = marks.find("timeline.time");
-    const float left = bars == marks.end() ? corner.x : std::max(corner.x, bars->second.min.x);
-    const float right = bars == marks.end() ? corner.x + room.x : bars->second.max.x;
-    if (right - left < 1) return;
-    header(ui, scale, corner.x, right);
-    const mobb::Interval span = time_span(ui.workspace);
-    const mobb::Tree& tree = fitted.tree(who->clip);
-    const float most = kMostPart * room.y / static_cast<float>(tree.depth());
-    Strip strip{.tree = tree,
-                .placed = fitted.placed(*who),
-                .path = *path,
-                .values = values,
-                .scale = scale,
-                .time = {span.t0, span.t1 > span.t0 ? span.t1 : span.t0 + 1, left, right},
-                .top = ImGui::GetCursorScreenPos().y,
-                .row = std::floor(std::clamp(most, ui.px(kLeastRow), ui.px(kMostRow)))};
-    const auto cells = cells_of(strip);
+    header(ui, scale, corner.x, time.last);
+    const Strip strip{.tree = tree,
+                      .placed = placed,
+                      .path = *path,
+                      .values = values_,
+                      .scale = scale,
+                      .time = time,
+                      .top = ImGui::GetCursorScreenPos().y,
+                      .row = row};
+    if (are_new) {
+        rows_ = rows_of(strip);
+        key_ = std::move(key);
+    }
+    const float left = time.first, right = time.last;
     ImGui::SetCursorScreenPos({left, strip.top});
     const bool clicked = ImGui::InvisibleButton("##levels over time", {right - left, strip.height()});
     ui.mark_only("nodes.levels");
@@ -212,16 +219,16 @@ void level_strip(Ui& ui, int clip) {
     // A query's two may not be there as long as this one.
     draw.PushClipRect({left - ui.px(2), strip.top - ui.px(2)},
                       {right + ui.px(2), strip.top + strip.height() + ui.px(2)}, true);
-    draw_nodes(ui, strip, cells);
-    if (view.time && *view.time >= span.t0 && *view.time <= span.t1) {
-        const float x = strip.time.pixel(*view.time);
+    draw_nodes(ui, strip, rows_);
+    if (view.time && *view.time >= time.from && *view.time <= time.to) {
+        const float x = time.pixel(*view.time);
         draw.AddLine({x, strip.top - ui.px(2)}, {x, strip.top + strip.height() + ui.px(2)}, ui.style.text, ui.px(1.3f));
     }
     outline(ui, strip, ui.workspace.hovered, ui.style.quiet);
     outline(ui, strip, ui.workspace.selection, ui.style.text);
     draw.PopClipRect();
-    ImGui::SetCursorScreenPos({corner.x, strip.top + strip.height() + ui.px(6)});
-    const auto node = over ? node_under(strip, cells, ImGui::GetIO().MousePos) : std::nullopt;
+    ImGui::SetCursorScreenPos({corner.x, strip.top + strip.height() + below});
+    const auto node = over ? node_under(strip, rows_, ImGui::GetIO().MousePos) : std::nullopt;
     if (!node) return;
     const Selection at{Selection::Kind::node, *path, *node};
     ui.hovered = at;

@@ -15,6 +15,9 @@ namespace mobbscope::app {
 
 namespace {
 
+constexpr int kLeastRows = 6;       // of the table, where the levels have room too
+constexpr float kMostPart = 0.45f;  // of the room, that the levels take
+
 /// As wide as any value of the column.
 std::string widest_node_text(NodeField field) {
     switch (field) {
@@ -92,12 +95,14 @@ void node_filter_line(Ui& ui) {
 
 }  // namespace
 
-void node_list(Ui& ui, DataTable& table) {
+void node_list(Ui& ui, DataTable& table, LevelStrip& levels, const ChartAxis& time) {
     const NodeInspector& nodes = ui.session.nodes;
     const int clip = clip_in_focus(ui.workspace);
     ui.session.fit_costs.update(clip);
     node_title(ui, clip);
-    level_strip(ui, clip);
+    const float below = ImGui::GetFrameHeightWithSpacing() + DataTable::height(ui, kLeastRows);
+    const float room = ImGui::GetContentRegionAvail().y;
+    levels.draw(ui, clip, time, std::min(room - below, kMostPart * room));
     node_filter_line(ui);
     const auto rows = nodes.listed();
     if (rows->empty()) return words(ui.style.quiet, "No node passes the filter.");

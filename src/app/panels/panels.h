@@ -18,7 +18,7 @@ float placement_height(const Ui& ui, Settings& settings);  ///< pixels; 0: nobod
 void placement_panel(Ui& ui);                              ///< the selected agent by numbers; else nothing
 void sweep_panel(Ui& ui, SweepInspector& sweeps);          ///< which tree to ship
 /// How trees are fitted, what they cost, and what stands out in them.
-void tree_panel(Ui& ui, Jobs& jobs, QueryInspector& queries, FitCosts& costs, FitNotices& notices);
+void tree_panel(Ui& ui, Jobs& jobs, QueryInspector& queries, FitCosts& costs, FitNotices& notices, BoxFigures& boxes);
 /// What a query of a clip's tree costs, by kind of test and by level, and how tight its levels are.
 void cost_section(Ui& ui, QueryInspector& queries, FitCosts& costs, int clip);
 /// The fits of several views by level: how tight they are, and what a query costs; of one view nothing.

@@ -5,15 +5,18 @@
 #include <app/document/query_look.h>
 #include <app/panels/curves.h>
 #include <app/panels/event_list.h>
+#include <app/panels/level_strip.h>
 #include <app/panels/recursion_picture.h>
 #include <app/ui/ui.h>
 #include <app/ui/widgets.h>
 #include <explain/bodies.h>
 #include <explain/query_findings.h>
 #include <explain/trace_comparison.h>
+#include <render/drawlist/color_scale.h>
 #include <render/query/map_colors.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -111,6 +114,13 @@ class ViewPictures {
     bool makes_one_ = false;  ///< in this frame, and has not yet
 };
 
+/// How the figures of the boxes in the picture are spread: counted when they change.
+struct BoxFigures {
+    std::shared_ptr<const std::vector<double>> of{};
+    ColorScale whole{};  ///< with a place for all of them
+    std::vector<std::size_t> counts{};
+};
+
 /// How near the bones of the query in view come to each other.
 class QueryBodies {
   public:
@@ -134,6 +144,7 @@ class QueryPictures {
   public:
     EventTable events;
     DataTable nodes;
+    LevelStrip levels;
     CurvePlots curves;
     QueryBodies bodies;
     /// Called above the pictures of a panel that scrolls: what the mouse is on below stays there when what stands above
@@ -155,6 +166,7 @@ class QueryPictures {
 
     MapPicture map;
     ViewPictures views;
+    BoxFigures box_figures;
 
   private:
     void compare_strips(Ui& ui, QueryInspector& queries, const std::shared_ptr<const FitComparison>& other);

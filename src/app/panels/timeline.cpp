@@ -317,7 +317,7 @@ void timeline(Ui& ui, Playback& playback, QueryInspector& queries, QueryPictures
             pictures.events.draw(ui, queries);
             break;
         case BottomTab::nodes:
-            node_list(ui, pictures.nodes);
+            node_list(ui, pictures.nodes, pictures.levels, axis);
             break;
         case BottomTab::curves:
             pictures.curves.draw(ui, axis);

@@ -212,8 +212,8 @@ void count_figure(Ui& ui, NodeField field) {
 }
 
 /// How the figures of the boxes in the picture are spread, and the range of the colours.
-void figures_of_boxes(Ui& ui) {
-    const std::shared_ptr<const ColoredValues>& boxes = ui.session.figures.boxes;
+void figures_of_boxes(Ui& ui, BoxFigures& kept) {
+    const std::shared_ptr<const ColoredValues>& boxes = ui.session.figures.boxes();
     const NodeFieldInfo* field = color_figure(ui.workspace.view().color_by);
     if (!boxes || !field || boxes->scale.figure != colored_figure(*field)) return;
     const ColorScale& scale = boxes->scale;
@@ -221,15 +221,19 @@ void figures_of_boxes(Ui& ui) {
         words(ui.style.quiet, scale.figure.title + ": " + boxes->unknown);
         return count_figure(ui, field->field);
     }
-    // All of them have a place there.
     ColoredFigure all = scale.figure;
     all.whole_range = true;
-    const ColorScale whole = color_scale(all, boxes->values);
-    constexpr int kBars = 48;
+    if (kept.of != boxes->values || kept.whole.figure != all) {
+        constexpr int kBars = 48;
+        kept.of = boxes->values;
+        kept.whole = color_scale(all, *kept.of);
+        kept.counts = value_counts(kept.whole, *kept.of, kBars);
+    }
+    const ColorScale& whole = kept.whole;
     const HistogramChange change =
         value_histogram(ui,
                         {.mark = "view.color_range",
-                         .counts = value_counts(whole, boxes->values, kBars),
+                         .counts = kept.counts,
                          .color = [&](float place) { return scale.color(whole.value_at(place), ui.style.palette); },
                          .from = whole.share(scale.least),
                          .to = whole.share(scale.most),
@@ -251,7 +255,7 @@ void figures_of_boxes(Ui& ui) {
 }
 
 /// How the trees are fitted, and which of their boxes are shown.
-void fit_fields(Ui& ui, Jobs& jobs) {
+void fit_fields(Ui& ui, Jobs& jobs, BoxFigures& boxes) {
     const mobb::FitOptions fit = ui.workspace.fitted().options();
     choose(ui, "Kind", "tree.kind", fit.tree, "What bounds the disks");
     ImGui::BeginDisabled(!mobb::info(fit.tree).splits());
@@ -268,15 +272,15 @@ void fit_fields(Ui& ui, Jobs& jobs) {
     time_scale(ui, jobs);
     shown_levels(ui, ui.workspace.fitted().tree(clip_in_focus(ui.workspace)).depth());
     choose(ui, "Colour by", "view.color_by", ui.workspace.view().color_by, "What the boxes' colours mean");
-    figures_of_boxes(ui);
+    figures_of_boxes(ui, boxes);
 }
 
 }  // namespace
 
-void tree_panel(Ui& ui, Jobs& jobs, QueryInspector& queries, FitCosts& costs, FitNotices& notices) {
+void tree_panel(Ui& ui, Jobs& jobs, QueryInspector& queries, FitCosts& costs, FitNotices& notices, BoxFigures& boxes) {
     if (ui.workspace.empty()) return;
     ImGui::PushID("tree");
-    if (section(ui, "TREE")) fit_fields(ui, jobs);
+    if (section(ui, "TREE")) fit_fields(ui, jobs, boxes);
     cost_section(ui, queries, costs, clip_in_focus(ui.workspace));
     findings_panel(ui, notices, clip_in_focus(ui.workspace));
     ImGui::PopID();

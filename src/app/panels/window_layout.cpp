@@ -179,7 +179,8 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
             for (const auto& each : ui.session.screens) each->draw_above_scene(ui);
             scene_panel(ui, ui.session.queries);
             pictures.views.section(ui);
-            tree_panel(ui, ui.session.jobs, ui.session.queries, ui.session.fit_costs, ui.session.notices);
+            tree_panel(ui, ui.session.jobs, ui.session.queries, ui.session.fit_costs, ui.session.notices,
+                       pictures.box_figures);
             sweep_panel(ui, ui.session.sweeps);
         });
         if (placement > 0) panel(ui, "placement", {left, placement}, [&] { placement_panel(ui); });

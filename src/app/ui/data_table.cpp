@@ -8,6 +8,8 @@ namespace mobbscope::app {
 
 namespace {
 
+float table_row_height(const Ui& ui) { return ImGui::GetTextLineHeight() + ui.px(3); }
+
 /// A click sorts by the column, the next one the other way round.
 void column_head(Ui& ui, const TableContent& content, const TableColumn& column) {
     const bool on = content.sorted_by == column.name;
@@ -59,7 +61,7 @@ void DataTable::follow(int thing, float row_height, float head_height) {
 void DataTable::row(Ui& ui, const TableContent& content, std::size_t index) const {
     const int thing = (*rows_)[index];
     const bool present = index == present_;
-    const float height = ImGui::GetTextLineHeight() + ui.px(3);
+    const float height = table_row_height(ui);
     ImGui::TableNextRow(0, height);
     ImGui::TableSetColumnIndex(0);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -86,6 +88,10 @@ void DataTable::row(Ui& ui, const TableContent& content, std::size_t index) cons
     }
 }
 
+float DataTable::height(const Ui& ui, int rows) {
+    return ImGui::GetTextLineHeight() + static_cast<float>(rows) * table_row_height(ui);
+}
+
 void DataTable::draw(Ui& ui, const TableContent& content) {
     rows_are_new_ = std::exchange(rows_, content.rows) != content.rows || rows_are_new_;
     const std::string order = content.sorted_by + (content.descending ? " down " : " up ") + content.filter;
@@ -97,10 +103,11 @@ void DataTable::draw(Ui& ui, const TableContent& content) {
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {ui.px(7), 0});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), 0});
     const ImVec2 room = ImGui::GetContentRegionAvail();
-    if (room.y > ui.px(40) && ImGui::BeginTable(id.c_str(), columns,
-                                                ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY |
-                                                    ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_NoSavedSettings,
-                                                room)) {
+    if (room.y >= height(ui, 1) &&
+        ImGui::BeginTable(id.c_str(), columns,
+                          ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingFixedFit |
+                              ImGuiTableFlags_NoSavedSettings,
+                          room)) {
         ImGui::PushFont(ui.style.mono);
         for (const TableColumn& column : content.columns) {
             const float heading = text_size(*ui.style.caption, column.heading).x + ui.px(12);
@@ -114,11 +121,10 @@ void DataTable::draw(Ui& ui, const TableContent& content) {
         for (int i = 0; i < columns; ++i) {
             if (ImGui::TableSetColumnIndex(i)) column_head(ui, content, content.columns[static_cast<std::size_t>(i)]);
         }
-        const float row_height = ImGui::GetTextLineHeight() + ui.px(3);
-        follow(content.present, row_height, head_height);
+        follow(content.present, table_row_height(ui), head_height);
         // Who sorts or filters looks for what comes first.
         if (is_ordered_anew) ImGui::SetScrollY(0);
-        clipped_rows(ui, "##rows", static_cast<int>(rows_->size()), row_height,
+        clipped_rows(ui, "##rows", static_cast<int>(rows_->size()), table_row_height(ui),
                      [&](int index) { row(ui, content, static_cast<std::size_t>(index)); });
         ImGui::EndTable();
     }

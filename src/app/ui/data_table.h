@@ -52,6 +52,8 @@ class DataTable {
   public:
     /// In what room there is. Only the rows that are seen are drawn.
     void draw(Ui& ui, const TableContent& content);
+    /// Pixels that so many rows take with the headings.
+    static float height(const Ui& ui, int rows);
 
   private:
     void row(Ui& ui, const TableContent& content, std::size_t index) const;
