@@ -43,11 +43,17 @@ Numbers parse_numbers(const NumberOptionInfo& option, const std::string& text) {
     const auto is_allowed = [&](const std::optional<double>& number) {
         return number && *number >= option.least && *number <= option.most;
     };
-    const bool in_order = option.between != ':' || (first && second && *first <= *second);
-    if (is_allowed(first) && is_allowed(second) && in_order) return {*first, *second};
-    throw std::invalid_argument(in_quotes(text) + " is not like " + std::string(option.placeholder) +
-                                ", two numbers from " + brief(option.least) + " to " + brief(option.most) +
-                                (in_order ? "" : ", the smaller one first"));
+    if (!is_allowed(first) || !is_allowed(second)) {
+        throw std::invalid_argument(in_quotes(text) + " is not like " + std::string(option.placeholder) +
+                                    ": give two numbers such as " + std::string(option.example) + ", each from " +
+                                    brief(option.least) + " to " + brief(option.most));
+    }
+    if (option.between == ':' && *first > *second) {
+        throw std::invalid_argument(in_quotes(text) +
+                                    " is in the wrong order: give the smaller number first, such as " +
+                                    std::string(option.example));
+    }
+    return {*first, *second};
 }
 
 }  // namespace mobbscope

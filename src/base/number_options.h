@@ -27,7 +27,8 @@ struct NumberOptionInfo {
     double step = 1;                 ///< of an arrow key in a dialog
     int decimals = 0;                ///< shown there; none of a whole number
     bool whole = false;
-    char between = 0;  ///< two numbers stand around it: ':', and the first is not the larger one, or 'x'
+    char between = 0;            ///< two numbers stand around it: ':', and the first is not the larger one, or 'x'
+    std::string_view example{};  ///< of two numbers: "30x40"
 };
 
 /// ... and where it is among others.

@@ -12,16 +12,16 @@ namespace mobbscope {
 struct NumberInText {
     std::size_t begin = 0, end = 0;  ///< bytes of the text
     double value = 0;
-    std::string unit{};  ///< as it follows: "m/s"; empty: none does
+    std::string unit{};  ///< behind the number: "m/s"; empty: there is none
 };
 
-/// Shown numbers are rounded. This knows the exact ones, in the order in which texts have them.
+/// Shown numbers are rounded. This knows the exact ones, in the order in which they stand in texts.
 class ShownNumbers {
   public:
     explicit ShownNumbers(std::vector<double> exact = {}) : exact_(std::move(exact)) {}
 
-    /// The numbers of the next text: each is the first exact one left that is shown so, else what stands there. Digits
-    /// of names ("walk4_subject1", "07_05") are none.
+    /// The numbers of the next text. Each has the value of the first unused exact number that is shown like this, or
+    /// else the value that the text shows. Digits in names ("walk4_subject1", "07_05") are not numbers.
     std::vector<NumberInText> in(std::string_view text);
 
   private:

@@ -10,30 +10,9 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kAlike = 0.005;  // of a number: what per cent without decimals does not show
+constexpr double kAlike = 0.005;  // of a number: percentages without decimals do not show less
 
-enum class Better { less, more };
-
-/// The best of the numbers, if it is better than every other by more than what counts as alike.
-void find_best(ComparedFigure& figure, Better better) {
-    const auto sign = better == Better::less ? 1.0 : -1.0;
-    const auto has_more = [&](std::size_t fit) {
-        if (!figure.values[fit]) return false;
-        const double best = *figure.values[fit];
-        std::size_t others = 0;
-        for (std::size_t i = 0; i < figure.values.size(); ++i) {
-            if (i == fit || !figure.values[i]) continue;
-            ++others;
-            if (!(sign * (*figure.values[i] - best) > kAlike * std::abs(*figure.values[i]))) return false;
-        }
-        return others > 0;
-    };
-    for (std::size_t fit = 0; fit < figure.values.size(); ++fit) {
-        if (has_more(fit)) figure.best = static_cast<int>(fit);
-    }
-}
-
-void find_best(ComparedLevel& level) {
+void find_best_of(ComparedLevel& level) {
     find_best(level.volume, Better::less);
     find_best(level.fill, Better::more);
     find_best(level.cost, Better::less);
@@ -44,7 +23,7 @@ ComparedLevel empty_level(int level, std::size_t fits) {
     return {level, none, none, none};
 }
 
-/// How much less the best has than the next one, in per cent.
+/// How much smaller the best is than the next one, in per cent.
 std::string less_than_next(const ComparedFigure& figure) {
     const double best = *figure.values[static_cast<std::size_t>(figure.best)];
     std::optional<double> next;
@@ -74,7 +53,7 @@ struct TightestOn {
     std::vector<int> levels;
 };
 
-/// In the order of their first levels; a level on which none is is left out.
+/// In the order of their first levels; levels without a tightest fit are left out.
 std::vector<TightestOn> tightest_on(const ComparedFits& fits) {
     std::vector<TightestOn> out;
     for (const ComparedLevel& level : fits.levels) {
@@ -89,6 +68,24 @@ std::vector<TightestOn> tightest_on(const ComparedFits& fits) {
 }
 
 }  // namespace
+
+void find_best(ComparedFigure& figure, Better better) {
+    const auto sign = better == Better::less ? 1.0 : -1.0;
+    const auto has_more = [&](std::size_t fit) {
+        if (!figure.values[fit]) return false;
+        const double best = *figure.values[fit];
+        std::size_t others = 0;
+        for (std::size_t i = 0; i < figure.values.size(); ++i) {
+            if (i == fit || !figure.values[i]) continue;
+            ++others;
+            if (!(sign * (*figure.values[i] - best) > kAlike * std::abs(*figure.values[i]))) return false;
+        }
+        return others > 0;
+    };
+    for (std::size_t fit = 0; fit < figure.values.size(); ++fit) {
+        if (has_more(fit)) figure.best = static_cast<int>(fit);
+    }
+}
 
 std::optional<double> ComparedFigure::difference(std::size_t fit) const {
     if (!values.front() || !values[fit] || *values.front() == 0) return std::nullopt;
@@ -117,7 +114,7 @@ ComparedFits compared(std::span<const std::shared_ptr<const mobb::Tree>> trees,
             ComparedLevel& level = out.levels[i];
             level.volume.values[fit] = figures[i].volume;
             level.fill.values[fit] = figures[i].tightness;
-            // Deeper than the levels that are told no query came.
+            // Queries reached no level below those of the cost.
             if (cost && !cost->levels.empty())
                 level.cost.values[fit] = i < cost->levels.size() ? cost->ns(cost->levels[i]) : 0;
         }
@@ -125,8 +122,8 @@ ComparedFits compared(std::span<const std::shared_ptr<const mobb::Tree>> trees,
         out.leaves.fill.values[fit] = figures.back().tightness;
         if (cost) out.cost.values[fit] = cost->ns(cost->tests);
     }
-    std::ranges::for_each(out.levels, [](ComparedLevel& level) { find_best(level); });
-    find_best(out.leaves);
+    std::ranges::for_each(out.levels, find_best_of);
+    find_best_of(out.leaves);
     find_best(out.cost, Better::less);
     return out;
 }
@@ -135,8 +132,13 @@ std::string verdict(const ComparedFits& fits) {
     const bool are_two = fits.names.size() == 2;
     const auto name = [&](int fit) { return fits.names[static_cast<std::size_t>(fit)]; };
     const std::vector<TightestOn> tightest = tightest_on(fits);
+    const int at_leaves = fits.leaves.volume.best, cheapest = fits.cost.best;
+    const auto known = std::ranges::count_if(fits.cost.values, [](const auto& cost) { return cost.has_value(); });
+    const bool cost_alike = cheapest < 0 && known == std::ssize(fits.names);
+    if (tightest.empty() && at_leaves < 0 && cost_alike)
+        return are_two ? "Both are equally tight and cost the same." : "No fit is tightest or cheapest.";
     std::string out;
-    if (tightest.empty()) out = are_two ? "Both are as tight" : "None is the tightest";
+    if (tightest.empty()) out = are_two ? "Both are equally tight" : "No fit is tightest";
     for (const TightestOn& each : tightest) {
         const bool on_all = each.levels.size() == fits.levels.size();
         const bool first = &each == &tightest.front();
@@ -146,23 +148,20 @@ std::string verdict(const ComparedFits& fits) {
         out += " on ";
         out += on_all ? "all levels" : levels_in_words(each.levels);
     }
-    const int at_leaves = fits.leaves.volume.best;
     const bool one_is = tightest.size() == 1;
     if (at_leaves >= 0) {
         out += " (";
         if (!one_is || tightest.front().fit != at_leaves) out += name(at_leaves) + " has ";
         out += less_than_next(fits.leaves.volume) + " less volume at the leaves)";
     }
-    const int cheapest = fits.cost.best;
-    const auto known = std::ranges::count_if(fits.cost.values, [](const auto& cost) { return cost.has_value(); });
     if (cheapest >= 0) {
         const std::string less = less_than_next(fits.cost) + " less a query";
         if (one_is && tightest.front().fit == cheapest)
             out += " and costs " + less;
         else
             out += (one_is ? ", but " : "; ") + name(cheapest) + " costs " + less;
-    } else if (known == std::ssize(fits.names)) {
-        out += are_two ? "; both cost the same" : "; none is the cheapest";
+    } else if (cost_alike) {
+        out += are_two ? "; both cost the same" : "; no fit is cheapest";
     }
     return out + '.';
 }

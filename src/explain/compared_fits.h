@@ -15,13 +15,15 @@
 
 namespace mobbscope {
 
+enum class Better { less, more };
+
 /// A number of each fit.
 struct ComparedFigure {
     std::vector<std::optional<double>> values;  ///< by fit
-    int best = -1;  ///< the fit that is better than all others; -1: none is, or one alone has it
+    int best = -1;  ///< the fit that is better than all others; -1: none is, or only one has a number
 
-    /// By how much of the first fit's number another one's is more, or less (below 0); none: one of them has none, or
-    /// the first has 0.
+    /// How much larger another fit's number is than the first one's, as a part of that; below 0: smaller. None: one of
+    /// them has no number, or the first has 0.
     std::optional<double> difference(std::size_t fit) const;
 };
 
@@ -35,12 +37,15 @@ struct ComparedLevel {
 struct ComparedFits {
     std::vector<std::string> names;     ///< what tells the fits apart
     std::vector<ComparedLevel> levels;  ///< from the root on; those that a fit does not have are empty there
-    ComparedLevel leaves;               ///< of its cost nothing
+    ComparedLevel leaves;               ///< its cost is not known
     ComparedFigure cost;                ///< ns, of a query
 
     /// Whether the fits end at different levels, so that no level has the leaves of all.
     bool differ_in_depth() const;
 };
+
+/// Finds the best of the numbers, if it is better than every other by more than rounded percentages show.
+void find_best(ComparedFigure& figure, Better better);
 
 /// `costs`: by tree; null: not known yet. Requires trees over one clip, as many costs, and no null tree.
 ComparedFits compared(std::span<const std::shared_ptr<const mobb::Tree>> trees,
@@ -49,8 +54,8 @@ ComparedFits compared(std::span<const std::shared_ptr<const mobb::Tree>> trees,
 /// "moving is tighter on all levels (28 % less volume at the leaves) and costs 30 % less a query."
 std::string verdict(const ComparedFits& fits);
 
-/// The node of another tree over the same clip that holds the same samples, or overlaps them best: of those, the part
-/// that both hold of what either does is largest.
+/// The node of another tree over the same clip that holds the same samples, or the most similar ones: those that both
+/// nodes hold are the largest part of those that either holds.
 int node_over_same_samples(const mobb::Tree& from, int node, const mobb::Tree& to);
 
 }  // namespace mobbscope

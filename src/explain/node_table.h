@@ -9,7 +9,7 @@
 
 namespace mobbscope {
 
-/// Those of the table, in the order in which they are shown.
+/// The columns of the table, in the order in which they are shown.
 std::span<const NodeField> node_columns();
 /// "volume, m²·s"
 std::string column_heading(NodeField field);
@@ -22,7 +22,7 @@ std::string node_text(const NodeValues& values, NodeField field, int node, bool 
 
 /// The nodes that pass a filter, in the order of the tree; null: all.
 std::vector<int> nodes_that_pass(const NodeValues& values, const NodeFilter* filter);
-/// Nodes themselves by level and place.
+/// The column of nodes sorts by level and place.
 void sort_nodes(std::vector<int>& nodes, const NodeValues& values, NodeField field, bool descending);
 
 /// These columns of these nodes, with their names above: with commas between them, or tabs.

@@ -37,7 +37,8 @@ const std::array<CurveInfo, kCurveCount>& curve_infos() {
         {{CurveKind::radius, "radius", "Radius", "m", "Radius of the disk"},
          {CurveKind::speed, "speed", "Speed", "m/s", "From each sample to the next", true},
          {CurveKind::turning, "turning", "Turning", "\u00B0/s",
-          "To the left above 0, over a quarter of a second before and after; nobody turns who is slower than 0.1 m/s",
+          "To the left above 0, over a quarter of a second before and after; none below 0.1 m/s: too slow to have a "
+          "direction",
           false, 1},
          {CurveKind::cost, "cost", "Cost", "%/s",
           "Part of all box tests of a query, for each second of the node of the shown level that holds the sample",

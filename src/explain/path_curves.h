@@ -34,7 +34,7 @@ const std::array<CurveInfo, kCurveCount>& curve_infos();
 /// Turning is measured from the way of so many seconds before a sample to that of as many after it: between single
 /// samples it would be that of their noise.
 inline constexpr double kTurnWindow = 0.25;
-/// m/s: of who is slower there is no direction to turn from.
+/// m/s: whoever is slower has no direction to turn from.
 inline constexpr double kLeastTurnSpeed = 0.1;
 
 /// A value for each sample; NaN: it has none.
@@ -50,7 +50,8 @@ struct PathCurve {
 PathCurve radius_curve(const mobb::Clip& clip);
 /// m/s from a sample to the next. The last sample has none.
 PathCurve speed_curve(const mobb::Clip& clip);
-/// Degrees a second, to the left above 0. The first and the last sample have none, and who stands.
+/// Degrees a second, to the left above 0. The first and the last sample have none, nor has any at less than
+/// kLeastTurnSpeed.
 PathCurve turn_curve(const mobb::Clip& clip);
 /// Per cent of all box tests of a query for each second of the node that holds a sample: of the node on the last of the
 /// levels, or the leaf above it. `shares`: by node, as TreeCost has them; empty: no sample has any.

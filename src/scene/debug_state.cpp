@@ -61,6 +61,7 @@ NamedView read_named_view(const JsonPlace& place, const std::vector<NamedView>& 
     const JsonPlace name = place.require("name");
     NamedView out{std::string(trimmed(name.string())), {}};
     if (out.name.empty()) name.fail("a view needs a name");
+    if (camera_preset(out.name)) name.fail(in_quotes(out.name) + " is a camera that every scene has; rename the view");
     if (std::ranges::find(others, out.name, &NamedView::name) != others.end())
         name.fail("another view is named " + in_quotes(out.name) + "; rename one");
     out.view = read_view(place.require("view"));

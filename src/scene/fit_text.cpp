@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -48,6 +49,14 @@ void set_option(mobb::FitOptions& fit, std::string_view key, std::string_view va
 }
 
 using OptionText = std::pair<std::string_view, std::string>;
+
+/// Whether a kind of tree takes an option.
+bool takes(mobb::TreeKind tree, std::string_view option) {
+    const mobb::TreeInfo& kind = mobb::info(tree);
+    if (option == "axes") return kind.chooses_axes();
+    if (option == "time_scale") return kind.uses_time_scale();
+    return kind.splits();
+}
 
 /// Options beside the tree, as text.
 std::array<OptionText, 4> options_beside_tree(const mobb::FitOptions& fit) {
@@ -117,11 +126,17 @@ std::vector<std::string> names_of_fits(std::span<const mobb::FitOptions> fits) {
                 const std::array<OptionText, 4> its = options_beside_tree(other);
                 return std::ranges::find(its, option) == its.end();
             });
-            if (differs) told.push_back(option);
+            if (differs && takes(fit.tree, option.first)) told.push_back(option);
         }
-        std::string name = words_of(fit, told);
-        while (std::ranges::find(out, name) != out.end()) name += " again";
-        out.push_back(std::move(name));
+        out.push_back(words_of(fit, told));
+    }
+    std::map<std::string, int> count;
+    for (std::string& name : out) {
+        const int number = ++count[name];
+        if (number == 1) continue;
+        name += " (";
+        name += std::to_string(number);
+        name += ')';
     }
     return out;
 }

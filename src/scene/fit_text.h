@@ -20,7 +20,7 @@ std::string fit_text(const mobb::FitOptions& fit, const mobb::FitOptions& base);
 /// For people, likewise: "UMOBB, leaf 20".
 std::string fit_words(const mobb::FitOptions& fit, const mobb::FitOptions& base);
 
-/// Fits that are compared: what tells them apart, or "MOBB" and "MOBB again".
+/// Fits that are compared: what tells them apart, or "MOBB" and "MOBB (2)".
 std::vector<std::string> names_of_fits(std::span<const mobb::FitOptions> fits);
 
 }  // namespace mobbscope

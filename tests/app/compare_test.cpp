@@ -71,7 +71,7 @@ TEST(CompareWindow, TheComparisonFollowsTheFitInView) {
     w.run("run compare.with umobb\nframes 3");
     const std::size_t before = w.other().traversals.times.size();
     w.run("run tree.kind umobb\nframes 3");
-    EXPECT_EQ(w.other().names[1], "UMOBB again");
+    EXPECT_EQ(w.other().names[1], "UMOBB (2)");
     for (const ComparedTime& time : w.other().traversals.times) EXPECT_EQ(time.earlier, 0);
     w.run("run tree.kind mobb\nframes 3");
     EXPECT_EQ(w.other().traversals.times.size(), before);

@@ -1,4 +1,5 @@
 // Motion graphs and crowds made in the window: by commands, and by clicks and keys in their dialogs.
+#include <app/document/job.h>
 #include <app/session/crowd_maker.h>
 #include <app/window/headless_window.h>
 #include <crowd/graph/build_graph.h>
@@ -53,6 +54,10 @@ struct MakerWindow {
             session.poll();
         }
         window.settle();
+    }
+    /// Also for the job that was cancelled: it must not outlive the test.
+    static void wait_for_all() {
+        while (Job::any_left()) std::this_thread::yield();
     }
     void run(const std::string& id, const std::string& argument = "") {
         run_command(session, id, argument);
@@ -114,7 +119,7 @@ TEST(GraphOptions, AreReadAsTheCommandLineHasThem) {
     EXPECT_EQ(refused("hubs"), "hubs needs a value: hubs=8");
     EXPECT_EQ(refused("hubs=2.5"), "'2.5' is no whole number from 1 to 10000");
     EXPECT_NE(refused("seed=9007199254740993"), "") << "a double cannot tell it from the largest";
-    EXPECT_EQ(refused("seconds=3:1"), "'3:1' is not like A:B, two numbers from 0.001 to 3600, the smaller one first");
+    EXPECT_EQ(refused("seconds=3:1"), "'3:1' is in the wrong order: give the smaller number first, such as 1:4");
 }
 
 /// What is typed for it in a script, and what its dialog shows, is the same.
@@ -222,6 +227,7 @@ TEST(BuildGraph, IsCancelledAndLosesNothing) {
     w.wait();
     EXPECT_EQ(w.session.workspace.document().fitted, before);
     EXPECT_EQ(w.session.notifications.all().back().text, "Cancelled");
+    MakerWindow::wait_for_all();
 }
 
 TEST(BuildGraph, AsksAboutUnsavedChangesFirst) {
@@ -314,6 +320,7 @@ TEST(SimulateCrowd, IsCancelledAndLosesNothing) {
     w.click("job.0.cancel");
     EXPECT_EQ(w.session.jobs.count(), 0u);
     EXPECT_EQ(w.session.workspace.document().fitted, before);
+    MakerWindow::wait_for_all();
 }
 
 }  // namespace

@@ -164,6 +164,37 @@ TEST_F(RenderViewTest, WhatIsSwitchedOffIsNotShown) {
     }
 }
 
+TEST(RenderView, APartOfATreeGoesBeforeTheScenesQuery) {
+    const TempFolder folder;
+    const std::string list = folder.path() / "list.json";
+    const auto drawn = [&](std::vector<std::string> options) {
+        options.insert(options.end(), {"--draw-list", list});
+        const testing::Result run = render_small(options);
+        EXPECT_EQ(run.status, 0) << run.err;
+        return testing::slurp(list);
+    };
+    const std::string query = folder.write("query.json", R"({"query": 0})");
+    const std::string part = drawn({kCrossing, "--subtree", "A:1"});
+    EXPECT_EQ(drawn({kCrossing, "--view-state", query, "--subtree", "A:1"}), part);
+    const std::string asked = drawn({kCrossing, "--query", "0"});
+    EXPECT_NE(asked, part);
+    EXPECT_EQ(drawn({kCrossing, "--view-state", query, "--subtree", "none"}), asked);
+}
+
+TEST(RenderView, NamedViewsAreBlamedWhereTheyStand) {
+    const TempFolder folder;
+    const std::string out = folder.path() / "o.png";
+    const std::string scene = folder.write("scene.json", R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1],[1,0,1]]}},
+        "view": {"subtree": {"participant": 0, "node": 0}},
+        "debug": {"views": [{"name": "whole", "view": {}},
+        {"name": "part", "view": {"subtree": {"participant": 0, "node": 99}}}]}})");
+    expect_refused(render_small({scene, "--view", "part", "-o", out}), 2,
+                   "scene.json: line 4, /debug/views/1/view/subtree");
+    expect_refused(render_small({scene, "--view", "pert", "-o", out}), 2, "(did you mean 'part'?)");
+    expect_refused(render_small({scene, "--view", "tpo", "-o", out}), 2, "(did you mean 'top'?)");
+    expect_refused(render_small({scene, "--slab", "0:1e300", "-o", out}), 2, "'0:1e300' is no range");
+}
+
 TEST_F(RenderViewTest, AnAgentCalledNoneCanBeHidden) {
     const std::string scene = folder.write("none.json", R"({
         "clips": {"c": {"dt": 0.5, "samples": [[0, 0, 0.4], [1, 0, 0.4]]}},

@@ -138,6 +138,19 @@ TEST_F(Simulate, TheSummaryAsJson) {
     EXPECT_NE(simulate().out.find("was not measured: no two clips that join have one skeleton\n"), std::string::npos);
 }
 
+TEST_F(Simulate, WhatIsSavedOfOtherAgentsDoesNotStay) {
+    const std::string marked = folder.write("marked.json", R"({"clips": {"walk": {"source": "clips/walk.csv"},
+        "turn": {"source": "clips/turn.csv"}}, "agents": [{"name": "A", "clip": "walk"}, {"name": "B", "clip": "turn"}],
+        "debug": {"filters": [{"name": "tight", "where": "gap < 0.05"}],
+        "bookmarks": [{"name": "m", "query": 0, "step": 1}], "views": [{"name": "v", "view": {"query": 0}}]}})");
+    const Result result = run_program({"simulate", marked, "--whole", "-o", run, "--agents", "5", "--seconds", "5"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const Scene scene = load_scene(run);
+    EXPECT_TRUE(scene.debug.bookmarks.empty());
+    EXPECT_TRUE(scene.debug.views.empty());
+    EXPECT_EQ(scene.debug.filters.size(), 1u);
+}
+
 TEST_F(Simulate, HowContinuousTheRunIsIsTold) {
     const std::string clips = MOBBSCOPE_SOURCE_DIR "/assets/clips";
     const std::vector<std::string> whole{"simulate", clips, "--whole", "-o", run, "--agents", "10", "--seconds", "20"};

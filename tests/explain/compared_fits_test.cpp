@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -35,17 +37,11 @@ Costs standard_costs(const Trees& trees) {
 /// Levels with these volumes, by fit; the last is that of the leaves.
 ComparedFits made_up(std::vector<std::string> names, const std::vector<std::vector<double>>& volumes,
                      const std::vector<double>& costs) {
-    // The rules of what is better are those of real trees: their numbers are put in place of these.
     ComparedFits out{std::move(names), {}, {}, {}};
     const auto figure = [](const std::vector<double>& of) {
         ComparedFigure made;
-        int best = 0, as_good = 0;
-        for (int i = 0; i < static_cast<int>(of.size()); ++i) {
-            made.values.emplace_back(of[static_cast<std::size_t>(i)]);
-            if (of[static_cast<std::size_t>(i)] < of[static_cast<std::size_t>(best)]) best = i;
-        }
-        for (const double value : of) as_good += value == of[static_cast<std::size_t>(best)] ? 1 : 0;
-        made.best = as_good == 1 ? best : -1;
+        made.values.assign(of.begin(), of.end());
+        find_best(made, Better::less);
         return made;
     };
     for (const std::vector<double>& level : volumes)
@@ -122,9 +118,24 @@ TEST(ComparedFits, TheVerdictIsHonest) {
               "moving costs 30 % less a query.");
     EXPECT_EQ(verdict(made_up(two, {{10, 10}, {8, 7}}, {5, 5})),
               "moving is tighter on level 1 (12 % less volume at the leaves); both cost the same.");
-    EXPECT_EQ(verdict(made_up(two, {{10, 10}}, {5, 5})), "Both are as tight; both cost the same.");
+    EXPECT_EQ(verdict(made_up(two, {{10, 10}}, {5, 5})), "Both are equally tight and cost the same.");
+    EXPECT_EQ(verdict(made_up({"MOBB", "UMOBB", "moving"}, {{3, 3, 3}}, {5, 5, 5})), "No fit is tightest or cheapest.");
     EXPECT_EQ(verdict(made_up({"MOBB", "UMOBB", "moving"}, {{3, 2, 1}, {3, 2, 1}}, {30, 20, 10})),
               "moving is tightest on all levels (50 % less volume at the leaves) and costs 50 % less a query.");
+}
+
+TEST(ComparedFits, WhatDiffersByHalfAPercentIsAlike) {
+    const auto best_of = [](std::vector<std::optional<double>> values, Better better) {
+        ComparedFigure figure{std::move(values)};
+        find_best(figure, better);
+        return figure.best;
+    };
+    EXPECT_EQ(best_of({1000, 995.1}, Better::less), -1);
+    EXPECT_EQ(best_of({1000, 994.9}, Better::less), 1);
+    EXPECT_EQ(best_of({1000, 1004.9}, Better::more), -1);
+    EXPECT_EQ(best_of({1000, 1005.1}, Better::more), 1);
+    EXPECT_EQ(best_of({1000, 994.9, 994.8}, Better::less), -1) << "the next one is as good";
+    EXPECT_EQ(best_of({1000, std::nullopt}, Better::less), -1) << "there is nothing to compare";
 }
 
 TEST(ComparedFits, ANodeIsFoundInAnotherTreeByItsSamples) {

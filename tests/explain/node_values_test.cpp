@@ -88,6 +88,24 @@ TEST(NodeValues, OnlyTreesWithFreeBoxesHaveAnOverhang) {
     EXPECT_TRUE(NodeValues(tree_of(mobb::TreeKind::umobb), {}).has(NodeField::overhang));
 }
 
+/// The last sample of a linear clip is one moment: a leaf of its own takes no time, and its box has no volume.
+TEST(NodeValues, ABoxWithoutVolumeHasNoOverhang) {
+    std::vector<mobb::Disk> samples;
+    for (int i = 0; i < 9; ++i) samples.push_back({0.3 * i, 0.1 * i * i, 0.4});
+    const auto clip = std::make_shared<const mobb::Clip>(0.5, samples, mobb::Motion::linear);
+    const auto tree =
+        std::make_shared<const mobb::Tree>(clip, mobb::FitOptions{.tree = mobb::TreeKind::umobb, .leaf = 1});
+    const NodeValues values(tree, {});
+    int without = 0;
+    for (int i = 0; i < values.size(); ++i) {
+        const bool has_volume = values.value(NodeField::volume, i) > 0;
+        EXPECT_EQ(has_volume, tree->t1(tree->node(i)) > tree->t0(tree->node(i))) << i;
+        EXPECT_EQ(std::isnan(values.value(NodeField::overhang, i)), !has_volume) << i;
+        without += has_volume ? 0 : 1;
+    }
+    EXPECT_EQ(without, 1);
+}
+
 TEST(NodeValues, FloorAreaIsThatOfTheShadow) {
     for (const mobb::TreeKind kind : {mobb::TreeKind::mobb, mobb::TreeKind::umobb, mobb::TreeKind::moving}) {
         const auto tree = tree_of(kind);

@@ -243,7 +243,11 @@ TEST(FitText, SetsWhatItSays) {
     EXPECT_EQ(fit_words(fit, base), "UMOBB, leaf 20, axes covariance");
     EXPECT_EQ(parse_fit(fit_text(fit, base), base), fit);
     EXPECT_EQ(parse_fit("time_scale=2.5,levels=3", base).time_scale, 2.5);
-    EXPECT_EQ(names_of_fits(std::array{base, base}), (std::vector<std::string>{"MOBB", "MOBB again"}));
+    EXPECT_EQ(names_of_fits(std::array{base, base, base}), (std::vector<std::string>{"MOBB", "MOBB (2)", "MOBB (3)"}));
+    // Blocks have no leaves to choose, and boxes of the floor no time scale.
+    EXPECT_EQ(
+        names_of_fits(std::array{parse_fit("blocks,leaf=10", base), parse_fit("mobb,leaf=20,time_scale=2", base)}),
+        (std::vector<std::string>{std::string(mobb::info(mobb::TreeKind::blocks).label), "MOBB, leaf 20"}));
     for (const char* wrong :
          {"", "tree", "leaf=0", "leaf=2.5", "levels=-1", "axes=x", "time_scale=0", "leaf", "l=2", "mobb,,"})
         EXPECT_THROW(parse_fit(wrong, base), std::invalid_argument) << wrong;

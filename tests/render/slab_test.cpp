@@ -23,6 +23,9 @@
 #include <memory>
 #include <random>
 #include <set>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -31,9 +34,10 @@ namespace {
 constexpr PictureSize kSlabSize{480, 360};
 
 /// Two paths from 0 to 2 s that cross.
-FittedScene walks_of(mobb::TreeKind kind, bool running) {
+FittedScene walks_of(mobb::TreeKind kind, bool running, mobb::Axes axes = mobb::Axes::endpoints) {
     mobb::FitOptions options;
     options.tree = kind;
+    options.axes = axes;
     options.leaf = 4;
     const std::vector<mobb::Placement> places{{}, {{1, -1}, 90, 0}};
     return {running ? testing::running_scene(places) : testing::scene_of(places), options};
@@ -306,11 +310,41 @@ TEST(Slab, TheCaptionSaysIt) {
         std::ranges::any_of(list.lines, [](const LineInstance& line) { return line.order.layer == DrawLayer::rings; }));
 }
 
+TEST(Slab, OfOneMomentIsSaidSo) {
+    ViewState view;
+    view.slab = ValueRange{1, 1};
+    const DrawList list = build_draw_list(walks_of(mobb::TreeKind::mobb, false), view, PictureSize{1280, 720});
+    EXPECT_TRUE(std::ranges::any_of(list.texts,
+                                    [](const TextRun& run) { return run.text.find("at 1 s") != std::string::npos; }));
+}
+
+TEST(Slab, TheLegendHasWhatIsInItAlone) {
+    const FittedScene fitted = walks_of(mobb::TreeKind::mobb, false);
+    const auto rows_of = [&](ValueRange slab) {
+        ViewState view;
+        view.levels = {2, 2, false};
+        view.slab = slab;
+        std::set<std::string> out;
+        for (const LegendEntry& entry : build_draw_list(fitted, view, kSlabSize).legend) out.insert(entry.text);
+        return out;
+    };
+    const std::set<std::string> inside = rows_of({0.5, 1}), outside = rows_of({100, 200});
+    for (const char* row : {"A", "B", "level 2"}) {
+        EXPECT_TRUE(inside.contains(row)) << row;
+        EXPECT_FALSE(outside.contains(row)) << row;
+    }
+}
+
 /// Of every kind of box, against counting the points of the floor that lie in it.
 TEST(Sections, HaveTheAreaThatTheBoxHasThen) {
     std::mt19937 random(7);
-    for (const mobb::TreeKind kind : {mobb::TreeKind::mobb, mobb::TreeKind::umobb, mobb::TreeKind::moving}) {
-        const FittedScene fitted = walks_of(kind, false);
+    // Along the endpoints a free box has an axis in the floor, so all its sections have four corners.
+    const auto leaning = mobb::Axes::covariance;
+    for (const auto& [kind, axes] :
+         {std::pair(mobb::TreeKind::mobb, mobb::Axes::endpoints),
+          std::pair(mobb::TreeKind::umobb, mobb::Axes::endpoints), std::pair(mobb::TreeKind::umobb, leaning),
+          std::pair(mobb::TreeKind::moving, mobb::Axes::endpoints)}) {
+        const FittedScene fitted = walks_of(kind, false, axes);
         ViewState view;
         view.levels = {0, 9, false};
         const DrawList list = build_draw_list(fitted, view, kSlabSize);
@@ -358,9 +392,7 @@ TEST(Sections, HaveTheAreaThatTheBoxHasThen) {
         }
         EXPECT_GT(compared, 50);
         EXPECT_TRUE(corners_seen.contains(4));
-        if (kind == mobb::TreeKind::umobb) {
-            EXPECT_GT(corners_seen.size(), 1u) << "free boxes have other sections too";
-        }
+        EXPECT_EQ(corners_seen.size() > 1, axes == leaning) << mobb::name(kind) << " along " << mobb::name(axes);
     }
 }
 

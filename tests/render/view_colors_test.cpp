@@ -2,8 +2,11 @@
 #include <explain/avoidable.h>
 #include <explain/expected_cost.h>
 #include <render/drawlist/color_scale.h>
+#include <render/drawlist/palette.h>
+#include <render/parts/paths.h>
 #include <render/pictures/build_draw_list.h>
 #include <render/pictures/kept_paths.h>
+#include <scene/drawn_agent.h>
 
 #include "render/pictures.h"
 #include "render/scenes.h"
@@ -248,7 +251,7 @@ TEST(FigureColors, WhatHasNoFigureIsNeutral) {
         return std::ranges::any_of(list.texts,
                                    [&](const TextRun& text) { return text.text.find(words) != std::string::npos; });
     };
-    EXPECT_TRUE(said("overhang in time, %, no box here has one"));
+    EXPECT_TRUE(said("boxes: overhang in time (unknown here)"));
 }
 
 /// The colours of the bar between the two values at its ends.
@@ -288,6 +291,52 @@ TEST(FigureColors, TheBarSaysWhatTheColoursMean) {
     EXPECT_LT(glm::length(of_levels.front() - quantity_color(0, levels.palette)), 0.05f);
 }
 
+TEST(FigureColors, AChosenRangeOfLevelsIsOfTheBoxesAlone) {
+    const DrawList list = colored_by(three_paths(), ColorBy::level, {1, 3, false}, {{1, 3}});
+    EXPECT_GT(colors_of_bar(list, "1", "3").size(), 20u) << "no level lies outside";
+}
+
+TEST(FigureColors, TheSameValuesAreKept) {
+    const auto fitted = std::make_shared<const FittedScene>(three_paths());
+    KeptPaths kept(fitted);
+    ViewState view;
+    for (const ColorBy color_by : {ColorBy::volume, ColorBy::overhang, ColorBy::level}) {
+        view.color_by = color_by;
+        view.camera.preset = CameraPreset::iso;
+        build_draw_list(kept, view, {.size = kGoldenSize});
+        const std::shared_ptr<const ColoredValues> before = kept.colored_boxes();
+        ASSERT_TRUE(before);
+        view.camera.preset = CameraPreset::front;
+        build_draw_list(kept, view, {.size = kGoldenSize});
+        EXPECT_EQ(kept.colored_boxes(), before) << "from another side";
+        view.color_range = ValueRange{1, 2};
+        build_draw_list(kept, view, {.size = kGoldenSize});
+        EXPECT_NE(kept.colored_boxes(), before);
+        EXPECT_EQ(kept.colored_boxes()->values, before->values);
+        view.color_range.reset();
+    }
+}
+
+TEST(FigureColors, ColoursAreSpreadOverWhatIsBesideToo) {
+    const auto fitted = std::make_shared<const FittedScene>(three_paths());
+    KeptPaths kept(fitted);
+    ViewState view;
+    view.color_by = ColorBy::volume;
+    build_draw_list(kept, view, {.size = kGoldenSize});
+    const std::shared_ptr<const ColoredValues> alone = kept.colored_boxes();
+    kept.spread_colors_over({std::make_shared<const std::vector<double>>(1, 2 * alone->scale.most)});
+    const DrawList list = build_draw_list(kept, view, {.size = kGoldenSize});
+    EXPECT_DOUBLE_EQ(kept.colored_boxes()->scale.most, 2 * alone->scale.most);
+    EXPECT_EQ(kept.colored_boxes()->values, alone->values);
+    for (const BoxInstance& box : list.boxes) {
+        const Rgba wanted = kept.colored_boxes()->scale.color(drawn_volume(list, box), list.palette);
+        EXPECT_LT(glm::length(with_alpha(box.fill, 1) - wanted), 2e-3f);
+    }
+    view.color_range = ValueRange{1, 2};
+    build_draw_list(kept, view, {.size = kGoldenSize});
+    EXPECT_EQ(kept.colored_boxes()->scale.most, 2) << "a chosen range is exact";
+}
+
 TEST(FigureColors, NothingIsCountedWhereItIsDoneElsewhere) {
     const auto fitted = std::make_shared<const FittedScene>(three_paths());
     const auto figures = std::make_shared<SceneFigures>(SceneFigures::Counting::elsewhere);
@@ -297,10 +346,9 @@ TEST(FigureColors, NothingIsCountedWhereItIsDoneElsewhere) {
     const DrawList before = build_draw_list(kept, view, {.size = kGoldenSize});
     EXPECT_EQ(with_alpha(before.boxes[0].fill, 1), before.palette.axis);
     const auto title = std::ranges::find_if(
-        before.texts, [](const TextRun& text) { return text.text == "boxes: number of tests, not counted"; });
+        before.texts, [](const TextRun& text) { return text.text == "boxes: number of tests (not counted)"; });
     EXPECT_NE(title, before.texts.end());
-    const SceneCosts costs = scene_costs(*fitted);
-    figures->take(fitted, &costs, nullptr);
+    figures->take(fitted, std::make_shared<const SceneCosts>(scene_costs(*fitted)), nullptr);
     const DrawList after = build_draw_list(kept, view, {.size = kGoldenSize});
     const DrawList at_once = colored_by(*fitted, ColorBy::tests, view.levels);
     ASSERT_EQ(after.boxes.size(), at_once.boxes.size());
@@ -340,6 +388,35 @@ TEST(Heat, ADiskHasTheColourOfTheTestsThatHoldIt) {
         list.texts, [](const TextRun& text) { return text.text.starts_with("disks: tests of boxes that hold them"); }));
     view.heat = false;
     EXPECT_NE(build_draw_list(fitted, view, kGoldenSize).disks[0].color, list.disks[0].color);
+}
+
+TEST(Heat, DisksOutOfFocusStepBack) {
+    const FittedScene fitted = three_paths(mobb::TreeKind::mobb);
+    ViewState view;
+    view.heat = true;
+    const DrawList all = build_draw_list(fitted, view, kGoldenSize);
+    view.subtree = DrawnNode{0, 1};
+    const DrawList part = build_draw_list(fitted, view, kGoldenSize);
+    const mobb::Node& node = fitted.tree(0).node(1);
+    ASSERT_EQ(part.disks.size(), all.disks.size());
+    for (std::size_t i = 0; i < all.disks.size(); ++i) {
+        const DiskInstance &was = all.disks[i], &is = part.disks[i];
+        const bool inside = is.id.agent != 0 || (is.id.index >= node.first && is.id.index < node.end());
+        Rgba wanted = was.color;
+        if (!inside) wanted.a *= kOutOfFocus;
+        EXPECT_EQ(is.color, wanted) << is.id.agent << ' ' << is.id.index;
+    }
+    // ... and of an agent beside one that stands out.
+    DrawnAgent agent = drawn_agents(fitted, view)[1];
+    agent.dimmed = true;
+    PathFocus focus;
+    focus.colors = std::make_shared<const std::vector<Rgba>>(60, Rgba(1, 0, 0, 1));
+    DrawList dim;
+    dim.palette = all.palette;
+    dim.space = all.space;
+    add_disks(dim, agent, focus);
+    ASSERT_EQ(dim.disks.size(), 60u);
+    EXPECT_EQ(dim.disks[0].color, mix_colors(all.palette.background, Rgba(1, 0, 0, 1), kDimmed));
 }
 
 TEST(Heat, WithoutQueriesItIsWhatIsExpected) {
@@ -401,6 +478,18 @@ TEST(ColorScale, AFewThatStandAloneDoNotTakeAllColours) {
     EXPECT_FALSE(scale.chosen) << "what was left out does not step back";
 }
 
+TEST(ColorScale, ValuesThatAreNearlyEqualHaveNearlyOneColour) {
+    const ColorScale scale = color_scale(figure_named(NodeField::fill), std::vector<double>{0.434, 0.435});
+    EXPECT_LT(scale.share(0.435) - scale.share(0.434), 0.05f);
+    EXPECT_GT(scale.share(0.435), scale.share(0.434));
+    EXPECT_FALSE(scale.has_less || scale.has_more);
+    const ColorScale chosen =
+        color_scale(figure_named(NodeField::fill), std::vector<double>{0.434, 0.435}, {{43.4, 43.5}});
+    EXPECT_EQ(chosen.share(0.435), 1) << "a chosen range is exact";
+    const ColorScale nothing = color_scale(figure_named(NodeField::avoidable), std::vector<double>{0, 0});
+    EXPECT_EQ(nothing.share(0), 0);
+}
+
 TEST(ColorScale, VolumesThatAreADecadeApartHaveALogarithmicOne) {
     const std::vector<double> values{1, 10, 100, 0};
     const ColorScale scale = color_scale(figure_named(NodeField::volume), values);
@@ -436,12 +525,12 @@ TEST(ColorScale, AChosenRangeIsInTheUnitThatIsShown) {
 
 TEST(ColorScale, AllOfOneValueAndNoneAreNoFault) {
     const ColorScale one = color_scale(figure_named(NodeField::volume), std::vector<double>{3, 3});
-    EXPECT_EQ(one.share(3), 0);
+    EXPECT_FLOAT_EQ(one.share(3), 0.5f);
     const ColorScale none = color_scale(figure_named(NodeField::volume), std::vector<double>{kNoValue});
     EXPECT_FALSE(none.known);
     const Palette& colors = palette(Theme::dark);
     EXPECT_EQ(none.color(kNoValue, colors), colors.axis);
-    EXPECT_EQ(value_counts(one, std::vector<double>{3, kNoValue, 3}, 4), (std::vector<std::size_t>{2, 0, 0, 0}));
+    EXPECT_EQ(value_counts(one, std::vector<double>{3, kNoValue, 3}, 4), (std::vector<std::size_t>{0, 0, 2, 0}));
 }
 
 TEST(ColorScale, EveryModeButTheAgentsHasAFigure) {

@@ -89,6 +89,8 @@ TEST(DebugState, HasNamedViews) {
                                      std::pair(R"([{"name": "x", "view": {"levls": 1}}])", "/debug/views/0/view"),
                                      std::pair(R"([{"name": "x", "view": {}}, {"name": "x", "view": {}}])",
                                                "/debug/views/1/name: another view is named 'x'"),
+                                     std::pair(R"([{"name": " top ", "view": {}}])",
+                                               "/debug/views/0/name: 'top' is a camera that every scene has"),
                                      std::pair(R"({})", "/debug/views")}) {
         const std::string refused = debug_refusal(R"({"views": )" + std::string(views) + "}");
         EXPECT_NE(refused.find(why), std::string::npos) << views << ": " << refused;

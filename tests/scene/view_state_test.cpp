@@ -60,6 +60,34 @@ ViewState view_in(const std::string& json) {
         .view;
 }
 
+TEST(ViewState, ValueRangesAreThoseOfFiles) {
+    EXPECT_EQ(parse_value_range("none"), std::nullopt);
+    for (const char* text : {"0:2.5", "-3:-3", "-1e12:1e12"}) {
+        ViewState view;
+        view.slab = parse_value_range(text);
+        std::ostringstream out;
+        JsonWriter writer(out);
+        write_view(writer, view);
+        EXPECT_EQ(view_in(out.str()).slab, view.slab) << out.str();
+    }
+    for (const char* bad : {"", "1", "2:1", "0:1e300", "-1e13:0", "0:nan", "0:inf", "0:1:2"})
+        EXPECT_THROW(parse_value_range(bad), std::invalid_argument) << bad;
+}
+
+/// A range belongs to the figure that it was chosen for.
+TEST(ViewState, AnotherFigureHasARangeOfItsOwn) {
+    const auto range_over = [](const std::string& text) {
+        ViewState view;
+        view.color_by = ColorBy::volume;
+        view.color_range = ValueRange{0, 2.5};
+        const JsonText value = parse_json(text, "view.json");
+        return read_view(JsonPlace(value, "view.json"), view).color_range;
+    };
+    EXPECT_EQ(range_over(R"({"color_by": "fill"})"), std::nullopt);
+    EXPECT_EQ(range_over(R"({"color_by": "volume"})"), (ValueRange{0, 2.5}));
+    EXPECT_EQ(range_over(R"({"color_range": [1, 2], "color_by": "fill"})"), (ValueRange{1, 2}));
+}
+
 /// How the past was written before there was a choice.
 TEST(ViewState, FilesThatSayTestedBeforeAreStillRead) {
     EXPECT_EQ(view_in("{}").past, Past::ancestors);

@@ -37,9 +37,15 @@ bool has_present(const Workspace& workspace) {
 std::string present_name(const Workspace& workspace) { return has_present(workspace) ? workspace.named_view : ""; }
 bool is_present(const Workspace& workspace, const std::string& name) { return workspace.named_view == name; }
 
+std::string given_view_name(const std::string& text) {
+    std::string name = given_name(text, "a view");
+    if (camera_preset(name)) throw std::invalid_argument(in_quotes(name) + " is a camera; give the view another name");
+    return name;
+}
+
 /// A view of that name becomes this one.
 void save_view(Workspace& workspace, Notifications& notifications, Keys& keys, const std::string& text) {
-    const std::string name = given_name(text, "a view");
+    const std::string name = given_view_name(text);
     workspace.edit_debug("saving the view " + name, [&](DebugState& debug) {
         const auto known = std::ranges::find(debug.views, name, &NamedView::name);
         if (known == debug.views.end()) {
@@ -67,7 +73,7 @@ void go_to_view(Workspace& workspace, const std::string& name) {
 }
 
 void rename_view(Workspace& workspace, const std::string& text) {
-    const std::string name = given_name(text, "a view");
+    const std::string name = given_view_name(text);
     const std::size_t index = view_named(workspace, workspace.named_view);
     const std::vector<std::string> names = view_names(workspace);
     if (names[index] != name && std::ranges::find(names, name) != names.end())
@@ -90,7 +96,11 @@ std::vector<Command> named_view_commands() {
         Command(
             "view.save_as", "Save this view...",
             "Keeps how the scene is seen now under a name, as a bookmark to come back to; it is saved with the scene.",
-            save_view, {.argument = "NAME", .also = "bookmark camera viewpoint"}),
+            save_view,
+            {.argument = "NAME",
+             .enabled = {[](const Workspace& workspace) { return has_scene(workspace) && !workspace.in_excerpt(); },
+                         [] { return std::string_view("an excerpt keeps no views: go back to the whole first"); }},
+             .also = "bookmark camera viewpoint"}),
         Command("view.go", "Go to view", "Sees the scene as a named view has it, with the trees that are fitted now.",
                 go_to_view,
                 {.argument = "NAME",

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -142,8 +143,13 @@ const ViewState& own_view(const Scene& scene, const std::string& name) {
     const auto found = std::ranges::find(views, name, &NamedView::name);
     if (found != views.end()) return found->view;
     std::string known = "iso, top, front, side or free";
-    for (const NamedView& named : views) known.append(", ").append(in_quotes(named.name));
-    throw InputError("--view: " + in_quotes(name) + " is neither a direction nor a view of this scene: give " + known);
+    std::vector<std::string> names{"iso", "top", "front", "side", "free"};
+    for (const NamedView& named : views) {
+        known.append(", ").append(in_quotes(named.name));
+        names.push_back(named.name);
+    }
+    throw InputError("--view: " + in_quotes(name) + " is neither a direction nor a view of this scene" +
+                     did_you_mean(name, names) + ": give " + known);
 }
 
 /// The node of "A:12", or "A:2.1" by level and place; none of "none".
@@ -246,14 +252,25 @@ ViewState view_of_file(const std::filesystem::path& file, const ViewState& base)
     return view ? read_view(*view) : ViewState{};
 }
 
-/// Throws InputError at the key of a view, or of a scene's view, if the file has it.
-void refuse_where_said(const std::filesystem::path& file, const std::string& key, const std::string& message) {
+/// Throws InputError at the key of a view, or of the view of a scene, its own or the one of that name, if the file has
+/// it.
+void refuse_where_said(const std::filesystem::path& file, const std::string& named, const std::string& key,
+                       const std::string& message) {
     const std::string name = file.string();
     const JsonText value = parse_json(read_file(file), name);
     const JsonPlace root(value, name);
-    const auto view = root.find("clips") ? root.find("view") : root;
-    const auto said = view ? view->find(key) : std::nullopt;
-    if (said) said->fail(message);
+    const auto refuse_in = [&](const std::optional<JsonPlace>& view) {
+        const auto said = view ? view->find(key) : std::nullopt;
+        if (said) said->fail(message);
+    };
+    if (!root.find("clips")) return refuse_in(root);
+    if (named.empty()) return refuse_in(root.find("view"));
+    const auto debug = root.find("debug");
+    const auto views = debug ? debug->find("views") : std::nullopt;
+    for (int i = 0; views && i < views->size(); ++i) {
+        const JsonPlace each = (*views)[i];
+        if (trimmed(each.require("name").string()) == named) refuse_in(each.find("view"));
+    }
 }
 
 Camera camera_over(Camera camera, const ViewArguments& arguments) {
@@ -371,7 +388,11 @@ ViewState view_over(const FittedScene& fitted, const ViewArguments& arguments) {
         if (option.names) (view.*option.names).clear();
         for (const std::string& text : given->second) parse_option(option, text, agents, view);
     }
-    if (!arguments.subtree.empty()) view.subtree = part_named(fitted, arguments.subtree);
+    if (!arguments.subtree.empty()) {
+        view.subtree = part_named(fitted, arguments.subtree);
+        // A query shows no part of a tree.
+        if (view.subtree) view.query.reset();
+    }
     if (arguments.says("step") && !view.query) throw InputError("--step: say with --query which query it is a step of");
     return view;
 }
@@ -380,8 +401,9 @@ void refuse_view(const RenderArguments& arguments, const ViewMismatch& mismatch)
     const std::string scene = arguments.file.string();
     const std::filesystem::path& state = arguments.view.state;
     if (!arguments.view.says(mismatch.key())) {
-        if (!state.empty()) refuse_where_said(state, mismatch.key(), scene + ": " + mismatch.what());
-        if (lower_extension(scene) == ".json") refuse_where_said(scene, mismatch.key(), mismatch.what());
+        if (!state.empty()) refuse_where_said(state, "", mismatch.key(), scene + ": " + mismatch.what());
+        if (lower_extension(scene) == ".json")
+            refuse_where_said(scene, arguments.view.named, mismatch.key(), mismatch.what());
     }
     throw InputError(scene, mismatch.what());
 }

@@ -9,7 +9,7 @@ namespace mobbscope {
 namespace {
 
 constexpr double kMostBound = 1e9;
-constexpr double kLeastSeconds = 1e-3;  // of a move
+constexpr double kLeastSeconds = 1e-9;  // of a move: over 0
 constexpr double kMostSeconds = 3600;
 constexpr double kMostCount = 10'000;
 
@@ -76,7 +76,8 @@ std::span<const NumberOption<GraphOptions>> graph_options() {
                      .most = kMostSeconds,
                      .step = 0.1,
                      .decimals = 2,
-                     .between = ':'},
+                     .between = ':',
+                     .example = "1:4"},
                     [](const GraphOptions& from) {
                         return Numbers{from.least_seconds, from.most_seconds};
                     },

@@ -51,7 +51,8 @@ std::span<const NumberOption<CrowdOrder>> crowd_options() {
                      .least = kMinArea,
                      .most = kMaxArea,
                      .decimals = 1,
-                     .between = 'x'},
+                     .between = 'x',
+                     .example = "30x40"},
                     [](const CrowdOrder& from) {
                         return Numbers{from.options.area.x, from.options.area.y};
                     },
@@ -105,6 +106,9 @@ Scene played_part(Scene scene) {
     scene.queries.clear();
     if (scene.graph) remove_run(scene);
     scene.view = {};
+    // They are about agents and queries that are gone.
+    scene.debug.bookmarks.clear();
+    scene.debug.views.clear();
     return scene;
 }
 

@@ -1,17 +1,26 @@
 /// A draw list as JSON, for exact checks of what a picture shows: every disk, box, line and text with its numbers.
 ///
-///     {"size": [w, h], "background": "#RRGGBBAA", "participants": ["A", ...],
+///     {"size": [w, h],
+///      "background": "#RRGGBBAA",
+///      "participants": ["A", ...],
 ///      "camera": {"eye", "right", "up", "back", "perspective", "clip_from_world": [16, by column]},
-///      "disks":  [{"id", "participant", "sample", "base", "radius", "height", "color", "on_screen", "pixels"}],
-///      "boxes":  [{"id", "participant", "node", "level", "state", "center", "extents", "fill", "edge", "width",
-///      "dash",
-///                  "on_screen", "pixels"}],
-///      "lines":  [{"layer", "from", "to", "color", "width", "dash", "cap", "hidden", "on_screen"}],
-///      "highlights": [{"role", "from", "to", "color", "width", "dash", "on_screen"}],   only where something is
-///      pointed out "headline", "legend": [{"mark", "color", "text"}], "overlays": [{"name", "min", "max", "folded",
-///      "no_room", "more"}], "panels": [{"min", "max", "radius", "fill", "border", "border_width"}], "overlay_lines":
-///      [{"from", "to", "color", "width", "dash"}], "marks": [as panels], "texts":  [{"text", "role", "at", "size",
-///      "face", "color", "on_screen"}]}
+///      "slab": [low, high],   with "cuts_boxes" only where a slab in time is shown
+///      "cuts_boxes": whether boxes are cut at its planes; else those that reach into it are whole
+///      "disks": [{"id", "participant", "sample", "base", "radius", "height", "color", "on_screen", "pixels"}],
+///      "boxes": [{"id", "participant", "node", "level", "state", "center", "extents", "triangle", "fill", "edge",
+///                 "width", "dash", "on_screen", "pixels"}],
+///      "lines": [{"layer", "from", "to", "color", "width", "dash", "cap", "hidden", "on_screen"}],
+///      "highlights": [{"role", "from", "to", "color", "width", "dash", "on_screen"}],   only where there are any
+///      "headline": "...",
+///      "legend": [{"mark", "color", "text"}],
+///      "overlays": [{"name", "min", "max", "folded", "no_room", "more"}],
+///      "panels": [{"min", "max", "radius", "fill", "border", "border_width"}],
+///      "overlay_lines": [{"from", "to", "color", "width", "dash"}],
+///      "marks": [as panels],
+///      "texts": [{"text", "role", "at", "size", "face", "color", "on_screen"}]}
+///
+/// A disk that leans has "top" and "top_radius" too; a box has "triangle" only where it is half of a sheet. Disks and
+/// boxes that a slab cuts away are listed too, as they stay in the renderer's buffers; lines are cut.
 ///
 /// Positions are in drawn metres, places on the screen in pixels from the upper left corner, colours "#RRGGBBAA";
 /// numbers have six significant digits. Disks and boxes are sorted by what they stand for and lines by their place in

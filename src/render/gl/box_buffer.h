@@ -4,6 +4,9 @@
 #include <render/drawlist/draw_list.h>
 #include <render/gl/gl_objects.h>
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
 #include <algorithm>
 #include <cstddef>
 #include <utility>

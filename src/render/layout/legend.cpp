@@ -1,6 +1,7 @@
 #include <base/text.h>
 #include <explain/query_sentence.h>
 #include <mobb/traversal.h>
+#include <render/drawlist/cut.h>
 #include <render/layout/legend.h>
 #include <render/parts/node_boxes.h>
 #include <render/parts/paths.h>
@@ -34,7 +35,7 @@ LegendEntry dim_entry(const Palette& palette, const std::string& within) {
     return dot_entry(with_alpha(dim, 1), "dim: outside " + within);
 }
 
-/// What of the scene is inside the picture.
+/// What of the scene is inside the picture, and in its slab.
 class Sight {
   public:
     explicit Sight(const DrawList& list)
@@ -43,6 +44,8 @@ class Sight {
     /// From where it begins to where it ends.
     bool sample(const DrawnAgent& agent, int index) const {
         const mobb::SweptDisk swept = mobb::swept(agent.clip(), index);
+        const auto height_at = [&](double time) { return list_.space.point(0, 0, time).z; };
+        if (list_.slab && !list_.slab->shows(height_at(swept.begin), height_at(swept.end))) return false;
         std::optional<Rect> around;
         for (const auto& [disk, time] : {std::pair(swept.from, swept.begin), std::pair(swept.to, swept.end)}) {
             // Of a moment it is the floor that is seen.
@@ -64,6 +67,7 @@ class Sight {
     }
     /// One that reaches behind the eye counts as seen.
     bool box(const BoxInstance& box) const {
+        if (!is_seen(list_.slab, box)) return false;
         std::optional<Rect> around;
         bool behind = false;
         for (const glm::vec3& corner : box_corners(box)) {

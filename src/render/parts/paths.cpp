@@ -20,8 +20,12 @@ constexpr float kEarly = 0.24f;  // towards the background at the beginning of a
 
 Rgba disk_color(const Palette& palette, const DrawnAgent& agent, const PathFocus& focus, int sample) {
     if (focus.hit == sample) return palette.hit;
-    if (focus.colors) return (*focus.colors)[static_cast<std::size_t>(sample)];
     const bool in_focus = !focus.range || (sample >= focus.range->first && sample < focus.range->end());
+    if (focus.colors) {
+        const Rgba figure = (*focus.colors)[static_cast<std::size_t>(sample)];
+        const Rgba shown = agent.dimmed ? mix_colors(palette.background, figure, kDimmed) : figure;
+        return with_alpha(shown, in_focus ? shown.a : shown.a * kOutOfFocus);
+    }
     const float age = 1 - static_cast<float>(sample) / static_cast<float>(agent.clip().count());
     const float back = kEarly * age;
     return with_alpha(agent.color, (1 - back) * (in_focus ? 1 : kOutOfFocus) * (focus.behind ? kBehind : 1));

@@ -17,7 +17,10 @@ namespace mobbscope {
 /// How much of its colour a disk outside the nodes under test keeps.
 inline constexpr float kOutOfFocus = 0.38f;
 
-/// ... and one behind boxes whose colours are to be read.
+/// How much of its colour an agent keeps where another stands out.
+inline constexpr float kDimmed = 0.3f;
+
+/// How much of its colour a disk keeps behind boxes whose colours are to be read.
 inline constexpr float kBehind = 0.5f;
 
 /// Which samples of a path matter now; those outside step back.

@@ -2,6 +2,7 @@
 #include <render/drawlist/palette.h>
 #include <render/layout/annotations.h>
 #include <render/layout/framing.h>
+#include <render/parts/paths.h>
 #include <render/parts/sections.h>
 #include <render/pictures/picture.h>
 #include <scene/arrangement.h>
@@ -14,12 +15,6 @@
 #include <utility>
 
 namespace mobbscope {
-
-namespace {
-
-constexpr float kDimmed = 0.3f;  // of its colour that an agent keeps where another stands out
-
-}  // namespace
 
 Picture::Picture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options)
     : fitted_(fitted),
@@ -79,8 +74,10 @@ void Picture::mention_view(Caption& caption) const {
     }
     if (!view_.query) mention_foreground(caption, view_.foreground);
     mention_hidden(caption, hidden, view_.query ? agents_.size() : names_in_view(scene).size());
-    if (list_.slab)
-        mention(caption, "from " + to_thousandth(view_.slab->least) + " to " + to_thousandth(view_.slab->most) + " s");
+    if (list_.slab) {
+        const std::string least = to_thousandth(view_.slab->least), most = to_thousandth(view_.slab->most);
+        mention(caption, least == most ? "at " + least + " s" : "from " + least + " to " + most + " s");
+    }
     if (is_in_grid(scene, view_)) mention(caption, "in a grid, not where they are");
 }
 
