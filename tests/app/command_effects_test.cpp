@@ -759,6 +759,7 @@ std::vector<Case> cases() {
         EXPECT_EQ(w.session.nodes.by, NodeField::level);
         EXPECT_FALSE(w.session.nodes.descending);
         EXPECT_EQ(w.session.nodes.listed()->front(), 0);
+        EXPECT_EQ(w.session.settings.bottom_tab, BottomTab::nodes) << "the table is shown";
     });
     look("nodes.count", "", [](CommandWorld& w) {
         EXPECT_TRUE(w.session.nodes.values()->has(NodeField::tests));

@@ -660,7 +660,7 @@ TEST(Help, RunsWhatIsPicked) {
     EXPECT_EQ(w.session.dialogs.input.command, "view.theme");
     w.key("Escape");
     w.key("F1");
-    for (const char c : std::string("next node")) w.send(TypedText{static_cast<char32_t>(c)});
+    for (const char c : std::string("node on its level")) w.send(TypedText{static_cast<char32_t>(c)});
     w.key("Enter");
     EXPECT_EQ(w.session.dialogs.now, Dialog::help) << "it cannot be done without a node";
 }

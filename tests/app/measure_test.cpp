@@ -65,6 +65,11 @@ struct MeasureWindow {
         const mobb::Disk disk = who.clip().disk(sample);
         return {disk.x, disk.y, who.clip().time(sample)};
     }
+    /// A few pixels from the centre of the last sample, away from the one before.
+    glm::vec2 near_end(std::size_t index) {
+        const glm::vec2 last = seen(centre(index, 59)), before = seen(centre(index, 58));
+        return last + 3.0f * glm::normalize(last - before);
+    }
     std::size_t measured_lines() {
         return static_cast<std::size_t>(
             std::ranges::count(list().highlights, HighlightLine::Role::measure, &HighlightLine::role));
@@ -79,12 +84,12 @@ TEST(Measure, TwoClicksOnCentresMeasureTheWayBetweenThem) {
     EXPECT_TRUE(w.measuring().picks);
     // From above the last disk of each path lies in front.
     const glm::dvec3 a = w.centre(0, 59), c = w.centre(2, 59);
-    w.click(w.seen(a) + glm::vec2(0, 3));
+    w.click(w.near_end(0));
     ASSERT_TRUE(w.measuring().from);
     EXPECT_EQ(w.measuring().from->place, a);
     EXPECT_EQ(w.measuring().from->what, "A, sample 59, centre");
     EXPECT_TRUE(w.measuring().picks);
-    w.click(w.seen(c) + glm::vec2(0, -3));
+    w.click(w.near_end(2));
     ASSERT_TRUE(w.measuring().to);
     EXPECT_EQ(w.measuring().to->place, c);
     EXPECT_FALSE(w.measuring().picks) << "the next click selects";

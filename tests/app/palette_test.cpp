@@ -113,6 +113,7 @@ TEST(PaletteEntries, ChoicesAreFoundWithTheirCommand) {
 TEST(PaletteEntries, AgentsClipsQueriesAndNodesAreFound) {
     const PaletteWindow p;
     EXPECT_EQ(p.first("stand").argument, "stand");
+    EXPECT_EQ(p.first_id("b"), "go.agent") << "before what can be done with it";
     const PaletteEntry query = p.first("a against c");
     EXPECT_EQ(query.command->id, "query.select");
     EXPECT_EQ(query.argument, "1");
@@ -132,7 +133,7 @@ TEST(PaletteEntries, AreFoundByWhatPeopleSay) {
         {"side by side", {"compare.paper", "compare.fits", "compare.add"}},
         {"tighter", {"compare.paper", "compare.fits", "tree.kind"}},
         {"better", {"compare.paper", "compare.fits"}},
-        {"waste", {"tree.next_finding", "view.color_by", "bottom.show"}},
+        {"waste", {"nodes.sort", "view.color_by", "tree.next_finding"}},
         {"false positive", {"query.blame", "step.next_avoidable"}},
         {"tight", {"tree.kind", "tree.axes", "tree.next_finding"}},
         {"loose", {"tree.next_finding", "tree.kind", "view.color_by"}},
@@ -232,6 +233,12 @@ TEST(PaletteEntries, CommandsAreFoundWithWhatTheyTake) {
         {"level 3", "view.level", "3", "Show levels: 3"},
         {"levels 1:2", "view.level", "1:2", "Show levels: 1:2"},
         {"time 2.5", "time.at", "2.5", "Time cursor at: 2.5"},
+        {"slab 1:2.5", "view.slab", "1:2.5", "Slab in time: 1:2.5"},
+        {"slab none", "view.slab", "none", "Slab in time: none"},
+        {"side by side mobb,leaf=10 moving aabb", "compare.fits", "mobb,leaf=10 moving aabb",
+         "Compare two to four fits: mobb,leaf=10 moving aabb"},
+        {"motion graph hubs=3 seconds=1:2", "crowd.build_graph", "hubs=3 seconds=1:2",
+         "Build a motion graph: hubs=3 seconds=1:2"},
         {"speed 2", "time.speed", "2", "Speed of playing: 2"},
         {"tree umobb", "tree.kind", "umobb", "Tree kind: umobb"},
         {"place agent 1.5 -2", "agent.move", "1.5 -2", "Place agent at: 1.5 -2"},

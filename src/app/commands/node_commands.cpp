@@ -36,8 +36,9 @@ std::vector<std::string> node_column_names() {
     return out;
 }
 
-void sort_nodes_by(NodeInspector& nodes, const std::string& text) {
+void sort_nodes_by(NodeInspector& nodes, Settings& settings, const std::string& text) {
     nodes.sort_by(node_columns()[static_cast<std::size_t>(index_of_name(node_column_names(), text, "column"))]);
+    settings.bottom_tab = BottomTab::nodes;
 }
 
 void count_all_of_nodes(Session& session) {

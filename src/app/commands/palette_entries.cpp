@@ -2,6 +2,7 @@
 #include <app/commands/palette_entries.h>
 #include <app/document/agents.h>
 #include <base/text.h>
+#include <scene/fit_text.h>
 
 #include <algorithm>
 #include <array>
@@ -34,6 +35,7 @@ constexpr double kAlsoShare = 0.7;
 constexpr double kIdShare = 0.6;
 constexpr double kDocShare = 0.3;
 constexpr double kOtherPlaces = 0.05;  // of the same word in the other fields
+constexpr double kNamed = 0.2;         // that a thing's whole name is looked for
 constexpr double kPerLetter = 1e-3;    // shorter titles say more of what was meant
 constexpr std::size_t kMostQueries = 2000;
 
@@ -95,7 +97,7 @@ struct Scored {
 class Collector {
   public:
     Collector(const Session& session, const std::string& text, Letters letters)
-        : session_(session), words_(words_of(text)), letters_(letters) {}
+        : session_(session), text_(text), words_(words_of(text)), letters_(letters) {}
 
     /// A command by `words`; `extra` counts besides what is found of them.
     void add(const Command& command, std::string argument, std::string title, std::string_view detail,
@@ -112,10 +114,12 @@ class Collector {
                            std::string(in_title ? std::string_view() : command.doc),
                            std::string(first_shortcut(command)), std::string(why_not(session_, command))}});
     }
-    /// ... of a thing.
+    /// ... of a thing, before commands about it where its whole name is looked for.
     void add(std::string_view id, std::string argument, std::string title, std::string_view detail,
              std::initializer_list<SearchField> fields) {
-        add(*find_command(id, commands(session_)), std::move(argument), std::move(title), detail, fields, words_);
+        const double extra = std::ranges::equal(title, text_, {}, lower, lower) ? kNamed : 0;
+        add(*find_command(id, commands(session_)), std::move(argument), std::move(title), detail, fields, words_,
+            extra);
     }
     const std::vector<std::string>& words() const { return words_; }
     bool has_words() const { return !words_.empty(); }
@@ -139,6 +143,7 @@ class Collector {
 
   private:
     const Session& session_;
+    std::string text_;
     std::vector<std::string> words_;
     Letters letters_;
     std::vector<Scored> found_;
@@ -164,7 +169,8 @@ std::vector<std::string_view> parts_of(std::string_view text, std::string_view s
 /// Whether a word can stand for one of a command's argument: "N" for a whole number, "S", "DX" or "FACTOR" for a
 /// number, "leaves" for itself. What stands for a name takes anything, and is not guessed.
 bool fits_placeholder(std::string_view placeholder, std::string_view word) {
-    static constexpr std::array<std::string_view, 7> kNumbers{"DEG", "DX", "DY", "FACTOR", "FROM", "SECONDS", "TO"};
+    static constexpr std::array<std::string_view, 14> kNumbers{
+        "DEG", "DX", "DY", "FACTOR", "FROM", "LEAST", "MOST", "SECONDS", "T0", "T1", "TIME", "TIME_A", "TIME_B", "TO"};
     if (placeholder == "N" || placeholder == "K") return parse_int(word).has_value();
     if (placeholder.size() == 1 || std::ranges::find(kNumbers, placeholder) != kNumbers.end()) {
         return parse_double(word).has_value();
@@ -172,8 +178,20 @@ bool fits_placeholder(std::string_view placeholder, std::string_view word) {
     return placeholder == word && std::ranges::all_of(word, [](char c) { return c >= 'a' && c <= 'z'; });
 }
 
-/// "N", "A:B", "auto": one alternative of a word.
+bool is_fit(std::string_view word) {
+    try {
+        parse_fit(word, {});
+    } catch (const std::invalid_argument&) {
+        return false;
+    }
+    return true;
+}
+
+/// "N", "A:B", "auto", "FIT", "OPTION=VALUE": one alternative of a word.
 bool fits_word(std::string_view wanted, std::string_view word) {
+    if (wanted == "FIT") return is_fit(word);
+    if (wanted == "OPTION=VALUE")
+        return parts_of(word, "=").size() == 2 && !word.starts_with('=') && !word.ends_with('=');
     const auto placeholders = parts_of(wanted, ":,");
     const auto words = parts_of(word, ":,");
     return std::ranges::equal(placeholders, words, fits_placeholder);
@@ -183,10 +201,20 @@ bool fits_word(std::string_view wanted, std::string_view word) {
 std::size_t words_of_argument(std::string_view argument, const std::vector<std::string>& words) {
     if (argument.starts_with('[')) argument = argument.substr(1, argument.size() - 2);
     for (const std::string_view alternative : parts_of(argument, "|")) {
-        const std::vector<std::string> wanted = words_of(alternative);
-        if (wanted.empty() || wanted.size() >= words.size()) continue;
-        const auto last = words.end() - static_cast<std::ptrdiff_t>(wanted.size());
-        if (std::equal(wanted.begin(), wanted.end(), last, fits_word)) return wanted.size();
+        std::vector<std::string> wanted = words_of(alternative);
+        if (wanted.empty()) continue;
+        // "FIT FIT..." takes more of the last one.
+        const bool takes_more = wanted.back().ends_with("...");
+        if (takes_more) wanted.back().resize(wanted.back().size() - 3);
+        std::size_t count = 0;
+        while (wanted.size() < words.size()) {
+            const auto last = words.end() - static_cast<std::ptrdiff_t>(wanted.size());
+            if (!std::equal(wanted.begin(), wanted.end(), last, fits_word)) break;
+            count = wanted.size();
+            if (!takes_more) break;
+            wanted.push_back(wanted.back());
+        }
+        if (count > 0) return count;
     }
     return 0;
 }

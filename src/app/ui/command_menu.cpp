@@ -80,7 +80,7 @@ struct MenuSpacing {
     MenuSpacing& operator=(const MenuSpacing&) = delete;
 };
 
-constexpr float kToolGap = 12;  // between groups, pixels at scale 1
+constexpr float kToolGap = 8;  // between groups, pixels at scale 1
 constexpr const char* kMore = "\u00BB";
 
 /// Lit while the command says it is on.

@@ -34,10 +34,9 @@ void viewport_toolbar(Ui& ui) {
                                    {nullptr, ""}});
     for (const ViewOption& option : view_options())
         if (option.at_hand) buttons.push_back({option.title.data(), option.command});
-    buttons.insert(buttons.end(),
-                   {{nullptr, ""}, {"Moment", "view.moment"}, {"Plan", "view.plan"}, {"Measure", "view.measure"}});
+    buttons.insert(buttons.end(), {{nullptr, ""}, {"Moment", "view.moment"}, {"Plan", "view.plan"}});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(2), ui.px(4)});
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(6), ui.px(3)});
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(5), ui.px(3)});
     ImGui::SetCursorPos({ui.px(6), ui.px(4)});
     tool_row(ui, buttons);
     ImGui::PopStyleVar(2);
