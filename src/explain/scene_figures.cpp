@@ -4,64 +4,84 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 namespace mobbscope {
 
 namespace {
 
-constexpr std::size_t kMostFits = 4;  // whose figures are kept: those of views side by side
+constexpr std::size_t kMostCounted = 4;  // scenes: as many as there are views side by side
 
 }  // namespace
 
-void SceneFigures::take(const std::shared_ptr<const FittedScene>& fitted, const SceneCosts* costs,
+SceneFigures::Counted* SceneFigures::counted_in(const std::shared_ptr<const FittedScene>& fitted) {
+    auto at = std::ranges::find(counted_, fitted, &Counted::in);
+    if (at == counted_.end())
+        at = std::ranges::find_if(counted_, [&](const Counted& each) { return ask_the_same(*each.in, *fitted); });
+    return at == counted_.end() ? nullptr : &*at;
+}
+
+void SceneFigures::take(const std::shared_ptr<const FittedScene>& fitted, std::shared_ptr<const SceneCosts> costs,
                         std::shared_ptr<const BlameInScene> blame) {
-    const bool same = counted_in_ && (counted_in_ == fitted || ask_the_same(*counted_in_, *fitted));
-    counted_in_ = fitted;
-    if (same && (costs != nullptr) == (costs_ != nullptr) && blame == blame_) return;
-    if (!same || !costs || !costs_) costs_ = costs ? std::make_shared<const SceneCosts>(*costs) : nullptr;
-    blame_ = std::move(blame);
+    Counted* same = counted_in(fitted);
+    if (same ? same->costs == costs && same->blame == blame : !costs && !blame) return;
+    if (same) counted_.erase(counted_.begin() + (same - counted_.data()));
+    if (counted_.size() == kMostCounted) counted_.pop_back();
+    counted_.insert(counted_.begin(), {fitted, std::move(costs), std::move(blame)});
     ++revision_;
 }
 
-void SceneFigures::know(const std::shared_ptr<const FittedScene>& fitted, NodeField field) {
-    if (counting_ == Counting::elsewhere || fitted->queries().empty()) return;
-    if (counted_in_ != fitted) take(fitted, nullptr, nullptr);
-    if (field == NodeField::tests && !costs_) {
-        const SceneCosts costs = scene_costs(*fitted);
-        take(fitted, &costs, blame_);
-    }
-    if (field == NodeField::avoidable && !blame_)
-        take(fitted, costs_.get(), std::make_shared<const BlameInScene>(blame_in(*fitted)));
+/// Counts them first, unless that is done elsewhere.
+SceneFigures::Counted SceneFigures::known(const std::shared_ptr<const FittedScene>& fitted, NodeField field) {
+    const Counted* found = counted_in(fitted);
+    Counted out = found ? *found : Counted{fitted, nullptr, nullptr};
+    if (counting_ == Counting::elsewhere || fitted->queries().empty()) return out;
+    if (field == NodeField::tests && !out.costs) out.costs = std::make_shared<const SceneCosts>(scene_costs(*fitted));
+    if (field == NodeField::avoidable && !out.blame)
+        out.blame = std::make_shared<const BlameInScene>(blame_in(*fitted));
+    take(fitted, out.costs, out.blame);
+    return out;
 }
 
 bool SceneFigures::is_counted(const std::shared_ptr<const FittedScene>& fitted, NodeField field) {
-    know(fitted, field);
-    if (counted_in_ != fitted) return false;
-    return field == NodeField::tests ? costs_ != nullptr : field == NodeField::avoidable && blame_ != nullptr;
+    const Counted counted = known(fitted, field);
+    return field == NodeField::tests ? counted.costs != nullptr
+                                     : field == NodeField::avoidable && counted.blame != nullptr;
+}
+
+SceneFigures::Kept& SceneFigures::kept(const std::shared_ptr<const mobb::Tree>& tree, int clip) {
+    const auto of_tree = kept_.find(tree);
+    if (of_tree != kept_.end()) {
+        if (const auto at = of_tree->second.find(clip); at != of_tree->second.end()) return at->second;
+    } else {
+        // Nobody else has them: one reference is the key's, and one that of the values of each clip.
+        std::erase_if(kept_, [](const auto& each) {
+            return each.first.use_count() == 1 + static_cast<long>(each.second.size());
+        });
+    }
+    return kept_[tree].emplace(clip, Kept{.values = NodeValues(tree, {})}).first->second;
 }
 
 const NodeValues& SceneFigures::of(const std::shared_ptr<const FittedScene>& fitted, int clip, NodeField field) {
     const std::shared_ptr<const mobb::Tree>& tree = fitted->shared_tree(clip);
-    if (kept_.size() > kMostFits * fitted->scene().clips.size())
-        std::erase_if(kept_, [](const auto& each) { return each.first.first.use_count() == 1; });
-    const std::pair key(tree, clip);
-    auto at = kept_.find(key);
-    if (at == kept_.end()) at = kept_.emplace(key, Kept{.values = NodeValues(tree, {})}).first;
-    Kept& kept = at->second;
-    if (field == NodeField::share && !kept.has_shares) {
-        if (const auto expected = expected_cost(*tree, *tree)) kept.values.add_shares(expected->node_shares());
-        kept.has_shares = true;
+    Kept& out = kept(tree, clip);
+    if (field == NodeField::share && !out.has_shares) {
+        if (const auto expected = expected_cost(*tree, *tree)) out.values.add_shares(expected->node_shares());
+        out.has_shares = true;
     }
-    const bool counts = is_counted(fitted, field);
-    if (field == NodeField::tests && kept.tests_of != revision_) {
-        counts ? kept.values.add_tests(*costs_, clip) : kept.values.forget(field);
-        kept.tests_of = revision_;
+    if (field == NodeField::tests) {
+        if (const auto costs = known(fitted, field).costs; costs != out.costs) {
+            costs ? out.values.add_tests(*costs, clip) : out.values.forget(field);
+            out.costs = costs;
+        }
     }
-    if (field == NodeField::avoidable && kept.avoidable_of != revision_) {
-        counts ? kept.values.add_avoidable(*blame_, clip) : kept.values.forget(field);
-        kept.avoidable_of = revision_;
+    if (field == NodeField::avoidable) {
+        if (const auto blame = known(fitted, field).blame; blame != out.blame) {
+            blame ? out.values.add_avoidable(*blame, clip) : out.values.forget(field);
+            out.blame = blame;
+        }
     }
-    return kept.values;
+    return out.values;
 }
 
 NodeField SceneFigures::heat_of(const std::shared_ptr<const FittedScene>& fitted) {

@@ -79,8 +79,8 @@ FittedScene FittedScene::using_fit(std::size_t index) const {
 bool ask_the_same(const FittedScene& a, const FittedScene& b) {
     const Scene &of_a = a.scene(), &of_b = b.scene();
     return a.fits()[a.fit_in_use()]->trees == b.fits()[b.fit_in_use()]->trees && a.options() == b.options() &&
-           of_a.clips == of_b.clips && of_a.agents == of_b.agents && of_a.queries == of_b.queries &&
-           of_a.graph == of_b.graph && of_a.crowd == of_b.crowd;
+           (&of_a == &of_b || (of_a.clips == of_b.clips && of_a.agents == of_b.agents && of_a.queries == of_b.queries &&
+                               of_a.graph == of_b.graph && of_a.crowd == of_b.crowd));
 }
 
 FittedScene FittedScene::without_unused_fits() const {

@@ -75,8 +75,8 @@ std::span<const NodeFieldInfo> node_fields() {
         {{.name = "share",
           .unit = "%",
           .words = "the part of the cost",
-          .doc = "The node's part of all box tests of a query: expected under standard placements (its EV* share), or "
-                 "counted in the scene's queries"},
+          .doc = "The node's part of all box tests that a query is expected to make under standard placements: its EV* "
+                 "share"},
          share,
          "cost",
          true},

@@ -1,18 +1,25 @@
 // Colours by a figure in the window: the histogram with its handles, and the strip of levels over time.
 #include <app/document/workspace.h>
 #include <app/window/headless_window.h>
+#include <explain/expected_cost.h>
+#include <mobb/box.h>
+#include <render/drawlist/color_scale.h>
 #include <render/gl/gl_context.h>
 #include <scene/view_options.h>
 
 #include "app/crossing_folder.h"
 
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace mobbscope::app {
 namespace {
@@ -59,8 +66,8 @@ TEST(ViewFigures, AModeIsChosenFromTheListWithTheOthers) {
         EXPECT_TRUE(w.has("view.color_by." + std::string(mode))) << mode;
     w.click(w.rect("view.color_by.empty").center());
     EXPECT_EQ(w.view().color_by, ColorBy::empty);
-    ASSERT_TRUE(w.session.figures.boxes);
-    EXPECT_EQ(w.session.figures.boxes->scale.figure.title, "empty space");
+    ASSERT_TRUE(w.session.figures.boxes());
+    EXPECT_EQ(w.session.figures.boxes()->scale.figure.title, "empty space");
     EXPECT_TRUE(w.has("view.color_range.from"));
     w.run("query.select", "0");
     EXPECT_FALSE(w.has("view.color_range.from")) << "the boxes of a query have other colours";
@@ -70,7 +77,7 @@ TEST(ViewFigures, HandlesChooseTheRange) {
     FigureWindow w;
     w.run("view.level", "3");
     w.run("view.color_by", "empty");
-    const ColorScale scale = w.session.figures.boxes->scale;
+    const ColorScale scale = w.session.figures.boxes()->scale;
     ASSERT_TRUE(scale.known);
     EXPECT_FALSE(w.has("view.color_range.auto"));
     const glm::vec2 at = w.rect("view.color_range.to").center();
@@ -81,8 +88,8 @@ TEST(ViewFigures, HandlesChooseTheRange) {
     ASSERT_TRUE(w.view().color_range);
     EXPECT_LT(w.view().color_range->most, scale.most);
     EXPECT_NEAR(w.view().color_range->least, scale.least, 1e-3 * scale.least);
-    EXPECT_TRUE(w.session.figures.boxes->scale.chosen);
-    EXPECT_TRUE(w.session.figures.boxes->scale.has_more);
+    EXPECT_TRUE(w.session.figures.boxes()->scale.chosen);
+    EXPECT_TRUE(w.session.figures.boxes()->scale.has_more);
     EXPECT_NEAR(w.rect("view.color_range.to").center().x, at.x - 60, 2) << "it stays under the mouse";
     w.click(w.rect("view.color_range.auto").center());
     EXPECT_FALSE(w.view().color_range);
@@ -93,7 +100,7 @@ TEST(ViewFigures, ARangeIsOfOneFigure) {
     w.run("view.color_by", "fill");
     w.run("view.color_range", "10:30");
     EXPECT_EQ(w.view().color_range, (ValueRange{10, 30}));
-    EXPECT_DOUBLE_EQ(w.session.figures.boxes->scale.most, 0.3) << "parts are given in per cent";
+    EXPECT_DOUBLE_EQ(w.session.figures.boxes()->scale.most, 0.3) << "parts are given in per cent";
     w.run("view.color_by", "fill");
     EXPECT_TRUE(w.view().color_range);
     w.run("view.color_by", "empty");
@@ -106,13 +113,97 @@ TEST(ViewFigures, TestsAreCountedWhereSomebodyAsks) {
     FigureWindow w;
     for (const char* mode : {"tests", "avoidable"}) {
         w.run("view.color_by", mode);
-        ASSERT_TRUE(w.session.figures.boxes) << mode;
-        EXPECT_FALSE(w.session.figures.boxes->scale.known) << mode;
-        EXPECT_EQ(w.session.figures.boxes->unknown, "not counted");
+        ASSERT_TRUE(w.session.figures.boxes()) << mode;
+        EXPECT_FALSE(w.session.figures.boxes()->scale.known) << mode;
+        EXPECT_EQ(w.session.figures.boxes()->unknown, "not counted");
         w.click(w.rect("view.color_by.count").center());
         w.window.settle();
-        EXPECT_TRUE(w.session.figures.boxes->scale.known) << mode;
+        EXPECT_TRUE(w.session.figures.boxes()->scale.known) << mode;
         EXPECT_FALSE(w.has("view.color_by.count"));
+    }
+}
+
+TEST(ViewFigures, SideBySideEachFitIsCounted) {
+    for (const std::size_t first : {0u, 1u}) {
+        SCOPED_TRACE(first);
+        FigureWindow w;
+        w.run("compare.fits", "mobb,leaf=4 umobb,leaf=4");
+        const auto go = [&](std::size_t place) {
+            w.session.views.activate(place);
+            w.window.settle();
+            return w.session.figures.boxes();
+        };
+        for (const char* mode : {"tests", "avoidable"}) {
+            go(first);
+            w.run("view.color_by", mode);
+            EXPECT_FALSE(go(first)->scale.known) << mode;
+            w.click(w.rect("view.color_by.count").center());
+            w.window.settle();
+            EXPECT_TRUE(go(first)->scale.known) << mode;
+            EXPECT_FALSE(go(1 - first)->scale.known) << mode;
+            w.click(w.rect("view.color_by.count").center());
+            w.window.settle();
+            EXPECT_TRUE(go(1 - first)->scale.known) << mode;
+            EXPECT_TRUE(go(first)->scale.known) << mode;
+        }
+        w.run("view.color_by", "tests");
+        EXPECT_NE(*go(first)->values, *go(1 - first)->values) << "each its own";
+    }
+}
+
+TEST(ViewFigures, SideBySideOneColourIsOneValue) {
+    FigureWindow w;
+    w.run("compare.fits", "mobb,leaf=4 umobb,leaf=4");
+    w.run("view.level", "1");
+    w.run("view.color_by", "volume");
+    std::vector<double> volumes;
+    std::vector<Rgba> colors;
+    const auto look = [&](std::size_t place) {
+        w.session.views.activate(place);
+        w.window.settle();
+        volumes.clear();
+        colors.clear();
+        const mobb::Tree& tree = w.session.workspace.fitted().tree(clip_in_focus(w.session.workspace));
+        for (const BoxInstance& box : w.window.shell().shown()->boxes) {
+            if (box.state != BoxState::level) continue;
+            volumes.push_back(mobb::volume(tree.box(box.id.index), tree.time_scale()));
+            colors.push_back(with_alpha(box.fill, 1));
+        }
+        EXPECT_EQ(volumes.size(), 6u) << "two nodes of three agents";
+    };
+    look(0);
+    std::vector<double> all = volumes;
+    look(1);
+    EXPECT_NE(all, volumes);
+    all.insert(all.end(), volumes.begin(), volumes.end());
+    const ColorScale scale = color_scale(colored_figure(info(NodeField::volume)), all);
+    for (const std::size_t place : {0u, 1u, 0u}) {
+        look(place);
+        EXPECT_EQ(w.session.figures.boxes()->scale, scale) << place;
+        for (std::size_t i = 0; i < volumes.size(); ++i)
+            EXPECT_LT(glm::length(colors[i] - scale.color(volumes[i], w.window.shell().shown()->palette)), 2e-3f);
+    }
+    w.run("view.link_levels");
+    for (const std::size_t place : {0u, 1u}) {
+        look(place);
+        EXPECT_EQ(w.session.figures.boxes()->scale, color_scale(scale.figure, volumes)) << "each its own range";
+    }
+}
+
+/// The table's part of the cost is that of the colours and the strip, whatever costs are about.
+TEST(ViewFigures, ThePartOfTheCostIsTheExpectedOne) {
+    FigureWindow w;
+    w.session.settings.cost_of = QueryWorkload::Kind::queries;
+    w.session.costs.count();
+    w.window.settle();
+    const int clip = clip_in_focus(w.session.workspace);
+    const mobb::Tree& tree = w.session.workspace.fitted().tree(clip);
+    const std::vector<double> expected = expected_cost(tree, tree)->node_shares();
+    const std::shared_ptr<const NodeValues> table = w.session.nodes.values();
+    const std::span<const double> strip = w.session.figures.column(clip, NodeField::share);
+    for (int node = 0; node < table->size(); ++node) {
+        EXPECT_EQ(table->value(NodeField::share, node), expected[static_cast<std::size_t>(node)]);
+        EXPECT_EQ(strip[static_cast<std::size_t>(node)], expected[static_cast<std::size_t>(node)]);
     }
 }
 

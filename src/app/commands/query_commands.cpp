@@ -174,8 +174,7 @@ void count_blame(Session& session) {
                                    return session.notifications.tell(
                                        MessageLevel::info, "The scene has changed: sum avoidable overlaps again");
                                }
-                               workspace.counted_blame = blame;
-                               workspace.blame_counted_in = in;
+                               workspace.keep_blame(in, blame);
                                session.notifications.tell(MessageLevel::info,
                                                           blame_words(*blame, in->queries().size()));
                            };

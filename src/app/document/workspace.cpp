@@ -16,7 +16,23 @@ namespace {
 
 /// Agents whose pairs are still listed one by one.
 constexpr std::size_t kFewAgents = 12;
-constexpr std::size_t kKeptCosts = 32;  // of trees that were looked at
+constexpr std::size_t kKeptCosts = 64;  // of trees: more than charts and views show at once
+
+/// What was found out about the queries of a scene holds of all that ask the same.
+template <class Found>
+auto found_of_scene(const Found& found, const FittedScene& of) {
+    const auto at = std::ranges::find_if(
+        found, [&](const auto& each) { return each.first.get() == &of || ask_the_same(*each.first, of); });
+    return at == found.end() ? nullptr : at->second;
+}
+
+/// Of as many scenes as there may be views; the latest first.
+template <class Found, class What>
+void keep_of_scene(Found& found, const std::shared_ptr<const FittedScene>& of, What what) {
+    std::erase_if(found, [&](const auto& known) { return ask_the_same(*known.first, *of); });
+    found.insert(found.begin(), {of, std::move(what)});
+    if (found.size() > kMostViews) found.pop_back();
+}
 
 }  // namespace
 
@@ -107,7 +123,6 @@ void Workspace::go_to_event(int event) {
 }
 
 void Workspace::change_document(Document next, const EditName& name) {
-    if (next.view.subtree == view().subtree) drop_other_part(next.view, *next.fitted, *document().fitted);
     clamp_views(next);
     remember_step(next);
     history.change(std::move(next), name);
@@ -201,8 +216,9 @@ void Workspace::share_linked() {
     for (SceneView& other : beside) {
         ViewState view = other.view;
         view.theme = active.theme;
-        // Heights mean something else in the picture of a moment.
-        if (links.camera && view.show == active.show) {
+        // Together: heights mean something else in the picture of a moment.
+        if (links.camera) {
+            view.show = active.show;
             view.camera = active.camera;
             view.time_height = active.time_height;
             view.follow = active.follow;
@@ -211,11 +227,21 @@ void Workspace::share_linked() {
             view.time = active.time;
             view.time_window = active.time_window;
             view.slab = active.slab;
+            view.cut_boxes = active.cut_boxes;
+            view.slice = active.slice;
         }
         if (links.level) {
             view.levels = active.levels;
             view.color_by = active.color_by;
             view.color_range = active.color_range;
+            view.heat = active.heat;
+            view.disks = active.disks;
+            view.boxes = active.boxes;
+            view.ancestors = active.ancestors;
+            view.hidden = active.hidden;
+            view.pinned = active.pinned;
+            view.foreground = active.foreground;
+            view.arrange = active.arrange;
         }
         if (links.query && !crowd()) {
             const bool follows = moved || view.query != active.query;
@@ -323,16 +349,19 @@ std::shared_ptr<const TreeCost> Workspace::cost_of(const FittedScene& of, int cl
 
 void Workspace::keep_counted(const std::shared_ptr<const FittedScene>& of, std::shared_ptr<const SceneCosts> costs) {
     if (ask_the_same(*of, *document().fitted)) derived().costs = costs;
-    std::erase_if(counted_, [&](const auto& known) { return ask_the_same(*known.first, *of); });
-    counted_.insert(counted_.begin(), {of, std::move(costs)});
-    if (counted_.size() > kMostViews) counted_.pop_back();
+    keep_of_scene(counted_, of, std::move(costs));
 }
 
 std::shared_ptr<const SceneCosts> Workspace::counted(const FittedScene& of) const {
-    if (&of == document().fitted.get()) return derived().costs;
-    const auto known = std::ranges::find_if(
-        counted_, [&](const auto& each) { return each.first.get() == &of || ask_the_same(*each.first, of); });
-    return known == counted_.end() ? nullptr : known->second;
+    return &of == document().fitted.get() ? derived().costs : found_of_scene(counted_, of);
+}
+
+void Workspace::keep_blame(const std::shared_ptr<const FittedScene>& of, std::shared_ptr<const BlameInScene> blame) {
+    keep_of_scene(blamed_, of, std::move(blame));
+}
+
+std::shared_ptr<const BlameInScene> Workspace::blame(const FittedScene& of) const {
+    return found_of_scene(blamed_, of);
 }
 
 void Workspace::keep_standard_cost(std::shared_ptr<const TreeCost> cost) {
@@ -345,9 +374,7 @@ Workspace::Derived& Workspace::derived() const {
         // Another breakpoint, say, changes nothing that was found out about the queries.
         if (!derived_.of || !ask_the_same(*derived_.of, *document().fitted)) {
             derived_ = {};
-            const auto is_same = [this](const auto& known) { return ask_the_same(*known.first, *document().fitted); };
-            const auto known = std::ranges::find_if(counted_, is_same);
-            if (known != counted_.end()) derived_.costs = known->second;
+            derived_.costs = found_of_scene(counted_, *document().fitted);
         }
         // These refer to the scene that they were made of.
         derived_.moves.reset();

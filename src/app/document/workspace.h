@@ -138,9 +138,6 @@ class Workspace {
     };
     std::optional<FoundConflicts> found;  ///< none: nobody has looked yet
     int conflict = -1;                    ///< that was gone to last; -1: none
-    /// Whom the queries of a scene blame; null: nobody has counted yet.
-    std::shared_ptr<const BlameInScene> counted_blame;
-    std::shared_ptr<const FittedScene> blame_counted_in;
 
     std::vector<RunningJob> jobs;                   ///< the oldest first
     std::deque<ImportChange> import_changes;        ///< not begun yet
@@ -170,8 +167,8 @@ class Workspace {
     /// not known yet.
     std::shared_ptr<const TreeCost> cost_of(int clip) const { return cost_of(*document().fitted, clip); }
     std::shared_ptr<const TreeCost> cost_of(const FittedScene& of, int clip) const;
-    /// Whom the queries blame for avoidable overlaps; null if nobody has counted since the scene or its fit changed.
-    const BlameInScene* blame() const { return blame_counted_in == document().fitted ? counted_blame.get() : nullptr; }
+    /// Whom the queries blame for avoidable overlaps; null if nobody has counted that in this scene and fit.
+    const BlameInScene* blame() const { return blame(*document().fitted).get(); }
     /// The event of the trace that the view shows; requires recorded().
     int step() const;
 
@@ -182,6 +179,9 @@ class Workspace {
     void keep_counted(const std::shared_ptr<const FittedScene>& of, std::shared_ptr<const SceneCosts> costs);
     /// Null: nobody has counted, or it is forgotten.
     std::shared_ptr<const SceneCosts> counted(const FittedScene& of) const;
+    /// The same of whom they blame.
+    void keep_blame(const std::shared_ptr<const FittedScene>& of, std::shared_ptr<const BlameInScene> blame);
+    std::shared_ptr<const BlameInScene> blame(const FittedScene& of) const;
     /// The scene after `change`, which may change `view` and `fit` along. Throws what `change` throws, and
     /// std::invalid_argument for options of the fit that are out of range.
     Scene changed_scene(const std::function<void(Scene&)>& change) const;
@@ -282,8 +282,10 @@ class Workspace {
 
     Settings* settings_;
     std::vector<std::shared_ptr<const TreeCost>> standard_costs_;  ///< the latest first
-    std::vector<std::pair<std::shared_ptr<const FittedScene>, std::shared_ptr<const SceneCosts>>>
-        counted_;  ///< likewise
+    template <class T>
+    using ByScene = std::vector<std::pair<std::shared_ptr<const FittedScene>, std::shared_ptr<const T>>>;
+    ByScene<SceneCosts> counted_;   ///< likewise
+    ByScene<BlameInScene> blamed_;  ///< likewise
     struct CostInScene {
         std::shared_ptr<const SceneCosts> of;
         int clip = 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace mobbscope::app {
 
@@ -15,15 +16,12 @@ std::shared_ptr<const NodeValues> NodeInspector::values() const {
     const int clip = clip_in_focus(workspace_);
     const std::shared_ptr<const FittedScene>& fitted = workspace_.document().fitted;
     const std::shared_ptr<SceneFigures>& known = figures_.known();
-    Kept now{fitted->shared_tree(clip), workspace_.cost_of(clip), known->revision()};
-    if (now.cost && now.cost->tree != now.tree) now.cost.reset();
+    Kept now{fitted->shared_tree(clip), known->revision()};
     if (values_ && now == kept_) return values_;
-    known->of(fitted, clip, NodeField::tests);
-    auto values = std::make_shared<NodeValues>(known->of(fitted, clip, NodeField::avoidable));
-    values->forget(NodeField::share);
-    if (now.cost) values->add_shares(now.cost->shares);
+    for (const NodeField field : {NodeField::share, NodeField::tests}) known->of(fitted, clip, field);
+    values_ = std::make_shared<const NodeValues>(known->of(fitted, clip, NodeField::avoidable));
     kept_ = std::move(now);
-    return values_ = std::move(values);
+    return values_;
 }
 
 bool NodeInspector::can_count() const {

@@ -51,7 +51,6 @@ class NodeInspector {
 
     struct Kept {
         std::shared_ptr<const mobb::Tree> tree;
-        std::shared_ptr<const TreeCost> cost;
         std::int64_t counted = -1;  ///< SceneFigures::revision
         friend bool operator==(const Kept&, const Kept&) = default;
     };

@@ -49,6 +49,8 @@ class Viewport {
         std::pair<int, int> choice{-1, -1};  ///< agent and play whose candidates are shown
         std::string selected{};              ///< as PictureOptions has it
         std::int64_t counted = 0;            ///< SceneFigures::revision, where the colours depend on it
+        /// Of boxes in the other views, where the colours are spread over them too (NodeFigures::beside).
+        std::vector<std::shared_ptr<const std::vector<double>>> beside{};
         friend bool operator==(const Key&, const Key&) = default;
     };
     enum class Drag { none, orbit, pan, handle, measured };

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kOneIn = 50;  // values at either end that may be left out
 constexpr double kDecade = 10;
+constexpr double kLeastSpan = 0.05;  // of the larger end
 
 std::string without_article(std::string_view words) {
     constexpr std::string_view kArticle = "the ";
@@ -121,6 +122,12 @@ ColorScale color_scale(const ColoredFigure& figure, std::span<const double> valu
         double more = std::numeric_limits<double>::infinity();
         for (const double value : known) more = value > 0 ? std::min(more, value) : more;
         if (out.least <= 0 && !figure.counts && is_a_decade(figure, more, out.most)) out.least = more;
+        if (!figure.whole_range) {
+            const double lacking =
+                kLeastSpan * std::max(std::abs(out.least), std::abs(out.most)) - (out.most - out.least);
+            out.least -= 0.5 * std::max(0.0, lacking);
+            out.most += 0.5 * std::max(0.0, lacking);
+        }
     }
     out.logarithmic = is_a_decade(figure, out.least, out.most);
     out.has_less = std::ranges::any_of(known, [&](double value) { return value < out.least; });

@@ -6,6 +6,7 @@
 #include <scene/node_field.h>
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -58,16 +59,21 @@ struct ColorScale {
 
 /// Spreads the colours over the values; NaN is none. `chosen`: the ends that somebody wants, in the unit that is shown
 /// (per cent of parts). Without it they are the least and the largest value, but of many values one in fifty at either
-/// end is left out, so that a few that stand alone do not take all colours. The scale is logarithmic where the figure's
-/// may be, and its ends are a decade apart.
+/// end is left out, so that a few that stand alone do not take all colours; and the ends are apart by at least a
+/// twentieth of what is there, so that values that are nearly equal look so. The scale is logarithmic where the
+/// figure's may be, and its ends are a decade apart.
 ColorScale color_scale(const ColoredFigure& figure, std::span<const double> values,
                        const std::optional<ValueRange>& chosen = {});
 
 /// What has colours by a figure in a picture.
 struct ColoredValues {
-    std::vector<double> values;
-    ColorScale scale;
+    using Values = std::shared_ptr<const std::vector<double>>;  ///< never null
+    Values values;
+    Values range;  ///< what the colours are spread over, if nobody has chosen: those, or all that there could be
+    ColorScale scale{};
     std::string unknown{};  ///< where there is no value: why
+    /// The pointers are the same.
+    friend bool operator==(const ColoredValues&, const ColoredValues&) = default;
 };
 
 /// How many values there are in each of `bars` equal parts of the scale; those outside are in the outermost.

@@ -15,8 +15,8 @@ constexpr float kGradientHeight = 0.72f;  // likewise
 constexpr float kGradientGap = 0.5f;      // between the bar and the values at its ends
 
 std::string title_of(const ColorBar& bar) {
-    const std::string title = bar.of + ": " + bar.scale.title();
-    return bar.scale.known ? title : title + ", " + bar.unknown;
+    const std::string title = bar.of + ": " + (bar.scale.known ? bar.scale.title() : bar.scale.figure.title);
+    return bar.scale.known ? title : title + " (" + bar.unknown + ")";
 }
 
 float width_of(const std::string& text, float size) { return Font::of(FontFace::text).width(text, size); }

@@ -5,8 +5,22 @@
 #include <scene/crowd_scene.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 
 namespace mobbscope {
+
+namespace {
+
+/// The old values where the new ones are the same: whoever depends on them sees by the pointer that nothing changed.
+std::shared_ptr<const std::vector<double>> same_or_new(const std::shared_ptr<const std::vector<double>>& old,
+                                                       std::vector<double> values) {
+    const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+    if (old && std::ranges::equal(*old, values, same)) return old;
+    return std::make_shared<const std::vector<double>>(std::move(values));
+}
+
+}  // namespace
 
 KeptPaths& KeptPaths::shown_in(const ViewState& view) {
     if (!is_run(fitted_->scene())) return *this;
@@ -16,6 +30,7 @@ KeptPaths& KeptPaths::shown_in(const ViewState& view) {
             std::make_unique<KeptPaths>(std::make_shared<const FittedScene>(fitted_at(*fitted_, view)), figures_);
         moment_ = moment;
     }
+    at_moment_->spread_colors_over(ranges_beside_);
     return *at_moment_;
 }
 
@@ -71,7 +86,7 @@ int KeptPaths::clip_of(const DrawnAgent& agent) const {
 
 std::optional<ColorBar> KeptPaths::color_boxes(DrawList& list, std::span<const DrawnAgent> agents,
                                                const ViewState& view) {
-    colored_boxes_.reset();
+    const std::shared_ptr<const ColoredValues> before = std::exchange(colored_boxes_, nullptr);
     const NodeFieldInfo* field = color_figure(view.color_by);
     if (!field || view.query || !view.boxes) return std::nullopt;
     std::vector<std::span<const double>> figures(list.agents.size());
@@ -82,22 +97,28 @@ std::optional<ColorBar> KeptPaths::color_boxes(DrawList& list, std::span<const D
             figures_->of(fitted_, clip_of(agent), field->field).column(field->field);
         deepest = std::max(deepest, agent.placed.tree().depth() - 1);
     }
-    ColoredValues boxes{values_of_boxes(list, figures), {}};
-    std::vector<double> range = boxes.values;
+    ColoredValues boxes;
+    boxes.values = same_or_new(before ? before->values : nullptr, values_of_boxes(list, figures));
+    boxes.range = boxes.values;
     // A level has one colour in all pictures of trees that are so deep.
-    if (field->field == NodeField::level && !range.empty())
-        range.insert(range.end(), {0.0, static_cast<double>(deepest)});
-    boxes.scale = color_scale(colored_figure(*field), range, view.color_range);
+    if (field->field == NodeField::level)
+        boxes.range = same_or_new(before ? before->range : nullptr, {0.0, static_cast<double>(deepest)});
+    std::vector<double> range;
+    for (const auto& each : ranges_beside_) range.insert(range.end(), each->begin(), each->end());
+    range.insert(range.end(), boxes.range->begin(), boxes.range->end());
+    boxes.scale = color_scale(colored_figure(*field), view.color_range ? *boxes.values : range, view.color_range);
+    boxes.scale.known = std::ranges::any_of(*boxes.values, [](double value) { return !std::isnan(value); });
     mobbscope::color_boxes(list, figures, boxes.scale);
     const bool counts = field->field == NodeField::tests || field->field == NodeField::avoidable;
-    if (boxes.values.empty()) {
+    if (boxes.values->empty()) {
         boxes.unknown = "no box is shown";
     } else if (counts) {
         boxes.unknown = fitted_->queries().empty() ? "the scene asks no queries" : "not counted";
     } else {
-        boxes.unknown = "no box here has one";
+        boxes.unknown = "unknown here";
     }
-    colored_boxes_ = std::make_shared<const ColoredValues>(std::move(boxes));
+    const bool same = before && *before == boxes;
+    colored_boxes_ = same ? before : std::make_shared<const ColoredValues>(std::move(boxes));
     return ColorBar{"boxes", colored_boxes_->scale, colored_boxes_->unknown};
 }
 
@@ -128,7 +149,7 @@ void KeptPaths::find_heat(std::span<const DrawnAgent> agents, const Palette& pal
 
 std::optional<ColorBar> KeptPaths::heat_bar() const {
     if (!shows_heat_) return std::nullopt;
-    return ColorBar{"disks", heat_->scale, "not known of these trees"};
+    return ColorBar{"disks", heat_->scale, "unknown here"};
 }
 
 /// Where everybody is hidden, the picture still has its place.

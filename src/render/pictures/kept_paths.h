@@ -54,10 +54,16 @@ class KeptPaths {
     const ShownPoints& add_disks_of(DrawList& list, std::span<const DrawnAgent> agents, const ViewState& view,
                                     std::vector<PathFocus> foci);
 
+    /// ColoredValues::range of pictures beside, of the figure that colours the boxes here: where nobody has chosen a
+    /// range, the colours are spread over these values too, so that they mean the same in all.
+    void spread_colors_over(std::vector<std::shared_ptr<const std::vector<double>>> ranges) {
+        ranges_beside_ = std::move(ranges);
+    }
     /// Gives the list's boxes of levels the colours of the view's figure. Returns the bar of these; none: they have
     /// their agents'.
     std::optional<ColorBar> color_boxes(DrawList& list, std::span<const DrawnAgent> agents, const ViewState& view);
-    /// The boxes of the last list that have such colours; null: none have.
+    /// The boxes of the last list that have such colours; null: none have. The same pointer as long as they, and the
+    /// colours, are the same.
     const std::shared_ptr<const ColoredValues>& colored_boxes() const {
         return at_moment_ ? at_moment_->colored_boxes() : colored_boxes_;
     }
@@ -109,6 +115,7 @@ class KeptPaths {
 
     std::shared_ptr<const FittedScene> fitted_;
     std::shared_ptr<SceneFigures> figures_;
+    std::vector<std::shared_ptr<const std::vector<double>>> ranges_beside_;
     std::shared_ptr<const ColoredValues> colored_boxes_;
     std::optional<Heat> heat_;
     bool shows_heat_ = false;  ///< in the last list
