@@ -30,9 +30,8 @@ bool FitCosts::is_known(const Task& task) const {
 std::optional<FitCosts::Task> FitCosts::next_unknown(int clip) const {
     const bool counts = workspace_.workload() == QueryWorkload::Kind::queries;
     // Of the active view somebody asks for it (wants_count).
-    if (counts && !workspace_.cost_of(clip)) return std::nullopt;
+    if (counts && (!workspace_.cost_of(clip) || !counts_unasked())) return std::nullopt;
     for (const SceneView& seen : views_of(workspace_.document())) {
-        if (counts && seen.fitted->queries().size() > kCountedByItself) continue;
         const Task task{seen.fitted, clip, counts};
         if (!is_known(task)) return task;
     }
@@ -109,10 +108,12 @@ const ComparedFits& FitCosts::compared(int clip) {
     return compared_.fits;
 }
 
+bool FitCosts::counts_unasked() const { return workspace_.document().fitted->queries().size() <= kCountedByItself; }
+
 bool FitCosts::wants_count() {
     const std::shared_ptr<const FittedScene>& now = workspace_.document().fitted;
     if (workspace_.workload() != QueryWorkload::Kind::queries || workspace_.derived().costs) return false;
-    if (now->queries().size() > kCountedByItself || counted_in_ == now) return false;
+    if (!counts_unasked() || counted_in_ == now) return false;
     counted_in_ = now;
     return true;
 }

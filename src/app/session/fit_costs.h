@@ -32,6 +32,8 @@ class FitCosts {
     const ComparedFits& compared(int clip);
     /// Whether the tests of the scene's queries are to be counted now for that: once for a scene, of few queries.
     bool wants_count();
+    /// Whether the queries are so few that their tests are counted by themselves.
+    bool counts_unasked() const;
     void end_work();
 
   private:
