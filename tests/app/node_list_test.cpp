@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <sstream>
@@ -40,11 +42,19 @@ struct NodeWindow {
     const std::vector<int>& rows() { return *session.nodes.listed(); }
     int selected() { return session.nodes.selected(); }
     static std::string row(int node) { return "nodes.row." + std::to_string(node); }
-    std::vector<int> sorted(NodeField field, bool descending) {
-        const std::shared_ptr<const NodeValues> values = session.nodes.values();
-        std::vector<int> out = nodes_that_pass(*values, nullptr);
-        sort_nodes(out, *values, field, descending);
-        return out;
+    /// All nodes are listed, by their values; those without one stand last.
+    bool are_sorted(NodeField field, bool descending) {
+        std::vector<int> all = rows();
+        std::ranges::sort(all);
+        for (int i = 0; i < session.nodes.values()->size(); ++i)
+            if (i >= static_cast<int>(all.size()) || all[static_cast<std::size_t>(i)] != i) return false;
+        const auto before = [&](int a, int b) {
+            const double first = session.nodes.values()->value(field, a);
+            const double second = session.nodes.values()->value(field, b);
+            if (std::isnan(first) || std::isnan(second)) return !std::isnan(first) && std::isnan(second);
+            return descending ? first > second : first < second;
+        };
+        return std::ranges::is_sorted(rows(), before);
     }
 };
 
@@ -80,13 +90,14 @@ TEST(NodeList, TabsAreForQueriesAndWithout) {
 TEST(NodeList, TheWorstComesFirstAndHeadingsSort) {
     NodeWindow w;
     w.run("run bottom.show nodes");
-    EXPECT_EQ(w.rows(), w.sorted(NodeField::empty, true));
+    EXPECT_TRUE(w.are_sorted(NodeField::empty, true));
+    EXPECT_FALSE(w.are_sorted(NodeField::fill, true)) << "it is another order";
     w.run("click nodes.sort.fill");
-    EXPECT_EQ(w.rows(), w.sorted(NodeField::fill, false)) << "the loosest first";
+    EXPECT_TRUE(w.are_sorted(NodeField::fill, false)) << "the loosest first";
     w.run("click nodes.sort.fill");
-    EXPECT_EQ(w.rows(), w.sorted(NodeField::fill, true));
+    EXPECT_TRUE(w.are_sorted(NodeField::fill, true));
     w.run("click nodes.sort.share");
-    EXPECT_EQ(w.rows(), w.sorted(NodeField::share, true));
+    EXPECT_TRUE(w.are_sorted(NodeField::share, true));
     EXPECT_TRUE(w.session.nodes.values()->has(NodeField::share));
     EXPECT_FALSE(w.has("nodes.sort.overhang")) << "upright boxes have none";
     w.run("run tree.kind umobb");
@@ -153,10 +164,15 @@ TEST(NodeList, AFilterIsTypedAndApplied) {
     EXPECT_TRUE(w.has("nodes.filter.hits"));
     w.run("key Enter");
     EXPECT_EQ(w.session.nodes.filter->text(), "fill < 60 % and leaf");
-    const NodeFilter same("leaf and fill < 60");
-    std::vector<int> wanted = nodes_that_pass(*w.session.nodes.values(), &same);
-    sort_nodes(wanted, *w.session.nodes.values(), NodeField::empty, true);
-    EXPECT_EQ(w.rows(), wanted);
+    const NodeValues& values = *w.session.nodes.values();
+    const auto is_wanted = [&](int node) {
+        return values.tree().node(node).is_leaf() && values.value(NodeField::fill, node) < 0.6;
+    };
+    ASSERT_FALSE(w.rows().empty());
+    EXPECT_TRUE(std::ranges::all_of(w.rows(), is_wanted));
+    int wanted = 0;
+    for (int node = 0; node < values.size(); ++node) wanted += is_wanted(node) ? 1 : 0;
+    EXPECT_EQ(static_cast<int>(w.rows().size()), wanted);
     w.run("key Ctrl+F\ntype gap < 1");
     EXPECT_TRUE(w.has("nodes.filter.caret")) << "nodes have no gap";
     w.run("key Escape\nclick nodes.all");
@@ -173,7 +189,7 @@ TEST(NodeList, TestsAreCountedOnDemand) {
     EXPECT_FALSE(w.has("nodes.count"));
     w.run("click nodes.sort.tests");
     const std::shared_ptr<const NodeValues> values = w.session.nodes.values();
-    EXPECT_EQ(w.rows(), w.sorted(NodeField::tests, true));
+    EXPECT_TRUE(w.are_sorted(NodeField::tests, true));
     EXPECT_GT(values->value(NodeField::tests, w.rows()[0]), 0);
     EXPECT_TRUE(values->has(NodeField::avoidable));
     w.run("run tree.leaf 8");
@@ -188,6 +204,21 @@ TEST(NodeList, RowsAreCopied) {
     w.run("run nodes.copy");
     EXPECT_NE(w.desktop.text.find("\n0.0\t0\t0..59\t"), std::string::npos) << w.desktop.text;
     EXPECT_EQ(all_messages(w.session), "Copied 1 node\nCopied 1 node\n");
+}
+
+TEST(NodeList, ALowPanelHasRowsInPlaceOfTheLevels) {
+    NodeWindow w;
+    w.run("run bottom.show nodes");
+    const auto rows = [&] {
+        const auto& marks = w.window.shell().marks().all();
+        return std::ranges::count_if(marks, [](const auto& mark) { return mark.first.starts_with("nodes.row."); });
+    };
+    EXPECT_TRUE(w.has("nodes.levels"));
+    EXPECT_GE(rows(), 6);
+    w.window.resize({1280, 420});
+    w.window.settle();
+    EXPECT_FALSE(w.has("nodes.levels"));
+    EXPECT_GE(rows(), 1);
 }
 
 TEST(NodeList, ScriptsSeeTheTable) {

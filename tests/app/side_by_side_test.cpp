@@ -1,4 +1,5 @@
 // Several views of a scene side by side: what they have in common, how they are framed, and their titles and table.
+#include <app/commands/command.h>
 #include <app/script/script.h>
 #include <app/window/headless_window.h>
 #include <explain/compared_fits.h>
@@ -18,6 +19,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::app {
@@ -63,6 +65,24 @@ TEST(SideBySide, EveryLinkCanBeSwitchedOffAndOn) {
          [](const ViewState& a, const ViewState& b) { return a.levels == b.levels; }},
         {"query", "run query.select 0", "run query.none",
          [](const ViewState& a, const ViewState& b) { return a.query == b.query; }},
+        {"time", "run view.slab 0.1:0.3", "run view.slab 0.2:0.4",
+         [](const ViewState& a, const ViewState& b) { return a.slab == b.slab; }},
+        {"time", "run view.cut_boxes", "run view.cut_boxes",
+         [](const ViewState& a, const ViewState& b) { return a.cut_boxes == b.cut_boxes; }},
+        {"time", "run view.slice", "run view.slice",
+         [](const ViewState& a, const ViewState& b) { return a.slice == b.slice; }},
+        {"level", "run agents.hide A", "run agents.hide B",
+         [](const ViewState& a, const ViewState& b) { return a.hidden == b.hidden; }},
+        {"level", "run agents.pin A", "run agents.pin B",
+         [](const ViewState& a, const ViewState& b) { return a.pinned == b.pinned; }},
+        {"level", "run view.heat", "run view.heat",
+         [](const ViewState& a, const ViewState& b) { return a.heat == b.heat; }},
+        {"level", "run view.boxes", "run view.boxes",
+         [](const ViewState& a, const ViewState& b) { return a.boxes == b.boxes; }},
+        {"level", "run view.ancestors", "run view.ancestors",
+         [](const ViewState& a, const ViewState& b) { return a.ancestors == b.ancestors; }},
+        {"camera", "run view.plan", "run view.moment",
+         [](const ViewState& a, const ViewState& b) { return a.show == b.show && a.camera == b.camera; }},
     };
     for (const Case& c : cases) {
         SCOPED_TRACE(c.link);
@@ -89,6 +109,35 @@ TEST(SideBySide, ANodeIsSelectedInEveryTree) {
     EXPECT_EQ(w.session.workspace.selection.index, there);
     w.run("run view.link_selections\nclick view.title.0");
     EXPECT_EQ(w.session.workspace.selection.kind, Selection::Kind::path) << "another tree has other nodes";
+}
+
+/// Samples of the part that a view shows alone; none: all is shown.
+std::pair<int, int> samples_alone(const SceneView& seen) {
+    if (!seen.view.subtree) return {-1, 0};
+    const mobb::Node& node = seen.fitted->tree(0).node(seen.view.subtree->node);
+    return {node.first, node.count};
+}
+
+TEST(SideBySide, APartAloneIsOfTheSameSamplesInEveryTree) {
+    SideBySide w;
+    // Leaves number nodes: other leaves, other numbers.
+    w.run("run tree.leaf 2\nrun go.node A 2.1\nrun node.isolate\nrun view.save_as part");
+    const std::pair<int, int> samples = samples_alone(w.at(0));
+    const int node = w.here().subtree->node;
+    ASSERT_GT(samples.second, 8);
+    w.run("run compare.fits mobb,leaf=2 mobb,leaf=8\nrun view.link_selections\nrun compare.add umobb,leaf=4");
+    ASSERT_EQ(w.session.views.count(), 3u);
+    for (const std::size_t place : {0u, 1u, 2u}) EXPECT_EQ(samples_alone(w.at(place)), samples) << place;
+    EXPECT_NE(w.at(1).view.subtree->node, node);
+    w.run("run tree.leaf 6");
+    for (const std::size_t place : {0u, 1u, 2u}) EXPECT_EQ(samples_alone(w.at(place)), samples) << place;
+    w.run("run node.show_all\nrun view.go part");
+    EXPECT_EQ(samples_alone(w.at(0)), samples) << "a view that was saved of other trees";
+    w.run("run tree.levels 1");
+    EXPECT_FALSE(w.here().subtree) << "no node has these samples";
+    EXPECT_EQ(samples_alone(w.at(1)), samples) << "its trees are as they were";
+    w.run("run view.go part");
+    EXPECT_FALSE(w.here().subtree);
 }
 
 TEST(SideBySide, WhatIsSelectedStandsOutInEveryPicture) {
@@ -151,6 +200,7 @@ TEST(SideBySide, AStepTakesTheOtherTraversalToTheSameMoment) {
 
 /// How much of the picture's shorter side is left around what is shown: below 0 it is cut off.
 float margin(const DrawList& list) {
+    EXPECT_FALSE(list.disks.empty());
     float out = 1e6f;
     const glm::vec2 size(list.size.width, list.size.height);
     for (const DiskInstance& disk : list.disks) {
@@ -198,10 +248,14 @@ TEST(SideBySide, ViewsOutliveExcerptsAndEndWithTheirScene) {
         return out;
     };
     const auto before = kinds();
+    w.run("run view.measure 0,0,0:1,1,0");
     w.session.excerpts.open(w.session.workspace.fitted().placed_agents()[0],
                             w.session.workspace.fitted().placed_agents()[1]);
     w.window.settle();
     EXPECT_EQ(w.session.views.count(), 1u);
+    EXPECT_TRUE(w.session.workspace.measuring.is_nothing()) << "other things stand there";
+    EXPECT_EQ(why_not(w.session, *find_command("view.save_as")),
+              "an excerpt keeps no views: go back to the whole first");
     w.session.excerpts.leave();
     w.window.settle();
     EXPECT_EQ(kinds(), before);
@@ -226,6 +280,7 @@ TEST(SideBySide, ThePapersComparisonIsOneClick) {
     }
     for (const char* wrong : {"mobb", "mobb mobb", "mobb umobb moving aabb blocks", "mobb x"})
         EXPECT_THROW(run_command(w.session, "compare.fits", wrong), std::invalid_argument) << wrong;
+    EXPECT_THROW(run_command(w.session, "compare.add", "umobb"), std::invalid_argument) << "it is in view";
     EXPECT_EQ(w.session.views.count(), 2u);
 }
 

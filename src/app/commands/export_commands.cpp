@@ -107,8 +107,7 @@ std::vector<Command> export_commands() {
                 {.enabled = kHasPictureClipboard, .also = "screenshot snapshot image clipboard"}),
         Command("file.copy_command", "Copy as command",
                 "Copies the command line that draws this picture again without a window; with --play it draws all "
-                "frames of the "
-                "motion, as for a film.",
+                "frames of the motion, as for a film.",
                 [](Session& session) {
                     copy_line_of(session, order_of_viewport(session.workspace, session.views), "picture.png", false);
                 },

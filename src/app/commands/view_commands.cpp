@@ -228,9 +228,9 @@ void set_shown_levels(Workspace& workspace, const std::string& levels) {
     show_levels(workspace, parse_level_range(levels));
 }
 
-void set_color_range(Workspace& workspace, const std::string& range) {
-    const std::optional<ValueRange> wanted = parse_value_range(range);
-    workspace.change_view([&](ViewState& view) { view.color_range = wanted; });
+/// As the command line says it.
+void set_view_option(Workspace& workspace, std::string_view key, const std::string& text) {
+    workspace.change_view([&](ViewState& view) { view_option(key).parse(text, view); });
 }
 
 void set_time_height(Workspace& workspace, const std::string& metres) {
@@ -341,9 +341,11 @@ std::vector<Command> direction_commands() {
             "Brings what is selected into the middle, as large as it fits; without a selection the pair under test, "
             "else everything. Following somebody, it goes along with who is selected.",
             frame_selection, {.shortcut = "F", .also = "zoom to fit focus centre center"}),
-        Command("view.frame_all", "Frame everything",
-                "Shows all that there is in the picture again, from the present direction: of a slab what lies in it.",
-                frame_all, {.shortcut = "Home", .also = "home reset zoom to fit all centre center"}),
+        Command(
+            "view.frame_all", "Frame everything",
+            "Shows all that there is in the picture again, from the present direction; with a slab, all that lies in "
+            "it.",
+            frame_all, {.shortcut = "Home", .also = "home reset zoom to fit all centre center"}),
         Command("view.follow_test", "Follow the test",
                 "Lets the camera go to the pair under test whenever a step's boxes are cut off, lie below a panel, or "
                 "are small in the picture.",
@@ -404,13 +406,13 @@ std::vector<Command> picture_commands() {
                 [](Workspace& workspace, Views& views) { toggle_floor(workspace, views, Show::plan); },
                 {.shortcut = "Shift+G", .checked = shows_plan, .also = "map 2d top cross section"}),
         Command("view.measure", "Measure",
-                "Measures how far apart two places are, on the floor and in time: the next two clicks in the picture, "
-                "near a disk's centre or edge or a box's corner that. Escape ends it.",
+                "Measures how far apart two places are, on the floor and in time: click both in the picture. A click "
+                "near a disk's centre or edge, or a box's corner, takes that. Escape ends it.",
                 measure,
                 {.shortcut = "Shift+D",
                  .argument = "[X,Y,T:X,Y,T]",
                  .enabled = {can_measure, why_not_measured},
-                 .checked = [](const Workspace& workspace) { return !workspace.measuring.is_nothing(); },
+                 .checked = [](const Workspace& workspace) { return workspace.measuring.picks; },
                  .present =
                      [](const Workspace& workspace) {
                          const auto line = workspace.measuring.line();
@@ -437,20 +439,16 @@ std::vector<Command> show_commands() {
 bool has_slab(const Workspace& workspace) { return workspace.view().slab.has_value(); }
 
 std::vector<Command> slab_commands() {
-    const ViewOption& slab = view_option("slab");
     const std::vector<Command> rows{
         Command("view.slab", "Slab in time",
                 "Shows what lies between two times, in seconds, and cuts the rest away; none shows all.",
-                [&slab](Workspace& workspace, const std::string& text) {
-                    workspace.change_view([&](ViewState& view) { slab.parse(text, view); });
-                },
+                [](Workspace& workspace, const std::string& text) { set_view_option(workspace, "slab", text); },
                 {.argument = "T0:T1|none",
-                 .present = [&slab](const Workspace& workspace) { return slab.text(workspace.view()); },
+                 .present = [](const Workspace& workspace) { return view_option("slab").text(workspace.view()); },
                  .also = "clip clipping cut crop range section"}),
         option_command(view_option("cut_boxes")),
         Command("view.no_slab", "No slab", "Shows all of time again.",
-                [](Workspace& workspace) { workspace.change_view([](ViewState& view) { view.slab.reset(); }); },
-                {.enabled = has_slab}),
+                [](Workspace& workspace) { set_view_option(workspace, "slab", "none"); }, {.enabled = has_slab}),
     };
     return in_menu("View/Slab", rows);
 }
@@ -462,7 +460,7 @@ std::vector<Command> level_commands() {
             "view.color_range", "Range of the boxes' colours",
             "Chooses the figures at both ends of the colours, of parts in per cent, where boxes are coloured by one: "
             "boxes outside step back; auto takes the range of the boxes in the picture.",
-            set_color_range,
+            [](Workspace& workspace, const std::string& text) { set_view_option(workspace, "color_range", text); },
             {.menu = kNoMenu,
              .argument = "A:B|auto",
              .present = [](const Workspace& workspace) { return view_option("color_range").text(workspace.view()); },

@@ -105,10 +105,21 @@ Document with_scene(const Document& present, Scene scene, const FittedScene* fit
         fitted = fitted.with_fit(before.fits()[i]->name, fits[i], known, progress);
     }
     out.fitted = std::make_shared<const FittedScene>(fitted.using_fit(before.fit_in_use()));
+    if (out.view.subtree == present.view.subtree) keep_part(out.view, *out.fitted, before);
     for (SceneView& other : out.beside) {
-        other.fitted = std::make_shared<const FittedScene>(fitted.using_fit(other.fitted->fit_in_use()));
+        const std::shared_ptr<const FittedScene> was = std::exchange(
+            other.fitted, std::make_shared<const FittedScene>(fitted.using_fit(other.fitted->fit_in_use())));
+        keep_part(other.view, *other.fitted, *was);
     }
-    return out;
+    // Named views are of the trees in use.
+    DebugState debug = out.fitted->scene().debug;
+    for (NamedView& seen : debug.views) keep_part(seen.view, *out.fitted, before);
+    if (debug == out.fitted->scene().debug) return out;
+    Scene named = out.fitted->scene();
+    named.view = out.view;
+    named.fit = out.fitted->options();
+    named.debug = std::move(debug);
+    return with_scene(out, std::move(named), nullptr, progress);
 }
 
 std::size_t fit_with(FittedScene& fitted, const std::string& name, const mobb::FitOptions& options) {
@@ -142,15 +153,17 @@ bool quick_to_fit(const Scene& scene, const FittedScene& present, const FittedSc
     return work < kQuickSamples;
 }
 
-void drop_other_part(ViewState& view, const FittedScene& now, const FittedScene& before) {
+void keep_part(ViewState& view, const FittedScene& now, const FittedScene& before) {
     if (!view.subtree) return;
-    const auto samples = [&](const FittedScene& fitted) -> std::optional<std::pair<int, int>> {
-        const Selection part{Selection::Kind::node, {view.subtree->agent, -1, 0}, view.subtree->node};
-        if (!exists(fitted, part)) return std::nullopt;
-        const mobb::Node& node = fitted.tree(placed_agent_of(fitted, part.path)->clip).node(part.index);
-        return std::pair(node.first, node.count);
-    };
-    if (samples(now) != samples(before)) view.subtree.reset();
+    const Selection part{Selection::Kind::node, {view.subtree->agent, -1, 0}, view.subtree->node};
+    const auto who = placed_agent_of(now, part.path);
+    if (!who || !exists(before, part)) return;  // clamped() takes it out
+    const mobb::Node& was = before.tree(placed_agent_of(before, part.path)->clip).node(part.index);
+    const auto& nodes = now.tree(who->clip).nodes();
+    const auto same = std::ranges::find_if(
+        nodes, [&](const mobb::Node& node) { return node.first == was.first && node.count == was.count; });
+    if (same == nodes.end()) return view.subtree.reset();
+    view.subtree->node = static_cast<int>(same - nodes.begin());
 }
 
 ViewState clamped(ViewState view, const FittedScene& fitted) {

@@ -40,9 +40,9 @@ struct QuerySteps {
 
 /// What all views of a document have in common.
 struct ViewLinks {
-    bool camera = true;     ///< from where it is seen, how high a second is, and who is followed
-    bool time = true;       ///< the time cursor and what is cut out around it
-    bool level = true;      ///< the levels that are shown, and what their colours say
+    bool camera = true;     ///< what the picture is of, from where, how high a second is, and who is followed
+    bool time = true;       ///< the time cursor with its slices, and the slab
+    bool level = true;      ///< the levels that are shown, whose boxes and disks, and what their colours say
     bool selection = true;  ///< what is selected, in each view its own tree's node over the same samples
     bool query = true;      ///< the query and its step: in each view its own traversal's about the same moment
     friend bool operator==(const ViewLinks&, const ViewLinks&) = default;
@@ -56,12 +56,13 @@ struct ViewLink {
     bool ViewLinks::*on;
 };
 inline constexpr std::array<ViewLink, 5> kViewLinks{{
-    {"camera", "view.link_cameras", "Link cameras", "Of several views: all are seen from the active one's camera.",
+    {"camera", "view.link_cameras", "Link cameras",
+     "Of several views: all show space-time, a moment or the floor plan as the active one does, from its camera.",
      &ViewLinks::camera},
-    {"time", "view.link_times", "Link times", "Of several views: all show the time of the active one.",
+    {"time", "view.link_times", "Link times", "Of several views: all show the time and the slab of the active one.",
      &ViewLinks::time},
     {"level", "view.link_levels", "Link levels",
-     "Of several views: all show the levels of the active one, in the same colours.", &ViewLinks::level},
+     "Of several views: all show the levels and the agents of the active one, in the same colours.", &ViewLinks::level},
     {"selection", "view.link_selections", "Link selections",
      "Of several views: all point out what is selected; of a node, the one of their tree over the same samples.",
      &ViewLinks::selection},
@@ -131,9 +132,9 @@ std::size_t fit_with(FittedScene& fitted, const std::string& name, const mobb::F
 /// Whether with_scene is done in an instant.
 bool quick_to_fit(const Scene& scene, const FittedScene& present, const FittedScene* fitted_beside);
 
-/// Takes the part of a tree that is shown alone out of a view of `now` which took it over from one of `before`, where
-/// its node is of other samples now.
-void drop_other_part(ViewState& view, const FittedScene& now, const FittedScene& before);
+/// The view has the part of a tree that it shows alone from one of `before`: of `now` that is the node over the same
+/// samples; where there is none, nothing is alone any more.
+void keep_part(ViewState& view, const FittedScene& now, const FittedScene& before);
 /// The view without what the scene does not have: queries, names, nodes.
 ViewState clamped(ViewState view, const FittedScene& fitted);
 /// The same of all views of a document.

@@ -121,6 +121,9 @@ EditName name_of_looking(const Document& from, const ViewState& to) {
                 "look time"};
     }
     if (only(&ViewState::slab)) return {to.slab ? "showing a slab in time" : "showing all of time", "look slab"};
+    if (only(&ViewState::color_range)) {
+        return {"colour range: " + view_option("color_range").text(to), "look color_range"};
+    }
     if (only(&ViewState::follow, &ViewState::camera, &ViewState::time_height, &ViewState::time)) {
         return {to.follow.empty() ? "no longer following" : "following " + to.follow, "look follow"};
     }

@@ -83,7 +83,7 @@ Document History::carried(const Document& from, const Document& to, const Layout
         const ViewState& seen = now[place].view;
         const FittedScene& fitted = *views[at_goal].fitted;
         ViewState view = carried_view(seen, base.views[place], goal.views[at_goal]);
-        if (view.subtree == seen.subtree) drop_other_part(view, fitted, *now[place].fitted);
+        if (view.subtree == seen.subtree) keep_part(view, fitted, *now[place].fitted);
         // A query that was opened since may have another index, or another name, there.
         if (seen.query && seen.query != base.views[place].query) {
             const std::optional<int> found = find_query(fitted, query_key(*now[place].fitted, *seen.query));

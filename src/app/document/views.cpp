@@ -4,10 +4,20 @@
 #include <scene/scene_edits.h>
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
 namespace mobbscope::app {
+
+namespace {
+
+void require_other(const mobb::FitOptions& fit, std::span<const mobb::FitOptions> fits) {
+    if (std::ranges::find(fits, fit) != fits.end())
+        throw std::invalid_argument("two of the fits are alike: " + fit_words(fit, {}));
+}
+
+}  // namespace
 
 SceneView Views::at(std::size_t place) const {
     const Document& now = workspace_.document();
@@ -19,6 +29,9 @@ SceneView Views::at(std::size_t place) const {
 
 void Views::split(const std::string& name, const mobb::FitOptions& options) {
     if (count() >= kMostViews) throw std::invalid_argument("there are no more than four views: close one first");
+    std::vector<mobb::FitOptions> in_view;
+    for (const SceneView& seen : views_of(workspace_.document())) in_view.push_back(seen.fitted->options());
+    require_other(options, in_view);
     Document next = workspace_.document();
     FittedScene fitted = *next.fitted;
     const std::size_t index = fit_with(fitted, name, options);
@@ -29,6 +42,7 @@ void Views::split(const std::string& name, const mobb::FitOptions& options) {
         }
     }
     SceneView added{std::make_shared<const FittedScene>(fitted.using_fit(index)), next.view};
+    keep_part(added.view, *added.fitted, *next.fitted);
     // Other trees take other tests: as far on in theirs.
     if (const RecordedQuery* query = workspace_.recorded(); query && query->trace.size() > 1) {
         added.view.step = {Step::Unit::percent, 100.0 * workspace_.step() / (query->trace.size() - 1)};
@@ -40,10 +54,7 @@ void Views::split(const std::string& name, const mobb::FitOptions& options) {
 void Views::compare(const std::vector<mobb::FitOptions>& fits, const std::optional<LevelRange>& levels) {
     if (fits.size() < 2 || fits.size() > kMostViews)
         throw std::invalid_argument("give two to four fits, such as mobb,leaf=10 moving");
-    for (auto fit = fits.begin(); fit != fits.end(); ++fit) {
-        if (std::find(fits.begin(), fit, *fit) != fit)
-            throw std::invalid_argument("two of the fits are alike: " + fit_words(*fit, {}));
-    }
+    for (std::size_t i = 1; i < fits.size(); ++i) require_other(fits[i], std::span(fits).first(i));
     Document next = workspace_.document();
     const std::vector<std::string> names = names_of_fits(fits);
     FittedScene fitted = next.fitted->without_unused_fits();
@@ -57,8 +68,10 @@ void Views::compare(const std::vector<mobb::FitOptions>& fits, const std::option
         view.boxes = true;
     }
     std::vector<SceneView> views;
-    for (const std::size_t index : indices)
+    for (const std::size_t index : indices) {
         views.push_back({std::make_shared<const FittedScene>(fitted.using_fit(index)), view});
+        keep_part(views.back().view, *views.back().fitted, *next.fitted);
+    }
     set_views(next, std::move(views), 0);
     std::string title = "comparing ";
     for (std::size_t i = 0; i < names.size(); ++i) {

@@ -21,7 +21,7 @@ class Views {
     SceneView at(std::size_t place) const;
     /// Shows the scene once more, to the right of all, as the active view does but with the fit of those options; makes
     /// it if there is none, under that name or with a number behind it. Throws std::invalid_argument for options out of
-    /// range, an empty name, or if there are kMostViews.
+    /// range or already in view, an empty name, or if there are kMostViews.
     void split(const std::string& name, const mobb::FitOptions& options);
     /// Shows the scene with each of these fits, from left to right, as the active view does; the first is active. At
     /// those levels, if any are given, and with no query then. Throws std::invalid_argument for options out of range,

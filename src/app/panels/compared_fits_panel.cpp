@@ -43,18 +43,31 @@ std::string more_text(const ComparedFigure& of, std::size_t fit) {
 /// The columns as pixels from the left edge: where texts end, but for the name of a fit, which begins there.
 struct FitColumns {
     float name = 0, bar = 0, bar_end = 0, volume = 0, fill = 0, cost = 0, width = 0;
+    bool has_more = true;  ///< by how much volumes differ: only where names have room beside it
 
-    FitColumns(const Ui& ui, float width_, const std::vector<std::string>& names) : width(width_) {
+    FitColumns(const Ui& ui, float width_, const std::vector<std::string>& names, const ComparedFits& fits)
+        : width(width_) {
         const auto digits = [&](const char* text) { return text_size(*ui.style.mono, text).x; };
         float widest = 0;
         for (const std::string& each : names) widest = std::max(widest, text_size(*ui.style.body, each).x);
         const float gap = ui.px(7);
+        float longest_volume = digits("00.00");
+        for (const ComparedLevel& level : fits.levels) {
+            for (const std::optional<double>& volume_of : level.volume.values)
+                longest_volume = std::max(longest_volume, digits(value_or_dash(volume_of).c_str()));
+        }
         name = digits("leaf") + gap;
-        cost = width - digits("-100 %") - gap;
-        fill = cost - digits("0000") - gap;
-        volume = fill - digits("100 %") - gap;
-        bar_end = volume - digits("00.00") - gap;
-        bar = std::min(name + widest + ui.px(6), bar_end);
+        const float name_end = name + widest + ui.px(6);
+        const auto place = [&] {
+            cost = has_more ? width - digits("-100 %") - gap : width;
+            fill = cost - digits("0000") - gap;
+            volume = fill - digits("100 %") - gap;
+            bar_end = volume - longest_volume - gap;
+        };
+        place();
+        has_more = name_end <= bar_end;
+        if (!has_more) place();
+        bar = std::min(name_end, bar_end);
     }
     bool has_bar(const Ui& ui) const { return bar_end - bar > ui.px(16); }
 };
@@ -65,7 +78,7 @@ class FitTable {
         : ui_(ui),
           fits_(fits),
           names_(short_fit_names(fits)),
-          at_(ui, std::max(1.0f, ImGui::GetContentRegionAvail().x), names_) {
+          at_(ui, std::max(1.0f, ImGui::GetContentRegionAvail().x), names_, fits) {
         for (const ComparedLevel& level : fits.levels) {
             for (const std::optional<double>& cost : level.cost.values)
                 costliest_ = std::max(costliest_, cost.value_or(0));
@@ -113,7 +126,7 @@ class FitTable {
         heading(at_.volume, "m\u00B2\u00B7s");
         heading(at_.fill, "fill");
         heading(at_.cost, "ns");
-        heading(at_.width, "volume");
+        if (at_.has_more) heading(at_.width, "volume");
         ImGui::Dummy({at_.width, font.FontSize});
     }
 
@@ -149,7 +162,9 @@ class FitTable {
             ending(row, at_.volume, color_of(level.volume, fit, usual), value_or_dash(level.volume.values[fit]));
             ending(row, at_.fill, color_of(level.fill, fit, usual), share_text(level.fill.values[fit]));
             ending(row, at_.cost, color_of(level.cost, fit, usual), value_or_dash(level.cost.values[fit]));
-            ending(row, at_.width, color_of(level.volume, fit, usual), more_text(level.volume, fit));
+            if (at_.has_more) {
+                ending(row, at_.width, color_of(level.volume, fit, usual), more_text(level.volume, fit));
+            }
             const double cost = level.cost.values[fit].value_or(0);
             if (cost <= 0 || !at_.has_bar(ui_)) continue;
             const float length = (at_.bar_end - at_.bar) * static_cast<float>(cost / costliest_);
@@ -191,7 +206,7 @@ class FitTable {
             const ImVec2 row = begin_row(below, fit, ui_.style.text);
             const ImU32 color = color_of(fits_.cost, fit, ui_.style.text);
             ending(row, at_.cost, color, value_or_dash(fits_.cost.values[fit]));
-            ending(row, at_.width, color, more_text(fits_.cost, fit));
+            if (at_.has_more) ending(row, at_.width, color, more_text(fits_.cost, fit));
         }
     }
 
@@ -216,7 +231,10 @@ void compared_fits_panel(Ui& ui, FitCosts& costs) {
     ImGui::PushFont(ui.style.caption);
     const bool counted = ui.workspace.workload() == QueryWorkload::Kind::queries;
     const bool known = std::ranges::all_of(fits.cost.values, [](const auto& cost) { return cost.has_value(); });
-    words(ui.style.quiet, !known    ? "What a query costs is not known of all yet."
+    const bool asks = counted && !costs.counts_unasked();
+    words(ui.style.quiet, !known && asks
+                              ? "The queries are many: click the title of a view, then Count them below COST."
+                          : !known  ? "What a query costs is not known of all yet."
                           : counted ? "ns: the mean of this scene's queries"
                                     : "ns: a query of the clip against itself, standard placements");
     ImGui::PopFont();

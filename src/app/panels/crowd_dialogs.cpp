@@ -115,13 +115,14 @@ void simulate_dialog(Ui& ui, CrowdMaker& maker) {
     begin_dialog(ui, "simulate", {kWidth, 414});
     dialog_title(ui, "Simulate a crowd");
     words(ui.style.quiet,
-          maker.moves_in_words() + ": agents play its moves back to back, and nobody collides but who is forced to.");
+          maker.moves_in_words() + ": agents play its moves back to back; they collide only where a play is forced.");
     ImGui::Dummy({0, ui.px(2)});
     option_fields(ui, "simulate.", crowd_options(), &CrowdMaker::crowd);
     const SimulateOptions& options = maker.crowd.options;
     ImGui::PushFont(ui.style.caption);
-    words(ui.style.quiet, formatted("%.3g m\u00B2 for each agent. Crowds with less than 4 are slow, and often forced.",
-                                    options.area.x * options.area.y / options.agents));
+    words(ui.style.quiet,
+          formatted("%.3g m\u00B2 for each agent. Below 4 m\u00B2, simulating is slow and many plays are forced.",
+                    options.area.x * options.area.y / options.agents));
     ImGui::PopFont();
     const bool begins = order_buttons(ui, "Simulate", "simulate.", &CrowdMaker::crowd, taken);
     end_dialog();

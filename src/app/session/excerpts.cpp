@@ -120,6 +120,7 @@ void Excerpts::open(Side a, Side b, const std::array<Rgba, 2>& colors, const std
 void Excerpts::turn_away() {
     playback_.stop();
     workspace_.selection = workspace_.hovered = {};
+    workspace_.measuring = {};  // where other things stand
     workspace_.filter.clear();
     workspace_.other_cameras.clear();
 }
