@@ -126,7 +126,10 @@ TEST(NodeList, ARowIsItsNodeEverywhere) {
     EXPECT_EQ(w.selected(), *(at + 1));
     w.run("key Shift+F3");
     EXPECT_EQ(w.selected(), second);
-    w.run("click " + w.row(rows[0]) + "\nkey Down\nkey Down");
+    while (w.selected() != rows[0]) w.run("key Shift+F3");
+    for (int i = 0; i < 30 && !w.session.keys.focus.starts_with("nodes.row."); ++i) w.run("key Tab");
+    EXPECT_EQ(w.session.keys.focus, w.row(rows[0])) << "Tab goes to the row that is selected";
+    w.run("key Down\nkey Down");
     EXPECT_EQ(w.selected(), rows[2]) << "arrows select as they go";
     while (w.selected() != rows.back()) w.run("key F3");
     w.run("key F3");
@@ -203,7 +206,7 @@ TEST(NodeList, RowsAreCopied) {
     EXPECT_NE(w.desktop.text.find("\n0.0,0,0..59,"), std::string::npos) << w.desktop.text;
     w.run("run nodes.copy");
     EXPECT_NE(w.desktop.text.find("\n0.0\t0\t0..59\t"), std::string::npos) << w.desktop.text;
-    EXPECT_EQ(all_messages(w.session), "Copied 1 node\nCopied 1 node\n");
+    EXPECT_EQ(all_messages(w.session), "Copied 1 node\n");
 }
 
 TEST(NodeList, ALowPanelHasRowsInPlaceOfTheLevels) {
