@@ -170,7 +170,9 @@ void count_blame(Session& session) {
                            auto blame = std::make_shared<const BlameInScene>(blame_in(*in, progress_of(control)));
                            return [&session, in, blame = std::move(blame)] {
                                Workspace& workspace = session.workspace;
-                               if (in != workspace.document().fitted) {
+                               const FittedScene& now = *workspace.document().fitted;
+                               // Another view may be active now: it is of the same scene, with another fit.
+                               if (&in->scene() != &now.scene() && !ask_the_same(*in, now)) {
                                    return session.notifications.tell(
                                        MessageLevel::info, "The scene has changed: sum avoidable overlaps again");
                                }
