@@ -400,12 +400,14 @@ std::vector<Case> cases() {
     add({"view.no_slab", "", {{"view.slab", "0.5:1.25"}}, [](CommandWorld& w) { EXPECT_FALSE(w.view().slab); }});
     look("view.measure", "", [](CommandWorld& w) {
         EXPECT_TRUE(w.session.workspace.measuring.picks);
+        EXPECT_TRUE(find_command("view.measure")->checked(w.session));
         run_command(w.session, "view.measure");
         EXPECT_TRUE(w.session.workspace.measuring.is_nothing());
     });
     look("view.measure", "1,2,3:4,6,3.5", [](CommandWorld& w) {
         EXPECT_EQ(w.session.workspace.measuring.line(), (MeasuredLine{{1, 2, 3}, {4, 6, 3.5}}));
         EXPECT_FALSE(w.session.workspace.measuring.picks);
+        EXPECT_FALSE(find_command("view.measure")->checked(w.session)) << "choosing it measures anew";
     });
     add({"view.copy_measured", "", {{"view.measure", "0,0,0:3,4,2"}}, [](CommandWorld& w) {
              EXPECT_EQ(w.desktop.text, "distance\t5 m\ntime\t2 s\nspeed\t2.5 m/s\nplaces\t0,0,0:3,4,2\n");

@@ -86,6 +86,7 @@ TEST(ViewFigures, HandlesChooseTheRange) {
     w.move(at - glm::vec2(60, 0));
     w.button(false);
     ASSERT_TRUE(w.view().color_range);
+    EXPECT_TRUE(w.session.workspace.history.look_back_title().starts_with("colour range: "));
     EXPECT_LT(w.view().color_range->most, scale.most);
     EXPECT_NEAR(w.view().color_range->least, scale.least, 1e-3 * scale.least);
     EXPECT_TRUE(w.session.figures.boxes()->scale.chosen);
