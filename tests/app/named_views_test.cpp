@@ -94,6 +94,8 @@ TEST(NamedViews, AreEditsOfTheScene) {
     w.run("run view.save_as two");
     EXPECT_THROW(run_command(w.session, "view.rename", "the first"), std::invalid_argument);
     EXPECT_THROW(run_command(w.session, "view.save_as", "  "), std::invalid_argument);
+    EXPECT_THROW(run_command(w.session, "view.save_as", "top"), std::invalid_argument) << "render --view would not";
+    EXPECT_THROW(run_command(w.session, "view.rename", "iso"), std::invalid_argument);
     EXPECT_THROW(run_command(w.session, "view.go", "three"), std::invalid_argument);
     w.run("run view.remove two");
     EXPECT_THROW(run_command(w.session, "view.rename", "x"), std::invalid_argument) << "the one gone to last is gone";

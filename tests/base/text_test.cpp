@@ -149,6 +149,7 @@ TEST(Text, TheNearestNameIsFoundAndOnlyNamedWhenMeant) {
     EXPECT_EQ(did_you_mean("laef", names), " (did you mean 'leaf'?)");
     EXPECT_EQ(did_you_mean(std::string(5000, 'x'), names), "");
     EXPECT_EQ(did_you_mean("quixotic", names), "");
+    EXPECT_EQ(nearest("tpo", std::vector<std::string>{"iso", "top"}), "top") << "two letters that changed places";
 }
 
 TEST(Base64, ReadsWhatItWrites) {

@@ -1,3 +1,5 @@
+#include <base/json.h>
+#include <base/json_writer.h>
 #include <scene/scene.h>
 #include <scene/view_options.h>
 #include <scene/view_state.h>
@@ -5,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -80,8 +83,9 @@ TEST(ViewState, AnotherFigureHasARangeOfItsOwn) {
         ViewState view;
         view.color_by = ColorBy::volume;
         view.color_range = ValueRange{0, 2.5};
-        const JsonText value = parse_json(text, "view.json");
-        return read_view(JsonPlace(value, "view.json"), view).color_range;
+        const std::string file = "view.json";
+        const JsonText value = parse_json(text, file);
+        return read_view(JsonPlace(value, file), view).color_range;
     };
     EXPECT_EQ(range_over(R"({"color_by": "fill"})"), std::nullopt);
     EXPECT_EQ(range_over(R"({"color_by": "volume"})"), (ValueRange{0, 2.5}));
