@@ -184,6 +184,9 @@ TEST(ViewFigures, SideBySideOneColourIsOneValue) {
         for (std::size_t i = 0; i < volumes.size(); ++i)
             EXPECT_LT(glm::length(colors[i] - scale.color(volumes[i], w.window.shell().shown()->palette)), 2e-3f);
     }
+    w.run("view.plan");
+    EXPECT_EQ(w.session.figures.boxes()->scale, scale) << "on the floor plan too";
+    w.run("view.plan");
     w.run("view.link_levels");
     for (const std::size_t place : {0u, 1u}) {
         look(place);

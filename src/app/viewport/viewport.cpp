@@ -358,7 +358,9 @@ void Viewport::draw(Ui& ui, std::size_t place) {
     if (size.width < kMinSide || size.height < kMinSide) return;
     update_picture(ui, size);
     if (is_active(ui)) ui.session.views.picture = {size, key_->scale};
-    const bool has_levels = key_->view.show == Show::space_time && !key_->view.projection;
+    const ViewState& seen = key_->view;
+    const bool has_levels =
+        seen.show == Show::plan ? seen.boxes && !seen.query : seen.show == Show::space_time && !seen.projection;
     // Panels and views drawn before show those of the frame before.
     if (ui.session.figures.show(place, has_levels && paths_ ? paths_->colored_boxes() : nullptr)) ui.want_frame_in(0);
     if (!list_) {
