@@ -103,15 +103,20 @@ TEST(Curves, SayWhatIsLeftOut) {
     EXPECT_TRUE(w.has("curves.left_out")) << "14 agents";
 }
 
-/// A scene with so many clips, each with an agent of its own.
+/// A walk of its own, which ends apart from the others.
+std::string own_walk(int i) { return testing::walk_csv() + "2,2," + std::to_string(0.01 * i) + ",0.4\n"; }
+std::string clip_json(const std::string& name) { return '"' + name + "\": {\"source\": \"" + name + ".csv\"}"; }
+std::string agent_json(const std::string& name) { return "{\"name\": \"" + name + "\", \"clip\": \"" + name + "\"}"; }
+
+/// A scene with so many clips, each with a tree and an agent of its own.
 std::string clips_scene(const CrossingFolder& folder, int count) {
     std::string clips, agents;
     for (int i = 0; i < count; ++i) {
-        const std::string name = "c" + std::to_string(i);
-        const std::string comma = i > 0 ? "," : "";
-        folder.write(name + ".csv", testing::walk_csv());
-        clips.append(comma).append("\"" + name + "\": {\"source\": \"" + name + ".csv\"}");
-        agents.append(comma).append("{\"name\": \"" + name + "\", \"clip\": \"" + name + "\"}");
+        const std::string name = std::to_string(i);
+        const char* const comma = i > 0 ? "," : "";
+        folder.write(name + ".csv", own_walk(i));
+        clips.append(comma).append(clip_json(name));
+        agents.append(comma).append(agent_json(name));
     }
     return "{\"clips\": {" + clips + "}, \"agents\": [" + agents + "]}";
 }
