@@ -122,7 +122,7 @@ ViewOption text_or_number(ViewOption row) {
 template <auto member>
 ViewOption range(ViewOption row, const char* none) {
     row.schema =
-        R"("anyOf": [{"type": "null"}, {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2}])";
+        R"("anyOf": [{"type": "null"}, {"type": "array", "items": {"$ref": "#/$defs/time"}, "minItems": 2, "maxItems": 2}])";
     row.read = [](const JsonPlace& place, ViewState& view) {
         view.*member = place.is_null() ? std::nullopt : std::optional(read_range(place));
     };

@@ -119,6 +119,8 @@ TEST(GraphOptions, AreReadAsTheCommandLineHasThem) {
     EXPECT_EQ(refused("hubs"), "hubs needs a value: hubs=8");
     EXPECT_EQ(refused("hubs=2.5"), "'2.5' is no whole number from 1 to 10000");
     EXPECT_NE(refused("seed=9007199254740993"), "") << "a double cannot tell it from the largest";
+    EXPECT_EQ(refused("seconds=0:1"), "'0:1' is not like A:B: give two numbers such as 1:4, each from 1e-09 to 3600");
+    EXPECT_EQ(refused("seconds=0.0001:1"), "");
     EXPECT_EQ(refused("seconds=3:1"), "'3:1' is in the wrong order: give the smaller number first, such as 1:4");
 }
 
