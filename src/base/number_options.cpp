@@ -2,7 +2,8 @@
 
 #include <charconv>
 #include <cstdint>
-#include <optional>
+#include <limits>
+#include <stdexcept>
 #include <system_error>
 
 namespace mobbscope {
@@ -37,23 +38,21 @@ Numbers parse_numbers(const NumberOptionInfo& option, const std::string& text) {
     if (option.whole) return {parse_whole(option, text), 0};
     if (option.between == 0) return {parse_number_within(text, option.least, option.most), 0};
     const std::size_t middle = text.find(option.between);
-    const std::optional<double> first = parse_double(text.substr(0, middle));
-    const std::optional<double> second =
-        middle == std::string::npos ? std::nullopt : parse_double(text.substr(middle + 1));
-    const auto is_allowed = [&](const std::optional<double>& number) {
-        return number && *number >= option.least && *number <= option.most;
-    };
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    const double first = parse_double(text.substr(0, middle)).value_or(kNone);
+    const double second = middle == std::string::npos ? kNone : parse_double(text.substr(middle + 1)).value_or(kNone);
+    const auto is_allowed = [&](double number) { return number >= option.least && number <= option.most; };
     if (!is_allowed(first) || !is_allowed(second)) {
         throw std::invalid_argument(in_quotes(text) + " is not like " + std::string(option.placeholder) +
                                     ": give two numbers such as " + std::string(option.example) + ", each from " +
                                     brief(option.least) + " to " + brief(option.most));
     }
-    if (option.between == ':' && *first > *second) {
+    if (option.between == ':' && first > second) {
         throw std::invalid_argument(in_quotes(text) +
                                     " is in the wrong order: give the smaller number first, such as " +
                                     std::string(option.example));
     }
-    return {*first, *second};
+    return {first, second};
 }
 
 }  // namespace mobbscope

@@ -161,15 +161,15 @@ TEST(NodeList, AFilterIsTypedAndApplied) {
     NodeWindow w;
     w.run("key Ctrl+F");
     EXPECT_EQ(w.session.settings.bottom_tab, BottomTab::nodes) << "no query is in view";
-    w.run("type fill < 60 % and lea");
+    w.run("type fill < 70 % and lea");
     EXPECT_TRUE(w.has("nodes.filter.candidate"));
     w.run("key Tab");
     EXPECT_TRUE(w.has("nodes.filter.hits"));
     w.run("key Enter");
-    EXPECT_EQ(w.session.nodes.filter->text(), "fill < 60 % and leaf");
+    EXPECT_EQ(w.session.nodes.filter->text(), "fill < 70 % and leaf");
     const NodeValues& values = *w.session.nodes.values();
     const auto is_wanted = [&](int node) {
-        return values.tree().node(node).is_leaf() && values.value(NodeField::fill, node) < 0.6;
+        return values.tree().node(node).is_leaf() && values.value(NodeField::fill, node) < 0.7;
     };
     ASSERT_FALSE(w.rows().empty());
     EXPECT_TRUE(std::ranges::all_of(w.rows(), is_wanted));
@@ -202,7 +202,7 @@ TEST(NodeList, TestsAreCountedOnDemand) {
 TEST(NodeList, RowsAreCopied) {
     NodeWindow w;
     w.run("run bottom.show nodes\nrun nodes.filter level < 1\nclick nodes.more\nclick context.nodes.copy_csv");
-    EXPECT_EQ(w.desktop.text.substr(0, 34), "node,level,sample,empty,fill,volum");
+    EXPECT_EQ(w.desktop.text.substr(0, 34), "node,level,sample,waste,empty,fill");
     EXPECT_NE(w.desktop.text.find("\n0.0,0,0..59,"), std::string::npos) << w.desktop.text;
     w.run("run nodes.copy");
     EXPECT_NE(w.desktop.text.find("\n0.0\t0\t0..59\t"), std::string::npos) << w.desktop.text;
