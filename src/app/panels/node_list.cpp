@@ -100,7 +100,8 @@ void node_list(Ui& ui, DataTable& table, LevelStrip& levels, const ChartAxis& ti
     const int clip = clip_in_focus(ui.workspace);
     ui.session.fit_costs.update(clip);
     node_title(ui, clip);
-    const float below = ImGui::GetFrameHeightWithSpacing() + DataTable::height(ui, kLeastRows);
+    const float below =
+        ImGui::GetFrameHeightWithSpacing() + DataTable::height(ui, kLeastRows) + ImGui::GetStyle().ScrollbarSize;
     const float room = ImGui::GetContentRegionAvail().y;
     levels.draw(ui, clip, time, std::min(room - below, kMostPart * room));
     node_filter_line(ui);
