@@ -2,6 +2,7 @@
 #include <app/commands/arguments.h>
 #include <app/commands/command.h>
 #include <scene/fit_text.h>
+#include <scene/scene_json.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -76,16 +77,20 @@ void close_view(Views& views, const std::string& text) {
                              : static_cast<std::size_t>(whole_number_in(text, "the number of the view", 0, last)));
 }
 
-std::vector<std::string> compared_kinds() {
-    const auto names = mobb::tree_kind_names();
-    return {names.begin(), names.end()};
-}
-
-bool is_in_view(const Views& views, const std::string& kind) {
+bool is_in_view(const Views& views, const mobb::FitOptions& fit) {
     for (std::size_t place = 0; place < views.count(); ++place) {
-        if (mobb::name(views.at(place).fitted->options().tree) == kind) return true;
+        if (views.at(place).fitted->options() == fit) return true;
     }
     return false;
+}
+
+/// Kinds of trees that would be a fit which is not in view yet.
+std::vector<std::string> kinds_to_add(const Views& views, const Workspace& workspace) {
+    std::vector<std::string> out;
+    for (const std::string_view kind : mobb::tree_kind_names()) {
+        if (!is_in_view(views, with_kind(workspace.fitted().options(), *find_tree_kind(kind)))) out.emplace_back(kind);
+    }
+    return out;
 }
 
 Command link_command(const ViewLink& link) {
@@ -125,8 +130,7 @@ std::vector<Command> side_by_side_commands() {
                 "Shows one more fit side by side: other trees, or all of a fit, as moving,leaf=40.", add_fit,
                 {.argument = "FIT",
                  .enabled = {has_room, why_no_room},
-                 .choices = compared_kinds,
-                 .chosen = is_in_view,
+                 .choices = kinds_to_add,
                  .also = "side by side versus"}),
         Command("view.close", "Close the view",
                 "Of several views: closes the active one, or that of a number, from 0 at the left.", close_view,
