@@ -43,7 +43,9 @@ std::string more_text(const ComparedFigure& of, std::size_t fit) {
 /// The columns as pixels from the left edge: where texts end, but for the name of a fit, which begins there.
 struct FitColumns {
     float name = 0, bar = 0, bar_end = 0, volume = 0, fill = 0, cost = 0, width = 0;
-    bool has_more = true;  ///< by how much volumes differ: only where names have room beside it
+    // Only where names have room beside them.
+    bool has_more = true;  ///< by how much volumes differ
+    bool has_fill = true;
 
     FitColumns(const Ui& ui, float width_, const std::vector<std::string>& names, const ComparedFits& fits)
         : width(width_) {
@@ -61,12 +63,14 @@ struct FitColumns {
         const auto place = [&] {
             cost = has_more ? width - digits("-100 %") - gap : width;
             fill = cost - digits("0000") - gap;
-            volume = fill - digits("100 %") - gap;
+            volume = has_fill ? fill - digits("100 %") - gap : fill;
             bar_end = volume - longest_volume - gap;
         };
         place();
         has_more = name_end <= bar_end;
         if (!has_more) place();
+        has_fill = has_more || name_end <= bar_end;
+        if (!has_fill) place();
         bar = std::min(name_end, bar_end);
     }
     bool has_bar(const Ui& ui) const { return bar_end - bar > ui.px(16); }
@@ -124,7 +128,7 @@ class FitTable {
         };
         draw_text(draw, font, corner, ui_.style.quiet, "level");
         heading(at_.volume, "m\u00B2\u00B7s");
-        heading(at_.fill, "fill");
+        if (at_.has_fill) heading(at_.fill, "fill");
         heading(at_.cost, "ns");
         if (at_.has_more) heading(at_.width, "volume");
         ImGui::Dummy({at_.width, font.FontSize});
@@ -160,7 +164,8 @@ class FitTable {
         for (std::size_t fit = 0; fit < names_.size(); ++fit) {
             const ImVec2 row = begin_row(corner, fit, usual);
             ending(row, at_.volume, color_of(level.volume, fit, usual), value_or_dash(level.volume.values[fit]));
-            ending(row, at_.fill, color_of(level.fill, fit, usual), share_text(level.fill.values[fit]));
+            if (at_.has_fill)
+                ending(row, at_.fill, color_of(level.fill, fit, usual), share_text(level.fill.values[fit]));
             ending(row, at_.cost, color_of(level.cost, fit, usual), value_or_dash(level.cost.values[fit]));
             if (at_.has_more) {
                 ending(row, at_.width, color_of(level.volume, fit, usual), more_text(level.volume, fit));
