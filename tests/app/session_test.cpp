@@ -742,7 +742,7 @@ TEST(Views, AreOfOneSceneWithAFitEach) {
     EXPECT_EQ(session.views.at(1).fitted->options().tree, mobb::TreeKind::umobb);
     EXPECT_EQ(&session.views.at(1).fitted->scene(), &session.workspace.scene());
 
-    // Time and camera are shared, what is shown is not.
+    // All that is linked is shared.
     session.workspace.change_view([](ViewState& view) {
         view.time = 0.5;
         view.camera.yaw_deg = 12;
@@ -750,10 +750,15 @@ TEST(Views, AreOfOneSceneWithAFitEach) {
     });
     EXPECT_EQ(session.views.at(1).view.time, 0.5);
     EXPECT_EQ(session.views.at(1).view.camera.yaw_deg, 12);
-    EXPECT_TRUE(session.views.at(1).view.disks);
+    EXPECT_FALSE(session.views.at(1).view.disks);
     session.views.link(&ViewLinks::camera, false);
-    session.workspace.change_view([](ViewState& view) { view.camera.yaw_deg = 40; });
+    session.views.link(&ViewLinks::level, false);
+    session.workspace.change_view([](ViewState& view) {
+        view.camera.yaw_deg = 40;
+        view.disks = true;
+    });
     EXPECT_EQ(session.views.at(1).view.camera.yaw_deg, 12);
+    EXPECT_FALSE(session.views.at(1).view.disks);
 
     // Commands are about the active view; edits of the scene reach all.
     session.views.activate(1);

@@ -284,6 +284,18 @@ TEST(SideBySide, ThePapersComparisonIsOneClick) {
     EXPECT_EQ(w.session.views.count(), 2u);
 }
 
+TEST(SideBySide, AnotherFitThatIsLeftIsNotSaved) {
+    SideBySide w;
+    w.run("run compare.fits mobb,leaf=4 umobb,leaf=4\nrun view.other");
+    EXPECT_FALSE(w.session.workspace.modified()) << "nothing but looked at";
+    w.run("run view.close 0");
+    EXPECT_TRUE(w.session.workspace.modified());
+    w.run("key Ctrl+Z");
+    EXPECT_FALSE(w.session.workspace.modified());
+    w.run("run view.close 1");
+    EXPECT_FALSE(w.session.workspace.modified()) << "the fit of the file is left";
+}
+
 TEST(SideBySide, ATitleChangesItsOwnView) {
     SideBySide w;
     w.run("run compare.fits mobb umobb\nclick view.fit.1\nframes 2\nclick view.fit.1.moving\nframes 3");

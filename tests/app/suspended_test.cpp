@@ -279,6 +279,7 @@ TEST(Suspended, AnotherNameIsKnownInAllViewsAndWhereverItIsRemembered) {
     SuspendedWorld w;
     w.session.views.split("UMOBB", {.tree = mobb::TreeKind::umobb, .leaf = 4});
     w.session.views.link(&ViewLinks::camera, false);
+    w.session.views.link(&ViewLinks::level, false);
     run_command(w.session, "view.other");
     run_command(w.session, "agents.hide", "C");
     run_command(w.session, "agents.pin", "A");

@@ -148,6 +148,7 @@ TEST(ViewFigures, SideBySideEachFitIsCounted) {
             EXPECT_TRUE(go(first)->scale.known) << mode;
         }
         w.run("view.color_by", "tests");
+        w.run("view.level", "0:9");
         EXPECT_NE(*go(first)->values, *go(1 - first)->values) << "each its own";
     }
 }

@@ -57,7 +57,9 @@ bool Workspace::modified() const {
     // Views of one scene share it, whichever fit they use.
     const auto differ = [](const auto& a, const auto& b) { return &a->scene() != &b->scene(); };
     const std::shared_ptr<const ExcerptSource>& origin = document().excerpt_of;
-    if (!origin) return differ(document().fitted, saved);
+    // Of views side by side one may be left that has another fit, which would be saved.
+    const bool is_left = document().beside.empty() && document().fitted->options() != saved->options();
+    if (!origin) return is_left || differ(document().fitted, saved);
     return differ(origin->fitted, saved) || differ(document().fitted, origin->saved);
 }
 
