@@ -225,6 +225,22 @@ INSTANTIATE_TEST_SUITE_P(All, BoxFiguresTest,
                                            ColorBy::tests, ColorBy::avoidable),
                          [](const auto& one) { return std::string(name(one.param)); });
 
+TEST(FigureColors, APartAloneKeepsItsColours) {
+    const FittedScene fitted = three_paths();
+    const DrawList all = colored_by(fitted, ColorBy::volume);
+    ViewState view;
+    view.color_by = ColorBy::volume;
+    view.levels = {0, 4, false};
+    view.subtree = DrawnNode{0, fitted.tree(0).children(0)[1]};
+    const DrawList part = build_draw_list(fitted, view, kGoldenSize);
+    ASSERT_LT(part.boxes.size(), all.boxes.size());
+    for (const BoxInstance& box : part.boxes) {
+        const auto same = std::ranges::find(all.boxes, box.id, &BoxInstance::id);
+        ASSERT_NE(same, all.boxes.end());
+        EXPECT_EQ(with_alpha(box.fill, 1), with_alpha(same->fill, 1)) << box.id.index;
+    }
+}
+
 TEST(FigureColors, AChosenRangeIsExactAndWhatIsOutsideStepsBack) {
     const FittedScene fitted = three_paths();
     const DrawList usual = colored_by(fitted, ColorBy::fill),

@@ -159,6 +159,20 @@ void CurvePlots::point_at(Ui& ui, const CurveInfo& curve, const ChartAxis& time,
         ImGui::SetTooltip("%s\nClick to go there, Ctrl and click to copy", told.c_str());
 }
 
+/// Beside the time cursor: of who is selected, or else of the first.
+void CurvePlots::values_at_cursor(Ui& ui, const CurveInfo& curve, const Rect& area, const ChartAxis& values,
+                                  double time, float x) const {
+    const std::vector<Point> points = points_at(curve, values, time);
+    if (points.empty()) return;
+    const auto selected =
+        std::ranges::find_if(points, [&](const Point& point) { return is_selected(ui.workspace, point.path->ref); });
+    const Point& told = selected == points.end() ? points.front() : *selected;
+    const std::string text = value_text(curve, told.value);
+    const float width = text_size(*ui.style.caption, text).x, gap = ui.px(4);
+    const float left = x + gap + width > area.max.x ? x - gap - width : x + gap;
+    text_over(ui, area, {left, area.min.y + 1}, to_im(readable(told.path->agent.color, ui.style.palette)), text);
+}
+
 void CurvePlots::plot(Ui& ui, const CurveInfo& curve, const ChartAxis& time, float height) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const Rect area{{time.first, corner.y}, {time.last, corner.y + height}};
@@ -204,6 +218,7 @@ void CurvePlots::plot(Ui& ui, const CurveInfo& curve, const ChartAxis& time, flo
     if (const auto& now = ui.workspace.view().time; now && *now >= time.from && *now <= time.to) {
         const float x = time.pixel(*now);
         draw.AddLine({x, area.min.y}, {x, area.max.y}, ui.style.text, ui.px(1.5f));
+        if (!hovered) values_at_cursor(ui, curve, area, values, *now, x);
     }
     if (hovered || active) point_at(ui, curve, time, values);
     if (active && !ImGui::GetIO().KeyCtrl) scrub_to(ui, at);

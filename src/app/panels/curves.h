@@ -52,6 +52,8 @@ class CurvePlots {
     ChartAxis values_of(const CurveInfo& curve, const Rect& area) const;
     void lines(const Ui& ui, const CurveInfo& curve, const Rect& area, const ChartAxis& values) const;
     std::vector<Point> points_at(const CurveInfo& curve, const ChartAxis& values, double time) const;
+    void values_at_cursor(Ui& ui, const CurveInfo& curve, const Rect& area, const ChartAxis& values, double time,
+                          float x) const;
     void point_at(Ui& ui, const CurveInfo& curve, const ChartAxis& time, const ChartAxis& values) const;
 
     std::optional<Key> key_;

@@ -164,12 +164,18 @@ void time_bars(Ui& ui, float width, float height) {
     const float gap = std::min(ui.px(1.5f), 0.2f * each);
     const NameList names(paths.size(), [&](std::size_t i) { return paths[i].name; });
     const float mouse = ImGui::IsItemHovered() ? (ImGui::GetIO().MousePos.y - corner.y) / each : -1;
+    const std::optional<ValueRange>& slab = ui.workspace.view().slab;
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const float y = corner.y + each * static_cast<float>(i);
-        const float left = axis.pixel(paths[i].begin());
-        const float right = axis.pixel(paths[i].end());
+        float left = axis.pixel(paths[i].begin());
+        float right = axis.pixel(paths[i].end());
         draw.AddRectFilled({left, y + gap}, {right, y + each - gap}, to_im(with_alpha(paths[i].color, 0.75f)),
                            ui.px(2));
+        // The name stands where the bar is not dimmed.
+        if (slab) {
+            left = std::max(left, axis.pixel(slab->least));
+            right = std::min(right, axis.pixel(slab->most));
+        }
         const float font = ImGui::GetFontSize();
         const bool has_room = each >= font + 2 * gap;
         const std::string name = has_room ? fitted_name(paths[i].name, right - left - ui.px(12), names) : "";
@@ -179,7 +185,7 @@ void time_bars(Ui& ui, float width, float height) {
             contrast(paths[i].color, Rgba(0, 0, 0, 1)) > contrast(paths[i].color, Rgba(1)) ? Rgba(0, 0, 0, 1) : Rgba(1);
         draw.AddText({left + ui.px(6), y + 0.5f * (each - font)}, to_im(ink), name.c_str());
     }
-    if (const auto& slab = ui.workspace.view().slab) shade_slab(ui, axis, *slab, corner.y, height);
+    if (slab) shade_slab(ui, axis, *slab, corner.y, height);
     if (const auto time = ui.workspace.view().time; time && *time >= span.t0 && *time <= span.t1) {
         const float x = axis.pixel(*time);
         draw.AddLine({x, corner.y - ui.px(3)}, {x, corner.y + height + ui.px(3)}, ui.style.text, ui.px(2));

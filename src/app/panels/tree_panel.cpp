@@ -244,13 +244,16 @@ void figures_of_boxes(Ui& ui, BoxFigures& kept) {
                         std::max(1.0f, ImGui::GetContentRegionAvail().x));
     if (change.kind == HistogramChange::Kind::automatic) ui.invoke("view.color_range", "auto");
     if (change.kind != HistogramChange::Kind::dragged) return;
-    // The end that stays keeps its value.
+    // The end that stays keeps its value. One that nobody chose takes in the outliers that it left out: they would
+    // fade.
     const auto [from, to] = change.ends;
     const auto shown = [&](double value) {
         return *parse_double(figure((scale.figure.unit == "%" ? 100 : 1) * value));
     };
-    const double least = from == whole.share(scale.least) ? scale.least : whole.value_at(from);
-    const double most = to == whole.share(scale.most) ? scale.most : whole.value_at(to);
+    const double least = from != whole.share(scale.least) ? whole.value_at(from)
+                         : scale.chosen                   ? scale.least
+                                                          : whole.least;
+    const double most = to != whole.share(scale.most) ? whole.value_at(to) : scale.chosen ? scale.most : whole.most;
     ui.invoke("view.color_range", to_string(ValueRange{shown(least), shown(most)}));
 }
 

@@ -15,7 +15,7 @@ namespace mobbscope {
 
 namespace {
 
-constexpr float kFill = 0.1f;  // opacity of sections
+constexpr float kFill = 0.2f;  // opacity of sections
 
 /// The times of the planes that cut something.
 std::vector<double> planes_of(const FloorExtent& s, const ValueRange& slab) {
@@ -94,7 +94,7 @@ void add_sections(DrawList& list, std::span<const BoxInstance> boxes, float heig
         const DrawOrder order{DrawLayer::findings, box.order.level, index};
         if (box.fill.a > 0) fill_polygon(list, corners, with_alpha(box.fill, kFill), order);
         const LineStyle edge{.color = with_alpha(box.edge, 1),
-                             .width = 1.4f * std::max(box.width, scale),
+                             .width = 2.2f * std::max(box.width, scale),
                              .dash = box.dash,
                              .hidden = 1};
         Pen(list, order)

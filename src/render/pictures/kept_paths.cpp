@@ -20,6 +20,18 @@ std::shared_ptr<const std::vector<double>> same_or_new(const std::shared_ptr<con
     return std::make_shared<const std::vector<double>>(std::move(values));
 }
 
+/// Adds the figures of nodes that stay out of the picture because another part of their tree is shown alone.
+std::vector<double> with_hidden_nodes(std::vector<double> values, std::span<const DrawnAgent> agents,
+                                      BoxFigures figures, const ViewState& view) {
+    for (const DrawnAgent& agent : agents) {
+        if (!agent.is_whole() || !agent.subtree) continue;
+        const std::span<const double> own = figures[static_cast<std::size_t>(agent.index)];
+        for (const int node : shown_nodes(agent.placed.tree(), view.levels))
+            values.push_back(own[static_cast<std::size_t>(node)]);
+    }
+    return values;
+}
+
 }  // namespace
 
 KeptPaths& KeptPaths::shown_in(const ViewState& view) {
@@ -100,6 +112,10 @@ std::optional<ColorBar> KeptPaths::color_boxes(DrawList& list, std::span<const D
     ColoredValues boxes;
     boxes.values = same_or_new(before ? before->values : nullptr, values_of_boxes(list, figures));
     boxes.range = boxes.values;
+    // A part that is shown alone keeps the colours that it has among all.
+    if (std::ranges::any_of(agents, [](const DrawnAgent& agent) { return agent.subtree.has_value(); }))
+        boxes.range =
+            same_or_new(before ? before->range : nullptr, with_hidden_nodes(*boxes.values, agents, figures, view));
     // A level has one colour in all pictures of trees that are so deep.
     if (field->field == NodeField::level)
         boxes.range = same_or_new(before ? before->range : nullptr, {0.0, static_cast<double>(deepest)});

@@ -140,6 +140,8 @@ class SpaceTimePicture final : public Picture {
         out.bars = bars_;
         out.legend = legend_entries(list_, agents_, view_, emphasis_, test());
         if (walls_) out.legend.push_back(proof_entry(list_.palette));
+        if (emphasis_.cursor && view_.slice)
+            out.legend.push_back(line_entry({list_.palette.text, 2.2f}, "sections of boxes then"));
         if (!boundary_.empty())
             out.legend.push_back(
                 line_entry(boundary_style(list_.palette, 1), agents_[1].label + " beginning inside collides"));
