@@ -154,7 +154,7 @@ namespace {
 std::string draw_words(ImU32 color, const std::string& text) {
     const float wrap = ImGui::GetCurrentWindowRead()->DC.TextWrapPos;
     const float room = wrap > 0 ? wrap - ImGui::GetCursorPosX() : ImGui::GetContentRegionAvail().x;
-    const std::string lines = wrapped(text, room);
+    std::string lines = wrapped(text, room);
     ImGui::PushStyleColor(ImGuiCol_Text, color);
     ImGui::PushTextWrapPos(-1);
     ImGui::TextUnformatted(lines.c_str());
@@ -207,13 +207,15 @@ bool copies_numbers(Ui& ui, const std::string& text, ImVec2 at, const ImFont& fo
                     bool with_ctrl) {
     if (!can_copy(with_ctrl)) return false;
     ShownNumbers numbers(std::move(exact));
-    for (std::size_t begin = 0; begin <= text.size(); at.y += font.FontSize) {
+    for (std::size_t begin = 0; begin <= text.size();) {
         const std::string line = text.substr(begin, text.find('\n', begin) - begin);
         begin += line.size() + 1;
+        const float top = at.y;
+        at.y += font.FontSize;
         for (const NumberInText& each : numbers.in(line)) {
             const ImVec2 from = text_size(font, line.substr(0, each.begin));
             const ImVec2 to = text_size(font, line.substr(0, each.end));
-            const Rect place{{at.x + from.x, at.y}, {at.x + to.x, at.y + font.FontSize}};
+            const Rect place{{at.x + from.x, top}, {at.x + to.x, at.y}};
             if (copies(ui, place, {.value = each.value, .unit = each.unit, .with_ctrl = with_ctrl})) return true;
         }
     }
