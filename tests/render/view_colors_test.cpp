@@ -184,6 +184,13 @@ double share_of(ColorBy color_by, double value, double least, double most) {
     return std::log((value + more) / (least + more)) / std::log((most + more) / (least + more));
 }
 
+/// Values that are nearly equal look so: the ends of the colours are a twentieth of the larger one apart.
+void widen(double& least, double& most) {
+    const double room = std::max(0.0, 0.05 * std::max(std::abs(least), std::abs(most)) - (most - least));
+    least -= room / 2;
+    most += room / 2;
+}
+
 class BoxFiguresTest : public ::testing::TestWithParam<ColorBy> {};
 
 TEST_P(BoxFiguresTest, ABoxHasTheColourOfItsFigure) {
@@ -207,10 +214,7 @@ TEST_P(BoxFiguresTest, ABoxHasTheColourOfItsFigure) {
             most = fitted.tree(0).depth() - 1;
         }
         ASSERT_GT(most, least);
-        // Values that are nearly equal look so: the ends are a twentieth of the larger one apart.
-        const double room = std::max(0.0, 0.05 * std::max(std::abs(least), std::abs(most)) - (most - least));
-        least -= room / 2;
-        most += room / 2;
+        widen(least, most);
         for (const auto& [box, value] : boxes) {
             const double share = share_of(color_by, value, least, most);
             const auto worse = static_cast<float>(color_by == ColorBy::fill ? 1 - share : share);
@@ -453,6 +457,7 @@ TEST(Heat, WithoutQueriesItIsWhatIsExpected) {
     std::ranges::sort(sorted);
     least = sorted[1];
     most = sorted[sorted.size() - 2];
+    widen(least, most);
     ViewState view;
     view.heat = true;
     const DrawList list = build_draw_list(fitted, view, kGoldenSize);

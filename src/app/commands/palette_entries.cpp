@@ -64,7 +64,9 @@ enum class Letters { together, strewn };
 double found_in(std::string_view word, const SearchField& field, Letters letters) {
     if (const auto begun = word_score(word, field.text)) return *begun;
     if (field.by_words) return 0;
-    const bool within = !std::ranges::search(field.text, word, {}, lower, lower).empty();
+    const auto alike = [&](char a, char b) { return lower(a) == lower(b); };
+    const bool within =
+        std::search(field.text.begin(), field.text.end(), word.begin(), word.end(), alike) != field.text.end();
     if (within && word.size() >= kLeastWithin) return kWithin;
     if (letters == Letters::together) return 0;
     const double most = (kLetter + kRun) * static_cast<double>(word.size());

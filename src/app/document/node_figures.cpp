@@ -24,7 +24,7 @@ const std::shared_ptr<const ColoredValues>& NodeFigures::boxes() const {
     return active < shown_.size() ? shown_[active] : none;
 }
 
-bool NodeFigures::show(std::size_t place, std::shared_ptr<const ColoredValues> boxes) {
+bool NodeFigures::show(std::size_t place, const std::shared_ptr<const ColoredValues>& boxes) {
     shown_.resize(workspace_.document().beside.size() + 1);
     return place < shown_.size() && std::exchange(shown_[place], boxes) != boxes;
 }

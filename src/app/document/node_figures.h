@@ -25,7 +25,7 @@ class NodeFigures {
     /// The boxes in the active view's picture, where a figure colours them; null: none does.
     const std::shared_ptr<const ColoredValues>& boxes() const;
     /// Those in the picture of the view at a place, as it was drawn last. Returns whether they are others than before.
-    bool show(std::size_t place, std::shared_ptr<const ColoredValues> boxes);
+    bool show(std::size_t place, const std::shared_ptr<const ColoredValues>& boxes);
     /// While levels are linked, the ranges of the boxes in the other pictures that have colours by this figure, for the
     /// view at a place.
     std::vector<std::shared_ptr<const std::vector<double>>> beside(std::size_t place,
