@@ -214,9 +214,13 @@ TEST_P(BoxFiguresTest, ABoxHasTheColourOfItsFigure) {
             most = fitted.tree(0).depth() - 1;
         }
         ASSERT_GT(most, least);
+        // What is not above 0 has no logarithm: the scale begins at the least that is.
+        double above = 1e300;
+        for (const auto& [box, value] : boxes) above = value > 0 ? std::min(above, value) : above;
+        if (color_by == ColorBy::waste && least <= 0 && most >= 10 * above) least = above;
         widen(least, most);
         for (const auto& [box, value] : boxes) {
-            const double share = share_of(color_by, value, least, most);
+            const double share = share_of(color_by, std::max(value, least), least, most);
             const auto worse = static_cast<float>(color_by == ColorBy::fill ? 1 - share : share);
             const Rgba wanted = quantity_color(worse, list.palette);
             // A grid of points finds overhangs to the hundredth.

@@ -94,7 +94,7 @@ void add_sections(DrawList& list, std::span<const BoxInstance> boxes, float heig
         const DrawOrder order{DrawLayer::findings, box.order.level, index};
         if (box.fill.a > 0) fill_polygon(list, corners, with_alpha(box.fill, kFill), order);
         const LineStyle edge{.color = with_alpha(box.edge, 1),
-                             .width = 2.2f * std::max(box.width, scale),
+                             .width = 1.8f * std::max(box.width, scale),
                              .dash = box.dash,
                              .hidden = 1};
         Pen(list, order)
