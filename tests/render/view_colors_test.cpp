@@ -180,7 +180,7 @@ double share_of(ColorBy color_by, double value, double least, double most) {
     const bool counts = color_by == ColorBy::tests || color_by == ColorBy::avoidable;
     const bool linear = color_by == ColorBy::fill || color_by == ColorBy::overhang || color_by == ColorBy::level;
     const double more = counts ? 1 : 0;
-    if (linear || most + more < 10 * (least + more)) return (value - least) / (most - least);
+    if (linear || least + more <= 0 || most + more < 10 * (least + more)) return (value - least) / (most - least);
     return std::log((value + more) / (least + more)) / std::log((most + more) / (least + more));
 }
 
