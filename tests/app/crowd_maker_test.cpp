@@ -55,9 +55,9 @@ struct MakerWindow {
         }
         window.settle();
     }
-    /// Also for the job that was cancelled: it must not outlive the test.
-    static void wait_for_all() {
-        while (Job::any_left()) std::this_thread::yield();
+    /// Also for the job that was cancelled: it must not outlive the test. Frames let go of those that are done.
+    void wait_for_all() {
+        while (Job::any_left()) window.frame();
     }
     void run(const std::string& id, const std::string& argument = "") {
         run_command(session, id, argument);
@@ -229,7 +229,7 @@ TEST(BuildGraph, IsCancelledAndLosesNothing) {
     w.wait();
     EXPECT_EQ(w.session.workspace.document().fitted, before);
     EXPECT_EQ(w.session.notifications.all().back().text, "Cancelled");
-    MakerWindow::wait_for_all();
+    w.wait_for_all();
 }
 
 TEST(BuildGraph, AsksAboutUnsavedChangesFirst) {
@@ -322,7 +322,7 @@ TEST(SimulateCrowd, IsCancelledAndLosesNothing) {
     w.click("job.0.cancel");
     EXPECT_EQ(w.session.jobs.count(), 0u);
     EXPECT_EQ(w.session.workspace.document().fitted, before);
-    MakerWindow::wait_for_all();
+    w.wait_for_all();
 }
 
 }  // namespace

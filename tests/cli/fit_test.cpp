@@ -57,7 +57,7 @@ TEST(Fit, JsonIsTheTree) {
         const json& entry = printed["nodes"][i];
         EXPECT_EQ(keys(entry),
                   (std::set<std::string>{"index", "parent", "level", "first", "count", "leaf", "kind", "center", "axes",
-                                         "half", "t0", "t1", "share", "empty", "floor", "overhang"}));
+                                         "half", "t0", "t1", "share", "empty", "floor", "overhang", "waste"}));
         EXPECT_EQ(entry["index"], i);
         EXPECT_EQ(entry["parent"], tree.parent(static_cast<int>(i)));
         EXPECT_EQ(entry["level"], tree.level(static_cast<int>(i)));
@@ -147,7 +147,7 @@ TEST(Fit, CsvHasARowForEachNode) {
                 for (const char* number : {"t0", "t1"}) EXPECT_EQ(cells[number], format_double(node[number]));
                 EXPECT_EQ(cells["is_leaf"], node["leaf"] ? "true" : "false");
                 EXPECT_EQ(cells["kind"], node["kind"].get<std::string>());
-                for (const char* figure : {"share", "empty", "floor", "overhang"})
+                for (const char* figure : {"share", "empty", "floor", "overhang", "waste"})
                     EXPECT_EQ(cells[figure], node[figure].is_null() ? "" : format_double(node[figure])) << figure;
                 EXPECT_EQ(node["overhang"].is_null(), cells["tree"] != "umobb");
                 EXPECT_NEAR(std::stod(cells["empty"]), std::stod(cells["volume"]) * (1 - std::stod(cells["tightness"])),
@@ -304,9 +304,9 @@ TEST(Fit, AMovingBoxIsGivenAtT0WithItsVelocity) {
     const Scene scene = load_scene(kFitScenes + "crossing.json");
     const std::span<const mobb::Disk> samples = scene.clips[1].clip->samples();
     for (const json& node : printed["nodes"]) {
-        EXPECT_EQ(keys(node),
-                  (std::set<std::string>{"index", "parent", "level", "first", "count", "leaf", "kind", "center", "axes",
-                                         "half", "velocity", "t0", "t1", "share", "empty", "floor", "overhang"}));
+        EXPECT_EQ(keys(node), (std::set<std::string>{"index", "parent", "level", "first", "count", "leaf", "kind",
+                                                     "center", "axes", "half", "velocity", "t0", "t1", "share", "empty",
+                                                     "floor", "overhang", "waste"}));
         EXPECT_EQ(node["kind"], "moving");
         ASSERT_EQ(node["velocity"].size(), 2u);
         ASSERT_EQ(node["axes"].size(), 2u);
