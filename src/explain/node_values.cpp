@@ -59,15 +59,6 @@ class SumOfUniform {
     std::size_t count_ = 0;
 };
 
-double volume_of_children(const mobb::Tree& tree, int node) {
-    const auto [first, last] = tree.children(node);
-    // Only blocks have children between these two.
-    double sum = 0;
-    for (int child = first; child >= 0 && child <= last; child = tree.blocks() || child == last ? child + 1 : last)
-        sum += mobb::volume(tree.box(child), tree.time_scale());
-    return sum;
-}
-
 }  // namespace
 
 double floor_area(const mobb::Box& box) {
@@ -105,7 +96,10 @@ NodeValues::NodeValues(std::shared_ptr<const mobb::Tree> tree, std::span<const d
         of(NodeField::volume)[at] = volume;
         // A box around one sample may be as large as its cylinder, and differ by rounding.
         of(NodeField::empty)[at] = std::max(0.0, volume - filled);
-        of(NodeField::waste)[at] = volume - (tree_->is_leaf(i) ? filled : volume_of_children(*tree_, i));
+        of(NodeField::waste)[at] = tree_->is_leaf(i) ? volume - filled : volume;
+        // Parents come before their children.
+        if (const int parent = tree_->parent(i); parent >= 0)
+            of(NodeField::waste)[static_cast<std::size_t>(parent)] -= volume;
         if (volume > 0) of(NodeField::fill)[at] = filled / volume;
         of(NodeField::floor)[at] = floor_area(box);
         // The last sample of a linear clip takes no time, so its box has no volume.

@@ -1,15 +1,13 @@
 // Named views: saved, gone to, renamed and removed, with a small picture of each.
-#include <app/script/script.h>
 #include <app/window/headless_window.h>
 #include <render/gl/gl_context.h>
 
-#include "app/crossing_folder.h"
+#include "app/crossing_window.h"
 
 #include <gtest/gtest.h>
 
 #include <optional>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -17,23 +15,7 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::CrossingFolder;
-
-struct ViewsWindow {
-    CrossingFolder folder;
-    Session session{false};
-    HeadlessWindow window{GlContext::open(Backend::automatic), session, {1600, 1000}, 1};
-
-    ViewsWindow() {
-        session.files.open({folder.scene});
-        window.settle();
-    }
-    void run(const std::string& script) {
-        std::ostringstream out;
-        Script::parse(script, "test").run(session, window, out);
-        window.settle();
-    }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
+struct ViewsWindow : testing::CrossingWindow {
     const ViewState& view() const { return session.workspace.view(); }
     std::string names() const {
         std::string out;

@@ -1,16 +1,14 @@
 // From node to node of a tree by keys and links, a node alone, and the boxes above it.
-#include <app/script/script.h>
 #include <app/window/headless_window.h>
 #include <render/gl/gl_context.h>
 #include <render/parts/node_boxes.h>
 
-#include "app/crossing_folder.h"
+#include "app/crossing_window.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -18,23 +16,8 @@ namespace mobbscope::app {
 namespace {
 
 using testing::all_messages;
-using testing::CrossingFolder;
 
-struct TreeWindow {
-    CrossingFolder folder;
-    Session session{false};
-    HeadlessWindow window{GlContext::open(Backend::automatic), session, {1600, 1000}, 1};
-
-    TreeWindow() {
-        session.files.open({folder.scene});
-        window.settle();
-    }
-    void run(const std::string& script) {
-        std::ostringstream out;
-        Script::parse(script, "test").run(session, window, out);
-        window.settle();
-    }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
+struct TreeWindow : testing::CrossingWindow {
     const DrawList& shown() { return *window.shell().shown(); }
     const mobb::Tree& tree() const { return session.workspace.fitted().tree(0); }
     /// "1.1"

@@ -1,14 +1,12 @@
 // The window tries others in place of a selected node, and shows them in the picture; the tree stays as it is.
-#include <app/script/script.h>
 #include <app/window/headless_window.h>
 #include <render/gl/gl_context.h>
 
-#include "app/crossing_folder.h"
+#include "app/crossing_window.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,22 +14,7 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::CrossingFolder;
-
-struct WhatIfWindow {
-    CrossingFolder folder;
-    Session session{false};
-    HeadlessWindow window{GlContext::open(Backend::automatic), session, {1600, 1000}, 1};
-
-    WhatIfWindow() {
-        session.files.open({folder.scene});
-        window.settle();
-    }
-    void run(const std::string& script) {
-        std::ostringstream out;
-        Script::parse(script, "test").run(session, window, out);
-        window.settle();
-    }
+struct WhatIfWindow : testing::CrossingWindow {
     void unfold() {
         window.shell().feed(MouseMove{window.shell().marks().all().at("section.what if").center()});
         for (const bool down : {true, false}) {
@@ -40,7 +23,6 @@ struct WhatIfWindow {
         }
     }
     std::string_view why_not() const { return app::why_not(session, command_named("tree.what_if")); }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
     std::vector<HighlightLine> ghosts() {
         std::vector<HighlightLine> out = window.shell().shown()->highlights;
         std::erase_if(out, [](const HighlightLine& line) { return line.role != HighlightLine::Role::ghost; });
