@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -60,6 +61,25 @@ void write_files(std::span<const FileBytes> files);
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 /// Of work: it is on the disk then, whatever becomes of the machine.
 void write_to_disk(const std::filesystem::path& file, std::string_view bytes);
+
+/// A file that another program writes: it stands in its place, as if write_file had written it, once that is done; else
+/// nothing is left of it. `file` may not be a pipe or a device.
+class NewFile {
+  public:
+    /// Throws as write_file does.
+    explicit NewFile(const std::filesystem::path& file);
+    ~NewFile();
+    NewFile(const NewFile&) = delete;
+    NewFile& operator=(const NewFile&) = delete;
+
+    /// Open for writing.
+    int descriptor() const;
+    /// Once. Returns how many bytes it has. Throws MachineError.
+    std::size_t take_place();
+
+  private:
+    std::unique_ptr<class UnfinishedFile> file_;
+};
 
 /// Removes the unfinished files of this process: for the handler of a signal that ends it.
 void remove_unfinished_files() noexcept;

@@ -71,6 +71,8 @@ std::optional<fs::path> name_when_read(const fs::path& file) {
 
 // --- names of unfinished files
 
+}  // namespace
+
 /// A name for a signal handler, which may neither allocate nor lock.
 struct NameSlot {
     enum State : int { empty, changing, full };
@@ -79,6 +81,8 @@ struct NameSlot {
     std::array<char, PATH_MAX> name{};
 };
 static_assert(std::atomic<int>::is_always_lock_free);
+
+namespace {
 
 constinit std::array<NameSlot, 16> slots;
 
@@ -95,6 +99,8 @@ NameSlot* put_in_slot(const std::string& name) {
     }
     return nullptr;
 }
+
+}  // namespace
 
 /// A name that no file in the folder has. What has it is removed with this, unless it took another name.
 class UnfinishedName {
@@ -145,6 +151,8 @@ class UnfinishedName {
     NameSlot* slot_ = nullptr;
     int error_ = 0;
 };
+
+namespace {
 
 bool is_unfinished_name(std::string_view name) {
     if (!name.starts_with(kUnfinished)) return false;
@@ -224,9 +232,9 @@ void write_stream(const FileBytes& wanted) {
 }
 
 /// The owner, and the rights of those that open the file; not those of its process, which set-user-id bits give.
-void keep_owner_and_rights(int descriptor, const FileBytes& wanted, const struct stat& replaced) {
+void keep_owner_and_rights(int descriptor, const fs::path& file, const struct stat& replaced) {
     struct stat present {};
-    if (::fstat(descriptor, &present) != 0) throw unwritable(wanted.file, errno);
+    if (::fstat(descriptor, &present) != 0) throw unwritable(file, errno);
     const bool same_owner = replaced.st_uid == present.st_uid && replaced.st_gid == present.st_gid;
     // Whoever may not give files away may still give them to a group.
     const bool kept_group = same_owner || ::fchown(descriptor, replaced.st_uid, replaced.st_gid) == 0 ||
@@ -234,25 +242,36 @@ void keep_owner_and_rights(int descriptor, const FileBytes& wanted, const struct
     mode_t mode = replaced.st_mode & 0777;
     // Another group gets no more than everybody.
     if (!kept_group) mode &= ~static_cast<mode_t>(070) | (mode & 07) << 3;
-    if (mode != (present.st_mode & 07777) && ::fchmod(descriptor, mode) != 0) throw unwritable(wanted.file, errno);
+    if (mode != (present.st_mode & 07777) && ::fchmod(descriptor, mode) != 0) throw unwritable(file, errno);
 }
+
+bool is_stream(const fs::path& file) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(file, ignored);
+    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+}  // namespace
 
 /// A file that is written and does not yet stand where it is wanted.
 class UnfinishedFile {
   public:
-    explicit UnfinishedFile(const FileBytes& wanted)
-        : file_(wanted.file), target_(meant(wanted.file)), to_disk_(wanted.to_disk) {
-        struct stat replaced {};
-        replaces_ = ::stat(target_.c_str(), &replaced) == 0;
+    UnfinishedFile(const fs::path& file, bool to_disk) : file_(file), target_(meant(file)), to_disk_(to_disk) {
+        replaces_ = ::stat(target_.c_str(), &replaced_) == 0;
         if (!replaces_ && errno != ENOENT) throw unwritable(file_, errno);
-        if (replaces_ && S_ISDIR(replaced.st_mode)) throw unwritable(file_, "is a folder");
+        if (replaces_ && S_ISDIR(replaced_.st_mode)) throw unwritable(file_, "is a folder");
         // Renaming asks for rights over the folder alone, so a protected file would be replaced too.
         if (replaces_ && ::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0) throw unwritable(file_, errno);
         remove_left_behind(folder());
         open();
         ::flock(descriptor_.get(), LOCK_EX | LOCK_NB);  // see is_left_behind
-        write_all(descriptor_.get(), wanted);
-        if (replaces_) keep_owner_and_rights(descriptor_.get(), wanted, replaced);
+    }
+
+    int descriptor() const { return descriptor_.get(); }
+
+    /// All is written.
+    void complete() {
+        if (replaces_) keep_owner_and_rights(descriptor_.get(), file_, replaced_);
         // Else a loss of power after the renaming may leave an empty file in the place of the old one.
         if (is_synced() && ::fsync(descriptor_.get()) != 0 && errno != EINVAL) throw unwritable(file_, errno);
     }
@@ -312,19 +331,12 @@ class UnfinishedFile {
     fs::path target_;
     bool to_disk_;
     bool replaces_ = false;
+    struct stat replaced_ {};
     Descriptor descriptor_;
     std::optional<UnfinishedName> name_;
     Descriptor old_;
     bool swapped_ = false;
 };
-
-bool is_stream(const fs::path& file) {
-    std::error_code ignored;
-    const fs::file_status status = fs::status(file, ignored);
-    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
-}
-
-}  // namespace
 
 void note_read(const fs::path& file) {
     const auto present = identity(file);
@@ -372,7 +384,10 @@ void write_files(std::span<const FileBytes> files) {
     std::list<UnfinishedFile> unfinished;
     for (const FileBytes& wanted : files) {
         check_file_name(wanted.file);
-        if (!is_stream(wanted.file)) unfinished.emplace_back(wanted);
+        if (is_stream(wanted.file)) continue;
+        UnfinishedFile& file = unfinished.emplace_back(wanted.file, wanted.to_disk);
+        write_all(file.descriptor(), wanted);
+        file.complete();
     }
     for (const FileBytes& wanted : files) {
         if (is_stream(wanted.file)) write_stream(wanted);
@@ -396,6 +411,25 @@ void write_file(const fs::path& file, std::string_view bytes) {
 void write_to_disk(const fs::path& file, std::string_view bytes) {
     const FileBytes wanted{file, bytes, true};
     write_files({&wanted, 1});
+}
+
+NewFile::NewFile(const fs::path& file) {
+    check_file_name(file);
+    if (is_stream(file)) throw unwritable(file, "is a pipe or a device; give a file");
+    file_ = std::make_unique<UnfinishedFile>(file, false);
+}
+
+NewFile::~NewFile() = default;
+
+int NewFile::descriptor() const { return file_->descriptor(); }
+
+std::size_t NewFile::take_place() {
+    struct stat written {};
+    ::fstat(file_->descriptor(), &written);
+    file_->complete();
+    file_->name_it();
+    file_->take_place(false);
+    return static_cast<std::size_t>(written.st_size);
 }
 
 void remove_unfinished_files() noexcept {

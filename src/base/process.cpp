@@ -2,7 +2,9 @@
 #include <base/process.h>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -10,8 +12,11 @@
 
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
+#include <sstream>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -56,6 +61,17 @@ int error_told(const Descriptor& from) {
 
 }  // namespace
 
+std::optional<std::filesystem::path> program_in_path(std::string_view name) {
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path ? path : "");
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        std::filesystem::path file = std::filesystem::path(folder.empty() ? "." : folder) / name;
+        std::error_code ignored;
+        if (std::filesystem::is_regular_file(file, ignored) && ::access(file.c_str(), X_OK) == 0) return file;
+    }
+    return std::nullopt;
+}
+
 Connection Connection::make() {
     std::array<int, 2> ends{};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
@@ -72,10 +88,16 @@ bool read_some(const Descriptor& from, std::string& bytes) {
     return size > 0;
 }
 
-bool send_all(const Descriptor& to, std::string_view bytes) {
+bool send_all(const Descriptor& to, std::string_view bytes, std::optional<double> patience) {
+    const int flags = MSG_NOSIGNAL | (patience ? MSG_DONTWAIT : 0);
     while (!bytes.empty()) {
-        const ssize_t size = ::send(to.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+        const ssize_t size = ::send(to.get(), bytes.data(), bytes.size(), flags);
         if (size < 0 && errno == EINTR) continue;
+        if (size < 0 && patience && (errno == EAGAIN || errno == EWOULDBLOCK)) {
+            pollfd room{to.get(), POLLOUT, 0};
+            const int found = ::poll(&room, 1, static_cast<int>(*patience * 1000));
+            if (found > 0 || (found < 0 && errno == EINTR)) continue;
+        }
         if (size < 0) return false;
         bytes.remove_prefix(static_cast<std::size_t>(size));
     }
@@ -83,6 +105,19 @@ bool send_all(const Descriptor& to, std::string_view bytes) {
 }
 
 void send_end(const Descriptor& to) { ::shutdown(to.get(), SHUT_WR); }
+
+Descriptor memory_file() {
+    Descriptor out(::memfd_create("mobbscope", MFD_CLOEXEC));
+    if (!out.is_open()) throw MachineError(std::string("no file in memory can be made: ") + std::strerror(errno));
+    return out;
+}
+
+std::string beginning_of(const Descriptor& file, std::size_t most) {
+    std::string out(most, '\0');
+    const ssize_t size = ::pread(file.get(), out.data(), most, 0);
+    out.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+    return out;
+}
 
 Process::Process(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                  const Streams& streams) {

@@ -6,6 +6,7 @@
 #include <sys/types.h>
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -13,6 +14,9 @@
 #include <vector>
 
 namespace mobbscope {
+
+/// The program that a shell would start by that name; nothing if PATH has none.
+std::optional<std::filesystem::path> program_in_path(std::string_view name);
 
 /// Both ways, between two ends, neither of which a program that is started gets by itself.
 struct Connection {
@@ -24,10 +28,16 @@ struct Connection {
 /// Appends some of what has come to the end of a Connection, and waits for nothing; false where no more will come.
 bool read_some(const Descriptor& from, std::string& bytes);
 
-/// Sends all to the end of a Connection; false, and no signal, if the reader has gone.
-bool send_all(const Descriptor& to, std::string_view bytes);
+/// Sends all to the end of a Connection; false, and no signal, if the reader has gone, or takes nothing for so many
+/// seconds.
+bool send_all(const Descriptor& to, std::string_view bytes, std::optional<double> patience = {});
 /// No more will be sent.
 void send_end(const Descriptor& to);
+
+/// A file without a name, in memory, for what a program says. Throws MachineError.
+Descriptor memory_file();
+/// At most so many bytes of its beginning.
+std::string beginning_of(const Descriptor& file, std::size_t most);
 
 /// A program at work. It is killed when this ends, when the thread that started it does, and with this program, however
 /// that ends.

@@ -253,13 +253,13 @@ void add_drawing_options(Command& command, DrawingArguments& drawing) {
                "OpenGL without a display: auto, osmesa or egl", "NAME");
 }
 
-Progress tell(const std::string& doing, const std::string& things) {
+Progress tell(const std::string& doing, const std::string& things, std::optional<std::chrono::milliseconds> pause) {
     using Clock = std::chrono::steady_clock;
     const auto said = std::make_shared<Clock::time_point>(Clock::now());
     // A script's log stays short, and yet shows that something is done.
-    const std::chrono::seconds pause(::isatty(STDERR_FILENO) == 1 ? 2 : 8);
+    const std::chrono::milliseconds usual(::isatty(STDERR_FILENO) == 1 ? 2000 : 8000);
     return [=](std::size_t done, std::size_t all) {
-        if (Clock::now() - *said < pause) return;
+        if (Clock::now() - *said < pause.value_or(usual)) return;
         *said = Clock::now();
         say(doing + ' ' + std::to_string(done) + " of " + std::to_string(all) + ' ' + things);
     };

@@ -8,6 +8,7 @@
 #include <render/image/image.h>
 #include <scene/fitted_scene.h>
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -114,8 +115,8 @@ void add_drawing_options(Command& command, DrawingArguments& drawing);
 /// Which clips the radius of the import options is for.
 enum class RadiusOf { imported_clips, every_clip };
 
-/// Tells how far the work is: a person every 2 s, a script every 8 s.
-Progress tell(const std::string& doing, const std::string& things);
+/// Tells how far the work is, after each pause: a person's is 2 s, a script's 8 s.
+Progress tell(const std::string& doing, const std::string& things, std::optional<std::chrono::milliseconds> pause = {});
 
 /// load_scene, with its warnings on standard error. Throws InputError.
 Scene load(const std::filesystem::path& file, const ImportOptions& options, RadiusOf radius = RadiusOf::imported_clips);

@@ -3,6 +3,7 @@
 #include <base/text.h>
 #include <cli/program.h>
 #include <cli/render_outputs.h>
+#include <render/image/picture_names.h>
 
 #include <algorithm>
 #include <system_error>
@@ -38,14 +39,16 @@ std::vector<fs::path> RenderOutputs::all() const {
 
 void check_names(const RenderOutputs& outputs) {
     if (!outputs.image.empty()) check_file_name(outputs.image);
-    check_picture_output(outputs.image);
+    const bool is_named = outputs.image.empty() || is_picture_name(outputs.image) || is_film_name(outputs.image);
+    if (!is_named) throw InputError(outputs.image, std::string(kPictureAndFilmNames));
     check_name(outputs.ids, ".png", "object ids");
     check_name(outputs.draw_list, ".json", "draw lists");
 }
 
 RenderOutputs numbered(const RenderOutputs& outputs, int number, int digits) {
-    return {numbered(outputs.image, number, digits), numbered(outputs.ids, number, digits),
-            numbered(outputs.draw_list, number, digits)};
+    // A film has all of its pictures.
+    const fs::path image = is_film_name(outputs.image) ? fs::path() : numbered(outputs.image, number, digits);
+    return {image, numbered(outputs.ids, number, digits), numbered(outputs.draw_list, number, digits)};
 }
 
 void OutputCheck::writes(const RenderOutputs& outputs) {

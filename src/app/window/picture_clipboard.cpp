@@ -2,17 +2,13 @@
 #include <base/error.h>
 #include <base/process.h>
 
-#include <unistd.h>
-
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -45,22 +41,10 @@ bool has_its_display(const ClipboardProgram& program) {
     return display && *display != '\0';
 }
 
-/// Where a program is; empty: nowhere in PATH.
-std::string found_in_path(const char* name) {
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path ? path : "");
-    for (std::string folder; std::getline(folders, folder, ':');) {
-        std::string file = (folder.empty() ? "." : folder) + '/' + name;
-        std::error_code ignored;
-        if (std::filesystem::is_regular_file(file, ignored) && ::access(file.c_str(), X_OK) == 0) return file;
-    }
-    return {};
-}
-
 /// The first that is there and has a display; null: none.
 const ClipboardProgram* usable_program() {
     for (const ClipboardProgram& program : clipboard_programs()) {
-        if (has_its_display(program) && !found_in_path(program.name).empty()) return &program;
+        if (has_its_display(program) && program_in_path(program.name)) return &program;
     }
     return nullptr;
 }
@@ -108,7 +92,7 @@ void copy_picture_to_clipboard(std::string_view png) {
     std::optional<Process> process;
     try {
         // It stays in the background when this program is gone, and must not hold its terminal.
-        process.emplace(found_in_path(program->name), arguments, Process::Streams{.in = ::fileno(picture.get())});
+        process.emplace(*program_in_path(program->name), arguments, Process::Streams{.in = ::fileno(picture.get())});
     } catch (const MachineError& error) {
         refuse_copy(*program, error.what());
     }

@@ -101,7 +101,7 @@ RenderArguments parsed(std::vector<std::string> words, RenderArguments arguments
 
 }  // namespace
 
-void render_batch(const std::filesystem::path& list, const RenderArguments& defaults) {
+void render_batch(const std::filesystem::path& list, const RenderArguments& defaults, bool progress) {
     const std::string name = list == "-" ? "standard input" : list.string();
     if (defaults.outputs.any()) {
         throw InputError("--batch: each line names its own outputs; leave out -o, --ids and --draw-list");
@@ -109,11 +109,11 @@ void render_batch(const std::filesystem::path& list, const RenderArguments& defa
     RenderArguments of_line = defaults;
     of_line.backend.reset();
     const std::vector<BatchLine> lines = lines_of(list_text(list), name);
-    RenderPlan plan;
+    RenderPlan plan(progress);
     for (const BatchLine& line : lines) at_line(name, line.number, [&] { plan.add(parsed(line.words, of_line)); });
     OutputCheck outputs;
     for (std::size_t i = 0; i < lines.size(); ++i) {
-        at_line(name, lines[i].number, [&] { RenderPlan::check_outputs(plan.jobs()[i], outputs); });
+        at_line(name, lines[i].number, [&] { plan.check_outputs(i, outputs); });
     }
     plan.draw(defaults.backend.value_or(Backend::automatic));
 }

@@ -22,6 +22,7 @@ struct RenderCommandArguments {
     std::filesystem::path batch;
     bool list_backends = false;
     bool json = false;
+    bool progress = false;
 };
 
 void print_words(const std::vector<BackendReport>& backends) {
@@ -58,11 +59,11 @@ void list_backends(bool json) {
     if (!any) throw MachineError("no OpenGL 3.3 context without a display; see above which libraries were tried");
 }
 
-void render_one(const RenderArguments& arguments) {
-    RenderPlan plan;
+void render_one(const RenderArguments& arguments, bool progress) {
+    RenderPlan plan(progress);
     plan.add(arguments);
     OutputCheck outputs;
-    RenderPlan::check_outputs(plan.jobs().front(), outputs);
+    plan.check_outputs(0, outputs);
     plan.draw(arguments.backend.value_or(Backend::automatic));
 }
 
@@ -71,11 +72,11 @@ void run_render(const Command& command, const RenderCommandArguments& arguments)
     if (arguments.list_backends) {
         list_backends(arguments.json);
     } else if (!arguments.batch.empty()) {
-        render_batch(arguments.batch, arguments.render);
+        render_batch(arguments.batch, arguments.render, arguments.progress);
     } else if (is_case(arguments.render.file)) {
         render_case(command, arguments.render);
     } else {
-        render_one(arguments.render);
+        render_one(arguments.render, arguments.progress);
     }
 }
 
@@ -87,6 +88,10 @@ void add_options_of_render(Command& command, RenderCommandArguments& arguments) 
                     "A text file with the arguments of one picture a line; - is standard input. Options beside it hold "
                     "for every line",
                     "LIST")
+        .group(kGroup);
+    command
+        .add_flag("--progress", arguments.progress,
+                  "Say several times a second how many pictures are drawn, for a program that waits")
         .group(kGroup);
     command.add_flag("--list-backends", arguments.list_backends, "Say what this machine can draw with, and stop");
     command.add_flag("--json", arguments.json, "With --list-backends: as JSON");

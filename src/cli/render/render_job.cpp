@@ -30,10 +30,18 @@ namespace mobbscope::cli {
 
 namespace {
 
-/// For who waits: a script hears of a single large picture only, as its pictures show how far it is.
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kOften{200};
+
+/// For who waits: a script hears of films and of a single large picture only, as its pictures show how far it is.
 class Patience {
   public:
-    explicit Patience(std::size_t all) : all_(all) {}
+    Patience(std::size_t all, bool films, bool often) : all_(all) {
+        const bool watched = ::isatty(STDERR_FILENO) == 1;
+        pause_ = often ? kOften : watched ? std::chrono::seconds(4) : std::chrono::seconds(8);
+        silent_ = !often && !watched && !films;
+    }
 
     /// Of many disks a single picture takes long.
     void begins(const DrawList& list) const {
@@ -44,17 +52,16 @@ class Patience {
 
     void one_more() {
         ++done_;
-        constexpr std::chrono::seconds kPause{4};
-        if (done_ == all_ || !watched_ || Clock::now() - said_ < kPause) return;
+        if (done_ == all_ || silent_ || Clock::now() - said_ < pause_) return;
         said_ = Clock::now();
-        complain(std::to_string(done_) + " of " + std::to_string(all_) + " pictures are written");
+        say("drew " + std::to_string(done_) + " of " + std::to_string(all_) + " pictures");
     }
 
   private:
-    using Clock = std::chrono::steady_clock;
     std::size_t all_;
     std::size_t done_ = 0;
-    bool watched_ = ::isatty(STDERR_FILENO) == 1;
+    std::chrono::milliseconds pause_;
+    bool silent_;
     Clock::time_point said_ = Clock::now();
 };
 
@@ -86,8 +93,9 @@ void check_selection(const RenderJob& job) {
     throw InputError(job.arguments.file, "--select: " + why_not);
 }
 
-/// `renderer`: null where nothing of it needs OpenGL.
-void draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* renderer, const Patience& patience) {
+/// `renderer`: null where nothing of it needs OpenGL; `film`: that the picture is of, null: none.
+void draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* renderer, Film* film,
+                const Patience& patience) {
     const RenderOutputs& outputs = picture.outputs;
     if (!picture.list) picture.list = build_draw_list(*job.paths, picture.view, job.arguments.picture);
     DrawList list = *std::exchange(picture.list, {});
@@ -103,6 +111,7 @@ void draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* renderer
         const PictureOptions& options = job.arguments.picture;
         add_measure(list, *job.arguments.measure, metrics_of(options.size, options.scale), picture.view.labels);
     }
+    if (film) film->add(renderer->draw(list, job.arguments.picture.samples));
     std::string image, ids, text;
     std::vector<FileBytes> files;
     if (!outputs.image.empty()) {
@@ -123,6 +132,14 @@ void draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* renderer
         files.push_back({outputs.draw_list, text});
     }
     write_files(files);
+}
+
+/// What came of a film: "walk.mp4: 789 pictures, 26.3 s at 30 per second, 1280x720, 1.2 MB".
+std::string film_report(const RenderJob& job, double rate, std::size_t bytes) {
+    const std::size_t count = job.pictures.size();
+    return job.arguments.outputs.image.string() + ": " + counted(count, "picture", "pictures") + ", " +
+           brief(static_cast<double>(count) / rate) + " s at " + brief(rate) + " per second, " +
+           size_word(job.arguments.picture.size) + ", " + bytes_text(bytes);
 }
 
 /// Whether --follow says where the camera is: it does unless there is a target.
@@ -180,6 +197,7 @@ std::shared_ptr<KeptPaths> SceneStore::paths(const RenderArguments& arguments) {
 
 void RenderPlan::add(RenderArguments arguments) {
     check_names(arguments.outputs);
+    if (arguments.is_film()) arguments.picture.size = film_size(arguments.picture.size);
     check_together(arguments);
     if (is_case(arguments.file)) throw InputError(arguments.file, "a case is drawn alone, not in a batch");
     RenderJob job{std::move(arguments), nullptr, {}};
@@ -205,7 +223,8 @@ void RenderPlan::check_and_frame(RenderJob& job) {
     const bool turns_about_all = turns && !near && !job.pictures.front().view.camera.target;
     std::optional<Camera> camera;  // of all pictures, so that none jumps
     if (turns_about_all) camera = turning_camera(*job.paths, job.pictures.front().view, job.arguments.picture.size);
-    const Progress progress = tell("planned", "pictures");
+    const Progress progress =
+        tell("planned", "pictures", progress_ ? std::optional<std::chrono::milliseconds>(kOften) : std::nullopt);
     std::size_t planned = 0;
     for (RenderPicture& picture : job.pictures) {
         progress(planned++, job.pictures.size());
@@ -239,8 +258,17 @@ void RenderPlan::note_glyphs(const DrawList& list) {
     }
 }
 
-void RenderPlan::check_outputs(const RenderJob& job, OutputCheck& outputs) {
+void RenderPlan::check_outputs(std::size_t job_index, OutputCheck& outputs) {
+    RenderJob& job = jobs_.at(job_index);
     for (const RenderPicture& picture : job.pictures) outputs.writes(picture.outputs);
+    if (!job.arguments.is_film()) return;
+    const std::filesystem::path& film = job.arguments.outputs.image;
+    RenderOutputs only_film;
+    only_film.image = film;
+    outputs.writes(only_film);
+    const auto known = film_makers_.find(lower_extension(film));
+    job.film_maker = known != film_makers_.end() ? known->second : find_film_maker(film);
+    film_makers_.insert({lower_extension(film), *job.film_maker});
 }
 
 void RenderPlan::draw(Backend backend) {
@@ -250,24 +278,32 @@ void RenderPlan::draw(Backend backend) {
     }
     std::optional<Renderer> renderer;
     std::size_t all = 0;
+    bool films = false;
     for (const RenderJob& job : jobs_) {
         all += job.pictures.size();
+        films = films || job.film_maker;
         if (!needs_renderer(job)) continue;
         if (!renderer) renderer.emplace(backend);
         renderer->check_samples(job.arguments.picture.samples);
     }
-    Patience patience(all);
+    Patience patience(all, films, progress_);
     for (RenderJob& job : jobs_) {
+        // Once the renderer is there: who watches over it forks, and a child has no other threads.
+        std::optional<Film> film;
+        const double rate = film_rate(job.pictures.front().view, job.arguments.sequence);
+        if (job.film_maker)
+            film.emplace(*job.film_maker, job.arguments.outputs.image, job.arguments.picture.size, rate);
         for (RenderPicture& picture : job.pictures) {
             if (job.arguments.ui) {
                 write_png(picture.outputs.image, picture_tests::window_picture(
                                                      *job.paths->fitted(), picture.view, job.arguments.file, backend,
                                                      job.arguments.picture.size, job.arguments.ui_scale.value_or(1)));
             } else {
-                draw_scene(job, picture, renderer ? &*renderer : nullptr, patience);
+                draw_scene(job, picture, renderer ? &*renderer : nullptr, film ? &*film : nullptr, patience);
             }
             patience.one_more();
         }
+        if (film) say(film_report(job, rate, film->finish()));
     }
 }
 
@@ -286,7 +322,7 @@ void render_case(const Command& command, const RenderArguments& arguments) {
         throw InputError(arguments.outputs.image,
                          "is the golden of this case; mobbscope test --update takes it, or give another output");
     }
-    if (is_vector_name(arguments.outputs.image))
+    if (lower_extension(arguments.outputs.image) != ".png")
         throw InputError(arguments.outputs.image, "the picture of a case is written as .png; rename the output");
     picture_tests::PictureMaker maker(arguments.backend.value_or(Backend::automatic));
     write_png(arguments.outputs.image, maker.make(drawn.shot));

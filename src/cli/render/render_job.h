@@ -3,14 +3,16 @@
 
 #include <cli/render/render_options.h>
 #include <render/drawlist/draw_list.h>
+#include <render/image/film.h>
 #include <render/pictures/kept_paths.h>
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
-#include <span>
+#include <string>
 #include <vector>
 
 namespace mobbscope::cli {
@@ -47,24 +49,30 @@ inline constexpr int kMostPictures = 100'000;
 /// std::invalid_argument if the scene lacks what the view names.
 std::vector<RenderPicture> pictures_of(KeptPaths& kept, const ViewState& view, const RenderArguments& arguments);
 
+/// Pictures a second of a film of that view's pictures.
+double film_rate(const ViewState& view, const SequenceArguments& asked);
+
 struct RenderJob {
     RenderArguments arguments;
     std::shared_ptr<KeptPaths> paths;
     std::vector<RenderPicture> pictures;
+    std::optional<FilmMaker> film_maker{};  ///< of a film, once the outputs are checked
 };
 
 /// Plans jobs, and remembers what their pictures have in common.
 class RenderPlan {
   public:
+    /// `progress`: says often how far it is.
+    explicit RenderPlan(bool progress) : progress_(progress) {}
+
     /// Throws InputError unless every picture of the job can be drawn.
     void add(RenderArguments arguments);
 
-    std::span<const RenderJob> jobs() const { return jobs_; }
+    /// Throws as OutputCheck::writes does for the files of one job, and as find_film_maker does for its film; `outputs`
+    /// is the plan's.
+    void check_outputs(std::size_t job, OutputCheck& outputs);
 
-    /// Throws as OutputCheck::writes does for the files of one job; `outputs` is the plan's.
-    static void check_outputs(const RenderJob& job, OutputCheck& outputs);
-
-    /// Draws and writes all pictures, once. Throws MachineError; pictures before that are whole.
+    /// Draws and writes all pictures, once. Throws MachineError; pictures and films before that are whole.
     void draw(Backend backend);
 
   private:
@@ -72,10 +80,12 @@ class RenderPlan {
     void note_glyphs(const DrawList& list);
     void keep(RenderPicture& picture, DrawList list);
 
+    bool progress_;
     SceneStore scenes_;
     std::vector<RenderJob> jobs_;
-    std::set<char32_t> missing_glyphs_;  ///< that the fonts of pictures lack
-    std::size_t kept_ = 0;               ///< disks, boxes and lines of the lists that are kept
+    std::map<std::string, FilmMaker> film_makers_;  ///< by the extension of the films
+    std::set<char32_t> missing_glyphs_;             ///< that the fonts of pictures lack
+    std::size_t kept_ = 0;                          ///< disks, boxes and lines of the lists that are kept
 };
 
 /// Many pictures at once: draws all of a list of what `render` takes, one picture or sequence a line; "-" is standard
@@ -87,7 +97,7 @@ class RenderPlan {
 ///
 /// Names are relative to the working directory. `defaults` hold for every line that does not say otherwise. Nothing is
 /// written unless every line can be drawn. Throws InputError and MachineError naming the line.
-void render_batch(const std::filesystem::path& list, const RenderArguments& defaults);
+void render_batch(const std::filesystem::path& list, const RenderArguments& defaults, bool progress);
 
 /// By the file's name.
 bool is_case(const std::filesystem::path& file);

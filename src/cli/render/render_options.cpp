@@ -177,10 +177,10 @@ void add_sequence_options(Command& command, SequenceArguments& sequence) {
                    "Pictures A to B of the motion, or with a query its steps A to B", "A:B"),
         command.add_flag("--play", sequence.play, "All pictures of the motion, or with a query all its steps"),
         add_parsed(command, "--rate", sequence.rate, number_within(1 / kMostRate, kMostRate),
-                   "Pictures per second of the motion (30)", "FPS"),
+                   "Pictures per second of the motion (30); of a film of a query's steps 10, else 30", "FPS"),
         add_parsed(command, "--turntable", sequence.turntable, parse_turntable, "N pictures once around the scene",
                    "N")};
-    for (Option& option : added) option.group("Numbered pictures (OUT_0000.png, ...)");
+    for (Option& option : added) option.group("Numbered pictures (OUT_0000.png, ...), or a film");
 }
 
 [[noreturn]] void contradict(const std::string& a, const std::string& b, const std::string& why) {
@@ -210,16 +210,28 @@ void check_camera(const ViewArguments& view) {
 
 void check_sequence(const RenderArguments& arguments) {
     const SequenceArguments& sequence = arguments.sequence;
-    const std::string kind = sequence.turntable ? "--turntable" : sequence.play ? "--play" : "--frames";
+    const std::string kind = sequence.option();
     if (sequence.frames && sequence.play) contradict("--frames", "--play", "--play takes all of them; leave one out");
     if (sequence.turntable && (sequence.frames || sequence.play)) {
         contradict("--turntable", sequence.play ? "--play" : "--frames",
                    "pictures go around the scene or on in time; leave one out");
     }
-    if (sequence.rate && !sequence.frames && !sequence.play) {
+    if (sequence.rate && !sequence.frames && !sequence.play && !arguments.is_film()) {
         throw InputError("--rate: it is of pictures that go on in time; add --play or --frames");
     }
     if (arguments.ui && sequence.any()) contradict("--ui", kind, "a script runs the window; see mobbscope --help");
+}
+
+void check_film(const RenderArguments& arguments) {
+    if (!arguments.is_film()) return;
+    const std::filesystem::path& film = arguments.outputs.image;
+    if (!arguments.sequence.any()) {
+        throw InputError(film,
+                         "a film is made of many pictures: add --play, --frames A:B or --turntable N, or name a .png");
+    }
+    if (arguments.picture.background.value_or(Rgba(1)).a < 1) {
+        throw InputError(film, "films are not seen through; leave out --background, or give a colour without alpha");
+    }
 }
 
 /// What a picture of the whole window has in its own way.
@@ -231,7 +243,7 @@ void check_window(const RenderArguments& arguments) {
     const auto refuse = [](const char* option) {
         contradict("--ui", option, "it is of the scene's picture, not the window's; leave one out");
     };
-    if (is_vector_name(arguments.outputs.image))
+    if (is_vector_name(arguments.outputs.image) || arguments.is_film())
         throw InputError(arguments.outputs.image, "the whole window is written as .png; rename the output");
     if (arguments.picture.background) refuse("--background");
     if (arguments.picture.samples != kPictureSamples) refuse("--samples");
@@ -313,7 +325,7 @@ Camera camera_over(Camera camera, const ViewArguments& arguments) {
 void add_render_options(Command& command, RenderArguments& arguments) {
     command.add_option("FILE", arguments.file, openable_files());
     add_parsed(command, "-o,--output", arguments.outputs.image, parse_file_name,
-               "The picture: .png, or for papers .svg or .pdf", "OUT.png");
+               "The picture: .png, or for papers .svg or .pdf; of several pictures the film: .mp4 or .webm", "OUT.png");
     add_parsed(command, "--ids", arguments.outputs.ids, parse_file_name, "What is in each pixel: object ids as colours",
                "OUT.png");
     add_parsed(command, "--draw-list", arguments.outputs.draw_list, parse_file_name,
@@ -374,6 +386,7 @@ void check_together(const RenderArguments& arguments) {
     }
     check_camera(view);
     check_sequence(arguments);
+    check_film(arguments);
 }
 
 ViewState view_over(const FittedScene& fitted, const ViewArguments& arguments) {

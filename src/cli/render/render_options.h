@@ -5,6 +5,7 @@
 #include <cli/render_outputs.h>
 #include <render/drawlist/picture_options.h>
 #include <render/gl/gl_context.h>
+#include <render/image/picture_names.h>
 #include <render/parts/highlights.h>
 #include <render/parts/measured_line.h>
 #include <scene/fitted_scene.h>
@@ -47,9 +48,11 @@ struct SequenceArguments {
     std::optional<std::pair<int, int>> frames;  ///< first and last
     bool play = false;
     std::optional<int> turntable;
-    std::optional<double> rate;  ///< pictures per second
+    std::optional<double> rate;  ///< pictures per second, of the motion and of a film
 
     bool any() const { return frames || play || turntable; }
+    /// The option that asks for them, if any does.
+    const char* option() const { return turntable ? "--turntable" : play ? "--play" : "--frames"; }
 };
 
 struct RenderArguments {
@@ -65,6 +68,9 @@ struct RenderArguments {
     std::optional<double> ui_scale;
     FitArguments fit;
     ImportOptions import_options;
+
+    /// Whether its pictures are one film.
+    bool is_film() const { return is_film_name(outputs.image); }
 };
 
 /// Adds them all, none of them required. `arguments` must live until the command has run; what it holds is the default.

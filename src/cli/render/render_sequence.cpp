@@ -17,6 +17,7 @@ namespace mobbscope::cli {
 namespace {
 
 constexpr double kUsualRate = 30;
+constexpr double kUsualRateOfSteps = 10;  // to be read as they pass
 constexpr int kLeastDigits = 4;
 
 /// How many there are, and what the view of each is.
@@ -75,18 +76,28 @@ Sequence motion(const FittedScene& fitted, const ViewState& view, double rate) {
     return {count, "the motion has " + brief(count) + " pictures at " + brief(rate) + " per second", at};
 }
 
+/// Whether its pictures are the steps of the view's query.
+bool shows_steps(const ViewState& view, const SequenceArguments& asked) {
+    return !asked.turntable && view.query && view.show == Show::space_time;
+}
+
 }  // namespace
+
+double film_rate(const ViewState& view, const SequenceArguments& asked) {
+    return asked.rate.value_or(shows_steps(view, asked) ? kUsualRateOfSteps : kUsualRate);
+}
 
 std::vector<RenderPicture> pictures_of(KeptPaths& kept, const ViewState& view, const RenderArguments& arguments) {
     const SequenceArguments& asked = arguments.sequence;
     if (!asked.any()) return {{view, arguments.outputs}};
-    const std::string option = asked.turntable ? "--turntable" : asked.play ? "--play" : "--frames";
+    const std::string option = asked.option();
     const auto contradict = [&](const char* other, const char* why) {
         throw InputError(option + " and " + other + " contradict each other: " + why + "; leave one out");
     };
-    const bool of_query = !asked.turntable && view.query && view.show == Show::space_time;
+    const bool of_query = shows_steps(view, asked);
     if (of_query && arguments.view.says("step")) contradict("--step", "the pictures are the query's steps");
-    if (of_query && asked.rate) contradict("--rate", "the pictures are a query's steps");
+    if (of_query && asked.rate && !arguments.is_film())
+        contradict("--rate", "the pictures are a query's steps; only a film of them has a rate");
     if (!asked.turntable && !of_query && arguments.view.says("time"))
         contradict("--time", "the pictures go through the time");
 

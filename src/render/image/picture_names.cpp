@@ -13,4 +13,8 @@ bool is_vector_name(const std::filesystem::path& file) {
     return is_picture_name(file) && lower_extension(file) != ".png";
 }
 
+bool is_film_name(const std::filesystem::path& file) {
+    return std::ranges::find(kFilmExtensions, lower_extension(file)) != kFilmExtensions.end();
+}
+
 }  // namespace mobbscope
