@@ -165,6 +165,22 @@ std::vector<Case> cases() {
              ASSERT_TRUE(std::filesystem::exists(w.folder.file("p.png")));
              EXPECT_EQ(w.maker.drawn->size, (PictureSize{800, 600})) << "the viewport's, whatever the dialog says";
          }});
+    look("file.export_film", "", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.dialogs.now, Dialog::export_picture);
+        EXPECT_EQ(w.session.dialogs.exporting.file, w.path("scene.mp4"));
+    });
+    const auto films = [&](const std::string& option, const std::string& text, const std::string& said) {
+        add({"picture." + option, text, {}, [said](CommandWorld& w) {
+                 const PictureOrder order =
+                     ordered_for("f.mp4", order_of_viewport(w.session.workspace, w.session.views), w.session.settings);
+                 const auto line = render_line(w.session.workspace, w.session.files, w.session.dialogs, order, "f.mp4");
+                 EXPECT_TRUE(line->ends_with(said + " -o f.mp4")) << *line;
+             }});
+    };
+    films("film", "turn", " --turntable 120");
+    films("rate", "12", " --play --rate 12");
+    look("picture.turntable", "60",
+         [](CommandWorld& w) { EXPECT_EQ(w.session.settings.picture_export.turntable, 60); });
     look("file.copy_picture", "", [](CommandWorld& w) {
         EXPECT_EQ(w.maker.drawn->size, (PictureSize{800, 600}));
         EXPECT_GT(w.desktop.picture_bytes, 100u);

@@ -313,5 +313,89 @@ TEST(PictureClipboard, AProgramOfTheDesktopTakesThePicture) {
     EXPECT_NE(why_no_picture_clipboard().find("without a display"), std::string_view::npos);
 }
 
+/// An export by a stand-in for ffmpeg, which keeps the pictures that it is given.
+class FilmExportTest : public ExportTest {
+  protected:
+    void SetUp() override {
+        ExportTest::SetUp();
+        if (IsSkipped()) return;
+        session.options.program = MOBBSCOPE_PROGRAM;
+        write_program(programs, "ffmpeg",
+                      "case \"$*\" in *-encoders*) echo ' V... libx264 x'; exit 0;; esac\n"
+                      "cat >'" +
+                          pictures() + "'\nprintf film\n");
+        run("run picture.size 320x240\nrun picture.rate 2");
+    }
+    std::string pictures() const { return programs.path() / "pictures"; }
+
+    /// The window's film, and then the line's, which `end` ends but for the output: of the same pictures.
+    void expect_the_line_films_the_same(const std::string& script, const std::string& end) {
+        SCOPED_TRACE(script);
+        run(script + "\nrun picture.write\nrun picture.copy_command");
+        EXPECT_EQ(slurp(film), "film") << all_messages(session);
+        std::filesystem::remove(film);
+        const std::string taken = slurp(pictures());
+        EXPECT_TRUE(copied.ends_with(end + " -o " + shell_word(film.string()))) << copied;
+        EXPECT_EQ(copied.find("--step"), std::string::npos) << copied;
+        const std::string line = shell_word(MOBBSCOPE_PROGRAM) + copied.substr(std::string("mobbscope").size());
+        ASSERT_EQ(std::system(line.c_str()), 0);
+        EXPECT_TRUE(slurp(pictures()) == taken);
+        EXPECT_EQ(slurp(film), "film");
+        std::filesystem::remove(film);
+    }
+
+    const TempFolder programs;
+    const std::filesystem::path film = folder.file("a film's.mp4");
+    const Environment path{"PATH", programs.path().string() + ':' + std::getenv("PATH")};
+};
+
+TEST_F(FilmExportTest, TheWindowAndTheLineFilmTheSame) {
+    run("run picture.file " + film.string());
+    expect_the_line_films_the_same("run picture.background transparent", " --size 320x240 --play --rate 2");
+    EXPECT_NE(all_messages(session).find("Wrote " + film.string() + ": "), std::string::npos) << all_messages(session);
+    EXPECT_NE(all_messages(session).find(" at 2 per second, 320x240, 4 B"), std::string::npos);
+    expect_the_line_films_the_same("run picture.film turn\nrun picture.turntable 3", " --turntable 3 --rate 2");
+    expect_the_line_films_the_same("run picture.film play\nrun query.select 0\nrun step.first\nrun step.to 7",
+                                   " --query 0 --size 320x240 --play --rate 2");
+    // Of a scene that no file holds.
+    run("run query.none\nrun go.agent A\nrun agent.nudge 1 0");
+    expect_the_line_films_the_same("", " --size 320x240 --play --rate 2");
+}
+
+TEST_F(FilmExportTest, TheDialogAsksForFilmsInItsOwnWay) {
+    run("run file.export_film\nexpect /dialog \"export_picture\"");
+    EXPECT_EQ(session.dialogs.input.text, folder.file("a picture's.mp4").string())
+        << "the name that was said, as a film";
+    run("click export.film.turn\nexpect /export/film \"turn\"\nclick export.rate.reset\nexpect /export/rate \"auto\"");
+    run("click export.turntable\nkey Ctrl+A\ntype 2\nkey Enter\nexpect /export/turntable \"2\"");
+    run("click export.path\nkey Ctrl+A\ntype mine\nkey Enter\nexpect /dialog \"none\"");
+    EXPECT_EQ(slurp(folder.file("mine.mp4")), "film") << all_messages(session);
+    run("run file.export_picture");
+    EXPECT_EQ(session.dialogs.input.text, "mine.png") << "and back";
+}
+
+TEST_F(FilmExportTest, WhatCannotBeIsSaidInOneLine) {
+    write_program(programs, "ffmpeg",
+                  "case \"$*\" in *-encoders*) echo ' V... libx264 x'; exit 0;; esac\necho 'no room' >&2\nexit 1\n");
+    run("run file.export_film " + film.string());
+    EXPECT_NE(all_messages(session).find("cannot be written: " + (programs.path() / "ffmpeg").string() +
+                                         " ended with status 1 (no room)"),
+              std::string::npos)
+        << all_messages(session);
+    EXPECT_NE(refusal(session, "file.export_film", folder.file("a.png").string()).find(".mp4 or .webm"),
+              std::string::npos);
+    EXPECT_NE(refusal(session, "picture.turntable", "0").find("1"), std::string::npos);
+    EXPECT_NE(refusal(session, "picture.rate", "0"), "");
+    EXPECT_NE(refusal(session, "picture.film", "back").find("give play or turn"), std::string::npos);
+    const Environment nothing("PATH", folder.scene.parent_path().string());
+    EXPECT_NE(refusal(session, "file.export_film", film.string()).find("films need ffmpeg, which is not in PATH"),
+              std::string::npos);
+    run("run file.export_film\nkey Enter");
+    EXPECT_EQ(session.dialogs.now, Dialog::export_picture) << "Export is disabled, and says why";
+    session.options.may_write = false;
+    EXPECT_NE(refusal(session, "file.export_film", film.string()), "");
+    EXPECT_FALSE(std::filesystem::exists(film));
+}
+
 }  // namespace
 }  // namespace mobbscope::app

@@ -1,8 +1,11 @@
 #include <app/commands/arguments.h>
 #include <app/commands/command.h>
+#include <app/commands/film_export.h>
 #include <app/commands/picture_order.h>
+#include <base/error.h>
 #include <base/file.h>
 #include <base/text.h>
+#include <render/image/picture_names.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -25,13 +28,19 @@ void name_file(Dialogs& dialogs, Workspace& workspace, Settings& settings) {
     dialog.opening = workspace.document().opening;
 }
 
-void open_export_dialog(Dialogs& dialogs, Workspace& workspace, Settings& settings) {
+void open_export_dialog(Dialogs& dialogs, Workspace& workspace, Settings& settings, bool film) {
+    ExportDialog& dialog = dialogs.exporting;
+    dialog.film = film;
     name_file(dialogs, workspace, settings);
-    const ExportDialog& dialog = dialogs.exporting;
+    const bool is_named_so = is_film_name(export_file(workspace, settings, dialogs)) == film;
+    if (!is_named_so)
+        dialog.file = std::filesystem::path(dialog.file).replace_extension(film ? ".mp4" : ".png").string();
     dialogs.open(Dialog::export_picture, {.text = dialog.file});
 }
 
+/// A film is written beside the window, which tells of it then.
 void write_and_tell(Session& session, const PictureOrder& order, const std::filesystem::path& file) {
+    if (is_film_name(file)) return start_film(session, ordered_for(file, order, session.settings), file);
     const std::size_t bytes = write_picture(session, order, file);
     session.notifications.tell(MessageLevel::info, "Wrote " + file.string() + " (" + size_text(order.options.size) +
                                                        ", " + bytes_text(bytes) + ")");
@@ -44,7 +53,8 @@ void copy_picture_of(Session& session, const PictureOrder& order) {
 }
 
 /// `shown`: the line stands in the dialog.
-void copy_line_of(Session& session, const PictureOrder& order, const std::string& output, bool shown) {
+void copy_line_of(Session& session, const PictureOrder& seen, const std::string& output, bool shown) {
+    const PictureOrder order = ordered_for(output, seen, session.settings);
     const bool has_file = render_line(session.workspace, session.files, session.dialogs, order, output).has_value();
     const std::string line = render_line_with_scene(session.workspace, session.files, session.dialogs, order, output);
     session.desktop->set_clipboard(line);
@@ -95,19 +105,31 @@ std::vector<Command> export_commands() {
                 "Writes the picture in the middle of the window to a PNG, SVG or PDF file; without a name a dialog "
                 "asks for more.",
                 [](Session& session, const std::string& file) {
-                    file.empty() ? open_export_dialog(session.dialogs, session.workspace, session.settings)
+                    file.empty() ? open_export_dialog(session.dialogs, session.workspace, session.settings, false)
                                  : write_and_tell(session, order_of_viewport(session.workspace, session.views), file);
                 },
                 {.shortcut = "Ctrl+E",
                  .argument = "[FILE.png]",
-                 .also = "screenshot snapshot image png svg pdf vector print figure paper render save video film movie "
-                         "record animation"}),
+                 .also = "screenshot snapshot image png svg pdf vector print figure paper render save"}),
+        Command("file.export_film", "Export film...",
+                "Writes a film of the motion, of the query's steps or around the scene to an MP4 or WebM file, while "
+                "the window goes on; without a name a dialog asks for more.",
+                [](Session& session, const std::string& file) {
+                    if (file.empty())
+                        return open_export_dialog(session.dialogs, session.workspace, session.settings, true);
+                    if (!is_film_name(file))
+                        throw InputError(file, "films are written as .mp4 or .webm; rename the output");
+                    write_and_tell(session, order_of_viewport(session.workspace, session.views), file);
+                },
+                {.argument = "[FILE.mp4]",
+                 .also = "video movie record recording animation animate mp4 webm gif mpeg turntable screencast render "
+                         "save capture"}),
         Command("file.copy_picture", "Copy picture", "Copies the picture in the middle of the window.",
                 [](Session& session) { copy_picture_of(session, order_of_viewport(session.workspace, session.views)); },
                 {.enabled = kHasPictureClipboard, .also = "screenshot snapshot image clipboard"}),
         Command("file.copy_command", "Copy as command",
-                "Copies the command line that draws this picture again without a window; with --play it draws all "
-                "frames of the motion, as for a film.",
+                "Copies the command line that draws this picture again without a window; with --play -o FILE.mp4 it "
+                "makes a film of the motion or the query's steps.",
                 [](Session& session) {
                     copy_line_of(session, order_of_viewport(session.workspace, session.views), "picture.png", false);
                 },

@@ -8,6 +8,7 @@
 #include <render/image/png.h>
 #include <render/pictures/build_draw_list.h>
 #include <render/pictures/kept_paths.h>
+#include <render/pictures/played.h>
 #include <scene/arrangement.h>
 #include <scene/drawn_agent.h>
 #include <scene/scene_edits.h>
@@ -129,6 +130,24 @@ std::string picture_options(const PictureOptions& options) {
     return out;
 }
 
+std::string film_options(const FilmOrder& film) {
+    std::string out = film.turns ? " --turntable " + std::to_string(film.turntable) : " --play";
+    if (film.rate > 0) out += " --rate " + format_double(film.rate);
+    return out;
+}
+
+/// What a film goes through is not said of its view.
+ViewState view_of(const PictureOrder& order, const ViewState& file) {
+    ViewState out = order.view;
+    if (!order.film || order.film->turns) return out;
+    if (plays_steps(out)) {
+        out.step = file.step;
+    } else {
+        out.time = file.time;
+    }
+    return out;
+}
+
 /// Whether the one file that was opened holds the scene.
 bool is_in_its_file(const Workspace& workspace, const Files& files) {
     const std::filesystem::path& file = workspace.scene().file;
@@ -149,12 +168,12 @@ struct SceneFile {
 /// The line that draws a file's scene as ordered; `fit`: the options of the fit, where they are not the file's.
 std::optional<std::string> render_line_of(const SceneFile& file, const std::string& fit, const PictureOrder& order,
                                           const std::string& output) {
-    const auto view = view_options_between(file.view, order.view, names_in_view(file.scene));
+    const auto view = view_options_between(file.view, view_of(order, file.view), names_in_view(file.scene));
     if (!view) return std::nullopt;
     const std::string select = order.select ? " --select " + shell_word(text_of(*order.select)) : "";
     const std::string measure = order.measure ? " --measure " + text_of(*order.measure) : "";
     return "mobbscope render " + shell_word(file.path.string()) + fit + *view + select + measure +
-           picture_options(order.options) + " -o " + shell_word(output);
+           picture_options(order.options) + (order.film ? film_options(*order.film) : "") + " -o " + shell_word(output);
 }
 
 /// A new file in a new folder, which nobody else can have.
@@ -217,6 +236,15 @@ PictureOrder order_to_export(const Settings& settings, const Workspace& workspac
     return out;
 }
 
+PictureOrder ordered_for(const std::filesystem::path& file, PictureOrder order, const Settings& settings) {
+    if (!is_film_name(file)) return order;
+    const PictureExport& wanted = settings.picture_export;
+    order.film = {wanted.film_turns, wanted.turntable, wanted.rate};
+    // Films are not seen through.
+    order.options.background.reset();
+    return order;
+}
+
 DrawList draw_list_of(const Workspace& workspace, const PictureOrder& order, std::shared_ptr<SceneFigures> figures) {
     check(order.options);
     KeptPaths paths(workspace.document().fitted, std::move(figures));
@@ -237,7 +265,7 @@ std::string png_of(const Session& session, const PictureOrder& order) {
 std::size_t write_picture(const Session& session, const PictureOrder& order, const std::filesystem::path& file) {
     check_file_name(file);
     session.files.check_may_write(file);
-    if (!is_picture_name(file)) throw InputError(file.string(), "", std::string(kPictureNames));
+    if (!is_picture_name(file)) throw InputError(file.string(), "", std::string(kPictureAndFilmNames));
     const std::string bytes =
         session.picture_maker->file_bytes(file, draw_list_of(session.workspace, order), order.options.samples);
     write_file(file, bytes);
@@ -247,8 +275,9 @@ std::size_t write_picture(const Session& session, const PictureOrder& order, con
 std::filesystem::path export_file(const Workspace& workspace, const Settings& settings, const Dialogs& dialogs) {
     const std::filesystem::path folder = workspace.file ? workspace.file->parent_path() : settings.folder;
     const std::string& typed = dialogs.exporting.file;
-    if (typed.empty()) return folder / (std::filesystem::path(workspace.title()).stem().string() + ".png");
-    return with_extension(typed.find('/') == std::string::npos ? folder / typed : typed_path(typed, {}), ".png");
+    const char* extension = dialogs.exporting.film ? ".mp4" : ".png";
+    if (typed.empty()) return folder / (std::filesystem::path(workspace.title()).stem().string() + extension);
+    return with_extension(typed.find('/') == std::string::npos ? folder / typed : typed_path(typed, {}), extension);
 }
 
 std::optional<std::string> render_line(const Workspace& workspace, const Files& files, const Dialogs& dialogs,

@@ -17,12 +17,20 @@
 
 namespace mobbscope::app {
 
+/// A film instead of a picture.
+struct FilmOrder {
+    bool turns = false;  ///< around the scene
+    int turntable = 0;   ///< pictures once around
+    double rate = 0;     ///< pictures a second; 0: the usual
+};
+
 /// Of the session's document.
 struct PictureOrder {
     ViewState view;
     PictureOptions options;
     std::optional<NamedPart> select;  ///< what is highlighted
     std::optional<MeasuredLine> measure{};
+    std::optional<FilmOrder> film{};
 };
 
 /// What the active viewport shows.
@@ -30,6 +38,9 @@ PictureOrder order_of_viewport(const Workspace& workspace, const Views& views);
 
 /// The same as the settings of the export dialog say. Its size may be one that `check` refuses.
 PictureOrder order_to_export(const Settings& settings, const Workspace& workspace, const Views& views);
+
+/// Makes it a film, as the settings say, where the file is called like one (is_film_name).
+PictureOrder ordered_for(const std::filesystem::path& file, PictureOrder order, const Settings& settings);
 
 /// As `render` draws it, which counts the scene's queries where that is shown; `figures`: of what these have. Throws
 /// std::invalid_argument if it cannot be drawn.
@@ -45,7 +56,7 @@ std::string png_of(const Session& session, const PictureOrder& order);
 std::size_t write_picture(const Session& session, const PictureOrder& order, const std::filesystem::path& file);
 
 /// Where the export dialog writes to: a name alone goes beside the scene's file, else where a file was opened or
-/// written last; without an extension it gets ".png". Of an empty field the scene's name.
+/// written last; without an extension it gets ".png", or a film's ".mp4". Of an empty field the scene's name.
 std::filesystem::path export_file(const Workspace& workspace, const Settings& settings, const Dialogs& dialogs);
 
 /// "mobbscope render ..." that draws the picture into `output`, quoted for a shell. None if no file holds the scene as

@@ -3,12 +3,14 @@
 #include <scene/view_options.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
 namespace mobbscope::app {
 
 namespace {
+
 
 /// The keys of what can be left out.
 std::vector<std::string_view> keys_to_leave_out() {
@@ -53,6 +55,7 @@ std::vector<ExportOption> all_export_options() {
     const std::vector<std::string> shapes{"free", "kept"};
     const std::vector<std::string> backgrounds{"opaque", "transparent"};
     const std::vector<std::string> themes{"view", "dark", "light"};
+    const std::vector<std::string> films{"play", "turn"};
     return {
         {.key = "size",
          .title = "Picture size",
@@ -117,6 +120,35 @@ std::vector<ExportOption> all_export_options() {
          .argument = "none|KEY...",
          .parse = [](const std::string& text, PictureExport& to) { to.without = parse_without(text); },
          .text = [](const PictureExport& of) { return text_of(of.without); }},
+        {.key = "film",
+         .title = "Film of",
+         .doc = "Says what exported films show: the motion, or the query's steps; or the scene from all around.",
+         .argument = "play|turn",
+         .choices = films,
+         .choice_titles = {"From beginning to end", "Once around"},
+         .parse = [films](const std::string& text,
+                          PictureExport& to) { to.film_turns = choice_in(text, films, "kind of film") == 1; },
+         .text = [films](const PictureExport& of) { return films[of.film_turns ? 1 : 0]; }},
+        {.key = "turntable",
+         .title = "Film's pictures once around",
+         .doc = "Says how many pictures an exported film has that goes once around the scene.",
+         .argument = "N",
+         .choices = {"60", "120", "240", "360"},
+         .parse =
+             [](const std::string& text, PictureExport& to) {
+                 to.turntable = static_cast<int>(std::lround(parse_number_within(text, 1, kMostTurntable)));
+             },
+         .text = [](const PictureExport& of) { return std::to_string(of.turntable); }},
+        {.key = "rate",
+         .title = "Film's pictures a second",
+         .doc = "Says how many pictures a second exported films have; auto: 30, and of a query's steps 10.",
+         .argument = "FPS|auto",
+         .choices = {"auto", "5", "10", "24", "30", "60"},
+         .parse =
+             [](const std::string& text, PictureExport& to) {
+                 to.rate = text == "auto" ? 0 : parse_number_within(text, 1 / kMostFilmRate, kMostFilmRate);
+             },
+         .text = [](const PictureExport& of) { return of.rate > 0 ? format_double(of.rate) : "auto"; }},
     };
 }
 

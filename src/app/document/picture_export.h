@@ -31,8 +31,15 @@ struct PictureExport {
     bool transparent = false;       ///< the background; else the theme's
     std::optional<Theme> theme;     ///< none: the view's
     std::set<std::string> without;  ///< what is left out: keys of view options
+    bool film_turns = false;        ///< a film goes around the scene; else through the motion or the query's steps
+    int turntable = 120;            ///< pictures once around
+    double rate = 0;                ///< of a film, pictures a second; 0: the usual
     friend bool operator==(const PictureExport&, const PictureExport&) = default;
 };
+
+/// Of a film once around, pictures; and of any a second, the least of which is one by that.
+inline constexpr double kMostTurntable = 100'000;
+inline constexpr double kMostFilmRate = 1000;
 
 /// One of them by name: its command is "picture." and the key, and settings keep it under the key.
 struct ExportOption {
@@ -52,6 +59,7 @@ std::span<const ExportOption> export_options();
 /// What the dialog holds beside them.
 struct ExportDialog {
     std::string file;                ///< as typed
+    bool film = false;               ///< a name without an extension is a film's
     int opening = -1;                ///< of the document that the file's name was made for (Document::opening)
     std::filesystem::path agreed{};  ///< that may be overwritten: the person said so, or it was written here
     PictureSize shape{};             ///< that keeps_shape keeps

@@ -5,8 +5,10 @@
 #include <app/ui/dialog_frame.h>
 #include <app/ui/widgets.h>
 #include <base/file.h>
+#include <base/process.h>
 #include <base/text.h>
 #include <render/image/picture_names.h>
+#include <render/pictures/played.h>
 #include <scene/view_options.h>
 
 #include <imgui_stdlib.h>
@@ -60,8 +62,10 @@ ExportTarget target_of(const Workspace& workspace, const Settings& settings, con
     const auto status = std::filesystem::status(file, ignored);
     if (std::filesystem::is_directory(status)) {
         out.why_not = "This is a folder: give the picture a name in it.";
-    } else if (!is_picture_name(file)) {
-        out.why_not = "Pictures are written as .png, .svg or .pdf: rename the file.";
+    } else if (!is_picture_name(file) && !is_film_name(file)) {
+        out.why_not = "Pictures are written as .png, .svg or .pdf, films as .mp4 or .webm: rename the file.";
+    } else if (is_film_name(file) && !program_in_path("ffmpeg")) {
+        out.why_not = "Films need ffmpeg, which is not in PATH: install it, or name a .png.";
     } else if (!std::filesystem::is_directory(folder, ignored)) {
         out.why_not = "There is no folder " + folder.string() + ".";
     } else if (::access(folder.c_str(), W_OK) != 0) {
@@ -79,8 +83,8 @@ ExportTarget target_of(const Workspace& workspace, const Settings& settings, con
 bool file_field(Ui& ui, Dialogs& dialogs, const ExportTarget& target) {
     const float browse = button_width("Browse...") + ImGui::GetStyle().ItemSpacing.x;
     ImGui::BeginChild("file", {-browse, ImGui::GetFrameHeight()});
-    const FieldEvents events =
-        text_field(ui, "The file to write: .png, or for papers .svg or .pdf", {}, FieldText::file_name);
+    const FieldEvents events = text_field(ui, "The file to write: .png, for papers .svg or .pdf; a film .mp4 or .webm",
+                                          {}, FieldText::file_name);
     ui.mark("export.path");
     ImGui::EndChild();
     dialogs.exporting.file = dialogs.input.text;
@@ -114,15 +118,17 @@ const ExportOption& export_option(std::string_view key) {
 }
 
 /// The choices of an option side by side, the present one filled. `why_not`: why a choice cannot be made, empty where
-/// it can; null: all can.
+/// it can; null: all can. `titles`: others than the option has.
 void choice_buttons(Ui& ui, Settings& settings, std::string_view key,
-                    const std::function<std::string(const std::string&)>& why_not = {}) {
+                    const std::function<std::string(const std::string&)>& why_not = {},
+                    const std::vector<std::string>& titles = {}) {
     const ExportOption& option = export_option(key);
+    const std::vector<std::string>& called = titles.empty() ? option.choice_titles : titles;
     const std::string now = option.text(settings.picture_export);
     const float left = ImGui::GetCursorPosX();
     for (std::size_t i = 0; i < option.choices.size(); ++i) {
         const std::string& choice = option.choices[i];
-        const std::string& label = option.choice_titles.empty() ? choice : option.choice_titles[i];
+        const std::string& label = called.empty() ? choice : called[i];
         const std::string why = why_not ? why_not(choice) : "";
         if (i > 0) flow_below(ui, left, label.c_str());
         ImGui::BeginDisabled(!why.empty());
@@ -201,13 +207,25 @@ void size_fields(Ui& ui, Dialogs& dialogs, Settings& settings, PictureSize size)
     ui.invoke("picture.size", size_word(wanted));
 }
 
+/// A number of an option that may be "auto"; `given`: it is not.
+std::optional<double> field_with_reset(Ui& ui, std::string_view key, bool given, const NumberField& field) {
+    const float reset = button_width("reset") + ui.px(6);
+    ImGui::SetNextItemWidth(given ? -reset : -1);
+    const auto wanted = number_field(ui, field);
+    if (!given) return wanted;
+    ImGui::SameLine(0, ui.px(6));
+    if (ImGui::Button(("reset##" + std::string(key)).c_str())) set_export(ui, key, "auto");
+    ui.mark(field.mark + ".reset");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("As it suits");
+    return wanted;
+}
+
 void scale_field(Ui& ui, Settings& settings, const PictureOrder& order) {
     const double given = settings.picture_export.scale;
     form_label(ui, "Text and lines", "How large they are: 1 suits 1280 x 720");
-    const float reset = button_width("reset") + ui.px(6);
-    ImGui::SetNextItemWidth(given > 0 ? -reset : -1);
     const auto wanted =
-        number_field(ui, {.mark = "export.scale",
+        field_with_reset(ui, "scale", given > 0,
+                         {.mark = "export.scale",
                           .what = "The scale of text and lines",
                           .now = given > 0 ? given : metrics_of(order.options.size, order.options.scale).scale,
                           .before = given > 0 ? "" : "auto: ",
@@ -216,11 +234,6 @@ void scale_field(Ui& ui, Settings& settings, const PictureOrder& order) {
                           .most = kMostScale,
                           .by_factors = true});
     if (wanted) set_export(ui, "scale", formatted("%.3g", *wanted));
-    if (given <= 0) return;
-    ImGui::SameLine(0, ui.px(6));
-    if (ImGui::Button("reset")) set_export(ui, "scale", "auto");
-    ui.mark("export.scale.reset");
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("As it suits the size");
 }
 
 /// What the picture has, each to be left out of it; what the view does not show either is disabled.
@@ -250,8 +263,40 @@ void shown_boxes(Ui& ui, Settings& settings) {
     }
 }
 
+/// What a film goes through, and how fast.
+void film_fields(Ui& ui, Settings& settings, const PictureOrder& order) {
+    const PictureExport& wanted = settings.picture_export;
+    const bool steps = plays_steps(order.view);
+    form_label(ui, "Film of", "The motion, or where a query is shown its steps; or the scene from all around");
+    choice_buttons(ui, settings, "film", {}, {steps ? "The query's steps" : "The motion", "Once around"});
+    if (wanted.film_turns) {
+        form_label(ui, "Pictures", "Once around");
+        ImGui::SetNextItemWidth(-1);
+        const auto count = number_field(ui, {.mark = "export.turntable",
+                                             .what = "The number of pictures once around",
+                                             .now = static_cast<double>(wanted.turntable),
+                                             .step = 10,
+                                             .least = 1,
+                                             .most = kMostTurntable});
+        if (count) set_export(ui, "turntable", formatted("%.0f", *count));
+    }
+    form_label(ui, "Rate", "Pictures a second");
+    const double usual = steps && !wanted.film_turns ? kUsualRateOfSteps : kUsualRate;
+    const auto rate = field_with_reset(ui, "rate", wanted.rate > 0,
+                                       {.mark = "export.rate",
+                                        .what = "The pictures a second",
+                                        .now = wanted.rate > 0 ? wanted.rate : usual,
+                                        .before = wanted.rate > 0 ? "" : "auto: ",
+                                        .unit = "a second",
+                                        .least = 1 / kMostFilmRate,
+                                        .most = kMostFilmRate,
+                                        .by_factors = true});
+    if (rate) set_export(ui, "rate", formatted("%.4g", *rate));
+}
+
 void settings_fields(Ui& ui, Settings& settings, Views& views, Dialogs& dialogs, const PictureOrder& order,
                      const std::string& why_no_size) {
+    if (order.film) film_fields(ui, settings, order);
     size_presets(ui, settings, views);
     size_fields(ui, dialogs, settings, order.options.size);
     if (!why_no_size.empty()) words(ui.style.error, why_no_size);
@@ -260,11 +305,13 @@ void settings_fields(Ui& ui, Settings& settings, Views& views, Dialogs& dialogs,
     choice_buttons(ui, settings, "samples", [&](const std::string& count) {
         return ui.session.picture_maker->why_no_samples(parse_samples(count));
     });
-    form_label(ui, "Background", "Transparent: seen through where nothing is drawn");
-    choice_buttons(ui, settings, "background");
+    if (!order.film) {
+        form_label(ui, "Background", "Transparent: seen through where nothing is drawn");
+        choice_buttons(ui, settings, "background");
+    }
     form_label(ui, "Theme", "Of the picture alone");
     choice_buttons(ui, settings, "theme");
-    heading(ui, "IN THE PICTURE");
+    heading(ui, order.film ? "IN THE FILM" : "IN THE PICTURE");
     shown_boxes(ui, settings);
 }
 
@@ -435,7 +482,8 @@ void export_command(Ui& ui, const char* label, const char* id, const std::string
 }
 
 /// Whether it is to be exported.
-bool export_buttons(Ui& ui, Dialogs& dialogs, const std::string& why_no_picture, const std::string& why_not) {
+bool export_buttons(Ui& ui, Dialogs& dialogs, bool film, const std::string& why_no_picture,
+                    const std::string& why_not) {
     ImGui::BeginDisabled(!why_not.empty());
     const bool pressed_it =
         marked_button(ui, dialogs.input.confirming ? "Overwrite" : "Export", "export.ok", why_not.empty());
@@ -444,8 +492,10 @@ bool export_buttons(Ui& ui, Dialogs& dialogs, const std::string& why_no_picture,
         ImGui::SetTooltip("%s", why_not.c_str());
     }
     ImGui::SameLine();
-    export_command(ui, "Copy picture", "picture.copy", why_no_picture);
-    ImGui::SameLine();
+    if (!film) {
+        export_command(ui, "Copy picture", "picture.copy", why_no_picture);
+        ImGui::SameLine();
+    }
     export_command(ui, "Copy command line", "picture.copy_command", why_no_picture);
     ImGui::SameLine();
     const float close = button_width("Close");
@@ -462,7 +512,9 @@ void export_dialog(Ui& ui) {
         return;
     }
     const bool keys_are_taken = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) || ImGui::GetIO().WantTextInput;
-    const PictureOrder order = order_to_export(ui.session.settings, ui.workspace, ui.session.views);
+    const ExportTarget target = target_of(ui.workspace, ui.session.settings, ui.session.dialogs);
+    const PictureOrder order = ordered_for(
+        target.file, order_to_export(ui.session.settings, ui.workspace, ui.session.views), ui.session.settings);
     std::string why_no_size;
     try {
         check(order.options);
@@ -470,12 +522,11 @@ void export_dialog(Ui& ui) {
         why_no_size = error.what();
     }
     begin_dialog(ui, "export", {kExportWidth, kExportHeight});
-    text_line(ui.style.text, "Export picture", ui.style.title);
+    text_line(ui.style.text, order.film ? "Export film" : "Export picture", ui.style.title);
     ImGui::SameLine(0, ui.px(14));
     ImGui::AlignTextToFramePadding();
     fitted_line(ui, ui.style.quiet, exported_subject(ui.workspace, ui.session.files, ui.session.views),
                 ImGui::GetContentRegionAvail().x);
-    const ExportTarget target = target_of(ui.workspace, ui.session.settings, ui.session.dialogs);
     const bool entered = file_field(ui, ui.session.dialogs, target);
     const float foot = ImGui::GetFrameHeight() + 3 * ImGui::GetStyle().ItemSpacing.y + ui.px(2);
     const float height = ImGui::GetContentRegionAvail().y - foot;
@@ -493,7 +544,7 @@ void export_dialog(Ui& ui) {
     ImGui::EndChild();
     ImGui::Dummy({0, ui.px(2)});
     const std::string why_not = why_no_size.empty() ? target.why_not : why_no_size;
-    bool wanted = export_buttons(ui, ui.session.dialogs, why_no_size, why_not);
+    bool wanted = export_buttons(ui, ui.session.dialogs, order.film.has_value(), why_no_size, why_not);
     wanted |= entered || (pressed(ImGuiKey_Enter) && !keys_are_taken);
     end_dialog();
     if (wanted && why_not.empty()) export_now(ui, target);

@@ -105,7 +105,8 @@ void take_written(Session& session, const FileQuestion& question) {
     DialogInput& input = session.dialogs.input;
     std::filesystem::path path = typed_path(input.text, session.dialogs.browser.folder());
     if (is_folder(path)) return go_into(session.dialogs, question, path);
-    path = with_extension(path, question.extension);
+    const bool film = session.dialogs.now == Dialog::export_file && session.dialogs.exporting.film;
+    path = with_extension(path, film ? ".mp4" : question.extension);
     std::error_code ignored;
     const bool keeps_own = session.dialogs.now == Dialog::save_as && session.workspace.file &&
                            std::filesystem::equivalent(path, *session.workspace.file, ignored);

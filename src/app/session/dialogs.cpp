@@ -2,11 +2,20 @@
 #include <render/image/picture_names.h>
 #include <scene/load_files.h>
 
+#include <vector>
+
 namespace mobbscope::app {
 
 namespace {
 
-std::span<const std::string_view> picture_extensions() { return kPictureExtensions; }
+std::span<const std::string_view> exported_extensions() {
+    static const std::vector<std::string_view> all = [] {
+        std::vector<std::string_view> out(kPictureExtensions.begin(), kPictureExtensions.end());
+        out.insert(out.end(), kFilmExtensions.begin(), kFilmExtensions.end());
+        return out;
+    }();
+    return all;
+}
 
 constexpr FileQuestion kOpen{"Open", "Open", "open", "file.open", openable_extensions};
 constexpr FileQuestion kAdd{"Add files", "Add", "add", "file.add", openable_extensions};
@@ -14,7 +23,7 @@ constexpr FileQuestion kSaveAs{
     .title = "Save as", .button = "Save", .prefix = "save", .command = "file.save_as", .extension = ".json"};
 constexpr FileQuestion kSaveProof{
     .title = "Save the proof", .button = "Save", .prefix = "proof", .command = "proof.save", .extension = ".json"};
-constexpr FileQuestion kExportTo{"Export picture to", "Choose", "file", "picture.file", picture_extensions, ".png"};
+constexpr FileQuestion kExportTo{"Export to", "Choose", "file", "picture.file", exported_extensions, ".png"};
 
 /// In the order of Dialog.
 constexpr auto kDialogs = std::to_array<DialogRow>({

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 
 namespace mobbscope::app {
 
@@ -14,6 +15,8 @@ struct SessionOptions {
     /// Shorter work of an attended window is waited for: one that flickers is worse than one that is late by this. With
     /// 0 no work is, however short.
     std::chrono::milliseconds patience{80};
+    /// `mobbscope`, which draws films.
+    std::filesystem::path program = "/proc/self/exe";
 };
 
 }  // namespace mobbscope::app

@@ -41,6 +41,7 @@ constexpr auto kPicture = std::to_array<std::string_view>({"view.frame",
                                                            "view.arrange",
                                                            "",
                                                            "file.export_picture",
+                                                           "file.export_film",
                                                            "file.copy_command"});
 constexpr auto kNode = std::to_array<std::string_view>({"view.frame", "go.parent", "go.child", "node.isolate",
                                                         "view.ancestors", "step.next_of_node", "edit.copy_figures"});

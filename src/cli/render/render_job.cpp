@@ -1,6 +1,7 @@
 #include <base/error.h>
 #include <base/file.h>
 #include <base/text.h>
+#include <base/work_queue.h>
 #include <cli/command_line.h>
 #include <cli/program.h>
 #include <cli/render/render_job.h>
@@ -20,6 +21,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -93,9 +95,25 @@ void check_selection(const RenderJob& job) {
     throw InputError(job.arguments.file, "--select: " + why_not);
 }
 
+/// What is made of one view, once it is drawn.
+struct Drawn {
+    RenderOutputs outputs;
+    std::optional<Image> png{};  ///< the picture, not yet packed
+    std::string image{}, ids{}, draw_list{};
+
+    void write() {
+        if (png) image = png_bytes(*png);
+        std::vector<FileBytes> files;
+        if (!outputs.image.empty()) files.push_back({outputs.image, image});
+        if (!outputs.ids.empty()) files.push_back({outputs.ids, ids});
+        if (!outputs.draw_list.empty()) files.push_back({outputs.draw_list, draw_list});
+        write_files(files);
+    }
+};
+
 /// `renderer`: null where nothing of it needs OpenGL; `film`: that the picture is of, null: none.
-void draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* renderer, Film* film,
-                const Patience& patience) {
+Drawn draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* renderer, Film* film,
+                 const Patience& patience) {
     const RenderOutputs& outputs = picture.outputs;
     if (!picture.list) picture.list = build_draw_list(*job.paths, picture.view, job.arguments.picture);
     DrawList list = *std::exchange(picture.list, {});
@@ -112,26 +130,24 @@ void draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* renderer
         add_measure(list, *job.arguments.measure, metrics_of(options.size, options.scale), picture.view.labels);
     }
     if (film) film->add(renderer->draw(list, job.arguments.picture.samples));
-    std::string image, ids, text;
-    std::vector<FileBytes> files;
-    if (!outputs.image.empty()) {
-        image = picture_bytes(outputs.image, list, job.arguments.picture.samples,
-                              [renderer]() -> Renderer& { return *renderer; });
-        files.push_back({outputs.image, image});
+    Drawn out{.outputs = outputs};
+    if (is_vector_name(outputs.image)) {
+        out.image = picture_bytes(outputs.image, list, job.arguments.picture.samples,
+                                  [renderer]() -> Renderer& { return *renderer; });
+    } else if (!outputs.image.empty()) {
+        out.png = renderer->draw(list, job.arguments.picture.samples);
     }
     std::optional<IdImage> drawn_ids;
     if (!outputs.ids.empty()) {
         drawn_ids = renderer->draw_ids(list);
-        ids = png_bytes(id_picture(list, *drawn_ids));
-        files.push_back({outputs.ids, ids});
+        out.ids = png_bytes(id_picture(list, *drawn_ids));
     }
     if (!outputs.draw_list.empty()) {
-        std::ostringstream out;
-        write_draw_list(out, list, drawn_ids ? &*drawn_ids : nullptr);
-        text = out.str();
-        files.push_back({outputs.draw_list, text});
+        std::ostringstream text;
+        write_draw_list(text, list, drawn_ids ? &*drawn_ids : nullptr);
+        out.draw_list = text.str();
     }
-    write_files(files);
+    return out;
 }
 
 /// What came of a film: "walk.mp4: 789 pictures, 26.3 s at 30 per second, 1280x720, 1.2 MB".
@@ -287,8 +303,10 @@ void RenderPlan::draw(Backend backend) {
         renderer->check_samples(job.arguments.picture.samples);
     }
     Patience patience(all, films, progress_);
+    constexpr std::size_t kMostWaiting = 2;
+    WorkQueue writing(kMostWaiting);  // to pack a PNG takes about as long as to draw it
     for (RenderJob& job : jobs_) {
-        // Once the renderer is there: who watches over it forks, and a child has no other threads.
+        // A renderer forks to be watched, and a child has no other threads: it is there before there are any.
         std::optional<Film> film;
         const double rate = film_rate(job.pictures.front().view, job.arguments.sequence);
         if (job.film_maker)
@@ -299,12 +317,16 @@ void RenderPlan::draw(Backend backend) {
                                                      *job.paths->fitted(), picture.view, job.arguments.file, backend,
                                                      job.arguments.picture.size, job.arguments.ui_scale.value_or(1)));
             } else {
-                draw_scene(job, picture, renderer ? &*renderer : nullptr, film ? &*film : nullptr, patience);
+                const auto drawn = std::make_shared<Drawn>(
+                    draw_scene(job, picture, renderer ? &*renderer : nullptr, film ? &*film : nullptr, patience));
+                const auto write = [drawn] { drawn->write(); };
+                renderer ? writing.add(write) : write();
             }
             patience.one_more();
         }
         if (film) say(film_report(job, rate, film->finish()));
     }
+    writing.finish();
 }
 
 bool is_case(const std::filesystem::path& file) { return file.filename().string().ends_with(".case.json"); }

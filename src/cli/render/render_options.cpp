@@ -1,4 +1,5 @@
 #include <app/commands/arguments.h>
+#include <app/document/picture_export.h>
 #include <app/window/shell.h>
 #include <base/error.h>
 #include <base/file.h>
@@ -26,7 +27,6 @@ namespace mobbscope::cli {
 namespace {
 
 constexpr double kLeastDistance = 1e-6;  // metres
-constexpr double kMostRate = 1000;       // pictures per second
 constexpr const char* kShownGroup = "What is shown (over the scene's)";
 
 /// "1,2.5" as numbers within [-most, most].
@@ -176,7 +176,7 @@ void add_sequence_options(Command& command, SequenceArguments& sequence) {
         add_parsed(command, "--frames", sequence.frames, parse_frames,
                    "Pictures A to B of the motion, or with a query its steps A to B", "A:B"),
         command.add_flag("--play", sequence.play, "All pictures of the motion, or with a query all its steps"),
-        add_parsed(command, "--rate", sequence.rate, number_within(1 / kMostRate, kMostRate),
+        add_parsed(command, "--rate", sequence.rate, number_within(1 / app::kMostFilmRate, app::kMostFilmRate),
                    "Pictures per second of the motion (30); of a film of a query's steps 10, else 30", "FPS"),
         add_parsed(command, "--turntable", sequence.turntable, parse_turntable, "N pictures once around the scene",
                    "N")};

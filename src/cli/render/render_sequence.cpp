@@ -3,6 +3,7 @@
 #include <cli/render/render_job.h>
 #include <render/drawlist/view_projection.h>
 #include <render/layout/framing.h>
+#include <render/pictures/played.h>
 #include <scene/crowd_run.h>
 #include <scene/drawn_agent.h>
 
@@ -16,8 +17,6 @@ namespace mobbscope::cli {
 
 namespace {
 
-constexpr double kUsualRate = 30;
-constexpr double kUsualRateOfSteps = 10;  // to be read as they pass
 constexpr int kLeastDigits = 4;
 
 /// How many there are, and what the view of each is.
@@ -78,7 +77,7 @@ Sequence motion(const FittedScene& fitted, const ViewState& view, double rate) {
 
 /// Whether its pictures are the steps of the view's query.
 bool shows_steps(const ViewState& view, const SequenceArguments& asked) {
-    return !asked.turntable && view.query && view.show == Show::space_time;
+    return !asked.turntable && plays_steps(view);
 }
 
 }  // namespace

@@ -2,18 +2,16 @@
 #include <base/file.h>
 #include <base/process.h>
 #include <base/text.h>
+#include <base/work_queue.h>
 #include <render/image/film.h>
 
 #include <sys/socket.h>
+#include <sys/stat.h>
 
-#include <condition_variable>
-#include <deque>
 #include <initializer_list>
-#include <mutex>
 #include <optional>
 #include <sstream>
 #include <string_view>
-#include <thread>
 #include <utility>
 
 namespace mobbscope {
@@ -104,7 +102,7 @@ FilmMaker find_film_maker(const fs::path& film) {
 
 PictureSize film_size(PictureSize size) { return {size.width + size.width % 2, size.height + size.height % 2}; }
 
-/// ffmpeg, and the thread that hands it the pictures.
+/// ffmpeg, and what hands it the pictures.
 struct Film::State {
     State(const FilmMaker& maker, const fs::path& name, PictureSize size, double rate)
         : file(name),
@@ -113,16 +111,7 @@ struct Film::State {
           process(program, arguments(maker, name, size, rate),
                   {pictures.there.get(), written.descriptor(), said.get()}) {
         pictures.there.close();
-        sender = std::thread([this] { send(); });
     }
-    ~State() {
-        // Who waits for ffmpeg to take a picture hears of its end.
-        process.kill();
-        ::shutdown(pictures.here.get(), SHUT_RDWR);
-        join();
-    }
-    State(const State&) = delete;
-    State& operator=(const State&) = delete;
 
     static std::vector<std::string> arguments(const FilmMaker& maker, const fs::path& name, PictureSize size,
                                               double rate) {
@@ -141,40 +130,19 @@ struct Film::State {
         return out;
     }
 
-    void send() {
-        std::unique_lock lock(mutex);
-        for (;;) {
-            changed.wait(lock, [this] { return !waiting.empty() || is_all; });
-            if (waiting.empty()) break;
-            const Image picture = std::move(waiting.front());
-            waiting.pop_front();
-            lock.unlock();
-            const char* bytes = static_cast<const char*>(static_cast<const void*>(picture.rgba.data()));
-            const bool taken = send_all(pictures.here, {bytes, picture.rgba.size()}, kPatience);
-            lock.lock();
-            has_failed = has_failed || !taken;
-            if (has_failed) waiting.clear();
-            changed.notify_all();
-        }
-        send_end(pictures.here);
+    void send(const Image& picture) {
+        const char* bytes = static_cast<const char*>(static_cast<const void*>(picture.rgba.data()));
+        if (!send_all(pictures.here, {bytes, picture.rgba.size()}, kPatience))
+            refuse("ended before it had all pictures");
     }
 
-    /// No more pictures will come; those that wait are sent.
-    void join() {
-        {
-            const std::scoped_lock lock(mutex);
-            is_all = true;
-        }
-        changed.notify_all();
-        if (sender.joinable()) sender.join();
-    }
-
-    [[noreturn]] void refuse() {
+    /// `unexpected`: what happened where ffmpeg says that all went well.
+    [[noreturn]] void refuse(const char* unexpected) {
         constexpr double kDying = 2;  // seconds
         const std::optional<int> status = process.wait(kDying);
         const std::string line = first_line(beginning_of(said, kMostSaid));
-        std::string why = status ? (*status == 0 ? "ended before it had all pictures" : how_it_ended(*status))
-                                 : "takes no more pictures";
+        std::string why = "takes no more pictures";
+        if (status) why = *status == 0 ? unexpected : how_it_ended(*status);
         if (!line.empty()) why += " (" + line + ")";
         throw MachineError(file.string() + ": cannot be written: " + program.string() + ' ' + why);
     }
@@ -184,32 +152,30 @@ struct Film::State {
     Descriptor said = memory_file();
     Connection pictures = Connection::make();
     Process process;
-    std::mutex mutex;
-    std::condition_variable changed;
-    std::deque<Image> waiting;
-    bool is_all = false;
-    bool has_failed = false;
-    std::thread sender;
+    WorkQueue sending{kMostWaiting};
 };
 
 Film::Film(const FilmMaker& maker, const fs::path& file, PictureSize size, double rate)
     : state_(std::make_unique<State>(maker, file, size, rate)) {}
 
-Film::~Film() = default;
+Film::~Film() {
+    // Who waits for it to take a picture hears of its end.
+    state_->process.kill();
+    ::shutdown(state_->pictures.here.get(), SHUT_RDWR);
+}
 
 void Film::add(Image picture) {
-    State& state = *state_;
-    std::unique_lock lock(state.mutex);
-    state.changed.wait(lock, [&] { return state.has_failed || state.waiting.size() < kMostWaiting; });
-    if (state.has_failed) state.refuse();
-    state.waiting.push_back(std::move(picture));
-    state.changed.notify_all();
+    state_->sending.add([&state = *state_, picture = std::move(picture)] { state.send(picture); });
 }
 
 std::size_t Film::finish() {
     State& state = *state_;
-    state.join();
-    if (state.has_failed || state.process.wait(kPatienceAtTheEnd) != 0) state.refuse();
+    state.sending.finish();
+    send_end(state.pictures.here);
+    struct stat written {};
+    const bool ended_well = state.process.wait(kPatienceAtTheEnd) == 0;
+    if (!ended_well || ::fstat(state.written.descriptor(), &written) != 0 || written.st_size == 0)
+        state.refuse("wrote nothing");
     return state.written.take_place();
 }
 
