@@ -53,9 +53,9 @@ class FilmTest : public testing::DrawingTest {
         };
         return run_program(arguments, {}, "/dev/null", in_child);
     }
-    /// Three pictures into `film`, and what else is asked.
-    Result render_film(const std::filesystem::path& film, std::vector<std::string> more = {}) {
-        std::vector<std::string> arguments{scene, "--frames", "1:3", "--size", "320x240", "-o", film.string()};
+    /// Three pictures into that film, and what else is asked.
+    Result render_film(const std::filesystem::path& name, std::vector<std::string> more = {}) {
+        std::vector<std::string> arguments{scene, "--frames", "1:3", "--size", "320x240", "-o", name.string()};
         arguments.insert(arguments.end(), more.begin(), more.end());
         return render(arguments);
     }
@@ -176,7 +176,9 @@ TEST_F(FilmTest, WhatGoesWrongIsSaidInOneLine) {
     stand_in("head -c 100 >/dev/null\n");
     expect_refused(render_film(film), 3, "ffmpeg ended before it had all pictures");
     stand_in("cat >/dev/null\n");
-    expect_refused(render_film(film), 3, "ffmpeg wrote nothing");
+    expect_refused(render_film(film), 3, "ffmpeg did not write all");
+    stand_in("cat >/dev/null\nprintf half\necho 'Error writing trailer: No space left on device' >&2\n");
+    expect_refused(render_film(film), 3, "did not write all (Error writing trailer: No space left on device)");
     stand_in("kill -9 $$\n");
     expect_refused(render_film(film), 3, "ffmpeg crashed: Killed");
     EXPECT_EQ(files_in(films.path()), Names{"a walk.mp4"});

@@ -115,7 +115,7 @@ struct Film::State {
 
     static std::vector<std::string> arguments(const FilmMaker& maker, const fs::path& name, PictureSize size,
                                               double rate) {
-        std::vector<std::string> out{"-hide_banner", "-nostdin", "-loglevel", "error", "-f", "rawvideo"};
+        std::vector<std::string> out{"-hide_banner", "-nostdin", "-loglevel", "error", "-xerror", "-f", "rawvideo"};
         const auto add = [&out](std::initializer_list<std::string> words) {
             out.insert(out.end(), words.begin(), words.end());
         };
@@ -135,6 +135,8 @@ struct Film::State {
         if (!send_all(pictures.here, {bytes, picture.rgba.size()}, kPatience))
             refuse("ended before it had all pictures");
     }
+
+    bool tells_of_error() const { return beginning_of(said, kMostSaid).find("rror") != std::string::npos; }
 
     /// `unexpected`: what happened where ffmpeg says that all went well.
     [[noreturn]] void refuse(const char* unexpected) {
@@ -173,9 +175,10 @@ std::size_t Film::finish() {
     state.sending.finish();
     send_end(state.pictures.here);
     struct stat written {};
-    const bool ended_well = state.process.wait(kPatienceAtTheEnd) == 0;
+    // Some end well although they could not write all, and yet say so.
+    const bool ended_well = state.process.wait(kPatienceAtTheEnd) == 0 && !state.tells_of_error();
     if (!ended_well || ::fstat(state.written.descriptor(), &written) != 0 || written.st_size == 0)
-        state.refuse("wrote nothing");
+        state.refuse("did not write all");
     return state.written.take_place();
 }
 
