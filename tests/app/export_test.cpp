@@ -356,7 +356,7 @@ TEST_F(FilmExportTest, TheWindowAndTheLineFilmTheSame) {
     EXPECT_NE(all_messages(session).find(" at 2 per second, 320x240, 4 B"), std::string::npos);
     expect_the_line_films_the_same("run picture.film turn\nrun picture.turntable 3", " --turntable 3 --rate 2");
     expect_the_line_films_the_same("run picture.film play\nrun query.select 0\nrun step.first\nrun step.to 7",
-                                   " --query 0 --size 320x240 --play --rate 2");
+                                   " --size 320x240 --play --rate 2");
     // Of a scene that no file holds.
     run("run query.none\nrun go.agent A\nrun agent.nudge 1 0");
     expect_the_line_films_the_same("", " --size 320x240 --play --rate 2");
@@ -371,7 +371,7 @@ TEST_F(FilmExportTest, TheDialogAsksForFilmsInItsOwnWay) {
     run("click export.path\nkey Ctrl+A\ntype mine\nkey Enter\nexpect /dialog \"none\"");
     EXPECT_EQ(slurp(folder.file("mine.mp4")), "film") << all_messages(session);
     run("run file.export_picture");
-    EXPECT_EQ(session.dialogs.input.text, "mine.png") << "and back";
+    EXPECT_EQ(export_file(session.workspace, session.settings, session.dialogs), folder.file("mine.png"));
 }
 
 TEST_F(FilmExportTest, WhatCannotBeIsSaidInOneLine) {

@@ -8,12 +8,12 @@ rm -rf "$folder"
 mkdir -p "$folder/bin"
 ln -s "$ffmpeg" "$folder/bin/ffmpeg"
 export PATH=$folder/bin:$PATH
-shown=(--query 0 --frames 2:6 --size 481x270)
+shown=(--query 0 --frames 2:6)
 
 "$program" render "$scenes/crossing.json" "${shown[@]}" --size 482x270 -o "$folder/p.png"
 for extension in mp4 webm; do
   film=$folder/film.$extension
-  "$program" render "$scenes/crossing.json" "${shown[@]}" --rate 4 -o "$film"
+  "$program" render "$scenes/crossing.json" "${shown[@]}" --size 481x270 --rate 4 -o "$film"
   facts=$("$ffprobe" -v error -count_frames -select_streams v:0 -show_entries stream=width,height,pix_fmt,avg_frame_rate,nb_read_frames \
     -of default=nokey=1:noprint_wrappers=1 "$film" | tr '\n' ' ')
   [ "$facts" = "482 270 yuv420p 4/1 5 " ] || { echo "$film: $facts"; exit 1; }

@@ -111,7 +111,7 @@ std::vector<Command> export_commands() {
                 {.shortcut = "Ctrl+E",
                  .argument = "[FILE.png]",
                  .also = "screenshot snapshot image png svg pdf vector print figure paper render save"}),
-        Command("file.export_film", "Export film...",
+        Command("file.export_film", "Export as film...",
                 "Writes a film of the motion, of the query's steps or around the scene to an MP4 or WebM file, while "
                 "the window goes on; without a name a dialog asks for more.",
                 [](Session& session, const std::string& file) {
@@ -134,7 +134,7 @@ std::vector<Command> export_commands() {
                     copy_line_of(session, order_of_viewport(session.workspace, session.views), "picture.png", false);
                 },
                 {.shortcut = "Ctrl+Shift+C",
-                 .also = "shell terminal script render frames video film movie record animation"}),
+                 .also = "shell terminal script render frames"}),
         Command("picture.file", "Picture file", "Says where the export dialog writes to.",
                 [](Dialogs& dialogs, Workspace& workspace, const std::string& file) {
                     check_file_name(file);

@@ -569,7 +569,7 @@ std::vector<Command> time_commands() {
         Command("time.play", "Play", "Lets the time cursor run, or stops it.", play,
                 {.shortcut = "Space",
                  .checked = [](const Playback& playback) { return playback.playing(); },
-                 .also = "animate animation pause stop run video film movie record"}),
+                 .also = "animate animation pause stop run"}),
         Command("time.start", "To the first moment", "Puts the time cursor where the first path begins.",
                 [](Workspace& workspace) { set_time(workspace, time_span(workspace).t0); },
                 {.also = "rewind beginning first frame"}),

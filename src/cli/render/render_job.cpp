@@ -303,8 +303,8 @@ void RenderPlan::draw(Backend backend) {
         renderer->check_samples(job.arguments.picture.samples);
     }
     Patience patience(all, films, progress_);
-    constexpr std::size_t kMostWaiting = 2;
-    WorkQueue writing(kMostWaiting);  // to pack a PNG takes about as long as to draw it
+    constexpr std::size_t kMostUnwritten = 2;
+    WorkQueue writing(kMostUnwritten);  // to pack a PNG takes about as long as to draw it
     for (RenderJob& job : jobs_) {
         // A renderer forks to be watched, and a child has no other threads: it is there before there are any.
         std::optional<Film> film;
