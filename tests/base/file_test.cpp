@@ -239,6 +239,32 @@ TEST(File, ADiskThatFailsLeavesWhatWasThere) {
     EXPECT_EQ(files_in(folder.path()), 1u);
 }
 
+/// As another program writes it.
+TEST(File, ANewFileStandsThereOnceItIsWhole) {
+    const TempFolder folder;
+    const std::filesystem::path file = folder.write("f", "old");
+    ::chmod(file.c_str(), 0640);
+    const auto write_to = [](const NewFile& to, const std::string& text) {
+        EXPECT_EQ(::write(to.descriptor(), text.data(), text.size()), static_cast<ssize_t>(text.size()));
+    };
+    {
+        const NewFile unfinished(file);
+        write_to(unfinished, "half");
+        EXPECT_EQ(slurp(file), "old");
+    }
+    EXPECT_EQ(files_in(folder.path()), 1u) << "nothing is left";
+    NewFile whole(file);
+    write_to(whole, "whole");
+    EXPECT_EQ(whole.take_place(), 5u);
+    EXPECT_EQ(slurp(file), "whole");
+    EXPECT_EQ(rights_of(file), 0640u);
+    EXPECT_EQ(files_in(folder.path()), 1u);
+    EXPECT_THROW(NewFile("/dev/null"), MachineError);
+    EXPECT_THROW(NewFile(folder.path()), MachineError);
+    EXPECT_THROW(NewFile(folder.path() / "no" / "f"), MachineError);
+    EXPECT_THROW(NewFile(""), InputError);
+}
+
 TEST(File, WhatWasReadIsKnownByAnyName) {
     const TempFolder folder;
     const auto file = folder.write("x.csv", "x");

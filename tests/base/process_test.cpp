@@ -54,6 +54,27 @@ TEST(Process, EndsWithItsObject) {
     EXPECT_FALSE(is_alive(child));
 }
 
+TEST(Process, IsFoundInPath) {
+    EXPECT_EQ(program_in_path("sh").value().filename(), "sh");
+    EXPECT_FALSE(program_in_path("no such program"));
+}
+
+TEST(Process, WhatItSaysIsKeptInMemory) {
+    const Descriptor said = memory_file();
+    Process process("/bin/sh", {"-c", "echo one; echo two >&2"}, {-1, said.get(), said.get()});
+    ASSERT_EQ(process.wait(5), 0);
+    EXPECT_EQ(beginning_of(said, 100), "one\ntwo\n");
+    EXPECT_EQ(beginning_of(said, 2), "on");
+}
+
+TEST(Process, AReaderThatTakesNothingIsNotWaitedForForEver) {
+    Connection both = Connection::make();
+    const std::string much(8 << 20, 'x');
+    EXPECT_FALSE(send_all(both.here, much, 0.05));
+    both.there.close();
+    EXPECT_FALSE(send_all(both.here, much, 100));
+}
+
 TEST(Process, SaysHowItEnded) {
     Process quick("/bin/sh", {"-c", "exit 4"}, {});
     EXPECT_EQ(how_it_ended(quick.wait(5).value()), "ended with status 4");

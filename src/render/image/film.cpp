@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostUnsent = 2;      // pictures
+constexpr std::size_t kMostUnsent = 2;       // pictures
 constexpr std::size_t kMostSaid = 64 << 10;  // bytes of what ffmpeg says
 constexpr double kPatience = 120;            // seconds that ffmpeg may take no picture
 constexpr double kPatienceAtTheEnd = 600;    // ... and that it may take to end
