@@ -412,12 +412,12 @@ void run(CaseResult& result, PictureMaker* maker, const RunOptions& options) {
     }
 }
 
-/// Whether OpenGL is needed; also where that cannot be found out.
-bool needs_opengl(const CaseFile& file) {
+/// Whether there is a picture; nothing where that cannot be found out.
+std::optional<bool> holds_picture(const CaseFile& file) {
     try {
         return read_terms(file).holds(Held::picture);
     } catch (const std::exception&) {
-        return true;
+        return std::nullopt;
     }
 }
 
@@ -438,14 +438,14 @@ double similarity_loss(const Image& actual, const Image& golden, const Image* ma
 CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl, const RunOptions& options) {
     CaseResult result;
     result.file = file;
-    const bool draws = needs_opengl(file);
-    if (draws && !maker) {
+    const std::optional<bool> draws = holds_picture(file);
+    if (draws.value_or(false) && !maker) {
         result.outcome = CaseOutcome::skipped;
         result.message = no_opengl;
         return result;
     }
     const auto begin = std::chrono::steady_clock::now();
-    if (draws) {
+    if (maker && draws.value_or(true)) {
         const Renderer& renderer = maker->renderer();
         result.drawn_by = {std::string(maker->backend()), renderer.context().device(), reference_of(renderer).opengl};
     } else {
