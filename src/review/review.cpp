@@ -174,7 +174,7 @@ std::string Review::why_not_accept(std::size_t index) const {
     const CaseOutcome outcome = one.outcome();
     if (outcome == CaseOutcome::passed) return "it passed";
     if (outcome == CaseOutcome::skipped) return "it was skipped";
-    if (outcome == CaseOutcome::failed) return "there is no picture of it";
+    if (outcome == CaseOutcome::failed) return "there is nothing of it to take";
     if (!one.result.other_here.empty()) return "its goldens are from elsewhere: here are " + one.result.other_here;
     if (!can_be_taken(one.result)) return "no golden differs, but its scene expects another answer; correct the scene";
     return "";

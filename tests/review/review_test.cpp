@@ -386,7 +386,7 @@ TEST(Review, WhatHasNoPictureIsLeftOutAndSaid) {
     w.key("Shift+A");
     EXPECT_TRUE(w.one("moved").accepted);
     EXPECT_TRUE(w.one("missing").accepted);
-    EXPECT_NE(w.said().find("Not accepted: same: there is no picture of it"), std::string::npos) << w.said();
+    EXPECT_NE(w.said().find("Not accepted: same: there is nothing of it to take"), std::string::npos) << w.said();
     w.key("Ctrl+Z");
     EXPECT_NE(w.said().find("Undone: accepting 2 pictures"), std::string::npos) << w.said();
     w.key("Ctrl+Y");
