@@ -24,8 +24,10 @@
 #include <import/tracks/mapf_plan.h>
 #include <import/tracks/tracks.h>
 #include <mobb/tree.h>
+#include <picture_tests/held_answers.h>
 #include <picture_tests/reference.h>
 #include <picture_tests/shot.h>
+#include <picture_tests/test_case.h>
 #include <render/compare/draw_list_compare.h>
 #include <render/image/png.h>
 #include <scene/fitted_scene.h>
@@ -231,6 +233,15 @@ void read_case(const std::string& bytes) {
     const JsonPlace root(value, name);
     picture_tests::read_terms(root, folder);
     picture_tests::read_shot(root, folder);
+}
+
+void read_golden(const std::string& bytes) {
+    using picture_tests::Held;
+    static const picture_tests::Case tested = picture_tests::read_case(MOBBSCOPE_SOURCE_DIR "/tests/goldens/answers.case.json");
+    static const picture_tests::HeldAnswers held(tested.shot, tested.terms);
+    const auto is_of = [&](Held what) { return bytes.find(picture_tests::name(what)) != std::string::npos; };
+    const Held what = is_of(Held::trace) ? Held::trace : is_of(Held::fit) ? Held::fit : Held::answers;
+    held.differences(what, bytes, "fuzz.golden.json");
 }
 
 void read_script(const std::string& bytes) {

@@ -19,6 +19,7 @@ void read_any_file(const std::string& bytes);  ///< told by its content, and pac
 void read_scene(const std::string& bytes);
 void read_certificate_file(const std::string& bytes);
 void read_case(const std::string& bytes);
+void read_golden(const std::string& bytes);  ///< of answers, a trace or a fit
 void read_script(const std::string& bytes);
 void read_view_state(const std::string& bytes);
 void read_settings(const std::string& bytes);

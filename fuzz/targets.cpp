@@ -243,6 +243,12 @@ std::vector<std::string> request_line_seeds() {
         picture_tests::request_line({"b", {picture_tests::GoldenSource::here, picture_tests::FreshGoldens::of_all}})};
 }
 
+std::vector<std::string> golden_seeds() {
+    return joined(std::array{files_in(kSource / "tests/goldens", "answers.answers.json"),
+                             files_in(kSource / "tests/goldens", "answers.trace.json"),
+                             files_in(kSource / "tests/goldens", "answers.fit.json")});
+}
+
 std::vector<std::string> reference_seeds() { return files_in(kSource / "tests/goldens", "reference.json"); }
 
 std::vector<std::string> csv_seeds() { return files_in(kSource / "assets/scenes", ".csv"); }
@@ -273,6 +279,7 @@ constexpr Target kTargets[] = {
     {"certificate", Form::json, read_certificate_file, none},
     {"view", Form::json, read_view_state, none},
     {"case", Form::json, read_case, case_seeds},
+    {"golden", Form::json, read_golden, golden_seeds},
     {"script", Form::lines, read_script, script_seeds},
     {"settings", Form::json, read_settings, none},
     {"png", Form::png, read_png_file, png_seeds},

@@ -116,6 +116,7 @@ class JsonPlace {
     bool is_object() const { return value_->as<JsonValue::Object>() != nullptr; }
     bool is_array() const { return value_->as<JsonValue::Array>() != nullptr; }
     bool is_number() const { return value_->as<double>() != nullptr; }
+    bool is_boolean() const { return value_->as<bool>() != nullptr; }
 
     // Each throws InputError if the value is of another type or out of range.
     double number() const;

@@ -35,9 +35,43 @@ std::string word_of(const JsonPlace& place) {
     return place.is_number() ? format_double(place.number()) : place.string();
 }
 
-/// What a golden's file adds to the name of its case, the longest first.
-constexpr std::array<std::string_view, 5> kGoldenEndings{".plain.state.json", ".plain.draw.json", ".plain.png",
-                                                         ".draw.json", ".png"};
+/// What a golden's file adds to the name of its case, and what is held by it.
+struct GoldenEnding {
+    std::string_view ending;
+    Held held;
+};
+constexpr auto kGoldenEndings = std::to_array<GoldenEnding>({{".plain.state.json", Held::picture},
+                                                             {".plain.draw.json", Held::picture},
+                                                             {".plain.png", Held::picture},
+                                                             {".draw.json", Held::picture},
+                                                             {".png", Held::picture},
+                                                             {".answers.json", Held::answers},
+                                                             {".trace.json", Held::trace},
+                                                             {".fit.json", Held::fit}});
+
+std::vector<Held> read_hold(const JsonPlace& place) {
+    if (place.size() == 0) place.fail("nothing is held; name one or more of " + listed(kHeld) + ", or remove the key");
+    std::vector<Held> out;
+    place.each([&](const JsonPlace& word) {
+        const auto held = enumerator_named<Held>(kHeld, word.string());
+        if (!held) {
+            word.fail(in_quotes(word.string()) + " is nothing that a case holds; give " + either(kHeld) +
+                      did_you_mean(word.string(), std::vector<std::string>(kHeld.begin(), kHeld.end())));
+        }
+        if (std::ranges::find(out, *held) != out.end()) word.fail(in_quotes(word.string()) + " stands there twice");
+        out.push_back(*held);
+    });
+    return out;
+}
+
+/// Of a case that draws nothing.
+void refuse_picture_keys(const JsonPlace& root) {
+    for (const char* key : {"tolerance", "threshold", "allowed", "mask", "draw_list", "columns", "select", "size",
+                            "scale", "samples", "background", "window"}) {
+        const auto found = root.find(key);
+        if (found) found->fail("the case holds no picture; remove this, or hold the picture too");
+    }
+}
 
 }  // namespace
 
@@ -50,6 +84,10 @@ std::filesystem::path CaseFile::beside(std::string_view ending) const {
     return file.parent_path() / (stem_of(*this) + std::string(ending));
 }
 
+std::filesystem::path CaseFile::golden_of(Held held) const {
+    return beside('.' + std::string(mobbscope::picture_tests::name(held)) + ".json");
+}
+
 std::string CaseFile::ending_of(const std::filesystem::path& other) const {
     return other.filename().string().substr(stem_of(*this).size());
 }
@@ -59,7 +97,7 @@ CaseFile case_named(const std::filesystem::path& folder, const std::string& name
 }
 
 bool is_golden_ending(std::string_view ending) {
-    return std::ranges::find(kGoldenEndings, ending) != kGoldenEndings.end();
+    return std::ranges::find(kGoldenEndings, ending, &GoldenEnding::ending) != kGoldenEndings.end();
 }
 
 std::vector<CaseFile> find_cases(const std::filesystem::path& folder) {
@@ -85,12 +123,16 @@ std::vector<std::filesystem::path> orphaned_goldens(const std::filesystem::path&
                                                     const std::vector<CaseFile>& cases) {
     std::set<std::filesystem::path> owned;
     for (const CaseFile& file : cases) {
-        for (const std::string_view ending : kGoldenEndings) owned.insert(file.beside(ending).lexically_normal());
+        std::optional<CaseTerms> terms;
         try {
-            if (const auto mask = read_terms(file).mask) owned.insert(mask->lexically_normal());
+            terms = read_terms(file);
         } catch (const InputError&) {
             // What is wrong with a case is told where it is drawn.
         }
+        for (const GoldenEnding& one : kGoldenEndings) {
+            if (!terms || terms->holds(one.held)) owned.insert(file.beside(one.ending).lexically_normal());
+        }
+        if (terms && terms->mask) owned.insert(terms->mask->lexically_normal());
     }
     std::vector<std::filesystem::path> out;
     std::error_code error;
@@ -102,12 +144,15 @@ std::vector<std::filesystem::path> orphaned_goldens(const std::filesystem::path&
             continue;
         }
         const std::string name = at->path().filename().string();
-        const bool is_golden = std::ranges::any_of(kGoldenEndings, [&](auto ending) { return name.ends_with(ending); });
+        const bool is_golden =
+            std::ranges::any_of(kGoldenEndings, [&](const GoldenEnding& one) { return name.ends_with(one.ending); });
         if (is_golden && !owned.contains(at->path().lexically_normal())) out.push_back(at->path());
     }
     std::ranges::sort(out);
     return out;
 }
+
+bool CaseTerms::holds(Held held) const { return std::ranges::find(hold, held) != hold.end(); }
 
 CaseTerms read_terms(const JsonPlace& root, const std::filesystem::path& folder) {
     const JsonPlace version = root.require("mobbscope_case");
@@ -116,6 +161,8 @@ CaseTerms read_terms(const JsonPlace& root, const std::filesystem::path& folder)
                      std::to_string(kVersion));
     }
     CaseTerms out;
+    if (const auto hold = root.find("hold")) out.hold = read_hold(*hold);
+    if (!out.holds(Held::picture)) refuse_picture_keys(root);
     if (const auto tolerance = root.find("tolerance")) out.tolerance = read_tolerance(*tolerance);
     out.diff = diff_options(out.tolerance);
     if (const auto threshold = root.find("threshold")) {

@@ -1,6 +1,7 @@
 /// A picture test as files: `NAME.case.json` says what to draw (picture_tests/shot.h), and besides
 ///
 ///      "mobbscope_case": 1,
+///      "hold": ["picture", "answers", "trace", "fit"],   what is held; default: the picture alone
 ///      "tolerance": "tight",          or "loose"
 ///      "threshold": 3,                over the tolerance's, as `mobbscope diff --threshold`
 ///      "allowed": "12px",             over the tolerance's, as `mobbscope diff --allowed`
@@ -11,7 +12,9 @@
 ///
 /// Beside it stand its goldens: `NAME.png` and, of what is no window, the numbers of all that is drawn,
 /// `NAME.draw.json` (draw_list_json.h); where the folder has a reference, of what has no draw list `NAME.plain.*` too
-/// (picture_tests/reference.h).
+/// (picture_tests/reference.h). Answers, traces and fits (picture_tests/held_answers.h) have `NAME.answers.json`,
+/// `NAME.trace.json` and `NAME.fit.json`. A case that holds no picture draws nothing, and has no key that only concerns
+/// pictures.
 #pragma once
 
 #include <base/json.h>
@@ -36,6 +39,16 @@ inline constexpr std::array<std::string_view, 2> kTolerances{"tight", "loose"};
 inline std::string_view name(Tolerance tolerance) { return kTolerances[static_cast<std::size_t>(tolerance)]; }
 DiffOptions diff_options(Tolerance tolerance);
 
+/// What a case may hold against a golden.
+enum class Held {
+    picture,
+    answers,  ///< of its queries: contact and numbers of tests
+    trace,    ///< every test of its queries
+    fit,      ///< the nodes of its trees
+};
+inline constexpr std::array<std::string_view, 4> kHeld{"picture", "answers", "trace", "fit"};
+inline std::string_view name(Held held) { return kHeld[static_cast<std::size_t>(held)]; }
+
 /// What is known of a case before its scene is read.
 struct CaseFile {
     std::string name;  ///< of the file relative to the folder of the cases, without ".case.json"
@@ -45,6 +58,8 @@ struct CaseFile {
     std::filesystem::path plain() const { return beside(".plain.png"); }
     std::filesystem::path plain_draw() const { return beside(".plain.draw.json"); }
     std::filesystem::path plain_state() const { return beside(".plain.state.json"); }
+    /// Of answers, trace or fit.
+    std::filesystem::path golden_of(Held held) const;
     using Golden = std::filesystem::path (CaseFile::*)() const;
     /// NAME and this ending.
     std::filesystem::path beside(std::string_view ending) const;
@@ -65,7 +80,7 @@ std::vector<CaseFile> find_cases(const std::filesystem::path& folder);
 /// What a run leaves in the folder of its pictures (case_report.h).
 inline constexpr std::string_view kReportFile = "report.json";
 
-/// Where no case has them for its own: the goldens in a folder and the folders in it. A folder with a report.json is
+/// Where no case holds them: the goldens in a folder and the folders in it. A folder with a report.json is
 /// what a run left (case_report.h), and left out. Of what cannot be searched there are none.
 std::vector<std::filesystem::path> orphaned_goldens(const std::filesystem::path& folder,
                                                     const std::vector<CaseFile>& cases);
@@ -76,8 +91,11 @@ struct CaseTerms {
     DiffOptions diff;                           ///< the tolerance's, and what the case says over them
     std::optional<std::filesystem::path> mask;  ///< of the golden's size
     bool draw_list = true;                      ///< whether there is to be one
+    std::vector<Held> hold{Held::picture};      ///< at least one, each once
     double time_limit = 60;                     ///< seconds that drawing and comparing may take
     std::optional<std::string> skip;            ///< why
+
+    bool holds(Held held) const;
 };
 
 /// Of the text of a case; `folder`: what file names are relative to. Throws InputError if it is no case, or one of

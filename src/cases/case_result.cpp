@@ -2,7 +2,12 @@
 #include <cases/case_result.h>
 #include <render/image/png.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace mobbscope::picture_tests {
+
+bool draws_nothing(const CaseResult& result) { return result.drawn_by.backend == kDrawsNothing; }
 
 bool lacks_opengl(const CaseResult& result) {
     return result.outcome == CaseOutcome::skipped && result.drawn_by.backend.empty();
@@ -23,12 +28,19 @@ std::optional<Image> heat_map(const CaseResult& result) {
     }
 }
 
-bool can_be_taken(CaseOutcome outcome, std::string_view other_here) {
-    const bool is_no_golden = outcome == CaseOutcome::different || outcome == CaseOutcome::missing_golden;
-    return is_no_golden && other_here.empty();
+bool can_be_taken(const CaseResult& result) {
+    const bool is_no_golden = result.outcome == CaseOutcome::different || result.outcome == CaseOutcome::missing_golden;
+    if (!is_no_golden || !result.other_here.empty()) return false;
+    const std::size_t kept = unmended(result).size();
+    return kept == 0 || kept < result.findings.size();
 }
 
-bool can_be_taken(const CaseResult& result) { return can_be_taken(result.outcome, result.other_here); }
+std::vector<Finding> unmended(const CaseResult& result) {
+    std::vector<Finding> out;
+    std::ranges::copy_if(result.findings, std::back_inserter(out),
+                         [](const Finding& finding) { return finding.golden.empty(); });
+    return out;
+}
 
 Summary summary(std::span<const CaseResult> results) {
     Summary sum;
@@ -46,6 +58,12 @@ std::string sum_of(const Summary& summary) {
     return out.empty() ? "no cases" : out;
 }
 
+std::string message_of(std::span<const Finding> findings) {
+    std::string out;
+    for (const Finding& finding : findings) out.append(out.empty() ? "" : "; ").append(finding.message);
+    return out;
+}
+
 std::vector<std::filesystem::path> take(CaseResult& result) {
     write_goldens(result.fresh);
     std::vector<std::filesystem::path> written;
@@ -53,14 +71,16 @@ std::vector<std::filesystem::path> take(CaseResult& result) {
         if (golden.bytes) written.push_back(golden.file);
     }
     result.fresh.clear();
-    result.findings.clear();
+    result.findings = unmended(result);
     result.remarks.clear();
     result.golden.clear();
-    const Image taken = read_png_bytes(result.actual);
-    result.image = diff(taken, taken, result.image ? result.image->options : DiffOptions{});
-    result.image->heat = {};
-    result.outcome = CaseOutcome::passed;
-    result.message.clear();
+    if (!result.actual.empty()) {
+        const Image taken = read_png_bytes(result.actual);
+        result.image = diff(taken, taken, result.image ? result.image->options : DiffOptions{});
+        result.image->heat = {};
+    }
+    result.outcome = result.findings.empty() ? CaseOutcome::passed : CaseOutcome::different;
+    result.message = message_of(result.findings);
     return written;
 }
 

@@ -19,9 +19,9 @@ namespace mobbscope::picture_tests {
 
 enum class CaseOutcome {
     passed,
-    different,       ///< the picture, or what is drawn, is not the golden's
-    missing_golden,  ///< there is a picture, but nothing to hold it against
-    failed,          ///< no picture: the case cannot be read or drawn
+    different,       ///< what is held is not the golden's, or an answer not the expected one
+    missing_golden,  ///< there is nothing to hold it against
+    failed,          ///< the case cannot be read or drawn
     skipped,         ///< by the case, or as there is no OpenGL
 };
 
@@ -43,9 +43,9 @@ static_assert(kOutcomeWords.size() == static_cast<std::size_t>(CaseOutcome::skip
 inline const OutcomeWords& words_of(CaseOutcome outcome) { return kOutcomeWords[static_cast<std::size_t>(outcome)]; }
 inline std::string_view name(CaseOutcome outcome) { return words_of(outcome).name; }
 
-/// What is wrong with one golden.
+/// What is wrong with one golden, or with what the case's scene expects.
 struct Finding {
-    std::filesystem::path golden;
+    std::filesystem::path golden;    ///< empty: none is, but an answer is not the one that the scene expects
     std::string message;             ///< one line
     std::vector<std::string> words;  ///< of numbers what differs, one line each; else empty
 };
@@ -60,9 +60,12 @@ enum class DecidedBy {
 inline constexpr std::array<std::string_view, 4> kDecidedBy{"pixels", "draw list", "ssim", "without text"};
 inline std::string_view name(DecidedBy by) { return kDecidedBy[static_cast<std::size_t>(by)]; }
 
+/// In the place of a backend: the case holds no picture.
+inline constexpr std::string_view kDrawsNothing = "none";
+
 /// What drew the pictures.
 struct DrawnBy {
-    std::string backend;   ///< "osmesa", "egl"; empty without OpenGL
+    std::string backend;   ///< "osmesa", "egl", kDrawsNothing; empty without OpenGL
     std::string renderer;  ///< what OpenGL calls itself
     std::string opengl{};  ///< what a reference says of it (picture_tests/reference.h)
 };
@@ -91,6 +94,9 @@ struct CaseResult {
     std::vector<std::filesystem::path> read;  ///< by the process that drew it and not told before; from the root
 };
 
+/// Whether the case holds no picture, and was run.
+bool draws_nothing(const CaseResult& result);
+
 /// Whether it was skipped as there is no OpenGL; why is its message.
 bool lacks_opengl(const CaseResult& result);
 
@@ -100,9 +106,12 @@ ImageDiff compared_again(const CaseResult& result, const Image& actual, const Im
 /// Of a result that has both pictures; nothing if they cannot be compared again.
 std::optional<Image> heat_map(const CaseResult& result);
 
-/// Whether there is a picture that is not the golden's, and goldens are taken here.
+/// Whether what there is now is not the golden's, and goldens are taken here.
 bool can_be_taken(const CaseResult& result);
-bool can_be_taken(CaseOutcome outcome, std::string_view other_here);
+/// What goldens cannot mend: the answers that are not those that the scene expects.
+std::vector<Finding> unmended(const CaseResult& result);
+/// Whether the case would still be different if all its goldens were taken.
+inline bool stays_different(const CaseResult& result) { return !unmended(result).empty(); }
 
 /// What the goldens of a run are held to be from.
 enum class GoldenSource {
@@ -140,7 +149,11 @@ Summary summary(std::span<const CaseResult> results);
 /// "1 passed, 2 different, 3 without a golden, 4 failed, 5 skipped"; what there is none of is left out.
 std::string sum_of(const Summary& summary);
 
-/// Makes the goldens of a case what is drawn now (write_goldens); then the case has passed. Returns what it wrote, not
+/// "a.png: ...; a.draw.json: ..."
+std::string message_of(std::span<const Finding> findings);
+
+/// Makes the goldens of a case what is drawn now (write_goldens); then the case has passed, unless its scene expects
+/// other answers. Returns what it wrote, not
 /// what it removed. Throws as write_goldens does.
 std::vector<std::filesystem::path> take(CaseResult& result);
 

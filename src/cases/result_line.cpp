@@ -141,7 +141,7 @@ void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures)
     result.image ? write_diff(json, *result.image) : json.null();
     json.list("findings", result.findings, [&](const Finding& finding) {
         json.begin_object();
-        json.member("golden", result.file.ending_of(finding.golden));
+        json.member("golden", finding.golden.empty() ? "" : result.file.ending_of(finding.golden));
         json.member("message", finding.message);
         json.values("words", finding.words);
         json.end_object();
@@ -183,8 +183,9 @@ CaseResult read_result(const JsonPlace& root, const std::vector<CaseFile>& cases
     const JsonPlace diff = root.require("diff");
     if (!diff.is_null()) result.image = read_diff(diff);
     root.require("findings").each([&](const JsonPlace& finding) {
-        result.findings.push_back({golden_at(finding.require("golden"), *file), finding.require("message").string(),
-                                   finding.require("words").strings()});
+        const JsonPlace golden = finding.require("golden");
+        result.findings.push_back({golden.string().empty() ? std::filesystem::path() : golden_at(golden, *file),
+                                   finding.require("message").string(), finding.require("words").strings()});
     });
     root.require("fresh").each([&](const JsonPlace& one) {
         const JsonPlace golden = one.require("golden");

@@ -9,7 +9,7 @@
 ///      "actual": PNG | null, "golden": PNG | null,       in base64; the golden of a case that did not pass
 ///      "fresh": [{"golden": ".png", "bytes": ... | null, "replaces": ... | null}]}   in base64; null: no such file
 ///
-/// Goldens are told by what follows the case's name.
+/// Goldens are told by what follows the case's name; "" of a finding: the scene expects another answer.
 #pragma once
 
 #include <base/json.h>

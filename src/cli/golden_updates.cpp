@@ -9,7 +9,7 @@
 
 #include <algorithm>
 #include <iostream>
-#include <set>
+#include <map>
 #include <string_view>
 
 namespace mobbscope::cli {
@@ -24,6 +24,10 @@ enum class Reply { yes, no, all, quit };
 
 Reply ask(const CaseResult& result, const std::filesystem::path& folder, std::ostream& say) {
     say << cleaned(result.file.name) << ": " << name(result.outcome) << ": " << cleaned(result.message) << '\n';
+    for (const picture_tests::Finding& finding : result.findings) {
+        if (finding.words.size() < 2) continue;
+        for (const std::string& line : finding.words) say << "    " << cleaned(line) << '\n';
+    }
     for (const std::filesystem::path& picture : keep_pictures(result, folder)) {
         say << "  " << cleaned(picture.string()) << '\n';
     }
@@ -38,12 +42,6 @@ Reply ask(const CaseResult& result, const std::filesystem::path& folder, std::os
 
 void take_one(CaseResult& result, std::ostream& say) {
     for (const std::filesystem::path& file : take(result)) say << "wrote " << cleaned(file.string()) << '\n';
-}
-
-std::set<std::filesystem::path> folders_of(const std::vector<CaseFile>& cases) {
-    std::set<std::filesystem::path> out;
-    for (const CaseFile& file : cases) out.insert(file.file.parent_path());
-    return out;
 }
 
 /// Throws InputError for a pattern that names no case of the report.
@@ -92,8 +90,7 @@ void check_is_from_here(const std::filesystem::path& folder, const CaseResult& r
                      shell_word(folder.string()) + " --accept REPORT, or all anew with --update all --new-reference");
 }
 
-void take_as_reference(std::vector<CaseResult>& results, const std::vector<CaseFile>& cases,
-                       const picture_tests::Reference& here, std::ostream& say) {
+void take_as_reference(std::vector<CaseResult>& results, std::ostream& say) {
     const picture_tests::Summary sum = picture_tests::summary(results);
     if (sum[picture_tests::CaseOutcome::failed] > 0 || sum[picture_tests::CaseOutcome::skipped] > 0) {
         warn(
@@ -102,8 +99,12 @@ void take_as_reference(std::vector<CaseResult>& results, const std::vector<CaseF
         return;
     }
     take_named(results, {}, say);
-    for (const std::filesystem::path& folder : folders_of(cases)) {
-        picture_tests::write_reference(folder, here);
+    std::map<std::filesystem::path, std::string> drawn_by;
+    for (const CaseResult& result : results) {
+        if (!draws_nothing(result)) drawn_by[result.file.file.parent_path()] = result.drawn_by.opengl;
+    }
+    for (const auto& [folder, opengl] : drawn_by) {
+        picture_tests::write_reference(folder, picture_tests::reference_with(opengl));
         say << "wrote " << cleaned(picture_tests::reference_file(folder).string()) << '\n';
     }
 }
@@ -127,7 +128,7 @@ bool take_report(const std::filesystem::path& report, const std::vector<CaseFile
     for (const CaseResult& one : read.results) {
         if (!is_meant(one.file.name)) continue;
         if (one.fresh.empty()) {
-            leave_out(one.file.name, "there is no picture of it: " + one.message);
+            leave_out(one.file.name, "there is no golden to take of it: " + one.message);
             continue;
         }
         if (!one.other_here.empty()) {

@@ -28,10 +28,9 @@ void take_asked(std::span<picture_tests::CaseResult> results, const std::filesys
 /// Throws InputError if the goldens of a case of the folder are from elsewhere: one taken here would be the odd one.
 void check_is_from_here(const std::filesystem::path& folder, const picture_tests::CaseResult& result);
 
-/// All goldens become what is drawn here, and their folders say so; nothing is taken if a case cannot be drawn.
-void take_as_reference(std::vector<picture_tests::CaseResult>& results,
-                       const std::vector<picture_tests::CaseFile>& cases, const picture_tests::Reference& here,
-                       std::ostream& say);
+/// All goldens become what is drawn here, and the folders of those with pictures say so; nothing is taken if a case
+/// cannot be drawn.
+void take_as_reference(std::vector<picture_tests::CaseResult>& results, std::ostream& say);
 
 /// Makes the goldens of a report (case_report.h) those of its cases, byte by byte, all or none: of those that
 /// `patterns` name, without patterns of all. Whether none that was meant is left out; those are said. Throws InputError

@@ -44,6 +44,7 @@ namespace {
 
 using picture_tests::CaseFile;
 using picture_tests::CaseResult;
+using picture_tests::Held;
 using picture_tests::RunFacts;
 
 /// Every `count`-th case, from this one, from 1.
@@ -159,7 +160,8 @@ void check_reports(const TestCommandArguments& arguments, const std::vector<Case
     check_extension(arguments.contact_sheet, ".png", "the contact sheet is written as .png; rename it");
     for (const CaseFile& file : all) {
         for (const auto& read :
-             {file.file, file.golden(), file.plain(), file.draw(), file.plain_draw(), file.plain_state()})
+             {file.file, file.golden(), file.plain(), file.draw(), file.plain_draw(), file.plain_state(),
+              file.golden_of(Held::answers), file.golden_of(Held::trace), file.golden_of(Held::fit)})
             note_read(read);
     }
     for (const std::filesystem::path& report : {arguments.junit, arguments.html, arguments.contact_sheet})
@@ -237,7 +239,7 @@ void drop_pictures(CaseResult& result) {
 std::string add_facts(RunFacts& facts, std::span<const CaseResult> results) {
     std::string no_opengl;
     for (const CaseResult& result : results) {
-        if (facts.backend.empty()) {
+        if (facts.backend.empty() && !draws_nothing(result)) {
             facts.backend = result.drawn_by.backend;
             facts.renderer = result.drawn_by.renderer;
         }
@@ -272,7 +274,13 @@ void print_results(const TestCommandArguments& arguments, const RunFacts& facts,
         write_json(std::cout, facts, results);
     } else {
         write_text(std::cout, facts, results);
-        if (kept) std::cout << "Pictures of what did not pass: " << cleaned(arguments.output.string()) << '\n';
+        const bool pictures = std::ranges::any_of(results, [](const CaseResult& one) {
+            return one.outcome != picture_tests::CaseOutcome::passed && !one.actual.empty();
+        });
+        if (kept) {
+            std::cout << (pictures ? "Pictures" : "Answers")
+                      << " of what did not pass: " << cleaned(arguments.output.string()) << '\n';
+        }
     }
     flush_results();
 }
@@ -345,17 +353,15 @@ bool asks(const TestCommandArguments& arguments) {
     return arguments.update && !arguments.update_all && arguments.update_names.empty();
 }
 
-void take(const TestCommandArguments& arguments, const std::vector<CaseFile>& cases, std::vector<CaseResult>& results) {
+void take(const TestCommandArguments& arguments, std::vector<CaseResult>& results) {
     if (!arguments.update) return;
     // Where standard output is a report, the rest goes beside it.
     std::ostream& say = arguments.json ? std::cerr : std::cout;
-    const auto drawn =
-        std::ranges::find_if(results, [](const CaseResult& one) { return !one.drawn_by.opengl.empty(); });
-    if (arguments.new_reference && drawn != results.end()) {
-        take_as_reference(results, cases, picture_tests::reference_with(drawn->drawn_by.opengl), say);
+    if (arguments.new_reference) {
+        if (std::ranges::none_of(results, picture_tests::lacks_opengl)) take_as_reference(results, say);
     } else if (asks(arguments)) {
         take_asked(results, arguments.output, say);
-    } else if (!arguments.new_reference) {
+    } else {
         take_named(results, arguments.update_names, say);
     }
 }
@@ -415,7 +421,7 @@ int draw_and_hold(const TestCommandArguments& arguments) {
     std::vector<CaseResult>& results = ordered.all();
     const std::string no_opengl = add_facts(facts, results);
     if (!arguments.json_lines) {
-        take(arguments, cases, results);
+        take(arguments, results);
         const bool kept = keep_all(arguments, results);
         write_report(arguments.junit, picture_tests::write_junit, facts, results);
         write_report(arguments.html, picture_tests::write_html, facts, results);

@@ -31,13 +31,12 @@ constexpr std::array<std::pair<std::string_view, NodeField>, 5> kNodeFigures{{{"
                                                                               {"overhang", NodeField::overhang},
                                                                               {"waste", NodeField::waste}}};
 
-void write_node(JsonWriter& out, const NodeValues& values, int index) {
-    const mobb::Tree& tree = values.tree();
+/// What fitting made of a node.
+void write_node_members(JsonWriter& out, const mobb::Tree& tree, int index) {
     const mobb::Node& node = tree.node(index);
     const mobb::Box box = tree.box(index);
     const mobb::BoxInfo& shape = mobb::info(box.kind);
     const int dimensions = shape.axes == mobb::BoxAxes::space_time ? 3 : 2;
-    out.begin_object(Layout::row);
     out.members("index", index, "parent", tree.parent(index), "level", tree.level(index));
     out.members("first", node.first, "count", node.count, "leaf", tree.is_leaf(index));
     out.member("kind", shape.name);
@@ -60,6 +59,11 @@ void write_node(JsonWriter& out, const NodeValues& values, int index) {
         out.member("velocity", 2.0 * box.drift / (tree.t1(node) - tree.t0(node)));
     }
     out.members("t0", tree.t0(node), "t1", tree.t1(node));
+}
+
+void write_node(JsonWriter& out, const NodeValues& values, int index) {
+    out.begin_object(Layout::row);
+    write_node_members(out, values.tree(), index);
     for (const auto& [key, field] : kNodeFigures) {
         const double value = values.value(field, index);
         out.member(key, std::isnan(value) ? std::nullopt : std::optional(value));
@@ -97,16 +101,21 @@ void write_finding(JsonWriter& out, const FitFinding& found) {
     out.end_object();
 }
 
+/// Of which clip and fit a tree is.
+void write_tree_head(JsonWriter& out, const std::string& clip, const mobb::Tree& tree) {
+    const mobb::FitOptions& options = tree.options();
+    out.members("clip", clip, "tree", mobb::name(options.tree), "axes", mobb::name(options.axes));
+    out.members("leaf", options.leaf, "time_scale", options.time_scale);
+}
+
 }  // namespace
 
 void write_tree(JsonWriter& out, const std::string& clip, const std::shared_ptr<const mobb::Tree>& of) {
     const mobb::Tree& tree = *of;
-    const mobb::FitOptions& options = tree.options();
     const std::optional<ExpectedCost> expected = expected_cost(tree, tree);
     const NodeValues values(of, expected ? expected->node_shares() : std::vector<double>());
     out.begin_object();
-    out.members("clip", clip, "tree", mobb::name(options.tree), "axes", mobb::name(options.axes));
-    out.members("leaf", options.leaf, "time_scale", options.time_scale);
+    write_tree_head(out, clip, tree);
     write_expected(out, expected);
     out.list("levels", mobb::level_figures(tree),
              [&](const mobb::LevelFigures& figures) { write_level(out, figures); });
@@ -115,6 +124,17 @@ void write_tree(JsonWriter& out, const std::string& clip, const std::shared_ptr<
     out.end_array();
     out.list("findings", fit_findings(tree, expected), [&](const FitFinding& found) { write_finding(out, found); });
     out.end_object();
+}
+
+void write_fitted_nodes(JsonWriter& out, const std::string& clip, const mobb::Tree& tree) {
+    write_tree_head(out, clip, tree);
+    out.begin_array("nodes");
+    for (int i = 0; i < static_cast<int>(tree.nodes().size()); ++i) {
+        out.begin_object(Layout::row);
+        write_node_members(out, tree, i);
+        out.end_object();
+    }
+    out.end_array();
 }
 
 }  // namespace mobbscope

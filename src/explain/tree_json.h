@@ -13,4 +13,7 @@ namespace mobbscope {
 /// clip of that name.
 void write_tree(JsonWriter& out, const std::string& clip, const std::shared_ptr<const mobb::Tree>& tree);
 
+/// The members `clip`, the fit's and `nodes` of the same, of nodes without what is counted or expected of them.
+void write_fitted_nodes(JsonWriter& out, const std::string& clip, const mobb::Tree& tree);
+
 }  // namespace mobbscope

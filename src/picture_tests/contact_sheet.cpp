@@ -54,9 +54,11 @@ void ContactSheet::add(const CaseResult& result) {
 
 std::optional<Image> ContactSheet::draw(std::span<const CaseResult> results, std::optional<int> columns,
                                         Renderer& renderer) const {
-    if (results.empty()) return std::nullopt;
     std::vector<const CaseResult*> in_order;
-    for (const CaseResult& result : results) in_order.push_back(&result);
+    for (const CaseResult& result : results) {
+        if (!draws_nothing(result)) in_order.push_back(&result);
+    }
+    if (in_order.empty()) return std::nullopt;
     std::ranges::stable_sort(
         in_order, {}, [](const CaseResult* result) { return kOrder[static_cast<std::size_t>(result->outcome)]; });
     const Palette& colors = palette(pictures_.empty() ? Theme::dark : theme_around(pictures_.begin()->second));

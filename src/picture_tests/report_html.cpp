@@ -53,7 +53,7 @@ void write_fact(std::ostream& out, const char* what, std::string_view text) {
 }
 
 /// A line for a shell, with a button that copies it.
-void write_command(std::ostream& out, const char* purpose, const std::string& command) {
+void write_command(std::ostream& out, std::string_view purpose, const std::string& command) {
     out << "<p class=\"command\">" << purpose << " <code>" << escaped(command)
         << "</code> <button type=\"button\" class=\"copy\" hidden>Copy</button></p>\n";
 }
@@ -160,7 +160,7 @@ void write_case(std::ostream& out, const RunFacts& facts, const CaseResult& resu
     write_pictures(out, result);
     if (can_be_taken(result)) {
         const std::string_view names[] = {result.file.name};
-        write_command(out, "If the picture is right:", update_command(facts, names));
+        write_command(out, if_right(result), update_command(facts, names));
         if (!facts.page.empty()) write_command(out, "or, from this page:", accept_command(facts, names));
     }
     out << "</section>\n";
@@ -221,7 +221,9 @@ void write_header(std::ostream& out, const RunFacts& facts, std::span<const Case
         if (can_be_taken(*result)) names.push_back(result->file.name);
     }
     if (names.size() > 1) {
-        write_command(out, "If all of these pictures are right:", update_command(facts, names));
+        const bool pictures = std::ranges::none_of(open, [](const CaseResult* one) { return draws_nothing(*one); });
+        write_command(out, pictures ? "If all of these pictures are right:" : "If all of this is right:",
+                      update_command(facts, names));
         if (!facts.page.empty()) write_command(out, "or, from this page:", accept_command(facts, {}));
     }
     if (!open.empty()) {
@@ -238,10 +240,13 @@ void write_passed(std::ostream& out, const Results& passed) {
     write_orders(out);
     out << "<div class=\"thumbnails sorted\">\n";
     for (const CaseResult* result : passed) {
-        out << "<figure" << sort_keys(*result)
-            << "><button type=\"button\" class=\"thumbnail\" aria-pressed=\"false\">";
-        write_image(out, result->actual, result->file.name);
-        out << "</button><figcaption>" << escaped(result->file.name) << "<small>" << how_much(*result) << "</small>";
+        out << "<figure" << sort_keys(*result) << '>';
+        if (!result->actual.empty()) {
+            out << "<button type=\"button\" class=\"thumbnail\" aria-pressed=\"false\">";
+            write_image(out, result->actual, result->file.name);
+            out << "</button>";
+        }
+        out << "<figcaption>" << escaped(result->file.name) << "<small>" << how_much(*result) << "</small>";
         for (const std::string& remark : result->remarks) out << "<small>" << escaped(remark) << "</small>";
         out << "</figcaption></figure>\n";
     }

@@ -30,13 +30,26 @@ std::string counts(const Summary& sum, std::size_t cases, double seconds) {
            attribute("skipped", std::to_string(sum[CaseOutcome::skipped])) + attribute("time", decimal(seconds));
 }
 
+/// What differs in answers, where the message has only the first of it.
+std::vector<std::string> told_lines(const CaseResult& result) {
+    std::vector<std::string> out;
+    for (const Finding& finding : result.findings) {
+        if (finding.words.size() < 2 || finding.golden == result.file.draw() ||
+            finding.golden == result.file.plain_state())
+            continue;
+        out.insert(out.end(), finding.words.begin(), finding.words.end());
+    }
+    return out;
+}
+
 void write_problem(std::ostream& out, const char* element, const RunFacts& facts, const CaseResult& result) {
     out << "      <" << element << attribute("type", name(result.outcome)) << attribute("message", result.message)
         << '>';
     out << escaped(result.message) << '\n';
+    for (const std::string& line : told_lines(result)) out << escaped(line) << '\n';
     if (can_be_taken(result)) {
         const std::string_view names[] = {result.file.name};
-        out << "If the picture is right: " << escaped(update_command(facts, names)) << '\n';
+        out << if_right(result) << ' ' << escaped(update_command(facts, names)) << '\n';
         if (!facts.page.empty()) out << "or, from the report: " << escaped(accept_command(facts, names)) << '\n';
     }
     out << "</" << element << ">\n";
@@ -113,6 +126,10 @@ bool is_ok(const RunFacts& facts, std::span<const CaseResult> results) {
     return summary(results).ok() && (!facts.strict || facts.orphans.empty());
 }
 
+std::string_view if_right(const CaseResult& result) {
+    return draws_nothing(result) ? "If what is there now is right:" : "If the picture is right:";
+}
+
 std::string update_command(const RunFacts& facts, std::span<const std::string_view> names) {
     std::string out = "mobbscope test " + shell_word(facts.folder) + " --update";
     for (const std::string_view name : names) out += ' ' + shell_word(std::string(name));
@@ -127,8 +144,12 @@ std::string accept_command(const RunFacts& facts, std::span<const std::string_vi
 
 void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results) {
     std::vector<std::string_view> updatable;
+    bool pictures = false;
     for (const CaseResult& result : results) {
-        if (can_be_taken(result)) updatable.push_back(result.file.name);
+        if (can_be_taken(result)) {
+            updatable.push_back(result.file.name);
+            pictures = pictures || !draws_nothing(result);
+        }
         if (result.outcome == CaseOutcome::passed && result.remarks.empty()) continue;
         out << name(result.outcome) << ": " << cleaned(result.file.name) << ": " << cleaned(result.message);
         const bool passed = result.message.empty();
@@ -136,6 +157,7 @@ void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
             out << (i == 0 && passed ? "" : "; ") << cleaned(result.remarks[i]);
         }
         out << '\n';
+        for (const std::string& line : told_lines(result)) out << "  " << cleaned(line) << '\n';
     }
     for (const std::string& orphan : facts.orphans) out << kOrphan << ": " << cleaned(orphan) << kOrphanAdvice << '\n';
     out << cleaned(facts.folder) << (facts.shard.empty() ? "" : ", shard " + facts.shard) << ": "
@@ -143,7 +165,8 @@ void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
     for (const std::string& sentence : other_systems(results)) out << cleaned(sentence) << '\n';
     if (const std::string differing = differing_passes(results); !differing.empty()) out << differing << '\n';
     if (!updatable.empty()) {
-        out << "Look at the pictures. Those that are right become goldens with\n  "
+        out << (pictures ? "Look at the pictures. Those that are right become goldens with\n  "
+                         : "What is right becomes a golden with\n  ")
             << cleaned(update_command(facts, updatable)) << '\n';
     }
 }

@@ -50,6 +50,9 @@ std::string differing_passes(std::span<const CaseResult> results);
 /// Whether a run is as it should be.
 bool is_ok(const RunFacts& facts, std::span<const CaseResult> results);
 
+/// Before the command line that takes the goldens of a case.
+std::string_view if_right(const CaseResult& result);
+
 /// The command line that takes the pictures of these cases as their goldens, ready for a shell.
 std::string update_command(const RunFacts& facts, std::span<const std::string_view> names);
 

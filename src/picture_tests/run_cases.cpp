@@ -1,6 +1,7 @@
 #include <base/error.h>
 #include <base/file.h>
 #include <base/text.h>
+#include <picture_tests/held_answers.h>
 #include <picture_tests/reference.h>
 #include <picture_tests/run_cases.h>
 #include <picture_tests/test_case.h>
@@ -35,9 +36,10 @@ bool is_there(const std::filesystem::path& file) {
 }
 
 void add_finding(CaseResult& result, CaseOutcome outcome, Finding finding) {
-    if (result.outcome == CaseOutcome::passed) result.outcome = outcome;
-    result.message += (result.message.empty() ? "" : "; ") + finding.message;
+    // What differs says more than what is not there.
+    if (result.outcome != CaseOutcome::different) result.outcome = outcome;
     result.findings.push_back(std::move(finding));
+    result.message = message_of(result.findings);
 }
 
 void add_missing(CaseResult& result, const std::filesystem::path& file) {
@@ -88,7 +90,7 @@ class DrawnCase {
 };
 
 /// A picture held against its golden.
-struct Held {
+struct HeldPicture {
     Image golden;
     std::optional<ImageDiff> diff;          ///< where there is a golden that can be read
     std::optional<std::string> unreadable;  ///< why
@@ -96,8 +98,8 @@ struct Held {
     bool passes() const { return diff && diff->passes; }
 };
 
-Held hold(const Image& actual, const std::filesystem::path& file, const DiffOptions& options, const Image* mask) {
-    Held out;
+HeldPicture hold(const Image& actual, const std::filesystem::path& file, const DiffOptions& options, const Image* mask) {
+    HeldPicture out;
     if (!is_there(file)) return out;
     try {
         const std::string bytes = read_file(file);
@@ -124,7 +126,7 @@ struct ShownPictures {
 };
 
 /// The result shows this picture.
-void show(CaseResult& result, ShownPictures& shown, const Image& actual, Held held, const std::filesystem::path& file) {
+void show(CaseResult& result, ShownPictures& shown, const Image& actual, HeldPicture held, const std::filesystem::path& file) {
     result.shown = file;
     shown.actual = &actual;
     shown.golden = std::move(held.golden);
@@ -134,7 +136,7 @@ void show(CaseResult& result, ShownPictures& shown, const Image& actual, Held he
 }
 
 /// The verdict on a picture by its pixels. `which` stands before what differs.
-void judge_pixels(CaseResult& result, const Held& held, const std::filesystem::path& file, const std::string& which) {
+void judge_pixels(CaseResult& result, const HeldPicture& held, const std::filesystem::path& file, const std::string& which) {
     if (held.unreadable) {
         add_finding(result, CaseOutcome::different,
                     {file, which + "the golden cannot be read: " + *held.unreadable, {}});
@@ -144,6 +146,38 @@ void judge_pixels(CaseResult& result, const Held& held, const std::filesystem::p
         add_finding(result, CaseOutcome::different, {file, which + what_differs(*held.diff), {}});
     } else if (!held.diff->same && which.empty()) {
         result.remarks.push_back(what_differs(*held.diff));
+    }
+}
+
+/// Lines of what differs, of one golden, as one finding.
+void add_differences(CaseResult& result, const std::filesystem::path& golden, const std::string& of,
+                     std::vector<std::string> lines) {
+    const std::size_t count = lines.size();
+    const std::string more = count > 1 ? "; and " + std::to_string(count - 1) + " more" : "";
+    std::string message = of + ": " + lines.front() + more;
+    if (count > kMostWords) {
+        lines.resize(kMostWords);
+        lines.push_back("and " + std::to_string(count - kMostWords) + " more");
+    }
+    add_finding(result, CaseOutcome::different, {golden, std::move(message), std::move(lines)});
+}
+
+/// What the scene itself expects, of every query.
+void check_expectations(CaseResult& result, const Shot& shot) {
+    std::vector<std::string> lines = unexpected_answers(shot);
+    if (!lines.empty()) add_differences(result, {}, shot.scene_file.string(), std::move(lines));
+}
+
+/// Answers, trace or fit against its golden.
+void compare_held(CaseResult& result, const HeldAnswers& held, Held what) {
+    const std::filesystem::path golden = result.file.golden_of(what);
+    if (!is_there(golden)) return add_missing(result, golden);
+    try {
+        std::vector<std::string> lines = held.differences(what, read_file(golden), golden.string());
+        if (!lines.empty()) add_differences(result, golden, golden.filename().string(), std::move(lines));
+    } catch (const InputError& error) {
+        add_finding(result, CaseOutcome::different,
+                    {golden, std::string("the golden cannot be read: ") + error.what(), {}});
     }
 }
 
@@ -184,7 +218,7 @@ void compare_without_text(CaseResult& result, ShownPictures& shown, const Case& 
     const PictureSize size{drawn.plain().width, drawn.plain().height};
     std::optional<Image> small_mask;
     if (mask && !tested.shot.window) small_mask = shrunk_mask(*mask, 2, size);
-    Held held = hold(drawn.plain(), file, diff_options(Tolerance::loose), small_mask ? &*small_mask : nullptr);
+    HeldPicture held = hold(drawn.plain(), file, diff_options(Tolerance::loose), small_mask ? &*small_mask : nullptr);
     judge_pixels(result, held, file, "without text: ");
     // The case's own picture is shown if that is why it does not pass.
     const bool shows_another = result.decided_by == DecidedBy::pixels && !(result.image && result.image->passes);
@@ -203,7 +237,7 @@ bool has_draw_list(const CaseFile& file, const Case& tested) { return tested.ter
 void compare_on_reference(CaseResult& result, ShownPictures& shown, const Case& tested, DrawnCase& drawn,
                           bool has_reference, const Image* mask) {
     const std::filesystem::path golden = result.file.golden();
-    Held held = hold(drawn.picture(), golden, tested.terms.diff, mask);
+    HeldPicture held = hold(drawn.picture(), golden, tested.terms.diff, mask);
     judge_pixels(result, held, golden, "");
     const bool same_size = !held.diff || held.diff->same_size;
     show(result, shown, drawn.picture(), std::move(held), golden);
@@ -234,8 +268,9 @@ void judge_similarity(CaseResult& result, const ShownPictures& shown, const Imag
 void compare_elsewhere(CaseResult& result, ShownPictures& shown, const Case& tested, DrawnCase& drawn, bool same_words,
                        const Image* mask) {
     const std::filesystem::path golden = result.file.golden();
-    Held held = hold(drawn.picture(), golden, tested.terms.diff, mask);
+    HeldPicture held = hold(drawn.picture(), golden, tested.terms.diff, mask);
     const bool passes = held.passes();
+    const std::size_t found_before = result.findings.size();
     const bool comparable = held.diff && held.diff->same_size;
     if (passes || !comparable) {
         judge_pixels(result, held, golden, "");
@@ -248,7 +283,7 @@ void compare_elsewhere(CaseResult& result, ShownPictures& shown, const Case& tes
         // With other fonts words lie elsewhere; pixels that agree say more then.
         if (passes && !same_words) return;
         compare_numbers(result, drawn.draw_list(), "the draw list", result.file.draw(), !same_words);
-        if (!passes || result.outcome != CaseOutcome::passed) result.decided_by = DecidedBy::draw_list;
+        if (!passes || result.findings.size() > found_before) result.decided_by = DecidedBy::draw_list;
         if (!passes && same_words) judge_similarity(result, shown, mask, kMostLossWithDrawList);
     } else if (passes) {
         return;
@@ -262,12 +297,16 @@ void compare_elsewhere(CaseResult& result, ShownPictures& shown, const Case& tes
     }
 }
 
-/// All goldens of a case as they would be now, and those that go, as others take their place.
+void add_golden(std::vector<GoldenChange>& to, const std::filesystem::path& golden, std::optional<std::string> bytes) {
+    std::optional<std::string> before = golden_bytes(golden);
+    if (bytes || before) to.push_back({golden, std::move(bytes), std::move(before)});
+}
+
+/// All goldens of a case's picture as they would be now, and those that go, as others take their place.
 std::vector<GoldenChange> goldens_of(const CaseFile& file, const Case& tested, DrawnCase& drawn, bool has_reference) {
     std::vector<GoldenChange> out;
     const auto add = [&out](const std::filesystem::path& golden, std::optional<std::string> bytes) {
-        std::optional<std::string> before = golden_bytes(golden);
-        if (bytes || before) out.push_back({golden, std::move(bytes), std::move(before)});
+        add_golden(out, golden, std::move(bytes));
     };
     const auto if_wanted = [](bool wanted, const auto& make) {
         return wanted ? std::optional<std::string>(make()) : std::nullopt;
@@ -283,15 +322,27 @@ std::vector<GoldenChange> goldens_of(const CaseFile& file, const Case& tested, D
     return out;
 }
 
-/// Reads and draws it, and compares.
-void run(CaseResult& result, PictureMaker& maker, const RunOptions& options) {
-    const Case tested = read_case(result.file.file);
-    result.tolerance = tested.terms.tolerance;
-    if (tested.terms.skip) {
-        result.outcome = CaseOutcome::skipped;
-        result.message = *tested.terms.skip;
-        return;
+/// The goldens of all that is held, of one whose goldens are asked for: `pictures` and those of numbers.
+void add_fresh(CaseResult& result, const CaseTerms& terms, const HeldAnswers* held, std::vector<GoldenChange> pictures,
+               FreshGoldens wanted) {
+    const bool passed = result.outcome == CaseOutcome::passed;
+    result.fresh = std::move(pictures);
+    for (const Held what : terms.hold) {
+        if (what != Held::picture) add_golden(result.fresh, result.file.golden_of(what), held->golden(what));
     }
+    if (!passed || wanted != FreshGoldens::missing) return;
+    const bool lacks = std::ranges::any_of(result.fresh, [](const GoldenChange& one) { return !one.replaces; });
+    std::erase_if(result.fresh, [&](const GoldenChange& one) { return !lacks || (one.bytes && one.replaces); });
+}
+
+/// Whether there is a golden to take, or all are asked for.
+bool wants_fresh(const CaseResult& result, const RunOptions& options) {
+    return result.findings.size() > unmended(result).size() || options.fresh != FreshGoldens::of_failed;
+}
+
+/// Draws it and compares. `held`: what else is held; null: nothing.
+void run_picture(CaseResult& result, const Case& tested, const HeldAnswers* held, PictureMaker& maker,
+                 const RunOptions& options) {
     if (tested.shot.window && is_there(result.file.draw())) {
         throw InputError(result.file.file.string(), "",
                          "a picture of the window has no draw list; remove " + result.file.draw().filename().string());
@@ -318,18 +369,56 @@ void run(CaseResult& result, PictureMaker& maker, const RunOptions& options) {
         const bool same_words = same_text(here, *reference, tested.shot.window.has_value());
         compare_elsewhere(result, shown, tested, drawn, same_words, mask ? &*mask : nullptr);
     }
-    const bool passed = result.outcome == CaseOutcome::passed;
-    if (!passed || options.fresh != FreshGoldens::of_failed) {
-        result.fresh = goldens_of(result.file, tested, drawn, reference.has_value());
-        if (passed && options.fresh == FreshGoldens::missing) {
-            const bool lacks = std::ranges::any_of(result.fresh, [](const GoldenChange& one) { return !one.replaces; });
-            std::erase_if(result.fresh, [&](const GoldenChange& one) { return !lacks || (one.bytes && one.replaces); });
-        }
-    }
+    if (wants_fresh(result, options))
+        add_fresh(result, tested.terms, held, goldens_of(result.file, tested, drawn, reference.has_value()),
+                  options.fresh);
     const std::optional<std::string> packed = fresh_bytes(result, result.shown);
     result.actual = packed ? *packed : png_bytes(*shown.actual);
     // Of a case that passed one picture is enough.
-    if (!passed && !shown.golden.rgba.empty()) result.golden = png_bytes(shown.golden);
+    if (result.outcome != CaseOutcome::passed && !shown.golden.rgba.empty()) result.golden = png_bytes(shown.golden);
+}
+
+/// A golden must not take the place of what it is made from.
+void check_is_not_scene(const CaseFile& file, const Case& tested) {
+    for (const Held what : tested.terms.hold) {
+        const std::filesystem::path golden = file.golden_of(what);
+        std::error_code ignored;
+        if (what == Held::picture || !std::filesystem::equivalent(golden, tested.shot.scene_file, ignored)) continue;
+        throw InputError(file.file.string(), "",
+                         "the scene has the name of the golden " + golden.filename().string() + "; rename the scene");
+    }
+}
+
+/// Reads it and compares all that it holds. `maker`: not null if that is a picture.
+void run(CaseResult& result, PictureMaker* maker, const RunOptions& options) {
+    const Case tested = read_case(result.file.file);
+    result.tolerance = tested.terms.tolerance;
+    if (tested.terms.skip) {
+        result.outcome = CaseOutcome::skipped;
+        result.message = *tested.terms.skip;
+        return;
+    }
+    check_is_not_scene(result.file, tested);
+    check_expectations(result, tested.shot);
+    std::optional<HeldAnswers> held;
+    if (tested.terms.hold != std::vector{Held::picture}) held.emplace(tested.shot, tested.terms);
+    for (const Held what : tested.terms.hold) {
+        if (what != Held::picture) compare_held(result, *held, what);
+    }
+    if (tested.terms.holds(Held::picture)) {
+        run_picture(result, tested, held ? &*held : nullptr, *maker, options);
+    } else if (wants_fresh(result, options)) {
+        add_fresh(result, tested.terms, &*held, {}, options.fresh);
+    }
+}
+
+/// Whether there is a picture; nothing where that cannot be found out.
+std::optional<bool> holds_picture(const CaseFile& file) {
+    try {
+        return read_terms(file).holds(Held::picture);
+    } catch (const std::exception&) {
+        return std::nullopt;
+    }
 }
 
 }  // namespace
@@ -349,16 +438,21 @@ double similarity_loss(const Image& actual, const Image& golden, const Image* ma
 CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl, const RunOptions& options) {
     CaseResult result;
     result.file = file;
-    if (!maker) {
+    const std::optional<bool> draws = holds_picture(file);
+    if (draws.value_or(false) && !maker) {
         result.outcome = CaseOutcome::skipped;
         result.message = no_opengl;
         return result;
     }
     const auto begin = std::chrono::steady_clock::now();
-    const Renderer& renderer = maker->renderer();
-    result.drawn_by = {std::string(maker->backend()), renderer.context().device(), reference_of(renderer).opengl};
+    if (maker && draws.value_or(true)) {
+        const Renderer& renderer = maker->renderer();
+        result.drawn_by = {std::string(maker->backend()), renderer.context().device(), reference_of(renderer).opengl};
+    } else {
+        result.drawn_by.backend = kDrawsNothing;
+    }
     try {
-        run(result, *maker, options);
+        run(result, maker, options);
     } catch (const std::exception& error) {
         result.outcome = CaseOutcome::failed;
         result.message = error.what();
@@ -384,7 +478,8 @@ void make_folder_of(const std::filesystem::path& file) {
 
 std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const std::filesystem::path& folder) {
     const std::filesystem::path stem = folder / result.file.name;
-    const bool keeps = result.outcome != CaseOutcome::passed && !result.actual.empty();
+    const bool is_there_something = !result.actual.empty() || !result.fresh.empty();
+    const bool keeps = result.outcome != CaseOutcome::passed && is_there_something;
     if (keeps) make_folder_of(stem);
     std::vector<std::filesystem::path> written;
     const auto keep = [&](const std::string& what, const std::optional<std::string>& bytes) {
@@ -410,8 +505,9 @@ std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const
         const std::optional<Image> heat = shown && keeps ? heat_map(result) : std::nullopt;
         keep("heat" + ending, heat ? std::optional(png_bytes(*heat)) : std::nullopt);
     }
-    for (const CaseFile::Golden golden : {&CaseFile::draw, &CaseFile::plain_state}) {
-        const std::filesystem::path file = (result.file.*golden)();
+    for (const std::filesystem::path& file :
+         {result.file.draw(), result.file.plain_state(), result.file.golden_of(Held::answers),
+          result.file.golden_of(Held::trace), result.file.golden_of(Held::fit)}) {
         keep("actual" + result.file.ending_of(file), fresh_bytes(result, file));
     }
     return written;

@@ -1,4 +1,4 @@
-/// Draws cases and holds them against their goldens.
+/// Draws cases, answers their queries and holds them against their goldens.
 #pragma once
 
 #include <cases/case_file.h>
@@ -11,7 +11,7 @@
 
 namespace mobbscope::picture_tests {
 
-/// Runs one case. `maker` null: there is no OpenGL, for the reason given; the case is skipped without being read. Never
+/// Runs one case. `maker` null: there is no OpenGL, for the reason given; a case with a picture is skipped. Never
 /// throws for what is wrong with a case.
 CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl,
                     const RunOptions& options = {});

@@ -33,14 +33,23 @@ class Fits {
     std::vector<std::shared_ptr<const FittedScene>> made_;
 };
 
-std::vector<PicturePanel> read_panels(const JsonPlace& place, const FitAndView& common, Fits& fits) {
+/// The query that a `view` names, if it says something of it; else `otherwise`.
+std::optional<int> query_in(const JsonPlace& place, std::optional<int> otherwise = {}) {
+    const auto view = place.find("view");
+    const auto query = view ? view->find("query") : std::nullopt;
+    if (!query) return otherwise;
+    return query->is_null() ? std::nullopt : std::optional(query->integer(0, kMaxInt));
+}
+
+std::vector<PicturePanel> read_panels(const JsonPlace& place, const FitAndView& common, std::optional<int> query,
+                                      Fits& fits) {
     if (place.size() == 0) place.fail("there are no panels; give one or more, or leave the key out");
     std::vector<PicturePanel> panels;
     for (int i = 0; i < place.size(); ++i) {
         const JsonPlace one = place[i];
         one.allow_only({"title", "view", "fit"});
         const FitAndView chosen = common.over(one);
-        PicturePanel panel{{}, fits.with(chosen.fit), chosen.view};
+        PicturePanel panel{{}, fits.with(chosen.fit), chosen.view, query_in(one, query)};
         if (const auto title = one.find("title")) panel.title = title->string();
         panels.push_back(std::move(panel));
     }
@@ -106,9 +115,9 @@ Shot read_shot(const JsonPlace& place, const std::filesystem::path& folder) {
     const FitAndView common = std::move(read.seen);
     Fits fits(std::move(read.scene));
     if (const auto panels = place.find("panels")) {
-        shot.panels = read_panels(*panels, common, fits);
+        shot.panels = read_panels(*panels, common, query_in(place), fits);
     } else {
-        shot.panels.push_back({{}, fits.with(common.fit), common.view});
+        shot.panels.push_back({{}, fits.with(common.fit), common.view, query_in(place)});
     }
     shot.columns = static_cast<int>(shot.panels.size());
     if (const auto columns = place.find("columns")) {

@@ -34,6 +34,7 @@ struct PicturePanel {
     std::string title;  ///< above it; empty where there is only one
     std::shared_ptr<const FittedScene> fitted;
     ViewState view;
+    std::optional<int> query{};  ///< that the case itself names; whether there is one is not checked
 };
 
 /// The whole window, after a script has worked it.

@@ -33,7 +33,9 @@ std::vector<ReviewNews> GoldenSteps::accept(const std::vector<std::size_t>& indi
             not_accepted += (not_accepted.empty() ? "" : "; ") + review_.cases()[index].file.name + ": " + why;
             continue;
         }
-        if (surroundings_.check_may_write) surroundings_.check_may_write(review_.cases()[index].file.golden());
+        for (const GoldenChange& change : review_.cases()[index].result.fresh) {
+            if (surroundings_.check_may_write) surroundings_.check_may_write(change.file);
+        }
         ready.push_back(index);
     }
     if (ready.empty()) {

@@ -23,6 +23,16 @@ std::shared_ptr<const Image> picture_of(const std::filesystem::path& file) {
     return std::make_shared<const Image>(read_png(file));
 }
 
+/// Of a case without a picture, where one is there.
+std::filesystem::path first_golden_of(const CaseFile& file) {
+    using picture_tests::Held;
+    std::error_code ignored;
+    for (const Held held : {Held::answers, Held::trace, Held::fit}) {
+        if (std::filesystem::exists(file.golden_of(held), ignored)) return file.golden_of(held);
+    }
+    return {};
+}
+
 /// The picture of packed bytes, which the program made itself.
 std::shared_ptr<const Image> picture_from(const std::string& png) {
     if (png.empty()) return nullptr;
@@ -33,7 +43,10 @@ std::shared_ptr<const Image> picture_from(const std::string& png) {
 
 // --- a case
 
-CaseOutcome ReviewCase::outcome() const { return accepted ? CaseOutcome::passed : result.outcome; }
+CaseOutcome ReviewCase::outcome() const {
+    if (!accepted) return result.outcome;
+    return stays_different(result) ? CaseOutcome::different : CaseOutcome::passed;
+}
 
 bool ReviewCase::failing() const {
     return drawn() && outcome() != CaseOutcome::passed && outcome() != CaseOutcome::skipped;
@@ -161,10 +174,9 @@ std::string Review::why_not_accept(std::size_t index) const {
     const CaseOutcome outcome = one.outcome();
     if (outcome == CaseOutcome::passed) return "it passed";
     if (outcome == CaseOutcome::skipped) return "it was skipped";
-    if (outcome == CaseOutcome::failed) return "there is no picture of it";
-    if (!can_be_taken(outcome, one.result.other_here)) {
-        return "its goldens are from elsewhere: here are " + one.result.other_here;
-    }
+    if (outcome == CaseOutcome::failed) return "there is nothing of it to take";
+    if (!one.result.other_here.empty()) return "its goldens are from elsewhere: here are " + one.result.other_here;
+    if (!can_be_taken(one.result)) return "no golden differs, but its scene expects another answer; correct the scene";
     return "";
 }
 
@@ -199,6 +211,7 @@ const ReviewPictures& Review::pictures() {
             pictures_.golden = picture_of(one.file.golden());
         }
         if (!one.result.shown.empty()) pictures_.golden_file = one.result.shown;
+        if (draws_nothing(one.result)) pictures_.golden_file = first_golden_of(one.file);
         if (!pictures_.golden || !pictures_.actual) return pictures_;
         ImageDiff found = compared_again(one.result, *pictures_.actual, *pictures_.golden);
         Image heat = std::exchange(found.heat, {});

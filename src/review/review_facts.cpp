@@ -26,6 +26,7 @@ std::string headline_of(const ReviewCase& one) {
 
 /// Of one that passed, whether the picture is the very golden.
 std::string passed_sentence(const ReviewCase& one) {
+    if (draws_nothing(one.result)) return "All that it holds is as its goldens say.";
     const auto& figures = one.result.image;
     if (!figures || figures->largest == 0) return "The picture is the golden's.";
     if (figures->differing == 0)
@@ -43,7 +44,12 @@ std::string sentence_of(const Review& review, const ReviewCase& one) {
                                        : "There is no picture of it in " + review.output().string() +
                                              ": it passed there, or was not drawn.";
     }
-    if (one.accepted) return "The picture is the golden now; undo gives the one before back.";
+    if (one.accepted) {
+        return std::string(draws_nothing(one.result) ? "What it holds is the golden now"
+                                                     : "The picture is the golden now") +
+               "; undo gives the one before back." +
+               (stays_different(one.result) ? " The scene still expects another answer." : "");
+    }
     if (one.outcome() == CaseOutcome::passed) return passed_sentence(one);
     if (one.outcome() == CaseOutcome::failed || one.outcome() == CaseOutcome::skipped) return one.result.message;
     // All of it stands below.
@@ -56,6 +62,8 @@ std::string sentence_of(const Review& review, const ReviewCase& one) {
         out += out.empty() ? "" : " ";
         if (one.outcome() == CaseOutcome::missing_golden && !std::filesystem::exists(finding.golden, ignored)) {
             out += "There is no " + file + ".";
+        } else if (finding.golden.empty()) {
+            out += "An answer is not the one that the scene expects.";
         } else if (numbers) {
             out += "The numbers of " + file + " differ.";
         } else if (figures && figures->same_size) {
@@ -170,15 +178,17 @@ void pixel_section(Ui& ui, const ReviewPictures& pictures, const std::optional<g
 // --- what differs
 
 void findings(Ui& ui, const ReviewCase& one, const ReviewPictures& pictures) {
-    if (one.accepted) return;
+    // Of a case without a picture they stand in the middle.
+    if (draws_nothing(one.result)) return;
     bool has_heading = false;
-    for (const picture_tests::Finding& finding : one.result.findings) {
+    for (const picture_tests::Finding& finding : one.accepted ? unmended(one.result) : one.result.findings) {
         // Its pixels are told already, or that there is none.
         const bool has_pixels = pictures.diff || !pictures.golden;
         if (has_pixels && finding.golden == pictures.golden_file) continue;
         if (!std::exchange(has_heading, true)) heading(ui, "WHAT DIFFERS BESIDES");
-        text_line(ui.style.text, finding.golden.filename().string());
-        ui.mark("finding." + finding.golden.filename().string());
+        const std::string of = finding.golden.empty() ? "scene" : finding.golden.filename().string();
+        text_line(ui.style.text, of);
+        ui.mark("finding." + of);
         ImGui::Indent(ui.px(10));
         if (finding.words.empty()) words(ui.style.quiet, finding.message);
         for (const std::string& line : finding.words) words(ui.style.quiet, line);
@@ -232,13 +242,15 @@ void path_of_file(Ui& ui, const char* label, const std::string& path) {
 void files(Ui& ui, const Review& review, const ReviewCase& one, const ReviewPictures& pictures) {
     heading(ui, "FILES");
     path_of_file(ui, "case", one.file.file.string());
-    path_of_file(ui, "golden", pictures.golden_file.string());
+    if (!pictures.golden_file.empty()) path_of_file(ui, "golden", pictures.golden_file.string());
     if (one.from_output) path_of_file(ui, "report", review.output().string());
     // "llvmpipe (LLVM 15.0.6, 256 bits)": the processor makes no difference.
     const std::string& renderer = one.result.drawn_by.renderer;
     if (one.from_output) {
         words(ui.style.quiet,
               "The actual picture is the report's. Accepting it takes the report's goldens byte by byte.");
+    } else if (one.drawn() && draws_nothing(one.result)) {
+        words(ui.style.quiet, "Answered by mobbscope test, which drew nothing.");
     } else if (one.drawn() && !one.result.drawn_by.backend.empty()) {
         words(ui.style.quiet, "Drawn by mobbscope test with " + one.result.drawn_by.backend + ", " +
                                   renderer.substr(0, renderer.find(" (")) + ".");
@@ -257,7 +269,7 @@ void review_facts(Ui& ui, Review& review, const std::optional<glm::ivec2>& pixel
     words(ui.style.text, one.file.name);
     outcome_frame(ui, review, one);
     actions(ui, review);
-    pixel_section(ui, pictures, pixel);
+    if (!draws_nothing(one.result)) pixel_section(ui, pictures, pixel);
     numbers(ui, one, pictures);
     findings(ui, one, pictures);
     remarks(ui, one);

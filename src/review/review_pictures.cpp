@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -285,10 +288,72 @@ void drag_pictures(Ui& ui, const ReviewLook& look, const PictureView& view, cons
     change_look(ui, [by](ReviewLook& changed) { changed.middle = glm::clamp(changed.middle - by, 0.0, 1.0); });
 }
 
+// --- of a case without a picture
+
+/// Lines that another text does not have.
+std::vector<std::string> lines_only_in(const std::string& text, const std::string& other) {
+    const auto lines_of = [](const std::string& all) {
+        std::vector<std::string> out;
+        std::istringstream in(all);
+        for (std::string line; std::getline(in, line);) out.emplace_back(trimmed(line));
+        return out;
+    };
+    const std::vector<std::string> others = lines_of(other);
+    const std::set<std::string> known(others.begin(), others.end());
+    std::vector<std::string> out = lines_of(text);
+    std::erase_if(out, [&](const std::string& line) { return known.contains(line); });
+    return out;
+}
+
+void some_lines(Ui& ui, const char* title, ImU32 color, const std::vector<std::string>& lines) {
+    constexpr std::size_t kMostLines = 6;
+    if (lines.empty()) return;
+    ImGui::Dummy({0, ui.px(4)});
+    text_line(ui.style.quiet, title);
+    ImGui::Indent(ui.px(10));
+    ImGui::PushFont(ui.style.mono);
+    for (std::size_t i = 0; i < std::min(lines.size(), kMostLines); ++i) words(color, cleaned(lines[i]));
+    ImGui::PopFont();
+    if (lines.size() > kMostLines)
+        text_line(ui.style.quiet, "and " + counted(lines.size() - kMostLines, "line", "lines") + " more");
+    ImGui::Unindent(ui.px(10));
+}
+
+/// What is said of a golden, and the lines of it that are others now.
+void held_finding(Ui& ui, const ReviewCase& one, const picture_tests::Finding& finding) {
+    const std::string title = finding.golden.empty() ? "scene" : finding.golden.filename().string();
+    heading(ui, title.c_str());
+    ui.mark("held." + title);
+    if (finding.words.empty()) words(ui.style.text, cleaned(finding.message) + '.');
+    for (const std::string& line : finding.words) words(ui.style.text, cleaned(line));
+    const auto fresh = std::ranges::find(one.result.fresh, finding.golden, &picture_tests::GoldenChange::file);
+    if (fresh == one.result.fresh.end() || !fresh->bytes) return;
+    const std::string before = fresh->replaces.value_or("");
+    some_lines(ui, "golden", ui.style.quiet, lines_only_in(before, *fresh->bytes));
+    some_lines(ui, "actual", ui.style.text, lines_only_in(*fresh->bytes, before));
+}
+
+/// In the place of pictures.
+void held_words(Ui& ui, const ReviewCase& one) {
+    ImGui::BeginChild("held", {0, 0}, false, ImGuiWindowFlags_NoBackground);
+    const std::vector<picture_tests::Finding> findings = one.accepted ? unmended(one.result) : one.result.findings;
+    if (findings.empty()) {
+        words(ui.style.quiet, one.outcome() == picture_tests::CaseOutcome::passed
+                                  ? "The case holds no picture. All that it holds is as its goldens say."
+                                  : cleaned(one.result.message));
+    }
+    for (const picture_tests::Finding& finding : findings) held_finding(ui, one, finding);
+    ImGui::EndChild();
+}
+
 }  // namespace
 
 std::optional<glm::ivec2> review_pictures(Ui& ui, Review& review) {
     const ReviewPictures& pictures = review.pictures();
+    if (review.shown().drawn() && draws_nothing(review.shown().result)) {
+        held_words(ui, review.shown());
+        return std::nullopt;
+    }
     mode_buttons(ui, review);
     const ImVec2 min = ImGui::GetCursorScreenPos();
     const ImVec2 room = ImGui::GetContentRegionAvail();

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string>
 #include <utility>
 
 namespace mobbscope {
@@ -23,10 +25,25 @@ bool agrees(const mobb::Contact& expected, const mobb::Contact& found) {
            agrees(expected.radii, found.radii);
 }
 
+/// Of collision and contact.
+std::optional<std::string> other_answer(const SceneQuery& query, const Answer& answer) {
+    const Expectation& expect = *query.expect;
+    if (!expect.collides) return std::nullopt;
+    const bool same =
+        *expect.collides == answer.contact.has_value() && (!expect.contact || agrees(*expect.contact, *answer.contact));
+    if (same) return std::nullopt;
+    if (!*expect.collides) return "expected no collision, but " + sentence(query, answer.contact);
+    if (!expect.contact) return "expected a collision, but " + sentence(query, answer.contact);
+    return "expected contact at " + to_thousandth(expect.contact->time) + " s between samples " +
+           std::to_string(expect.contact->a_sample) + " and " + std::to_string(expect.contact->b_sample) + ", but " +
+           sentence(query, answer.contact);
+}
+
 }  // namespace
 
 Answer answer(const FittedScene& fitted, const SceneQuery& query, const Details& details) {
     Answer answer;
+    answer.search = details.search;
     if (details.trace) {
         RecordedQuery recorded = record(fitted, query, details.search);
         answer.contact = recorded.contact;
@@ -84,17 +101,30 @@ std::string sentence(const SceneQuery& query, const std::optional<mobb::Contact>
            metres(contact->radii) + " m.";
 }
 
+bool expects_tests(const SceneQuery& query) {
+    return query.expect &&
+           std::ranges::any_of(query.expect->tests, [](const auto& tests) { return tests.has_value(); });
+}
+
 std::optional<std::string> disagreement(const SceneQuery& query, const Answer& answer) {
     if (!query.expect) return std::nullopt;
-    const bool same = query.expect->collides == answer.contact.has_value() &&
-                      (!query.expect->contact || agrees(*query.expect->contact, *answer.contact));
-    if (same) return std::nullopt;
-    if (!query.expect->collides) return "expected no collision, but " + sentence(query, answer.contact);
-    if (!query.expect->contact) return "expected a collision, but " + sentence(query, answer.contact);
-    const mobb::Contact& expected = *query.expect->contact;
-    return "expected contact at " + to_thousandth(expected.time) + " s between samples " +
-           std::to_string(expected.a_sample) + " and " + std::to_string(expected.b_sample) + ", but " +
-           sentence(query, answer.contact);
+    std::optional<std::string> out = other_answer(query, answer);
+    if (answer.search == Search::direct) return out;
+    for (const mobb::TestKind test : mobb::kTestKinds) {
+        const std::optional<std::int64_t>& expected = query.expect->tests[test.index()];
+        if (!expected || *expected == answer.tests[test]) continue;
+        const std::string words = "expected " + counted(*expected, "test", "tests") + " of " +
+                                  std::string(mobb::name(test)) + ", but there " +
+                                  (answer.tests[test] == 1 ? "is " : "are ") + std::to_string(answer.tests[test]);
+        if (!out) {
+            out = words;
+            continue;
+        }
+        // A sentence that ends the line may end with a stop.
+        if (out->ends_with('.')) out->pop_back();
+        out->append("; ").append(words);
+    }
+    return out;
 }
 
 }  // namespace mobbscope

@@ -25,6 +25,7 @@ struct Answer {
     std::optional<std::vector<int>> steps{};              ///< of the trace that are told of; none: all
     std::optional<std::vector<int>> avoidable{};          ///< events that are avoidable overlaps, from who judges them
     std::optional<std::vector<mobb::Interval>> contacts;  ///< likewise
+    Search search = Search::trees;                        ///< that found it
 };
 
 Answer answer(const FittedScene& fitted, const SceneQuery& query, const Details& details);
@@ -35,7 +36,11 @@ void write_answer(JsonWriter& out, std::size_t index, const SceneQuery& query, c
 /// The answer in words: who collides when and where, or that they never do.
 std::string sentence(const SceneQuery& query, const std::optional<mobb::Contact>& contact);
 
-/// How the answer disagrees with what the file expects of it; nothing if it agrees or nothing is expected.
+/// Whether the file says how many tests of some kind the answer is to take.
+bool expects_tests(const SceneQuery& query);
+
+/// How the answer disagrees with what the file expects of it; nothing if it agrees or nothing is expected. Tests are
+/// those of trees, and not compared where pairs of samples were measured directly.
 std::optional<std::string> disagreement(const SceneQuery& query, const Answer& answer);
 
 }  // namespace mobbscope

@@ -139,7 +139,10 @@ void replace_clips(Scene& scene, const std::vector<ReimportedClip>& clips) {
         const bool b = follow(query.b.clip, query.b.placement);
         if (!a && !b) continue;
         query.trace.reset();
-        if (query.expect) query.expect->contact.reset();
+        if (!query.expect) continue;
+        query.expect->contact.reset();
+        query.expect->tests = {};
+        if (!query.expect->collides) query.expect.reset();
     }
 }
 

@@ -11,6 +11,7 @@
 #include <scene/debug_state.h>
 #include <scene/view_state.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -69,10 +70,14 @@ struct Agent {
     friend bool operator==(const Agent&, const Agent&) = default;
 };
 
-/// The answer that a capture recorded.
+/// How many tests of each kind, by mobb::TestKind::index(); none: any number will do.
+using ExpectedTests = std::array<std::optional<std::int64_t>, mobb::kTestKindCount>;
+
+/// The answer that a capture recorded, or a person expects. Something of it is there.
 struct Expectation {
-    bool collides = false;
-    std::optional<mobb::Contact> contact;
+    std::optional<bool> collides;          ///< none: either will do
+    std::optional<mobb::Contact> contact;  ///< none: any will do
+    ExpectedTests tests{};                 ///< of the trees of the fit in use
     friend bool operator==(const Expectation&, const Expectation&) = default;
 };
 

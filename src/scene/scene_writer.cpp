@@ -125,6 +125,23 @@ void write_placed_agent(JsonWriter& out, const Scene& scene, const PlacedAgent& 
     out.end_object();
 }
 
+void write_expectation(JsonWriter& out, const Expectation& expect) {
+    out.begin_object("expect", Layout::row);
+    if (expect.collides) {
+        out.member("collides", *expect.collides);
+        out.key("contact");
+        write_contact(out, expect.contact);
+    }
+    if (expect.tests != ExpectedTests()) {
+        out.begin_object("tests");
+        for (const mobb::TestKind test : mobb::kTestKinds) {
+            if (const auto& count = expect.tests[test.index()]) out.member(mobb::name(test), *count);
+        }
+        out.end_object();
+    }
+    out.end_object();
+}
+
 void write_query(JsonWriter& out, const Scene& scene, const SceneQuery& query) {
     out.begin_object();
     out.key("a");
@@ -132,11 +149,7 @@ void write_query(JsonWriter& out, const Scene& scene, const SceneQuery& query) {
     out.key("b");
     write_placed_agent(out, scene, query.b);
     if (query.expect) {
-        out.begin_object("expect", Layout::row);
-        out.member("collides", query.expect->collides);
-        out.key("contact");
-        write_contact(out, query.expect->contact);
-        out.end_object();
+        write_expectation(out, *query.expect);
     }
     if (query.trace) {
         out.key("trace");

@@ -810,7 +810,7 @@ std::vector<Case> cases() {
          {kFirstQuery},
          [](CommandWorld& w) {
              ASSERT_TRUE(w.session.workspace.scene().queries[0].expect);
-             EXPECT_TRUE(w.session.workspace.scene().queries[0].expect->collides);
+             EXPECT_EQ(w.session.workspace.scene().queries[0].expect->collides, true);
              EXPECT_EQ(w.session.workspace.scene().queries[0].expect->contact, w.session.workspace.recorded()->contact);
          },
          true});
@@ -842,7 +842,7 @@ std::vector<Case> cases() {
              for (const SceneClip& clip : w.session.workspace.scene().clips) EXPECT_FALSE(clip.source) << clip.name;
              ASSERT_EQ(w.session.workspace.scene().queries.size(), 1u);
              ASSERT_TRUE(w.session.workspace.scene().queries[0].expect);
-             EXPECT_TRUE(w.session.workspace.scene().queries[0].expect->collides);
+             EXPECT_EQ(w.session.workspace.scene().queries[0].expect->collides, true);
              EXPECT_EQ(w.session.workspace.scene().queries[0].expect->contact, w.session.workspace.recorded()->contact);
          }});
     look("query.copy_command", "2", [](CommandWorld& w) {

@@ -40,6 +40,36 @@ TEST(FindCases, AFolderWithoutCasesIsRefused) {
     EXPECT_PRED2(says, input_error([&] { find_cases(cases.path() / "scene.json"); }), "cannot be searched");
 }
 
+TEST(Hold, IsThePictureAloneUnlessTheCaseSaysMore) {
+    const CaseFolder cases;
+    using Hold = std::vector<Held>;
+    EXPECT_EQ(read_terms(cases.add("a")).hold, Hold{Held::picture});
+    const CaseTerms terms = read_terms(cases.add("a", R"("hold": ["picture", "fit", "answers"])"));
+    EXPECT_EQ(terms.hold, (Hold{Held::picture, Held::fit, Held::answers}));
+    EXPECT_TRUE(terms.holds(Held::fit));
+    EXPECT_FALSE(terms.holds(Held::trace));
+    EXPECT_EQ(case_named(cases.path(), "a").golden_of(Held::answers), cases.path() / "a.answers.json");
+    const auto refused = [&](const std::string& hold) {
+        return input_error([&] { read_terms(cases.add("a", R"("hold": )" + hold)); });
+    };
+    EXPECT_PRED2(says, refused("[]"), "nothing is held; name one or more of picture, answers, trace, fit");
+    EXPECT_PRED2(
+        says, refused(R"(["answer"])"),
+        "'answer' is nothing that a case holds; give picture, answers, trace or fit (did you mean 'answers'?)");
+    EXPECT_PRED2(says, refused(R"(["fit", "fit"])"), "'fit' stands there twice");
+    EXPECT_PRED2(says, refused(R"("fit")"), "/hold");
+    EXPECT_PRED2(says, refused(R"(["fit"])"), "/size: the case holds no picture; remove this");
+}
+
+TEST(OrphanedGoldens, AreOfWhatTheCaseNoLongerHolds) {
+    const CaseFolder cases;
+    cases.write("a", R"({"mobbscope_case": 1, "scene": "scene.json", "hold": ["answers"]})");
+    for (const char* file : {"a.png", "a.answers.json", "a.fit.json", "b.trace.json"}) cases.folder().write(file, "");
+    const std::filesystem::path& at = cases.path();
+    EXPECT_EQ(orphaned_goldens(at, find_cases(at)),
+              (std::vector{at / "a.fit.json", at / "a.png", at / "b.trace.json"}));
+}
+
 TEST(OrphanedGoldens, AreThoseThatNoCaseHas) {
     const CaseFolder cases;
     cases.add("kept", R"("mask": "mask.png")");

@@ -291,6 +291,31 @@ TEST(Query, AnAnswerThatIsNotTheExpectedOneIsStatusOne) {
     EXPECT_EQ(run_program({"query", expecting(folder, expectation.dump())}).status, 1);
 }
 
+TEST(Query, TestsThatAreNotTheExpectedOnesAreStatusOne) {
+    const TempFolder folder;
+    const json found = results({"query", kQueryScenes + "collision.json", "--json"})[0]["tests"];
+    const std::string same = expecting(folder, json{{"tests", found}}.dump());
+    EXPECT_EQ(run_program({"query", same}).status, 0);
+    EXPECT_EQ(run_program({"query", same, "--check"}).status, 0);
+    const std::string time = std::to_string(found["time"].get<int>());
+    for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{{}, {"--check"}, {"--json"}}) {
+        std::vector<std::string> all{"query", same, "--leaf", "1", "--axes", "covariance"};
+        all.insert(all.end(), more.begin(), more.end());
+        const Result finer = run_program(all);
+        EXPECT_EQ(finer.status, 1);
+        EXPECT_NE(finer.err.find("query 0: expected " + time + " tests of time, but there are "), std::string::npos)
+            << finer.err;
+    }
+    // Brute force makes none of these tests: that is said, and the answer is compared.
+    const Result brute = run_program({"query", same, "--tree", "brute"});
+    EXPECT_EQ(brute.status, 0);
+    EXPECT_NE(brute.err.find("expected numbers of tests are not compared"), std::string::npos) << brute.err;
+    const Result both = run_program({"query", expecting(folder, R"({"collides": false, "tests": {"time": 1}})")});
+    EXPECT_EQ(both.status, 1);
+    EXPECT_NE(both.err.find(" m; expected 1 test of time, but there are " + time + "\n"), std::string::npos)
+        << both.err;
+}
+
 /// collision.json with its answer and its trace, after a change of the query: a capture.
 std::string capture(const TempFolder& folder, const std::function<void(json&)>& change) {
     const json found = results({"query", kQueryScenes + "collision.json", "--json", "--trace"})[0];

@@ -139,6 +139,109 @@ TEST_F(TestCommandTest, WithoutOpenGLEveryCaseIsSkippedWithTheReason) {
     EXPECT_PRED2(says, slurp(output / "report.html"), "egl: ");
 }
 
+/// A case of answers beside those of pictures, and no OpenGL.
+class AnswersTestCommandTest : public TestCommandTest {
+  protected:
+    AnswersTestCommandTest() {
+        cases.write("answers", R"({"mobbscope_case": 1, "scene": "scene.json", "hold": ["answers", "fit"]})");
+        ::setenv("MESA_GL_VERSION_OVERRIDE", "2.1", 1);
+    }
+    ~AnswersTestCommandTest() override { ::unsetenv("MESA_GL_VERSION_OVERRIDE"); }
+
+    void make_finer() const {
+        cases.write("answers", R"({"mobbscope_case": 1, "scene": "scene.json", "hold": ["answers", "fit"],
+                                   "fit": {"leaf": 1}})");
+    }
+};
+
+TEST_F(AnswersTestCommandTest, RunsWithoutOpenGL) {
+    Result run = test({"answers"});
+    EXPECT_EQ(run.status, 1) << run.err;
+    EXPECT_PRED2(says, run.out, "missing golden: answers: there is no golden ");
+    EXPECT_PRED2(says, run.out, "Answers of what did not pass: ");
+    run = test({"--update", "answers"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_PRED2(says, run.out, "wrote " + (cases.path() / "answers.answers.json").string());
+    EXPECT_PRED2(says, run.out, "wrote " + (cases.path() / "answers.fit.json").string());
+    EXPECT_EQ(test({"answers", "--strict"}).status, 0);
+    run = test();
+    EXPECT_EQ(run.status, 3) << "the pictures are skipped";
+    EXPECT_PRED2(says, run.out, "1 passed, 2 skipped");
+
+    // There is no such thing as a system that answers are from.
+    run = test({"answers", "--update", "all"});
+    EXPECT_EQ(run.status, 0);
+    cases.folder().write("reference.json",
+                         R"({"mobbscope_reference": 1, "fonts": {}, "imgui": "0", "opengl": "none"})");
+    make_finer();
+    EXPECT_EQ(test({"--update", "answers"}).status, 0);
+}
+
+TEST_F(AnswersTestCommandTest, EveryReportSaysWhatDiffers) {
+    ASSERT_EQ(test({"--update", "answers"}).status, 0);
+    const std::string before = slurp(cases.path() / "answers.answers.json");
+    make_finer();
+    const std::string html = (output / "report.html").string(), junit = (output / "junit.xml").string();
+    const Result run = test({"answers", "--html", html, "--junit", junit});
+    EXPECT_EQ(run.status, 1);
+    const std::string words = "answers.answers.json: query 0, A and B: ";
+    EXPECT_PRED2(says, run.out, "different: answers: " + words);
+    EXPECT_PRED2(says, run.out, "What is right becomes a golden with\n  mobbscope test ");
+    EXPECT_PRED2(says, slurp(junit), words);
+    EXPECT_PRED2(says, slurp(junit), "If what is there now is right: ");
+    EXPECT_PRED2(says, slurp(html), words);
+    EXPECT_PRED2(says, slurp(html), "If what is there now is right:");
+    const nlohmann::json line = nlohmann::json::parse(test({"answers", "--json-lines"}).out);
+    EXPECT_EQ(line["findings"][0]["golden"], ".answers.json");
+    EXPECT_EQ(line["backend"], "none");
+    EXPECT_TRUE(line["actual"].is_null());
+
+    const std::string now = slurp(output / "answers.actual.answers.json");
+    EXPECT_NE(now, before);
+    const Result taken = run_program({"test", cases.path().string(), "--accept", html});
+    EXPECT_EQ(taken.status, 0) << taken.err;
+    EXPECT_EQ(slurp(cases.path() / "answers.answers.json"), now);
+    EXPECT_EQ(test({"answers"}).status, 0);
+    EXPECT_FALSE(exists("out/answers.actual.answers.json"));
+    EXPECT_EQ(test({"answers", "--html", html}).status, 0);
+    EXPECT_PRED2(says, slurp(html), "answers") << "one that passed without a picture";
+}
+
+TEST_F(AnswersTestCommandTest, WhatTheSceneExpectsNoGoldenMends) {
+    cases.folder().write("scene.json", std::string(testing::kSmallScene).insert(1, R"( "queries": [{"a": "A", "b": "B",
+        "expect": {"tests": {"time": 1000}}}],)"));
+    const Result run = test({"--update", "answers"});
+    EXPECT_EQ(run.status, 1);
+    EXPECT_PRED2(says, run.out, "query 0: expected 1000 tests of time, but there are ");
+    EXPECT_TRUE(exists("answers.answers.json")) << "its goldens are taken all the same";
+    EXPECT_FALSE(says(test({"answers"}).out, "--update")) << "there is nothing more to take";
+}
+
+TEST_F(AnswersTestCommandTest, TheGuardedFolderIsFound) {
+    const std::filesystem::path shared = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "guard/answers";
+    if (!std::filesystem::exists(shared)) GTEST_SKIP() << "there is no " << shared;
+    ::unsetenv("MESA_GL_VERSION_OVERRIDE");
+    if (!testing::open_or_skip(Backend::automatic)) return;
+    const TempFolder folder;
+    std::filesystem::copy(shared, folder.path() / "answers");
+    const std::string cases_of = (folder.path() / "answers").string();
+    const Result run = run_program({"test", cases_of, "--output", output.string()});
+    EXPECT_EQ(run.status, 1);
+    EXPECT_PRED2(says, run.out, "s.json: query 0: expected no collision, but A and B collide at 1.45 s");
+}
+
+TEST_F(DrawnTestCommandTest, ANewReferenceIsOnlyOfFoldersWithPictures) {
+    std::filesystem::create_directory(cases.path() / "numbers");
+    cases.write("numbers/answers", R"({"mobbscope_case": 1, "scene": "../scene.json", "hold": ["answers"]})");
+    EXPECT_EQ(test({"--update", "all", "--new-reference"}).status, 0);
+    EXPECT_TRUE(exists("reference.json"));
+    EXPECT_TRUE(exists("numbers/answers.answers.json"));
+    EXPECT_FALSE(exists("numbers/reference.json"));
+    const Result sheet = test({"--contact-sheet", (output / "all.png").string()});
+    EXPECT_EQ(sheet.status, 0) << sheet.err;
+    EXPECT_EQ(sheet.err, "");
+}
+
 TEST_F(DrawnTestCommandTest, MissingGoldensAreNamedAndKept) {
     const Result run = test();
     EXPECT_EQ(run.status, 1) << run.err;
@@ -446,7 +549,7 @@ TEST_F(AcceptTest, SaysWhatItCannotTake) {
     EXPECT_EQ(test().status, 1);
     const Result failed = accept(output);
     EXPECT_EQ(failed.status, 1);
-    EXPECT_PRED2(says, failed.err, "path: not accepted: there is no picture of it");
+    EXPECT_PRED2(says, failed.err, "path: not accepted: there is no golden to take of it");
 }
 
 TEST_F(AcceptTest, RefusesWhatIsNoReport) {

@@ -386,7 +386,7 @@ TEST(Review, WhatHasNoPictureIsLeftOutAndSaid) {
     w.key("Shift+A");
     EXPECT_TRUE(w.one("moved").accepted);
     EXPECT_TRUE(w.one("missing").accepted);
-    EXPECT_NE(w.said().find("Not accepted: same: there is no picture of it"), std::string::npos) << w.said();
+    EXPECT_NE(w.said().find("Not accepted: same: there is nothing of it to take"), std::string::npos) << w.said();
     w.key("Ctrl+Z");
     EXPECT_NE(w.said().find("Undone: accepting 2 pictures"), std::string::npos) << w.said();
     w.key("Ctrl+Y");
@@ -874,6 +874,43 @@ TEST(Review, AReportsGoldensAreTakenByteByByteAndDrawNothing) {
         w.key("Ctrl+Z");
         EXPECT_EQ(w.files.bytes("moved.png"), before);
     }
+}
+
+TEST(Review, AnswersAreShownInWordsAndAccepted) {
+    ReviewWorld w;
+    const auto write_case = [&](const std::string& more) {
+        w.files.write("answers.case.json",
+                      R"({"mobbscope_case": 1, "scene": "same.json", "hold": ["answers"])" + more + "}");
+    };
+    write_case("");
+    ASSERT_EQ(ThreeCases::run("test '" + w.files.cases().string() + "' --update answers"), 0);
+    const std::string before = w.files.bytes("answers.answers.json");
+    w.open();
+    EXPECT_EQ(outcome_name(w.one("answers")), "passed");
+    write_case(R"(, "fit": {"tree": "umobb"})");
+    w.show("answers");
+    run_command(w.session, "review.draw");
+    w.window->settle();
+    EXPECT_EQ(outcome_name(w.one("answers")), "different") << w.said();
+    EXPECT_TRUE(w.window->shell().marks().all().contains("held.answers.answers.json"));
+    EXPECT_FALSE(w.window->shell().marks().all().contains("picture.0"));
+    w.key("A");
+    EXPECT_TRUE(w.one("answers").accepted) << w.said();
+    EXPECT_NE(w.files.bytes("answers.answers.json"), before);
+    w.key("Ctrl+Z");
+    EXPECT_EQ(w.files.bytes("answers.answers.json"), before);
+    EXPECT_EQ(outcome_name(w.one("answers")), "different");
+
+    // What the scene expects is nothing to accept.
+    w.files.write("same.json", walkers("1").insert(1, R"("queries": [{"a": "A", "b": "B", "expect": {"tests":
+                               {"time": 1000}}}], )"));
+    write_case("");
+    run_command(w.session, "review.draw");
+    w.window->settle();
+    EXPECT_EQ(outcome_name(w.one("answers")), "different");
+    EXPECT_TRUE(w.window->shell().marks().all().contains("held.scene"));
+    EXPECT_EQ(w.review().why_not_accept(w.review().index_of("answers")),
+              "no golden differs, but its scene expects another answer; correct the scene");
 }
 
 TEST(Review, OfADamagedReportNothingIsTaken) {

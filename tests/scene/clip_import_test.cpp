@@ -24,7 +24,8 @@ struct TracksFolder {
                       "walk": {"source": "walk.csv"}, "bare": {"dt": 1, "samples": [[0, 0, 1]]}},
             "agents": [{"name": "A", "clip": "a"}, {"name": "W", "clip": "walk"}],
             "queries": [{"a": "A", "b": "W", "expect": {"collides": true, "contact":
-                {"time": 0, "a_sample": 1, "b_sample": 0, "distance": 0, "radii": 2}}}]})"));
+                {"time": 0, "a_sample": 1, "b_sample": 0, "distance": 0, "radii": 2}, "tests": {"time": 1}}},
+                {"a": "A", "b": "W", "expect": {"tests": {"time": 1}}}]})"));
     }
     std::shared_ptr<const SourceFile> file(int clip, const std::shared_ptr<const SourceFile>& known = nullptr) const {
         return source_file(source_path(scene, scene.clips[static_cast<std::size_t>(clip)]), known);
@@ -62,7 +63,9 @@ TEST(ClipImport, WhatWasRecordedOfOtherSamplesIsDropped) {
     replace_clips(of.scene, reimport(of.scene, *of.file(0), {{0, of.options(0, "trim", "0 0.5")}}));
     EXPECT_EQ(of.scene.clips[0].clip->count(), 1);
     EXPECT_FALSE(of.scene.queries[0].expect->contact) << "sample 1 is gone";
-    EXPECT_TRUE(of.scene.queries[0].expect->collides) << "what is expected stays";
+    EXPECT_EQ(of.scene.queries[0].expect->collides, true) << "what is expected stays";
+    EXPECT_EQ(of.scene.queries[0].expect->tests, ExpectedTests()) << "others are made now";
+    EXPECT_FALSE(of.scene.queries[1].expect) << "nothing is left of it";
     EXPECT_NO_THROW(parse_scene(to_json(of.scene), "s.json", of.folder.path()));
 }
 

@@ -1,7 +1,10 @@
 #include <scene/scene.h>
+#include <support/input_error.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
+
+#include <string>
 
 namespace mobbscope {
 namespace {
@@ -44,8 +47,35 @@ TEST(Scene, EverythingIsRead) {
     EXPECT_EQ(scene.queries[0].b.name, "z");
     EXPECT_EQ(scene.queries[0].b.placement, (mobb::Placement{{3, 4}, -90, 7}));
     ASSERT_TRUE(scene.queries[1].expect);
-    EXPECT_FALSE(scene.queries[1].expect->collides);
+    EXPECT_EQ(scene.queries[1].expect->collides, false);
     EXPECT_EQ(scene.view.levels, (LevelRange{3, 3, false}));
+}
+
+TEST(Scene, TestsAreExpectedByTheirKind) {
+    const auto expecting = [](const std::string& expect) {
+        return std::string("{") + kTwoClips + R"(, "queries": [{"a": {"clip": "a"}, "b": {"clip": "z"}, "expect": )" +
+               expect + "}]}";
+    };
+    const Scene scene = parse_plain(expecting(R"({"tests": {"time": 10, "samples": 0}})"));
+    const Expectation& expect = *scene.queries[0].expect;
+    EXPECT_FALSE(expect.collides);
+    EXPECT_EQ(expect.tests[mobb::TestKind::time.index()], 10);
+    EXPECT_EQ(expect.tests[mobb::TestKind::samples.index()], 0);
+    EXPECT_FALSE(expect.tests[mobb::TestKind(mobb::BoxKind::obb2d).index()]);
+    EXPECT_EQ(parse_plain(to_json(scene)).queries[0].expect, expect);
+    const Scene both = parse_plain(expecting(R"({"collides": false, "tests": {"obb2d": 3}})"));
+    EXPECT_EQ(both.queries[0].expect->collides, false);
+    EXPECT_EQ(parse_plain(to_json(both)).queries[0].expect, both.queries[0].expect);
+
+    const auto refused = [&](const char* expect_text) {
+        return testing::input_error([&] { parse_plain(expecting(expect_text)); });
+    };
+    EXPECT_NE(refused(R"({"tests": {}})").find("no kind of test is named"), std::string::npos);
+    EXPECT_NE(refused(R"({"tests": {"obb2": 1}})").find("'obb2d'"), std::string::npos);
+    EXPECT_NE(refused(R"({"tests": {"time": -1}})").find("/expect/tests/time"), std::string::npos);
+    EXPECT_NE(refused(R"({"tests": {"time": 1.5}})").find("must be a whole number"), std::string::npos);
+    EXPECT_NE(refused("{}").find("collides"), std::string::npos);
+    EXPECT_NE(refused(R"({"contact": null, "tests": {"time": 1}})").find("collides"), std::string::npos);
 }
 
 TEST(Scene, WithoutQueriesAllPairsOfAgentsAreAsked) {

@@ -8,6 +8,7 @@
 #include <app/ui/widgets.h>
 #include <base/text.h>
 #include <render/drawlist/palette.h>
+#include <scene/answer.h>
 #include <scene/arrangement.h>
 #include <scene/crowd_run.h>
 
@@ -336,7 +337,7 @@ void query_list(Ui& ui, QueryInspector& queries, const CostInspector& costs) {
         const Answer& answer = queries.answer_of(static_cast<std::size_t>(i));
         const Selection self{Selection::Kind::query, {}, i};
         const bool hit = answer.contact.has_value();
-        const bool unexpected = query.expect && query.expect->collides != hit;
+        const bool unexpected = disagreement(query, answer).has_value();
         const Palette& palette = ui.style.palette;
         const std::string found = by_tests ? counted(costs.costs()->tests[static_cast<std::size_t>(i)], "test", "tests")
                                   : hit    ? formatted("hit %.2f s", answer.contact->time)
