@@ -13,6 +13,7 @@
 #include <chrono>
 #include <exception>
 #include <filesystem>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -263,7 +264,8 @@ void compare_elsewhere(CaseResult& result, ShownPictures& shown, const Case& tes
 }
 
 /// All goldens of a case as they would be now, and those that go, as others take their place.
-std::vector<GoldenChange> goldens_of(const CaseFile& file, const Case& tested, DrawnCase& drawn, bool has_reference) {
+std::vector<GoldenChange> goldens_of(const CaseFile& file, const Case& tested, DrawnCase& drawn, bool has_reference,
+                                     const std::optional<std::string>& asked) {
     std::vector<GoldenChange> out;
     const auto add = [&out](const std::filesystem::path& golden, std::optional<std::string> bytes) {
         std::optional<std::string> before = golden_bytes(golden);
@@ -273,6 +275,7 @@ std::vector<GoldenChange> goldens_of(const CaseFile& file, const Case& tested, D
         return wanted ? std::optional<std::string>(make()) : std::nullopt;
     };
     const bool numbers = tested.terms.draw_list && !tested.shot.window;
+    if (asked) add(file.file, *asked);
     add(file.golden(), png_bytes(drawn.picture()));
     add(file.draw(), if_wanted(numbers, [&] { return drawn.draw_list(); }));
     // Elsewhere NAME.plain may be a case of its own.
@@ -285,7 +288,7 @@ std::vector<GoldenChange> goldens_of(const CaseFile& file, const Case& tested, D
 
 /// Reads and draws it, and compares.
 void run(CaseResult& result, PictureMaker& maker, const RunOptions& options) {
-    const Case tested = read_case(result.file.file);
+    const Case tested = read_case(result.file.file, options.asked);
     result.tolerance = tested.terms.tolerance;
     if (tested.terms.skip) {
         result.outcome = CaseOutcome::skipped;
@@ -318,9 +321,12 @@ void run(CaseResult& result, PictureMaker& maker, const RunOptions& options) {
         const bool same_words = same_text(here, *reference, tested.shot.window.has_value());
         compare_elsewhere(result, shown, tested, drawn, same_words, mask ? &*mask : nullptr);
     }
+    // Without its case a golden would be held by nothing but the test.
+    if (options.asked && is_there(result.file.golden()) && !is_there(result.file.file))
+        add_missing(result, result.file.file);
     const bool passed = result.outcome == CaseOutcome::passed;
     if (!passed || options.fresh != FreshGoldens::of_failed) {
-        result.fresh = goldens_of(result.file, tested, drawn, reference.has_value());
+        result.fresh = goldens_of(result.file, tested, drawn, reference.has_value(), options.asked);
         if (passed && options.fresh == FreshGoldens::missing) {
             const bool lacks = std::ranges::any_of(result.fresh, [](const GoldenChange& one) { return !one.replaces; });
             std::erase_if(result.fresh, [&](const GoldenChange& one) { return !lacks || (one.bytes && one.replaces); });
@@ -382,14 +388,43 @@ void make_folder_of(const std::filesystem::path& file) {
     if (error) throw MachineError(folder.string() + ": cannot be made: " + error.message());
 }
 
+std::string words_on(const CaseResult& result, const std::filesystem::path& folder) {
+    if (result.outcome == CaseOutcome::passed) return {};
+    std::ostringstream out;
+    out << name(result.outcome) << ": " << cleaned(result.file.name);
+    if (result.findings.empty()) out << ": " << cleaned(result.message);
+    out << '\n';
+    for (const Finding& finding : result.findings) {
+        if (finding.words.empty()) out << "  " << cleaned(finding.message) << '\n';
+        for (const std::string& word : finding.words)
+            out << "  " << cleaned(finding.golden.filename().string() + ": " + word) << '\n';
+    }
+    if (result.actual.empty()) return std::move(out).str();
+    const std::string stem = (whole_path(folder) / result.file.name).string();
+    const std::string ending = result.file.ending_of(result.shown);
+    out << "  actual:  " << cleaned(stem + ".actual" + ending) << '\n';
+    if (!result.golden.empty()) out << "  golden:  " << cleaned(whole_path(result.shown).string()) << '\n';
+    if (result.image && result.image->same_size) out << "  differs: " << cleaned(stem + ".heat" + ending) << '\n';
+    if (can_be_taken(result)) {
+        std::string cases = whole_path(result.file.file).string();
+        cases.resize(cases.size() - result.file.name.size() - kCaseExtension.size());
+        out << "  if it is right: mobbscope test " << shell_word(cases) << ' ' << shell_word(result.file.name)
+            << " --accept " << shell_word(whole_path(folder).string()) << '\n';
+    } else if (!result.other_here.empty()) {
+        out << "  the goldens are from elsewhere: here are " << cleaned(result.other_here) << '\n';
+    }
+    return std::move(out).str();
+}
+
 std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const std::filesystem::path& folder) {
     const std::filesystem::path stem = folder / result.file.name;
-    const bool keeps = result.outcome != CaseOutcome::passed && !result.actual.empty();
-    if (keeps) make_folder_of(stem);
+    const bool passed = result.outcome == CaseOutcome::passed;
+    const bool keeps = !passed && !result.actual.empty();
+    if (!passed) make_folder_of(stem);
     std::vector<std::filesystem::path> written;
     const auto keep = [&](const std::string& what, const std::optional<std::string>& bytes) {
         const std::filesystem::path file = stem.string() + '.' + what;
-        if (!keeps || !bytes) {
+        if (!bytes) {
             std::error_code ignored;
             std::filesystem::remove(file, ignored);
             return;
@@ -398,6 +433,8 @@ std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const
         write_file(file, *bytes);
         written.push_back(file);
     };
+    keep("txt", passed ? std::nullopt : std::optional(words_on(result, folder)));
+    written.clear();
     const auto png = [](const std::string& bytes) { return bytes.empty() ? std::nullopt : std::optional(bytes); };
     for (const CaseFile::Golden golden : {&CaseFile::golden, &CaseFile::plain}) {
         const std::filesystem::path file = (result.file.*golden)();
@@ -405,14 +442,14 @@ std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const
         const bool shown = file == result.shown;
         // What accepting writes, to the byte.
         const std::optional<std::string> fresh = fresh_bytes(result, file);
-        keep("actual" + ending, shown && !fresh ? png(result.actual) : fresh);
-        keep("golden" + ending, shown ? png(result.golden) : std::nullopt);
+        keep("actual" + ending, !keeps ? std::nullopt : shown && !fresh ? png(result.actual) : fresh);
+        keep("golden" + ending, shown && keeps ? png(result.golden) : std::nullopt);
         const std::optional<Image> heat = shown && keeps ? heat_map(result) : std::nullopt;
         keep("heat" + ending, heat ? std::optional(png_bytes(*heat)) : std::nullopt);
     }
     for (const CaseFile::Golden golden : {&CaseFile::draw, &CaseFile::plain_state}) {
         const std::filesystem::path file = (result.file.*golden)();
-        keep("actual" + result.file.ending_of(file), fresh_bytes(result, file));
+        keep("actual" + result.file.ending_of(file), keeps ? fresh_bytes(result, file) : std::nullopt);
     }
     return written;
 }

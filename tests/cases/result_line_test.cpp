@@ -119,6 +119,8 @@ TEST(RequestLine, IsReadAsItIsWritten) {
             EXPECT_EQ(read.options.fresh, fresh);
         }
     }
+    const CaseRequest asked = read_request_line(request_line({"a", {.asked = "{\n}"}}));
+    EXPECT_EQ(asked.options.asked, "{\n}");
     EXPECT_NE(input_error([] { read_request_line(R"({"name": "a"})"); }), "");
     EXPECT_NE(input_error([] { read_request_line(R"({"name": "a", "source": "x", "fresh": "missing"})"); }), "");
 }
