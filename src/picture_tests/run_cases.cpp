@@ -114,7 +114,8 @@ Held hold(const Image& actual, const std::filesystem::path& file, const DiffOpti
         return out;
     }
     const bool fits = mask && mask->width == actual.width && mask->height == actual.height;
-    out.diff = diff(actual, out.golden, options, fits ? mask : nullptr);
+    // Who looks at the heat map makes it anew (compared_again).
+    out.diff = diff(actual, out.golden, options, fits ? mask : nullptr, HeatMap::left_out);
     return out;
 }
 
@@ -130,8 +131,6 @@ void show(CaseResult& result, ShownPictures& shown, const Image& actual, Held he
     shown.actual = &actual;
     shown.golden = std::move(held.golden);
     result.image = std::move(held.diff);
-    // Who looks at it makes it anew (compared_again).
-    if (result.image) result.image->heat = {};
 }
 
 /// The verdict on a picture by its pixels. `which` stands before what differs.
@@ -407,7 +406,7 @@ std::string words_on(const CaseResult& result, const std::filesystem::path& fold
     if (result.image && result.image->same_size) out << "  differs: " << cleaned(stem + ".heat" + ending) << '\n';
     if (can_be_taken(result)) {
         std::string cases = whole_path(result.file.file).string();
-        cases.resize(cases.size() - result.file.name.size() - kCaseExtension.size());
+        cases.resize(cases.size() - result.file.name.size() - kCaseExtension.size() - 1);
         out << "  if it is right: mobbscope test " << shell_word(cases) << ' ' << shell_word(result.file.name)
             << " --accept " << shell_word(whole_path(folder).string()) << '\n';
     } else if (!result.other_here.empty()) {

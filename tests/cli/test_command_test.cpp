@@ -847,7 +847,7 @@ TEST_F(AskedTest, WhatIsWrongIsTheAnswer) {
     expect({"a", "{\n\"clips\": }"}, "the scene that the test gives for a: line 2");
     expect({"a", "{\n\"clips\": 3}"}, "a.case.json: line 2, /scene/clips");
     expect({"a", "none.json"}, "none.json: there is no such file");
-    expect({"a", ""}, "the name is empty");
+    expect({"a", ""}, "the name of a file is empty");
     expect({"a", scene, "[]"}, "the keys that the test gives for a: ");
     expect({"a", scene, "{}}, {"}, "the keys that the test gives for a: line 1");
     expect({"a", scene, R"({"mobbscope_case": 1})"}, "/mobbscope_case: is given by the test itself");

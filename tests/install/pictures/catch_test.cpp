@@ -7,6 +7,4 @@
 #endif
 #include <mobbscope/picture_tests.h>
 
-TEST_CASE("a person stands") {
-    EXPECT_PICTURE("person.json", "person");
-}
+TEST_CASE("a person stands") { EXPECT_PICTURE("person.json", "person"); }

@@ -27,15 +27,15 @@ std::string people(const char* otherwise = std::getenv("B_BEGINS_AT")) {
 })";
 }
 
-TEST(Crowd, PeopleStand) {
-    EXPECT_PICTURE(people(), "sub folder/people", R"({"size": "320x240"})") << "more of it";
-}
+TEST(Crowd, PeopleStand) { EXPECT_PICTURE(people(), "sub folder/people", R"({"size": "320x240"})") << "more of it"; }
 
 TEST(Crowd, WordsOfWhatIsWrong) {
     const char* const size = R"({"size": "320x240"})";
     const auto fails = [&](const std::string& scene, const std::string& name, const std::string& keys,
                            const std::string& words) {
-        const mobbscope::PictureResult result = mobbscope::check_picture(scene, name, keys);
+        mobbscope::PictureOptions elsewhere;
+        elsewhere.output += "/wrong";
+        const mobbscope::PictureResult result = mobbscope::check_picture(scene, name, keys, elsewhere);
         if (result.outcome == mobbscope::PictureResult::Outcome::skipped) return;
         EXPECT_FALSE(result.passed()) << name;
         EXPECT_NE(result.message.find(words), std::string::npos) << result.message;
@@ -54,7 +54,9 @@ TEST(Crowd, WordsOfWhatIsWrong) {
 #if GTEST_HAS_DEATH_TEST
 /// A process that was forked has a child of its own, and leaves this one's alone.
 TEST(CrowdDeathTest, PeopleStand) {
-    const auto passes = [] { return mobbscope::check_picture(people(), "sub folder/people", R"({"size": "320x240"})"); };
+    const auto passes = [] {
+        return mobbscope::check_picture(people(), "sub folder/people", R"({"size": "320x240"})");
+    };
     const bool before = passes().passed();
     EXPECT_EXIT(std::exit(passes().passed() == before ? 7 : 8), ::testing::ExitedWithCode(7), "");
     EXPECT_EQ(passes().passed(), before);
