@@ -140,7 +140,7 @@ int parse_jobs(const std::string& text) {
 // --- what is written
 
 /// Throws InputError if the pictures would go where the goldens are, MachineError if they cannot go where they are to.
-void check_output(const TestCommandArguments& arguments) {
+void check_output_folder(const TestCommandArguments& arguments) {
     std::error_code ignored;
     if (std::filesystem::equivalent(arguments.output, arguments.folder, ignored)) {
         throw InputError("--output: " + in_quotes(arguments.output.string()) +
@@ -151,7 +151,8 @@ void check_output(const TestCommandArguments& arguments) {
     }
 }
 
-/// Throws InputError if a report would replace a golden or has a name that its kind does not, or as check_output does.
+/// Throws InputError if a report would replace a golden or has a name that its kind does not, or as check_output_folder
+/// does.
 void check_reports(const TestCommandArguments& arguments, const std::vector<CaseFile>& all) {
     const bool reports = !arguments.junit.empty() || !arguments.html.empty() || !arguments.contact_sheet.empty();
     if (arguments.json_lines && (arguments.update || arguments.strict || !arguments.accept.empty() || reports)) {
@@ -177,7 +178,7 @@ void check_reports(const TestCommandArguments& arguments, const std::vector<Case
     }
     for (const std::filesystem::path& report : {arguments.junit, arguments.html, arguments.contact_sheet})
         check_not_read(report);
-    check_output(arguments);
+    check_output_folder(arguments);
 }
 
 using WriteReport = void (*)(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
@@ -388,7 +389,7 @@ std::vector<std::string> draw_all(const TestCommandArguments& arguments, const s
 
 /// Answers the tests of another program, a case a line.
 int answer_tests(const TestCommandArguments& arguments) {
-    check_output(arguments);
+    check_output_folder(arguments);
     AskedCases asked({.folder = arguments.folder,
                       .output = arguments.output,
                       .backend = arguments.backend,
