@@ -338,7 +338,7 @@ inline bool told_googletest_that_skipped(const PictureResult& result) {
             mobbscope_result.passed() ||                                                         \
             ::mobbscope::picture_tests_detail::told_googletest_that_skipped(mobbscope_result)) { \
         } else                                                                                   \
-            fail << mobbscope_result.message
+            fail << mobbscope_result.message << '\n'
 #define EXPECT_PICTURE(...) MOBBSCOPE_CHECK_(::mobbscope::check_picture(__VA_ARGS__), ADD_FAILURE())
 #define ASSERT_PICTURE(...) MOBBSCOPE_CHECK_(::mobbscope::check_picture(__VA_ARGS__), FAIL())
 #elif defined(CATCH_VERSION_MAJOR) || defined(CATCH_TEST_MACROS_HPP_INCLUDED) || defined(DOCTEST_LIBRARY_INCLUDED)
