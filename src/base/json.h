@@ -95,6 +95,7 @@ class JsonPlace {
     JsonPlace(const JsonText& text, const std::string& file) : value_(&text.root()), file_(&file) {}
 
     int line() const { return value_->line; }
+    const std::string& file() const { return *file_; }
     /// RFC 6901; "" for the whole text.
     std::string pointer() const;
     /// "line 12, /agents/0/clip".

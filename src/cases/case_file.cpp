@@ -18,11 +18,10 @@ namespace {
 constexpr int kVersion = 1;
 constexpr double kLeastTimeLimit = 0.1;  // seconds
 constexpr double kMostTimeLimit = 86400;
-constexpr std::string_view kExtension = ".case.json";
 
 std::string stem_of(const CaseFile& file) {
     const std::string name = file.file.filename().string();
-    return name.substr(0, name.size() - kExtension.size());
+    return name.substr(0, name.size() - kCaseExtension.size());
 }
 
 Tolerance read_tolerance(const JsonPlace& place) {
@@ -73,6 +72,19 @@ void refuse_picture_keys(const JsonPlace& root) {
     }
 }
 
+std::vector<CaseFile> search_cases(const std::filesystem::path& folder, std::error_code& error) {
+    std::vector<CaseFile> cases;
+    std::filesystem::recursive_directory_iterator at(folder, error);
+    for (const std::filesystem::recursive_directory_iterator end; !error && at != end; at.increment(error)) {
+        const std::string file = at->path().filename().string();
+        if (!file.ends_with(kCaseExtension) || file.size() == kCaseExtension.size()) continue;
+        const std::string path = at->path().lexically_relative(folder).generic_string();
+        cases.push_back({path.substr(0, path.size() - kCaseExtension.size()), at->path()});
+    }
+    std::ranges::sort(cases, {}, &CaseFile::name);
+    return cases;
+}
+
 }  // namespace
 
 DiffOptions diff_options(Tolerance tolerance) {
@@ -93,30 +105,35 @@ std::string CaseFile::ending_of(const std::filesystem::path& other) const {
 }
 
 CaseFile case_named(const std::filesystem::path& folder, const std::string& name) {
-    return {name, folder / (name + std::string(kExtension))};
+    return {name, folder / (name + std::string(kCaseExtension))};
 }
 
 bool is_golden_ending(std::string_view ending) {
-    return std::ranges::find(kGoldenEndings, ending, &GoldenEnding::ending) != kGoldenEndings.end();
+    return ending == kCaseExtension ||
+           std::ranges::find(kGoldenEndings, ending, &GoldenEnding::ending) != kGoldenEndings.end();
 }
 
 std::vector<CaseFile> find_cases(const std::filesystem::path& folder) {
-    std::vector<CaseFile> cases;
     std::error_code error;
-    std::filesystem::recursive_directory_iterator at(folder, error);
-    for (const std::filesystem::recursive_directory_iterator end; !error && at != end; at.increment(error)) {
-        const std::string file = at->path().filename().string();
-        if (!file.ends_with(kExtension) || file.size() == kExtension.size()) continue;
-        const std::string path = at->path().lexically_relative(folder).generic_string();
-        cases.push_back({path.substr(0, path.size() - kExtension.size()), at->path()});
-    }
+    std::vector<CaseFile> cases = search_cases(folder, error);
     if (error) {
         throw InputError(folder.string(), "",
                          "cannot be searched for cases: " + error.message() + "; give the folder that holds them");
     }
     if (cases.empty()) throw InputError(folder.string(), "", "holds no case; a case is a file NAME.case.json");
-    std::sort(cases.begin(), cases.end(), [](const CaseFile& a, const CaseFile& b) { return a.name < b.name; });
     return cases;
+}
+
+std::vector<CaseFile> cases_there(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    return search_cases(folder, ignored);
+}
+
+bool is_case_name(std::string_view name) {
+    const std::filesystem::path path(name);
+    const bool is_plain = is_utf8(name) && path.is_relative() && path.has_filename() &&
+                          std::ranges::none_of(name, [](char c) { return static_cast<unsigned char>(c) < ' '; });
+    return is_plain && std::ranges::none_of(path, [](const auto& part) { return part == ".." || part == "."; });
 }
 
 std::vector<std::filesystem::path> orphaned_goldens(const std::filesystem::path& folder,
@@ -181,9 +198,9 @@ CaseTerms read_terms(const JsonPlace& root, const std::filesystem::path& folder)
     return out;
 }
 
-CaseTerms read_terms(const CaseFile& file) {
+CaseTerms read_terms(const CaseFile& file, const std::optional<std::string>& text) {
     const std::string name = file.file.string();
-    const JsonText value = parse_json(read_file(file.file), name);
+    const JsonText value = parse_json(text ? *text : read_file(file.file), name);
     return read_terms(JsonPlace(value, name), file.file.parent_path());
 }
 

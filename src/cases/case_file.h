@@ -30,6 +30,9 @@
 
 namespace mobbscope::picture_tests {
 
+/// What a case's file has behind its name.
+inline constexpr std::string_view kCaseExtension = ".case.json";
+
 /// How far a picture may be from its golden, unless its case says more.
 enum class Tolerance {
     tight,  ///< one rasteriser on any processor: the defaults of DiffOptions
@@ -70,12 +73,17 @@ struct CaseFile {
 /// The case of a name in a folder, whether it is there or not.
 CaseFile case_named(const std::filesystem::path& folder, const std::string& name);
 
-/// Whether NAME and this ending is a golden of the case NAME.
+/// Whether accepting may write NAME and this ending for the case NAME: a golden, or the case that a test asks for.
 bool is_golden_ending(std::string_view ending);
 
 /// All cases in a folder and the folders in it, by name. Throws InputError if there is no such folder, or no case in
 /// it.
 std::vector<CaseFile> find_cases(const std::filesystem::path& folder);
+/// Those that there are: none where there is no such folder.
+std::vector<CaseFile> cases_there(const std::filesystem::path& folder);
+
+/// Whether a case can have this name: it stays in its folder, and a line can tell of it.
+bool is_case_name(std::string_view name);
 
 /// What a run leaves in the folder of its pictures (case_report.h).
 inline constexpr std::string_view kReportFile = "report.json";
@@ -101,7 +109,7 @@ struct CaseTerms {
 /// Of the text of a case; `folder`: what file names are relative to. Throws InputError if it is no case, or one of
 /// another version.
 CaseTerms read_terms(const JsonPlace& root, const std::filesystem::path& folder);
-/// Of a case's file.
-CaseTerms read_terms(const CaseFile& file);
+/// Of a case's file. `text`: what the file is to hold; none: what it does.
+CaseTerms read_terms(const CaseFile& file, const std::optional<std::string>& text = {});
 
 }  // namespace mobbscope::picture_tests

@@ -4,14 +4,17 @@
 #include <base/file.h>
 #include <base/json.h>
 #include <base/json_writer.h>
+#include <base/lock.h>
 #include <base/text.h>
 #include <render/image/png.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <set>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 namespace mobbscope::picture_tests {
 
@@ -38,6 +41,18 @@ std::string report_in(std::string text, const std::string& name) {
     return text;
 }
 
+bool is_told(const CaseResult& result) {
+    return result.outcome != CaseOutcome::passed && result.outcome != CaseOutcome::skipped;
+}
+
+/// Whether accepting what is told at this place would write the file of the case.
+bool brings_case(const JsonPlace& result) {
+    bool brings = false;
+    result.require("fresh").each(
+        [&](const JsonPlace& one) { brings = brings || one.require("golden").string() == kCaseExtension; });
+    return brings;
+}
+
 }  // namespace
 
 void write_case_report(std::ostream& out, std::span<const CaseResult> results) {
@@ -47,7 +62,7 @@ void write_case_report(std::ostream& out, std::span<const CaseResult> results) {
     json.member("mobbscope_report", kReportVersion);
     json.begin_array("cases");
     for (const CaseResult& result : results) {
-        if (result.outcome == CaseOutcome::passed || result.outcome == CaseOutcome::skipped) continue;
+        if (!is_told(result)) continue;
         write_result(json, result, Pictures::not_in_fresh);
     }
     json.end_array();
@@ -56,7 +71,8 @@ void write_case_report(std::ostream& out, std::span<const CaseResult> results) {
     for (const char c : text.str()) c == '<' ? out << "\\u003c" : out << c;
 }
 
-CaseReport read_case_report(const std::filesystem::path& report, const std::vector<CaseFile>& cases) {
+CaseReport read_case_report(const std::filesystem::path& report, const std::filesystem::path& folder,
+                            const std::vector<CaseFile>& cases) {
     CaseReport out;
     std::error_code ignored;
     out.file = std::filesystem::is_directory(report, ignored) ? report / kReportFile : report;
@@ -77,13 +93,45 @@ CaseReport read_case_report(const std::filesystem::path& report, const std::vect
         const JsonPlace named = result.require("name");
         const std::string& of = named.string();
         if (!seen.insert(of).second) named.fail("the case " + in_quotes(of) + " stands there twice");
-        if (std::ranges::find(cases, of, &CaseFile::name) == cases.end()) {
-            out.unknown.push_back(of);
-        } else {
+        if (std::ranges::find(cases, of, &CaseFile::name) != cases.end()) {
             out.results.push_back(read_result(result, cases));
+        } else if (is_case_name(of) && brings_case(result)) {
+            out.results.push_back(read_result(result, {case_named(folder, of)}));
+        } else {
+            out.unknown.push_back(of);
         }
     });
     return out;
+}
+
+void add_to_case_report(const std::filesystem::path& output, const std::filesystem::path& folder,
+                        std::vector<CaseResult> results) {
+    constexpr std::chrono::seconds kPatience(60);
+    const Descriptor lock = lock_folder(output, kPatience);
+    const std::filesystem::path file = output / kReportFile;
+    std::error_code ignored;
+    if (std::filesystem::exists(file, ignored)) {
+        try {
+            for (CaseResult& before : read_case_report(file, folder, cases_there(folder)).results) {
+                const auto same =
+                    std::ranges::find(results, before.file.name,
+                                      [](const CaseResult& one) -> const std::string& { return one.file.name; });
+                if (same == results.end()) results.push_back(std::move(before));
+            }
+        } catch (const InputError&) {
+            // Of one that is damaged nothing can be kept.
+        }
+    }
+    std::erase_if(results, [](const CaseResult& one) { return !is_told(one); });
+    std::ranges::sort(results, {}, [](const CaseResult& one) -> const std::string& { return one.file.name; });
+    check_stays_in_folder(file);
+    if (results.empty()) {
+        std::filesystem::remove(file, ignored);
+        return;
+    }
+    std::ostringstream report;
+    write_case_report(report, results);
+    write_file(file, std::move(report).str());
 }
 
 void check_bytes(std::span<const GoldenChange> changes, const std::filesystem::path& report) {

@@ -30,11 +30,19 @@ void write_case_report(std::ostream& out, std::span<const CaseResult> results);
 struct CaseReport {
     std::filesystem::path file;  ///< that was read
     std::vector<CaseResult> results;
-    std::vector<std::string> unknown;  ///< cases that are none of those given
+    std::vector<std::string> unknown;  ///< cases that are none of those given, and whose files it does not bring
 };
 
-/// `report`: the folder, its report.json, or the page. Throws InputError if there is no report.
-CaseReport read_case_report(const std::filesystem::path& report, const std::vector<CaseFile>& cases);
+/// `report`: the folder, its report.json, or the page. `cases`: those that there are in `folder`; one that a test asked
+/// for may be new, and come with its file. Throws InputError if there is no report.
+CaseReport read_case_report(const std::filesystem::path& report, const std::filesystem::path& folder,
+                            const std::vector<CaseFile>& cases);
+
+/// Makes the report in the folder `output`, which is there, tell of these results, whatever it told of their cases, and
+/// leaves what it tells of others; processes may do so at the same time. One that would tell of none is removed. Throws
+/// MachineError.
+void add_to_case_report(const std::filesystem::path& output, const std::filesystem::path& folder,
+                        std::vector<CaseResult> results);
 
 /// Throws InputError if what a report would write is no picture, or no JSON: a damaged one must not become a golden.
 void check_bytes(std::span<const GoldenChange> changes, const std::filesystem::path& report);

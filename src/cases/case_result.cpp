@@ -76,8 +76,8 @@ std::vector<std::filesystem::path> take(CaseResult& result) {
     result.golden.clear();
     if (!result.actual.empty()) {
         const Image taken = read_png_bytes(result.actual);
-        result.image = diff(taken, taken, result.image ? result.image->options : DiffOptions{});
-        result.image->heat = {};
+        const DiffOptions options = result.image ? result.image->options : DiffOptions{};
+        result.image = diff(taken, taken, options, nullptr, HeatMap::left_out);
     }
     result.outcome = result.findings.empty() ? CaseOutcome::passed : CaseOutcome::different;
     result.message = message_of(result.findings);

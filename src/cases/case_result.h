@@ -131,6 +131,7 @@ inline constexpr std::array<std::string_view, 3> kFreshGoldens{"of failed", "mis
 struct RunOptions {
     GoldenSource source = GoldenSource::reference;
     FreshGoldens fresh = FreshGoldens::of_failed;
+    std::optional<std::string> asked{};  ///< the text of the case, which its file is to have; none: what that has
 };
 
 /// How many cases had each outcome.

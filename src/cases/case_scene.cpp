@@ -4,6 +4,7 @@
 #include <scene/view_options.h>
 
 #include <string>
+#include <utility>
 
 namespace mobbscope::picture_tests {
 
@@ -22,6 +23,12 @@ FitAndView FitAndView::over(const JsonPlace& place) const {
 
 CaseScene read_case_scene(const JsonPlace& place, const std::filesystem::path& folder) {
     const JsonPlace scene = place.require("scene");
+    if (scene.is_object()) {
+        Scene own = read_scene(scene, folder);
+        own.file = place.file();
+        FitAndView seen = FitAndView{own.fit, own.view}.over(place);
+        return {own.file, std::move(own), std::move(seen)};
+    }
     const std::filesystem::path file = read_path(scene, folder).lexically_normal();
     Scene read = read_at(scene, [&] { return load_scene(file); });
     FitAndView seen = FitAndView{read.fit, read.view}.over(place);

@@ -37,7 +37,7 @@ struct FitAndView {
     FitAndView over(const JsonPlace& place) const;
 };
 
-/// The file, the scene in it, and how the case sees that.
+/// The file, which is the case's own where the scene stands in it, the scene, and how the case sees that.
 struct CaseScene {
     std::filesystem::path file;
     Scene scene;

@@ -1,4 +1,5 @@
 #include <base/error.h>
+#include <base/json.h>
 #include <base/process.h>
 #include <base/text.h>
 #include <cases/drawing_child.h>
@@ -30,9 +31,9 @@ constexpr double kPatienceWithItsEnd = 5;      // seconds, of a process that has
 constexpr double kPatienceWithItsStart = 60;   // seconds, until it has opened OpenGL
 
 /// Of a case that cannot be read the default: what is wrong is told where it is drawn.
-double time_limit_of(const CaseFile& file) {
+double time_limit_of(const CaseOrder& order) {
     try {
-        return read_terms(file).time_limit;
+        return read_terms(order.file, order.options.asked).time_limit;
     } catch (const InputError&) {
         return CaseTerms{}.time_limit;
     }
@@ -62,7 +63,7 @@ class CaseProcess {
         order_ = &order;
         begun_ = Clock::now();
         complaint_.clear();
-        limit_ = time_limit_of(order.file);
+        limit_ = time_limit_of(order);
         // One that cannot hear it any more has ended, which is seen in time.
         send_all(talk_.here, request_line({order.file.name, order.options}));
     }
@@ -83,6 +84,13 @@ class CaseProcess {
         if (seconds() <= (is_ready_ ? limit_ : kPatienceWithItsStart)) return std::nullopt;
         return over(failed(file, is_ready_ ? "took longer than " + brief(limit_) + " s (time_limit)"
                                            : "OpenGL did not start within " + brief(kPatienceWithItsStart) + " s"));
+    }
+
+    /// Until it says something, or a while.
+    void wait() const {
+        std::vector<pollfd> wanted;
+        add_to(wanted);
+        ::poll(wanted.data(), wanted.size(), static_cast<int>(kAskEvery.count()));
     }
 
     /// Whether it draws no more.
@@ -303,6 +311,36 @@ std::vector<std::string> draw_cases(const CaseDrawer& drawer, const std::filesys
         processes.wait();
     }
     return processes.end();
+}
+
+struct LastingDrawer::Work {
+    Work(CaseDrawer with, std::filesystem::path of) : drawer(std::move(with)), folder(std::move(of)) {}
+
+    CaseDrawer drawer;
+    std::filesystem::path folder;
+    std::optional<CaseProcess> process;
+};
+
+LastingDrawer::LastingDrawer(CaseDrawer drawer, std::filesystem::path folder)
+    : work_(std::make_unique<Work>(std::move(drawer), std::move(folder))) {}
+
+LastingDrawer::~LastingDrawer() {
+    if (work_->process) work_->process->end();
+}
+
+CaseResult LastingDrawer::draw(const CaseOrder& order) {
+    std::optional<CaseProcess>& process = work_->process;
+    try {
+        if (!process || process->is_over()) process.emplace(work_->drawer, work_->folder);
+    } catch (const MachineError& error) {
+        process.reset();
+        return failed(order.file, std::string("no process that draws can be started: ") + error.what());
+    }
+    process->ask(order);
+    for (;;) {
+        if (std::optional<CaseResult> result = process->answer()) return std::move(*result);
+        process->wait();
+    }
 }
 
 std::string test_command_line(const CaseDrawer& drawer, const std::filesystem::path& folder, const std::string& name) {

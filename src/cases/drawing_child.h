@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,6 +37,23 @@ std::vector<std::string> draw_cases(const CaseDrawer& drawer, const std::filesys
                                     std::span<const CaseOrder> orders,
                                     const std::function<void(const CaseResult&)>& tell,
                                     const std::function<void()>& go_on);
+
+/// Draws cases as they come, one after the other, in a process that stays; after a case that ended it or took too long
+/// in a new one.
+class LastingDrawer {
+  public:
+    LastingDrawer(CaseDrawer drawer, std::filesystem::path folder);
+    ~LastingDrawer();
+    LastingDrawer(const LastingDrawer&) = delete;
+    LastingDrawer& operator=(const LastingDrawer&) = delete;
+
+    /// What goes wrong is the case's failure.
+    CaseResult draw(const CaseOrder& order);
+
+  private:
+    struct Work;
+    std::unique_ptr<Work> work_;
+};
 
 /// The command line that draws a case as draw_cases does, ready for a shell.
 std::string test_command_line(const CaseDrawer& drawer, const std::filesystem::path& folder, const std::string& name);

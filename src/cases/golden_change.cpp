@@ -12,8 +12,13 @@ namespace mobbscope::picture_tests {
 namespace {
 
 void write_one(const GoldenChange& change) {
-    if (change.bytes) return write_file(change.file, *change.bytes);
     std::error_code error;
+    if (change.bytes) {
+        // Of a new case the folder may be new too; one that cannot be made is told by what is written.
+        const std::filesystem::path folder = change.file.parent_path();
+        if (!folder.empty()) std::filesystem::create_directories(folder, error);
+        return write_file(change.file, *change.bytes);
+    }
     std::filesystem::remove(change.file, error);
     if (error) throw MachineError(change.file.string() + ": cannot be removed: " + error.message());
 }

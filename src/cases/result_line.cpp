@@ -224,6 +224,7 @@ std::string request_line(const CaseRequest& request) {
     json.member("name", request.name);
     json.member("source", kGoldenSources[static_cast<std::size_t>(request.options.source)]);
     json.member("fresh", kFreshGoldens[static_cast<std::size_t>(request.options.fresh)]);
+    if (request.options.asked) json.member("case", *request.options.asked);
     json.end_object();
     return out.str();
 }
@@ -235,6 +236,7 @@ CaseRequest read_request_line(std::string_view line) {
     CaseRequest out{root.require("name").string()};
     out.options.source = named<GoldenSource>(root.require("source"), kGoldenSources);
     out.options.fresh = named<FreshGoldens>(root.require("fresh"), kFreshGoldens);
+    if (const auto asked = root.find("case")) out.options.asked = asked->string();
     return out;
 }
 

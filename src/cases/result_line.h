@@ -37,7 +37,8 @@ CaseResult read_result_line(std::string_view line, const std::vector<CaseFile>& 
 
 /// What a process that draws (drawing_child.h) is asked for, on a line too:
 ///
-///     {"name", "source": "reference" | "here", "fresh": "of failed" | "missing" | "of all"}
+///     {"name", "source": "reference" | "here", "fresh": "of failed" | "missing" | "of all",
+///      "case": TEXT}                              of a case that is not, or not so, in its file; may be left out
 struct CaseRequest {
     std::string name;  ///< of the case; UTF-8
     RunOptions options{};

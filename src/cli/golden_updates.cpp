@@ -44,13 +44,19 @@ void take_one(CaseResult& result, std::ostream& say) {
     for (const std::filesystem::path& file : take(result)) say << "wrote " << cleaned(file.string()) << '\n';
 }
 
-/// Throws InputError for a pattern that names no case of the report.
-void check_patterns(const picture_tests::CaseReport& read, const std::vector<std::string>& patterns) {
+/// Throws InputError for a pattern that names no case, or none of the report.
+void check_patterns(const picture_tests::CaseReport& read, const std::vector<CaseFile>& cases,
+                    const std::vector<std::string>& patterns) {
+    std::vector<std::string> names = read.unknown;
+    for (const CaseFile& file : cases) names.push_back(file.name);
+    for (const CaseResult& one : read.results) names.push_back(one.file.name);
     for (const std::string& pattern : patterns) {
         const auto is_named = [&](const std::string& name) { return matches_any({pattern}, name); };
         if (std::ranges::any_of(read.unknown, is_named) ||
             std::ranges::any_of(read.results, is_named, [](const CaseResult& one) { return one.file.name; }))
             continue;
+        if (std::ranges::none_of(names, is_named))
+            throw InputError("there is no case " + in_quotes(pattern) + did_you_mean(pattern, names));
         throw InputError(read.file,
                          in_quotes(pattern) + " passed there, or was not drawn; leave it out, or name another");
     }
@@ -109,10 +115,16 @@ void take_as_reference(std::vector<CaseResult>& results, std::ostream& say) {
     }
 }
 
-bool take_report(const std::filesystem::path& report, const std::vector<CaseFile>& cases,
-                 const std::vector<std::string>& patterns, std::ostream& say) {
-    const picture_tests::CaseReport read = picture_tests::read_case_report(report, cases);
-    check_patterns(read, patterns);
+picture_tests::RunOptions run_options(const std::string& name, const std::vector<std::string>& named, bool all) {
+    using picture_tests::FreshGoldens, picture_tests::GoldenSource;
+    if (matches_any(named, name)) return {GoldenSource::reference, FreshGoldens::of_all};
+    return {GoldenSource::reference, all ? FreshGoldens::missing : FreshGoldens::of_failed};
+}
+
+bool take_report(const std::filesystem::path& report, const std::filesystem::path& folder,
+                 const std::vector<CaseFile>& cases, const std::vector<std::string>& patterns, std::ostream& say) {
+    const picture_tests::CaseReport read = picture_tests::read_case_report(report, folder, cases);
+    check_patterns(read, cases, patterns);
     const auto is_meant = [&](const std::string& name) { return patterns.empty() || matches_any(patterns, name); };
     std::vector<GoldenChange> changes;
     bool all = true;

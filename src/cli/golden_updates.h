@@ -16,6 +16,10 @@ namespace mobbscope::cli {
 /// A pattern as on the command line: the name itself, or with * and ?.
 bool matches_any(const std::vector<std::string>& patterns, const std::string& name);
 
+/// How a case is run where goldens are taken: of one that is `named`, whatever it is; with `all`, of one that is no
+/// golden yet.
+picture_tests::RunOptions run_options(const std::string& name, const std::vector<std::string>& named, bool all);
+
 /// Takes the fresh goldens of those that `patterns` name, without patterns of all; says what it wrote. Throws
 /// MachineError.
 void take_named(std::span<picture_tests::CaseResult> results, const std::vector<std::string>& patterns,
@@ -36,7 +40,8 @@ void take_as_reference(std::vector<picture_tests::CaseResult>& results, std::ost
 /// `patterns` name, without patterns of all. Whether none that was meant is left out; those are said. Throws InputError
 /// if the report cannot be read, knows none of them or was not held against the goldens that are there now,
 /// MachineError if they cannot be written.
-bool take_report(const std::filesystem::path& report, const std::vector<picture_tests::CaseFile>& cases,
-                 const std::vector<std::string>& patterns, std::ostream& say);
+bool take_report(const std::filesystem::path& report, const std::filesystem::path& folder,
+                 const std::vector<picture_tests::CaseFile>& cases, const std::vector<std::string>& patterns,
+                 std::ostream& say);
 
 }  // namespace mobbscope::cli

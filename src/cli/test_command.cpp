@@ -7,6 +7,7 @@
 #include <cases/case_result.h>
 #include <cases/drawing_child.h>
 #include <cases/result_line.h>
+#include <cli/asked_cases.h>
 #include <cli/command_line.h>
 #include <cli/golden_updates.h>
 #include <cli/options.h>
@@ -68,6 +69,7 @@ struct TestCommandArguments {
     bool json = false;
     bool json_lines = false;
     bool requests = false;  ///< draw what standard input asks for
+    bool asked = false;     ///< answer the tests of a program, which ask on standard input
     int jobs = 0;           ///< 0: as many as there are processors
     Shard shard;
     std::filesystem::path junit, html, contact_sheet;  ///< empty: none
@@ -138,8 +140,20 @@ int parse_jobs(const std::string& text) {
 
 // --- what is written
 
-/// Throws InputError if a report would replace a golden or has a name that its kind does not, or if the pictures would
-/// go where the goldens are; MachineError if they cannot go where they are to.
+/// Throws InputError if the pictures would go where the goldens are, MachineError if they cannot go where they are to.
+void check_output_folder(const TestCommandArguments& arguments) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(arguments.output, arguments.folder, ignored)) {
+        throw InputError("--output: " + in_quotes(arguments.output.string()) +
+                         " is where the goldens are; give another folder");
+    }
+    if (std::filesystem::exists(arguments.output, ignored) && !std::filesystem::is_directory(arguments.output)) {
+        throw MachineError(arguments.output.string() + ": pictures cannot be written there: it is no folder");
+    }
+}
+
+/// Throws InputError if a report would replace a golden or has a name that its kind does not, or as check_output_folder
+/// does.
 void check_reports(const TestCommandArguments& arguments, const std::vector<CaseFile>& all) {
     const bool reports = !arguments.junit.empty() || !arguments.html.empty() || !arguments.contact_sheet.empty();
     if (arguments.json_lines && (arguments.update || arguments.strict || !arguments.accept.empty() || reports)) {
@@ -166,14 +180,7 @@ void check_reports(const TestCommandArguments& arguments, const std::vector<Case
     }
     for (const std::filesystem::path& report : {arguments.junit, arguments.html, arguments.contact_sheet})
         check_not_read(report);
-    std::error_code ignored;
-    if (std::filesystem::equivalent(arguments.output, arguments.folder, ignored)) {
-        throw InputError("--output: " + in_quotes(arguments.output.string()) +
-                         " is where the goldens are; give another folder");
-    }
-    if (std::filesystem::exists(arguments.output, ignored) && !std::filesystem::is_directory(arguments.output)) {
-        throw MachineError(arguments.output.string() + ": pictures cannot be written there: it is no folder");
-    }
+    check_output_folder(arguments);
 }
 
 using WriteReport = void (*)(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
@@ -328,14 +335,6 @@ void check_goldens(const std::vector<CaseFile>& cases) {
     }
 }
 
-/// Named cases are taken whatever they are; of all those that are no golden yet.
-picture_tests::RunOptions run_options(const TestCommandArguments& arguments, const CaseFile& file) {
-    using picture_tests::FreshGoldens, picture_tests::GoldenSource;
-    if (arguments.new_reference) return {GoldenSource::here, FreshGoldens::of_all};
-    if (matches_any(arguments.update_names, file.name)) return {GoldenSource::reference, FreshGoldens::of_all};
-    return {GoldenSource::reference, arguments.update_all ? FreshGoldens::missing : FreshGoldens::of_failed};
-}
-
 std::vector<std::string> orphans_of(const TestCommandArguments& arguments, const std::vector<CaseFile>& all) {
     const std::filesystem::path output = whole_path(arguments.output) / "";
     std::vector<std::string> out;
@@ -370,7 +369,12 @@ void take(const TestCommandArguments& arguments, std::vector<CaseResult>& result
 std::vector<std::string> draw_all(const TestCommandArguments& arguments, const std::vector<CaseFile>& cases,
                                   OrderedResults& results, picture_tests::ContactSheet& sheet) {
     std::vector<picture_tests::CaseOrder> orders;
-    for (const CaseFile& file : cases) orders.push_back({file, run_options(arguments, file)});
+    using picture_tests::FreshGoldens, picture_tests::GoldenSource;
+    for (const CaseFile& file : cases) {
+        orders.push_back({file, arguments.new_reference
+                                    ? picture_tests::RunOptions{GoldenSource::here, FreshGoldens::of_all}
+                                    : run_options(file.name, arguments.update_names, arguments.update_all)});
+    }
     const auto take_in = [&](CaseResult result) {
         if (arguments.update && !arguments.new_reference) check_is_from_here(arguments.folder, result);
         if (!arguments.contact_sheet.empty()) sheet.add(result);
@@ -389,9 +393,34 @@ std::vector<std::string> draw_all(const TestCommandArguments& arguments, const s
     return draw_cases(drawer, arguments.folder, orders, take_in, [] {});
 }
 
+/// Answers the tests of another program, a case a line.
+int answer_tests(const TestCommandArguments& arguments) {
+    check_output_folder(arguments);
+    AskedCases asked({.folder = arguments.folder,
+                      .output = arguments.output,
+                      .backend = arguments.backend,
+                      .update_names = arguments.update_names,
+                      .update_all = arguments.update_all});
+    for (std::string line; std::getline(std::cin, line);) {
+        std::cout << asked.answer(line) << '\n';
+        flush_results();
+    }
+    asked.keep_report();
+    return kDone;
+}
+
 int draw_and_hold(const TestCommandArguments& arguments) {
     if (arguments.requests) return answer_requests(arguments);
-    const std::vector<CaseFile> all = picture_tests::find_cases(arguments.folder);
+    if (arguments.asked) return answer_tests(arguments);
+    // What a report brings may be the first.
+    const std::vector<CaseFile> all = arguments.accept.empty() ? picture_tests::find_cases(arguments.folder)
+                                                               : picture_tests::cases_there(arguments.folder);
+    if (!arguments.accept.empty()) {
+        check_reports(arguments, all);
+        const bool taken = take_report(arguments.accept, arguments.folder, all, arguments.names, std::cout);
+        flush_results();
+        return taken ? kDone : kFailed;
+    }
     const std::vector<CaseFile> cases = cases_of(arguments, all);
     if (arguments.list) {
         for (const CaseFile& file : cases) std::cout << cleaned(file.name) << '\n';
@@ -399,11 +428,6 @@ int draw_and_hold(const TestCommandArguments& arguments) {
         return kDone;
     }
     check_reports(arguments, all);
-    if (!arguments.accept.empty()) {
-        const bool taken = take_report(arguments.accept, all, arguments.names, std::cout);
-        flush_results();
-        return taken ? kDone : kFailed;
-    }
     // A mask that fits what is drawn now may wait for a golden of that size.
     if (!arguments.json_lines && !arguments.update) check_goldens(cases);
     if (asks(arguments) && ::isatty(STDIN_FILENO) == 0) {
@@ -440,10 +464,11 @@ void check_new_reference(const TestCommandArguments& arguments) {
 }
 
 /// Throws InputError for an option that says nothing where standard input says which cases are drawn.
-void check_requests(const Command& command) {
+void check_requests(const Command& command, const std::string& from, const std::vector<std::string>& also) {
     for (const GivenOption& option : command.given()) {
-        if (option.name == "DIR" || option.name == "--backend" || option.name == "--requests") continue;
-        throw InputError("--requests: standard input says what is drawn, and nothing else is done; leave out " +
+        if (option.name == "DIR" || option.name == "--backend" || option.name == from) continue;
+        if (std::ranges::find(also, option.name) != also.end()) continue;
+        throw InputError(from + ": standard input says what is drawn, and nothing else is done; leave out " +
                          option.name);
     }
 }
@@ -460,8 +485,12 @@ void read_update(TestCommandArguments& arguments) {
 }
 
 int run_test(const Command& command, TestCommandArguments& arguments) {
-    if (arguments.requests) check_requests(command);
+    if (arguments.requests) check_requests(command, "--requests", {});
+    if (arguments.asked) check_requests(command, "--asked", {"--output", "--update"});
     if (command.is_given("--update")) read_update(arguments);
+    if (arguments.asked && asks(arguments)) {
+        throw InputError("--update: standard input asks for cases already; name those whose pictures to take, or all");
+    }
     check_new_reference(arguments);
     return draw_and_hold(arguments);
 }
@@ -499,6 +528,9 @@ void add_test_options(Command& command, TestCommandArguments& arguments) {
     command.add_flag("--requests", arguments.requests,
                      "Draw the cases that standard input asks for, a line of JSON each, and answer with lines "
                      "of JSON: so does each of the processes that draw");
+    command.add_flag("--asked", arguments.asked,
+                     "Draw what tests of another program ask for on standard input, a line of JSON each, hold it "
+                     "against the goldens, and answer in words; nothing is read from DIR but goldens");
     add_parsed(command, "--junit", arguments.junit, parse_file_name, "The report for CI servers", "OUT.xml");
     add_parsed(command, "--html", arguments.html, parse_file_name, "The report as one page, with all pictures",
                "OUT.html");

@@ -20,6 +20,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace mobb {
 
@@ -27,10 +28,11 @@ namespace {
 
 // --- a scene as text
 
-/// Goes into a file piece by piece. Once that fails the rest is passed over.
+/// Goes into a file piece by piece, or behind a text. Once that fails the rest is passed over.
 class SceneText {
   public:
     explicit SceneText(int descriptor) : descriptor_(descriptor) {}
+    explicit SceneText(std::string& text) : text_(&text) {}
 
     void add(std::string_view text) {
         while (!text.empty()) {
@@ -58,6 +60,7 @@ class SceneText {
     /// Whether all of it was written; errno says why not.
     bool flush() {
         const char* at = buffer_.data();
+        if (text_) text_->append(at, std::exchange(used_, 0));
         while (used_ > 0 && error_ == 0) {
             const ssize_t written = ::write(descriptor_, at, used_);
             if (written < 0 && errno == EINTR) continue;
@@ -81,7 +84,8 @@ class SceneText {
         add(std::string_view(digits.data(), static_cast<std::size_t>(end - digits.data())));
     }
 
-    int descriptor_;
+    int descriptor_ = -1;
+    std::string* text_ = nullptr;
     int error_ = 0;
     std::size_t used_ = 0;
     std::array<char, 4096> buffer_;
@@ -146,7 +150,7 @@ void add_trace(SceneText& out, const Trace& trace) {
 /// Writes a scene of captures, at least one: they have size(), operator[], and is_answered(i). False, and errno says
 /// why, if not all of it could be written. Runs in signal handlers.
 template <class Captures>
-bool write_scene(int descriptor, const Captures& captures) {
+bool write_scene(SceneText out, const Captures& captures) {
     const int size = captures.size();
     // Each clip once, with the number of the first side that plays it.
     const auto clip_of = [&](int side) -> const ClipPtr& {
@@ -158,7 +162,6 @@ bool write_scene(int descriptor, const Captures& captures) {
         while (clip_of(first) != clip_of(side)) ++first;
         return first;
     };
-    SceneText out(descriptor);
     out.add("{\n  \"mobbscope\": 1,\n  \"clips\": {");
     const char* separator = "";
     for (int side = 0; side < 2 * size; ++side) {
@@ -242,6 +245,11 @@ class UnnamedFile {
     bool is_named_ = false;
 };
 
+void check_all(std::span<const Capture> captures) {
+    if (captures.empty()) throw std::invalid_argument("there is no captured query to write");
+    for (const Capture& capture : captures) check(capture);
+}
+
 }  // namespace
 
 Capture capture(const PlacedTree& a, const PlacedTree& b, const std::optional<Contact>& answer) {
@@ -267,11 +275,17 @@ void check(const Capture& capture) {
     }
 }
 
+std::string scene_text(std::span<const Capture> captures) {
+    check_all(captures);
+    std::string out;
+    write_scene(SceneText(out), AnsweredCaptures{captures});
+    return out;
+}
+
 void write_captures(const std::filesystem::path& file, std::span<const Capture> captures) {
-    if (captures.empty()) throw std::invalid_argument("there is no captured query to write");
-    for (const Capture& capture : captures) check(capture);
+    check_all(captures);
     UnnamedFile out(file);
-    if (!write_scene(out.descriptor(), AnsweredCaptures{captures}) || !out.take_name()) out.fail();
+    if (!write_scene(SceneText(out.descriptor()), AnsweredCaptures{captures}) || !out.take_name()) out.fail();
 }
 
 // --- the ring
@@ -324,7 +338,7 @@ std::vector<Capture> CaptureRing::captures() const {
 
 bool CaptureRing::dump(int descriptor) const noexcept {
     const Reading reading(*this);
-    return reading.size() > 0 && write_scene(descriptor, reading);
+    return reading.size() > 0 && write_scene(SceneText(descriptor), reading);
 }
 
 // --- crashes

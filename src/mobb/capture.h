@@ -18,6 +18,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -49,6 +50,11 @@ Capture capture(const PlacedTree& a, const PlacedTree& b, const std::optional<Co
 /// Throws std::invalid_argument if a clip is missing, a placement or the fit is not valid, or a contact is not one
 /// of the clips' or comes without a collision.
 void check(const Capture& capture);
+
+/// The text of a scene file of these, numbers with all their digits: what EXPECT_PICTURE of <mobbscope/picture_tests.h>
+/// draws. Throws std::invalid_argument as write_captures does.
+std::string scene_text(std::span<const Capture> captures);
+inline std::string scene_text(const Capture& capture) { return scene_text(std::span(&capture, 1)); }
 
 /// Writes a scene file whole or not at all: what was there stays until the new one is on the disk. A trace whose fit is
 /// not the file's is left out. Throws std::filesystem::filesystem_error, naming the file, if it cannot be written;

@@ -14,6 +14,7 @@
 #include <chrono>
 #include <exception>
 #include <filesystem>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -98,7 +99,8 @@ struct HeldPicture {
     bool passes() const { return diff && diff->passes; }
 };
 
-HeldPicture hold(const Image& actual, const std::filesystem::path& file, const DiffOptions& options, const Image* mask) {
+HeldPicture hold(const Image& actual, const std::filesystem::path& file, const DiffOptions& options,
+                 const Image* mask) {
     HeldPicture out;
     if (!is_there(file)) return out;
     try {
@@ -115,7 +117,8 @@ HeldPicture hold(const Image& actual, const std::filesystem::path& file, const D
         return out;
     }
     const bool fits = mask && mask->width == actual.width && mask->height == actual.height;
-    out.diff = diff(actual, out.golden, options, fits ? mask : nullptr);
+    // Who looks at the heat map makes it anew (compared_again).
+    out.diff = diff(actual, out.golden, options, fits ? mask : nullptr, HeatMap::left_out);
     return out;
 }
 
@@ -126,17 +129,17 @@ struct ShownPictures {
 };
 
 /// The result shows this picture.
-void show(CaseResult& result, ShownPictures& shown, const Image& actual, HeldPicture held, const std::filesystem::path& file) {
+void show(CaseResult& result, ShownPictures& shown, const Image& actual, HeldPicture held,
+          const std::filesystem::path& file) {
     result.shown = file;
     shown.actual = &actual;
     shown.golden = std::move(held.golden);
     result.image = std::move(held.diff);
-    // Who looks at it makes it anew (compared_again).
-    if (result.image) result.image->heat = {};
 }
 
 /// The verdict on a picture by its pixels. `which` stands before what differs.
-void judge_pixels(CaseResult& result, const HeldPicture& held, const std::filesystem::path& file, const std::string& which) {
+void judge_pixels(CaseResult& result, const HeldPicture& held, const std::filesystem::path& file,
+                  const std::string& which) {
     if (held.unreadable) {
         add_finding(result, CaseOutcome::different,
                     {file, which + "the golden cannot be read: " + *held.unreadable, {}});
@@ -324,13 +327,14 @@ std::vector<GoldenChange> goldens_of(const CaseFile& file, const Case& tested, D
 
 /// The goldens of all that is held, of one whose goldens are asked for: `pictures` and those of numbers.
 void add_fresh(CaseResult& result, const CaseTerms& terms, const HeldAnswers* held, std::vector<GoldenChange> pictures,
-               FreshGoldens wanted) {
+               const RunOptions& options) {
     const bool passed = result.outcome == CaseOutcome::passed;
     result.fresh = std::move(pictures);
+    if (options.asked) add_golden(result.fresh, result.file.file, options.asked);
     for (const Held what : terms.hold) {
         if (what != Held::picture) add_golden(result.fresh, result.file.golden_of(what), held->golden(what));
     }
-    if (!passed || wanted != FreshGoldens::missing) return;
+    if (!passed || options.fresh != FreshGoldens::missing) return;
     const bool lacks = std::ranges::any_of(result.fresh, [](const GoldenChange& one) { return !one.replaces; });
     std::erase_if(result.fresh, [&](const GoldenChange& one) { return !lacks || (one.bytes && one.replaces); });
 }
@@ -370,8 +374,7 @@ void run_picture(CaseResult& result, const Case& tested, const HeldAnswers* held
         compare_elsewhere(result, shown, tested, drawn, same_words, mask ? &*mask : nullptr);
     }
     if (wants_fresh(result, options))
-        add_fresh(result, tested.terms, held, goldens_of(result.file, tested, drawn, reference.has_value()),
-                  options.fresh);
+        add_fresh(result, tested.terms, held, goldens_of(result.file, tested, drawn, reference.has_value()), options);
     const std::optional<std::string> packed = fresh_bytes(result, result.shown);
     result.actual = packed ? *packed : png_bytes(*shown.actual);
     // Of a case that passed one picture is enough.
@@ -391,7 +394,7 @@ void check_is_not_scene(const CaseFile& file, const Case& tested) {
 
 /// Reads it and compares all that it holds. `maker`: not null if that is a picture.
 void run(CaseResult& result, PictureMaker* maker, const RunOptions& options) {
-    const Case tested = read_case(result.file.file);
+    const Case tested = read_case(result.file.file, options.asked);
     result.tolerance = tested.terms.tolerance;
     if (tested.terms.skip) {
         result.outcome = CaseOutcome::skipped;
@@ -405,17 +408,21 @@ void run(CaseResult& result, PictureMaker* maker, const RunOptions& options) {
     for (const Held what : tested.terms.hold) {
         if (what != Held::picture) compare_held(result, *held, what);
     }
+    // Without its case a golden would be held by nothing but the test that asks.
+    const auto has_golden = [&](Held what) { return is_there(result.file.golden_of(what)); };
+    if (options.asked && !is_there(result.file.file) && std::ranges::any_of(tested.terms.hold, has_golden))
+        add_missing(result, result.file.file);
     if (tested.terms.holds(Held::picture)) {
         run_picture(result, tested, held ? &*held : nullptr, *maker, options);
     } else if (wants_fresh(result, options)) {
-        add_fresh(result, tested.terms, &*held, {}, options.fresh);
+        add_fresh(result, tested.terms, &*held, {}, options);
     }
 }
 
 /// Whether there is a picture; nothing where that cannot be found out.
-std::optional<bool> holds_picture(const CaseFile& file) {
+std::optional<bool> holds_picture(const CaseFile& file, const std::optional<std::string>& asked) {
     try {
-        return read_terms(file).holds(Held::picture);
+        return read_terms(file, asked).holds(Held::picture);
     } catch (const std::exception&) {
         return std::nullopt;
     }
@@ -438,7 +445,7 @@ double similarity_loss(const Image& actual, const Image& golden, const Image* ma
 CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl, const RunOptions& options) {
     CaseResult result;
     result.file = file;
-    const std::optional<bool> draws = holds_picture(file);
+    const std::optional<bool> draws = holds_picture(file, options.asked);
     if (draws.value_or(false) && !maker) {
         result.outcome = CaseOutcome::skipped;
         result.message = no_opengl;
@@ -476,15 +483,44 @@ void make_folder_of(const std::filesystem::path& file) {
     if (error) throw MachineError(folder.string() + ": cannot be made: " + error.message());
 }
 
+std::string words_on(const CaseResult& result, const std::filesystem::path& folder) {
+    if (result.outcome == CaseOutcome::passed) return {};
+    std::ostringstream out;
+    out << name(result.outcome) << ": " << cleaned(result.file.name);
+    if (result.findings.empty()) out << ": " << cleaned(result.message);
+    out << '\n';
+    for (const Finding& finding : result.findings) {
+        if (finding.words.empty()) out << "  " << cleaned(finding.message) << '\n';
+        for (const std::string& word : finding.words)
+            out << "  " << cleaned(finding.golden.filename().string() + ": " + word) << '\n';
+    }
+    if (!result.actual.empty()) {
+        const std::string stem = (whole_path(folder) / result.file.name).string();
+        const std::string ending = result.file.ending_of(result.shown);
+        out << "  actual:  " << cleaned(stem + ".actual" + ending) << '\n';
+        if (!result.golden.empty()) out << "  golden:  " << cleaned(whole_path(result.shown).string()) << '\n';
+        if (result.image && result.image->same_size) out << "  differs: " << cleaned(stem + ".heat" + ending) << '\n';
+    }
+    if (can_be_taken(result)) {
+        std::string cases = whole_path(result.file.file).string();
+        cases.resize(cases.size() - result.file.name.size() - kCaseExtension.size() - 1);
+        out << "  if it is right: mobbscope test " << shell_word(cases) << ' ' << shell_word(result.file.name)
+            << " --accept " << shell_word(whole_path(folder).string()) << '\n';
+    } else if (!result.other_here.empty()) {
+        out << "  the goldens are from elsewhere: here are " << cleaned(result.other_here) << '\n';
+    }
+    return std::move(out).str();
+}
+
 std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const std::filesystem::path& folder) {
     const std::filesystem::path stem = folder / result.file.name;
-    const bool is_there_something = !result.actual.empty() || !result.fresh.empty();
-    const bool keeps = result.outcome != CaseOutcome::passed && is_there_something;
-    if (keeps) make_folder_of(stem);
+    const bool passed = result.outcome == CaseOutcome::passed;
+    if (!passed) make_folder_of(stem);
+    const bool keeps = !passed && (!result.actual.empty() || !result.fresh.empty());
     std::vector<std::filesystem::path> written;
     const auto keep = [&](const std::string& what, const std::optional<std::string>& bytes) {
         const std::filesystem::path file = stem.string() + '.' + what;
-        if (!keeps || !bytes) {
+        if (!bytes) {
             std::error_code ignored;
             std::filesystem::remove(file, ignored);
             return;
@@ -493,6 +529,8 @@ std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const
         write_file(file, *bytes);
         written.push_back(file);
     };
+    keep("txt", passed ? std::nullopt : std::optional(words_on(result, folder)));
+    written.clear();
     const auto png = [](const std::string& bytes) { return bytes.empty() ? std::nullopt : std::optional(bytes); };
     for (const CaseFile::Golden golden : {&CaseFile::golden, &CaseFile::plain}) {
         const std::filesystem::path file = (result.file.*golden)();
@@ -500,15 +538,15 @@ std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const
         const bool shown = file == result.shown;
         // What accepting writes, to the byte.
         const std::optional<std::string> fresh = fresh_bytes(result, file);
-        keep("actual" + ending, shown && !fresh ? png(result.actual) : fresh);
-        keep("golden" + ending, shown ? png(result.golden) : std::nullopt);
+        keep("actual" + ending, !keeps ? std::nullopt : shown && !fresh ? png(result.actual) : fresh);
+        keep("golden" + ending, shown && keeps ? png(result.golden) : std::nullopt);
         const std::optional<Image> heat = shown && keeps ? heat_map(result) : std::nullopt;
         keep("heat" + ending, heat ? std::optional(png_bytes(*heat)) : std::nullopt);
     }
     for (const std::filesystem::path& file :
          {result.file.draw(), result.file.plain_state(), result.file.golden_of(Held::answers),
           result.file.golden_of(Held::trace), result.file.golden_of(Held::fit)}) {
-        keep("actual" + result.file.ending_of(file), fresh_bytes(result, file));
+        keep("actual" + result.file.ending_of(file), keeps ? fresh_bytes(result, file) : std::nullopt);
     }
     return written;
 }

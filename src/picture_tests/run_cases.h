@@ -6,6 +6,7 @@
 #include <picture_tests/picture_maker.h>
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -29,10 +30,14 @@ inline constexpr double kMostLossWithDrawList = 0.25;
 /// Makes the folder that a file goes to, if need be. Throws MachineError.
 void make_folder_of(const std::filesystem::path& file);
 
+/// What a person is to know of a case that did not pass, on lines of their own, first its outcome: what differs, where
+/// `keep_pictures` puts its pictures, and how they are taken. Empty if it passed.
+std::string words_on(const CaseResult& result, const std::filesystem::path& folder);
+
 /// Writes the pictures of a case into a folder that is made if need be: NAME.actual.png, NAME.golden.png and
-/// NAME.heat.png (of the golden without text NAME.actual.plain.png, ...), those that there are, and its other fresh
-/// goldens as NAME.actual.draw.json, ...; none of a case that passed. What an earlier run left of the others goes.
-/// Returns what it wrote, pictures first. Throws MachineError.
+/// NAME.heat.png (of the golden without text NAME.actual.plain.png, ...), those that there are, its other fresh
+/// goldens as NAME.actual.draw.json, ..., and NAME.txt with words_on it; none of a case that passed. What an earlier
+/// run left of the others goes. Returns what it wrote but for the words, pictures first. Throws MachineError.
 std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const std::filesystem::path& folder);
 
 }  // namespace mobbscope::picture_tests

@@ -1,6 +1,6 @@
 /// A picture described in full: what is drawn, of which scene, and how. The body of a test case.
 ///
-///     {"scene": "../scenes/crossing.json",   a scene or clip file, relative to this one
+///     {"scene": "../scenes/crossing.json",   a scene or clip file, relative to this one; or the scene itself, {...}
 ///      "fit": {"tree": "umobb"},             over the scene's, key by key
 ///      "view": {"levels": 1, "query": null}, over the scene's, key by key; null takes a query or a time out
 ///      "panels": [{"title": "root", "view": {"levels": 0}, "fit": {}}, ...],   side by side, each over the above

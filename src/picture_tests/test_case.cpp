@@ -18,9 +18,9 @@ void refuse_other_views(const JsonPlace& place) {
 
 }  // namespace
 
-Case read_case(const std::filesystem::path& file) {
+Case read_case(const std::filesystem::path& file, const std::optional<std::string>& text) {
     const std::string name = file.string();
-    const JsonText value = parse_json(read_file(file), name);
+    const JsonText value = parse_json(text ? *text : read_file(file), name);
     const JsonPlace root(value, name);
     root.allow_only({"$schema",   "mobbscope_case", "hold", "tolerance", "threshold", "allowed",    "mask",
                      "draw_list", "time_limit",     "skip", "scene",     "fit",       "view",       "panels",

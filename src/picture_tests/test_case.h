@@ -15,7 +15,7 @@ struct Case {
     CaseTerms terms;
 };
 
-/// Throws InputError.
-Case read_case(const std::filesystem::path& file);
+/// `text`: what the file is to hold; none: what it does. Throws InputError.
+Case read_case(const std::filesystem::path& file, const std::optional<std::string>& text = {});
 
 }  // namespace mobbscope::picture_tests

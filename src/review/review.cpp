@@ -61,8 +61,16 @@ double ReviewCase::difference() const {
 // --- the review
 
 ReviewFolder find_review(const std::filesystem::path& folder, const std::filesystem::path& output) {
-    ReviewFolder found{folder, output, picture_tests::find_cases(folder), {}};
-    if (!output.empty()) found.report = picture_tests::read_case_report(output, found.cases);
+    if (output.empty()) return {folder, output, picture_tests::find_cases(folder), {}};
+    ReviewFolder found{folder, output, picture_tests::cases_there(folder), {}};
+    found.report = picture_tests::read_case_report(output, folder, found.cases);
+    // A test may have asked for others, which are no files yet.
+    for (const CaseResult& read : found.report.results) {
+        if (std::ranges::find(found.cases, read.file.name, &CaseFile::name) == found.cases.end())
+            found.cases.push_back(read.file);
+    }
+    std::ranges::sort(found.cases, {}, &CaseFile::name);
+    if (found.cases.empty()) found.cases = picture_tests::find_cases(folder);
     return found;
 }
 

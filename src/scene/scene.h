@@ -25,6 +25,7 @@
 namespace mobbscope {
 
 class Importer;      // import/import.h
+class JsonPlace;     // base/json.h
 struct CrowdRun;     // scene/crowd_run.h
 struct MotionGraph;  // scene/motion_graph.h
 
@@ -130,6 +131,8 @@ Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrid
 /// Parses the text of a scene. `name` stands for the file in messages; sources are taken relative to `folder`.
 Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                   const ImportOptions& overrides = {}, const Progress& progress = {}, Importer* importer = nullptr);
+/// The same of an object within another text.
+Scene read_scene(const JsonPlace& place, const std::filesystem::path& folder);
 
 /// The scene as JSON text, numbers with 17 digits. Clips with a source are written as their source; with
 /// `inline_samples` every clip is written with its samples, so the file stands alone.

@@ -569,4 +569,9 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::fil
     return SceneReader(root, folder, overrides, progress, importer ? *importer : own).read();
 }
 
+Scene read_scene(const JsonPlace& place, const std::filesystem::path& folder) {
+    Importer importer;
+    return SceneReader(place, folder, {}, {}, importer).read();
+}
+
 }  // namespace mobbscope

@@ -48,17 +48,20 @@ class DrawCasesTest : public ::testing::Test {
     }
     /// `otherwise`: lines of a shell's `case`, by name.
     std::vector<std::string> draw(const std::string& otherwise, int jobs) {
+        return draw_cases(
+            {.program = script(otherwise), .backend = "auto", .jobs = jobs}, cases.path(), orders,
+            [this](const CaseResult& result) { told.push_back(result); }, [] {});
+    }
+    std::filesystem::path script(const std::string& otherwise) const {
         const std::string folder = cases.path().string();
-        const std::filesystem::path script = cases.folder().write(
+        const std::filesystem::path out = cases.folder().write(
             "draw.sh", "#!/bin/sh\necho $$ >>'" + folder +
                            "/pids'\n"
                            "echo\nwhile read -r line; do\n  name=$(printf %s \"$line\" | sed 's/.*\"name\": "
                            "\"\\([^\"]*\\)\".*/\\1/')\n  case $name in\n" +
                            otherwise + "\n    *) cat '" + folder + "'/\"$name\".line ;;\n  esac\ndone\n");
-        std::filesystem::permissions(script, std::filesystem::perms::owner_all);
-        return draw_cases(
-            {.program = script, .backend = "auto", .jobs = jobs}, cases.path(), orders,
-            [&](const CaseResult& result) { told.push_back(result); }, [] {});
+        std::filesystem::permissions(out, std::filesystem::perms::owner_all);
+        return out;
     }
     CaseResult result_of(const std::string& name) const {
         const auto at = std::ranges::find(told, name, [](const CaseResult& one) { return one.file.name; });
@@ -140,6 +143,25 @@ TEST_F(DrawCasesTest, AProgramThatIsNotThereIsNoMachine) {
         EXPECT_STREQ(error.what(),
                      "no process that draws can be started: /no/program: cannot be started: No such file or directory");
     }
+}
+
+TEST_F(DrawCasesTest, ALastingDrawerGoesOnAfterACrashAndAHang) {
+    LastingDrawer drawer({.program = script("    b) kill -SEGV $$ ;;\n    c) exec sleep 100 ;;")}, cases.path());
+    const auto drawn = [&](const std::string& name, const std::string& asked = {}) {
+        CaseOrder order{case_named(cases.path(), name)};
+        if (!asked.empty()) order.options.asked = asked;
+        const CaseResult result = drawer.draw(order);
+        return std::string(picture_tests::name(result.outcome)) + ": " + result.message;
+    };
+    EXPECT_EQ(drawn("a"), "passed: ");
+    EXPECT_EQ(drawn("a"), "passed: ");
+    EXPECT_EQ(processes(), 1u);
+    EXPECT_EQ(drawn("b"), "failed: crashed: Segmentation fault");
+    EXPECT_EQ(drawn("c", R"({"mobbscope_case": 1, "time_limit": 0.2})"), "failed: took longer than 0.2 s (time_limit)");
+    EXPECT_EQ(drawn("d"), "passed: ");
+    EXPECT_EQ(processes(), 3u);
+    LastingDrawer none({.program = "/no/program"}, cases.path());
+    EXPECT_TRUE(none.draw({case_named(cases.path(), "a")}).message.starts_with("no process that draws can be started"));
 }
 
 TEST_F(DrawCasesTest, WhenNobodyWantsTheRestItIsEnded) {

@@ -85,11 +85,11 @@ std::string line_with(const CaseFile& file, const std::string& golden, const std
 TEST(ResultLine, NamesNoFileButGoldensOfItsCase) {
     const CaseFolder cases;
     const CaseFile file = cases.add("a");
-    for (const char* golden : {".png", ".plain.png", ".plain.state.json"}) {
+    for (const char* golden : {".png", ".plain.png", ".plain.state.json", ".case.json"}) {
         EXPECT_EQ(read_result_line(line_with(file, golden, ".draw.json", "new"), {file}).fresh[0].file,
                   file.beside(golden));
     }
-    for (const char* other : {".case.json", ".sh", ".PNG", "b.png", ""}) {
+    for (const char* other : {".script", ".sh", ".PNG", "b.png", ""}) {
         EXPECT_NE(input_error([&] {
                       read_result_line(line_with(file, other, ".png", "new"), {file});
                   }).find("is no golden of a case"),
@@ -119,6 +119,8 @@ TEST(RequestLine, IsReadAsItIsWritten) {
             EXPECT_EQ(read.options.fresh, fresh);
         }
     }
+    const CaseRequest asked = read_request_line(request_line({"a", {.asked = "{\n}"}}));
+    EXPECT_EQ(asked.options.asked, "{\n}");
     EXPECT_NE(input_error([] { read_request_line(R"({"name": "a"})"); }), "");
     EXPECT_NE(input_error([] { read_request_line(R"({"name": "a", "source": "x", "fresh": "missing"})"); }), "");
 }

@@ -585,8 +585,8 @@ TEST_F(AcceptTest, RefusesADamagedReportAndWritesNothing) {
         expect_refused(report, i == 0 ? "end.png as it would be: " : "end.draw.json as it would be: ");
     }
     report = nlohmann::json::parse(whole);
-    report["cases"][1]["fresh"][0]["golden"] = ".case.json";
-    expect_refused(report, "/cases/1/fresh/0/golden: '.case.json' is no golden of a case");
+    report["cases"][1]["fresh"][0]["golden"] = ".script";
+    expect_refused(report, "/cases/1/fresh/0/golden: '.script' is no golden of a case");
 
     std::string text = slurp(page);
     text.replace(text.find("\"mobbscope_report\": 1"), 21, "\"mobbscope_report\": 9");
@@ -881,6 +881,84 @@ TEST_F(TestCommandTest, RequestsAreLinesOfJson) {
     EXPECT_EQ(run.status, 0) << run.err;
     ASSERT_TRUE(run.out.starts_with('\n')) << "it says when it can draw";
     EXPECT_EQ(json_lines(run.out.substr(1)).size(), 1u);
+}
+
+/// What the tests of another program ask for.
+class AskedTest : public DrawnTestCommandTest {
+  protected:
+    struct Asked {
+        std::string name, scene;
+        std::string keys = R"({"size": "160x120"})";
+    };
+    Result ask(const std::vector<Asked>& requests, const std::vector<std::string>& more = {}) const {
+        std::string lines;
+        for (const Asked& one : requests) {
+            lines += nlohmann::json{{"name", one.name}, {"scene", one.scene}, {"keys", one.keys}}.dump();
+            lines += '\n';
+        }
+        cases.folder().write("lines", lines);
+        std::vector<std::string> all{"test", goldens.string(), "--asked", "--output", output.string()};
+        all.insert(all.end(), more.begin(), more.end());
+        return run_program(all, {}, cases.path() / "lines");
+    }
+    Result accept() const { return run_program({"test", goldens.string(), "--accept", output.string()}); }
+
+    const std::filesystem::path goldens = cases.path() / "goldens";
+    const std::string scene = testing::kSmallScene;
+    const std::string file = (cases.path() / "scene.json").string();
+};
+
+TEST_F(AskedTest, GoldensOfTestsStandByThemselves) {
+    const Result run = ask({{"a", scene}, {"deep/b", file}});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_TRUE(run.out.starts_with("missing golden\nmissing golden: a\n")) << run.out;
+    EXPECT_PRED2(says, run.out, "MOBBSCOPE_UPDATE=a\n\nmissing golden\nmissing golden: deep/b\n");
+    EXPECT_TRUE(run.out.ends_with("MOBBSCOPE_UPDATE=deep/b\n\n")) << run.out;
+    EXPECT_FALSE(std::filesystem::exists(goldens));
+    EXPECT_EQ(accept().status, 0) << "a report brings cases that are new";
+    EXPECT_PRED2(says, slurp(goldens / "deep/b.case.json"), R"("scene": "../../scene.json",)");
+    EXPECT_EQ(run_program({"test", goldens.string(), "--strict"}).status, 0);
+    EXPECT_EQ(ask({{"a", scene}, {"deep/b", file}}).out, "passed\n\npassed\n\n");
+    EXPECT_FALSE(std::filesystem::exists(output / "report.json"));
+    // A golden without its case would be no test for anybody else.
+    std::filesystem::remove(goldens / "a.case.json");
+    EXPECT_PRED2(says, ask({{"a", scene}}).out, "there is no golden " + (goldens / "a.case.json").string());
+}
+
+TEST_F(AskedTest, ARunLeavesWhatTheReportTellsOfOthers) {
+    ask({{"a", scene}});
+    ask({{"b", scene}, {"bad", "{}"}});
+    EXPECT_PRED2(says, slurp(output / "report.json"), R"("name": "a")");
+    EXPECT_PRED2(says, ask({{"b", scene}}, {"--update", "b"}).out,
+                 "passed\nwrote " + (goldens / "b.case.json").string());
+    const std::string report = slurp(output / "report.json");
+    EXPECT_PRED2(says, report, R"("name": "a")");
+    EXPECT_FALSE(says(report, R"("name": "b")"));
+    nlohmann::json forged = nlohmann::json::parse(report);
+    forged["cases"][0]["name"] = "../a";
+    cases.folder().write("out/report.json", forged.dump());
+    EXPECT_PRED2(says, accept().err, "../a: not accepted: there is no such case");
+}
+
+TEST_F(AskedTest, WhatIsWrongIsTheAnswer) {
+    const auto expect = [&](const Asked& asked, const std::string& words) {
+        const Result run = ask({asked});
+        EXPECT_EQ(run.status, 0) << run.err;
+        EXPECT_TRUE(run.out.starts_with("failed\n") && run.out.ends_with("\n\n")) << run.out;
+        EXPECT_PRED2(says, run.out, words);
+    };
+    expect({"a", "{\n\"clips\": }"}, "the scene that the test gives for a: line 2");
+    expect({"a", "{\n\"clips\": 3}"}, "a.case.json: line 2, /scene/clips");
+    expect({"a", "none.json"}, "none.json: there is no such file");
+    expect({"a", ""}, "the name of a file is empty");
+    expect({"a", scene, "[]"}, "the keys that the test gives for a: ");
+    expect({"a", scene, "{}}, {"}, "the keys that the test gives for a: line 1");
+    expect({"a", scene, R"({"mobbscope_case": 1})"}, "/mobbscope_case: is given by the test itself");
+    expect({"a", scene, R"({"veiw": {}})"}, "veiw");
+    for (const char* name : {"", "../a", "/a", "a/", "a\nb", ".."})
+        expect({name, scene}, "cannot be the name of a case");
+    expect_test_refused(ask({}, {"--update"}), "--update: standard input asks");
+    expect_test_refused(ask({}, {"--jobs", "2"}), "--asked: standard input says what is drawn");
 }
 
 TEST_F(DrawnTestCommandTest, BothBackendsDrawTheSamePicture) {

@@ -8,7 +8,7 @@ import urllib.parse
 
 from documents import all_documents, source_and_rest, Document
 
-LANGUAGES = {"sh", "text", "json", "csv", "cpp", "cmake", "yaml"}
+LANGUAGES = {"sh", "text", "json", "csv", "cpp", "cmake", "python", "yaml"}
 README_LINES = 160
 README_PICTURES = 4
 NOT_RUN = 14  # blocks of commands, in all documents
@@ -27,10 +27,10 @@ def broken_links(document):
 
 
 def uncompiled(document, sources):
-    """C++ and CMake that are not, line by line, a part of an example that is compiled."""
+    """C++, CMake and Python that are not, line by line, a part of an example that is compiled."""
     for block in document.blocks:
-        if block.language in ("cpp", "cmake") and not any("\n" + block.text in "\n" + text for text in sources):
-            yield f"{block.line}: is not a part of any file in tests/install/consumer"
+        if block.language in ("cpp", "cmake", "python") and not any("\n" + block.text in "\n" + text for text in sources):
+            yield f"{block.line}: is not a part of any file in tests/install"
 
 
 def bad_blocks(document):
@@ -66,7 +66,7 @@ def order_of_documents(source):
 def main(arguments):
     source, _ = source_and_rest(arguments)
     documents = all_documents(source)
-    sources = [path.read_text() for path in sorted((source / "tests/install/consumer").iterdir())]
+    sources = [path.read_text() for path in sorted((source / "tests/install").glob("*/*.*"))]
     faults = [*order_of_documents(source), *jobs_of_ci(source)]
     for document in documents:
         name = document.path.relative_to(source)

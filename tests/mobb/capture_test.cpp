@@ -216,6 +216,16 @@ TEST(Capture, IsWrittenWholeOrNotAtAll) {
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
 }
 
+TEST(Capture, TheTextIsTheFiles) {
+    const TempFolder folder;
+    std::vector<Capture> captures{apart(1), apart(0.1)};
+    captures[0].a.clip = walk_of(5000);  // more than one buffer
+    write_captures(folder.path() / "two.json", captures);
+    EXPECT_EQ(scene_text(captures), slurp(folder.path() / "two.json"));
+    EXPECT_EQ(count_of(scene_text(captures[1]), "\"expect\""), 1);
+    EXPECT_THROW(scene_text(std::vector<Capture>{}), std::invalid_argument);
+}
+
 TEST(CrashCapture, LeavesNothingWhereNothingCrashes) {
     const TempFolder folder;
     CaptureRing ring(2);

@@ -1,4 +1,5 @@
 // Cases read, and what is said of bad ones.
+#include <cases/case_scene.h>
 #include <picture_tests/test_case.h>
 #include <support/input_error.h>
 
@@ -55,6 +56,25 @@ TEST(ReadCase, EachLayerSaysWhatIsOtherThanInTheOneBelow) {
     EXPECT_EQ(panels[1].view.query, std::nullopt);
     EXPECT_EQ(panels[1].view.levels, (LevelRange{0, 0}));
     EXPECT_EQ(panels[2].fitted, panels[1].fitted) << "equal fits are made once";
+}
+
+TEST(ReadCase, TheSceneMayStandInTheCase) {
+    const CaseFolder cases;
+    const std::string own = R"({"mobbscope_case": 1, "scene": )" + std::string(mobbscope::testing::kSmallScene) +
+                            R"(, "view": {"levels": 0}})";
+    const CaseFile file = cases.write("a", own);
+    const Case read = read_case(file.file);
+    EXPECT_EQ(read.shot.panels[0].view.levels, (LevelRange{0, 0}));
+    EXPECT_EQ(read.shot.panels[0].fitted->options().leaf, 2) << "the scene's";
+    EXPECT_EQ(read.shot.scene_file, file.file);
+    EXPECT_EQ(scene_of(file).agents.size(), 2u);
+    // Its files are relative to the folder of the case.
+    cases.folder().write("walk.csv", "t,x,y,r\n0,0,0,0.4\n0.1,1,0,0.4\n");
+    const std::string named = R"({"mobbscope_case": 1, "scene": {"clips": {"walk": {"source": "walk.csv"}}}})";
+    EXPECT_EQ(read_case(file.file, named).shot.panels[0].fitted->scene().clips.size(), 1u) << "in place of the file's";
+    EXPECT_PRED2(says,
+                 input_error([&] { read_case(file.file, "{\"mobbscope_case\": 1, \"scene\":\n{\"clip\": {}}}"); }),
+                 "a.case.json: line 2, /scene/clip");
 }
 
 TEST(ReadCase, WhatMayDifferAndWhereIsTheCasesOwn) {

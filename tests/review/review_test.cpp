@@ -414,6 +414,24 @@ TEST(Review, SeveralOfAnEarlierRunAreOneStep) {
     EXPECT_FALSE(w.review().goldens.has_undo());
 }
 
+/// A test of another program asked for it.
+TEST(Review, ACaseThatIsNoFileYetIsAcceptedAndGivenBack) {
+    ReviewWorld w;
+    const fs::path goldens = w.files.path() / "new", out = w.files.path() / "out";
+    std::ofstream(w.files.path() / "asked") << R"({"name": "deep/one", "scene": ")" << w.edit_own_scene().string()
+                                            << R"(", "keys": "{\"size\": \"160x120\"}"})" << '\n';
+    ThreeCases::run("test '" + goldens.string() + "' --asked --output '" + out.string() + "' <'" +
+                    (w.files.path() / "asked").string() + "'");
+    w.reviews.open(goldens, out);
+    w.show("deep/one");
+    EXPECT_EQ(outcome_name(w.one("deep/one")), "missing golden");
+    w.key("A");
+    EXPECT_TRUE(fs::exists(goldens / "deep/one.case.json")) << w.said();
+    EXPECT_TRUE(fs::exists(goldens / "deep/one.png"));
+    w.key("Ctrl+Z");
+    EXPECT_FALSE(fs::exists(goldens / "deep/one.case.json"));
+}
+
 TEST(Review, WhatIsBeingDrawnIsNotTakenBack) {
     const TempFolder folder;
     const ThreeCases files(folder.path());

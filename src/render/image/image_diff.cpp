@@ -184,7 +184,8 @@ ImageDiff diff_of_sizes(PictureSize actual, PictureSize reference, const DiffOpt
     return result;
 }
 
-ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& options, const Image* mask) {
+ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& options, const Image* mask,
+               HeatMap heat) {
     ImageDiff result = diff_of_sizes({actual.width, actual.height}, {reference.width, reference.height}, options);
     if (!result.same_size) return result;
     if (mask && (mask->width != reference.width || mask->height != reference.height)) {
@@ -225,7 +226,7 @@ ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& o
     }
     if (result.pixels > 0) result.mean = static_cast<double>(sum) / static_cast<double>(result.pixels);
     result.passes = result.differing <= result.allowed();
-    result.heat = heat_map(reference, differences, options.channel_tolerance);
+    if (heat == HeatMap::drawn) result.heat = heat_map(reference, differences, options.channel_tolerance);
     return result;
 }
 

@@ -46,8 +46,9 @@ struct ImageDiff {
 /// Colours count by their opacity, as they are seen: under a transparent pixel none does. `mask`: of the same size;
 /// pixels that are black or transparent in it are not compared. Null: all are. Throws std::invalid_argument if the
 /// pictures have one size and the mask another.
+enum class HeatMap { drawn, left_out };
 ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& options = {},
-               const Image* mask = nullptr);
+               const Image* mask = nullptr, HeatMap heat = HeatMap::drawn);
 
 /// The same where the sizes differ: nothing is compared but them.
 ImageDiff diff_of_sizes(PictureSize actual, PictureSize reference, const DiffOptions& options = {});

@@ -1,0 +1,64 @@
+// All kinds of scenes, and what can go wrong.
+#include <gtest/gtest.h>
+#include <mobb/capture.h>
+#include <mobbscope/picture_tests.h>
+
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+TEST(Crowd, PeopleMeet) {
+    std::vector<mobb::Disk> path;
+    for (int i = 0; i < 60; ++i) path.push_back({i * 0.1, 0.0, 0.5});
+    const mobb::Tree tree(std::make_shared<const mobb::Clip>(0.1, path), {.leaf = 10});
+    const mobb::PlacedTree east(tree, {.translate = {0, 0}});
+    const mobb::PlacedTree west(tree, {.translate = {6, 2}, .rotate_deg = 180});
+
+    EXPECT_PICTURE(mobb::capture(east, west, mobb::query(east, west)), "meeting", R"({"view": {"query": 0}})");
+}
+
+/// Where B begins may be told by the environment, so that a test can make this one fail.
+std::string people(const char* otherwise = std::getenv("B_BEGINS_AT")) {
+    return R"({
+ "clips": {"walk": {"dt": 0.5, "samples": [[0, 0, 0.4], [0.6, 0.1, 0.4], [1.2, 0, 0.4], [1.8, -0.1, 0.4]]}},
+ "agents": [{"name": "A", "clip": "walk"}, {"name": "B", "clip": "walk", "translate": [)" +
+           std::string(otherwise ? otherwise : "1") + R"(, -1], "rotate_deg": 90}]
+})";
+}
+
+TEST(Crowd, PeopleStand) { EXPECT_PICTURE(people(), "sub folder/people", R"({"size": "320x240"})") << "more of it"; }
+
+TEST(Crowd, WordsOfWhatIsWrong) {
+    const char* const size = R"({"size": "320x240"})";
+    const auto fails = [&](const std::string& scene, const std::string& name, const std::string& keys,
+                           const std::string& words) {
+        mobbscope::PictureOptions elsewhere;
+        elsewhere.output += "/wrong";
+        const mobbscope::PictureResult result = mobbscope::check_picture(scene, name, keys, elsewhere);
+        if (result.outcome == mobbscope::PictureResult::Outcome::skipped) return;
+        EXPECT_FALSE(result.passed()) << name;
+        EXPECT_NE(result.message.find(words), std::string::npos) << result.message;
+    };
+    fails("{\n\"clips\": 3}", "wrong", size, "line 2, /scene/clips");
+    fails("{\n\"clips\": }", "wrong", size, "the scene that the test gives for wrong: line 2");
+    fails(people(), "wrong", "{\"veiw\": {}}", "'veiw'");
+    fails(people(), "wrong", "[]", "the keys that the test gives for wrong: line 1");
+    fails(people(), "wrong", R"({"scene": {}})", "/scene: is given by the test itself");
+    fails("none.json", "wrong", size, "none.json: there is no such file");
+    fails(people(), "../out", size, "cannot be the name of a case");
+    fails(people(), "", size, "cannot be the name of a case");
+    fails(people(), "two\nlines", size, "cannot be the name of a case");
+}
+
+#if GTEST_HAS_DEATH_TEST
+/// A process that was forked has a child of its own, and leaves this one's alone.
+TEST(CrowdDeathTest, PeopleStand) {
+    const auto passes = [] {
+        return mobbscope::check_picture(people(), "sub folder/people", R"({"size": "320x240"})");
+    };
+    const bool before = passes().passed();
+    EXPECT_EXIT(std::exit(passes().passed() == before ? 7 : 8), ::testing::ExitedWithCode(7), "");
+    EXPECT_EQ(passes().passed(), before);
+}
+#endif
