@@ -230,13 +230,21 @@ void write_words(std::ostream& out, const CaseResult& result) {
     out << "</div>\n";
 }
 
-/// What the page filters and sorts by: of what was not compared, more pixels than any picture has.
+/// What the page filters and sorts by: of what could not be compared and did not pass, more pixels than pictures have.
 std::string item_data(const CaseResult& result) {
     const bool compared = result.image && result.image->same_size;
+    const bool unknown = !compared && result.outcome != CaseOutcome::passed;
     std::ostringstream out;
     out << " data-name=\"" << escaped(result.file.name) << "\" data-outcome=\"" << words_of(result.outcome).key
-        << "\" data-pixels=\"" << (compared ? std::to_string(result.image->differing) : "1e15") << "\" data-largest=\""
-        << (compared ? result.image->largest : 255) << '"';
+        << "\" data-pixels=\""
+        << (compared  ? std::to_string(result.image->differing)
+            : unknown ? "1e15"
+                      : "0")
+        << "\" data-largest=\""
+        << (compared  ? result.image->largest
+            : unknown ? 255
+                      : 0)
+        << '"';
     return out.str();
 }
 
@@ -342,10 +350,13 @@ void write_passed(std::ostream& out, const Results& passed) {
     out << "<details class=\"passed\"><summary>" << badge(CaseOutcome::passed) << " <span class=\"count\">"
         << passed.size() << "</span></summary>\n<div class=\"thumbnails sorted\">\n";
     for (const CaseResult* result : passed) {
-        out << "<figure" << item_data(*result)
-            << "><button type=\"button\" class=\"thumbnail\" aria-pressed=\"false\">";
-        write_image(out, result->actual, result->file.name);
-        out << "</button><figcaption class=\"words\">" << escaped(result->file.name) << "<small>" << how_much(*result)
+        out << "<figure" << item_data(*result) << '>';
+        if (!result->actual.empty()) {
+            out << "<button type=\"button\" class=\"thumbnail\" aria-pressed=\"false\">";
+            write_image(out, result->actual, result->file.name);
+            out << "</button>";
+        }
+        out << "<figcaption class=\"words\">" << escaped(result->file.name) << "<small>" << how_much(*result)
             << "</small>";
         for (const std::string& remark : result->remarks) out << "<small>" << escaped(remark) << "</small>";
         out << "</figcaption></figure>\n";

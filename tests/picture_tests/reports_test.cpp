@@ -231,6 +231,19 @@ TEST(Reports, ThePageHasEachNameAsAShellTakesItAndWhatStandsAroundNames) {
     parsed(page, "html");
 }
 
+TEST(Reports, ThePageHasCasesWithoutPicturesToo) {
+    CaseResult answers = result("answers", CaseOutcome::different, "answers.answers.json: query 0 collides");
+    answers.findings = {{"answers.answers.json", answers.message, {"query 0: collides instead of not"}}};
+    const std::string page = written(write_html, {answers, result("also", CaseOutcome::passed)});
+    EXPECT_EQ(parsed(page, "html"),
+              "title 1 of 2 picture tests did not pass - my pictures\n"
+              "case ≠ different answers: \n"
+              "folded ✓ passed 1: \n"
+              "command mobbscope test 'my pictures' --update answers\n");
+    EXPECT_EQ(times(page, "<li><strong>query 0</strong>: collides instead of not</li>"), 1u);
+    EXPECT_EQ(times(page, "data-word=\"answers\""), 1u);
+}
+
 TEST(Reports, PicturesThatAreTheSameAreShownOnce) {
     CaseResult renamed =
         with_pictures(result("renamed", CaseOutcome::different, "a name"), grey(8, 8, 30), grey(8, 8, 30));

@@ -135,7 +135,9 @@ class Page:
         # An address that differs in its fragment alone would not load anything.
         self.call("Page.navigate", url="about:blank")
         self.loaded = False
-        self.call("Page.navigate", url=address)
+        failure = self.call("Page.navigate", url=address).get("errorText")
+        if failure:
+            raise RuntimeError(f"{address}: {failure}")
         deadline = time.monotonic() + self.browser.PATIENCE
         while not self.loaded or self.evaluate("document.readyState") != "complete":
             if not self.loaded:
