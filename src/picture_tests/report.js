@@ -62,7 +62,6 @@ function restore() {
   cases.forEach(section => { if (box(section)) box(section).checked = taken.includes(section.dataset.name); });
   sortBy(orders.find(button => button.dataset.by === state.get('sort')) ?? orders[0]);
   show();
-  showMarked();
   const section = plain ?? cases.find(candidate => candidate.dataset.name === state.get('case'));
   if (section && !section.hidden) goTo(section);
 }
@@ -75,7 +74,6 @@ const texts = new Map(items.map(item =>
 // A row of the list has the words of its case.
 all('nav li').forEach(row => texts.set(row, texts.get(one(one('a', row).hash))));
 
-const counts = [['main', one('.shown')], ...all('main > details').map(details => [details, one('.count', details)])];
 const ofMain = items.filter(item => item.closest('main'));
 
 function show() {
@@ -101,6 +99,7 @@ function show() {
     // What is looked for is not left folded.
     if (left.length < ofMain.length && !seen && count > 0) details.open = true;
   }
+  showMarked();
   showCurrent();
 }
 
@@ -139,7 +138,9 @@ function showMarked() {
     section.classList.toggle('taken', box(section).checked);
     links.get(section.id)?.parentElement.classList.toggle('taken', box(section).checked);
   }
-  one('.marked').textContent = `${taken.length} of ${takeable.length} marked`;
+  const unseen = taken.filter(section => section.hidden).length;
+  one('.marked').textContent =
+    `${taken.length} of ${takeable.length} marked` + (unseen > 0 ? `, ${unseen} of them not shown` : '');
   one('.unmark').hidden = taken.length === 0;
   const words = [decision.dataset.before, ...taken.map(section => section.dataset.word)].join(' ');
   one('code', decision).textContent = words + decision.dataset.after;

@@ -188,7 +188,7 @@ std::size_t end_of_subject(std::string_view line) {
     return 0;
 }
 
-void write_lines(std::ostream& out, const std::vector<std::string>& lines) {
+void write_lines(std::ostream& out, std::span<const std::string> lines) {
     out << "<ul>\n";
     for (const std::string& line : lines) {
         const std::size_t end = end_of_subject(line);
@@ -197,6 +197,16 @@ void write_lines(std::ostream& out, const std::vector<std::string>& lines) {
         out << escaped(line.substr(end)) << "</li>\n";
     }
     out << "</ul>\n";
+}
+
+/// Pictures stand near to the first lines; the others are folded.
+void write_first_lines(std::ostream& out, std::span<const std::string> lines) {
+    constexpr std::size_t kFirst = 4;
+    if (lines.size() <= kFirst + 1) return write_lines(out, lines);
+    write_lines(out, lines.first(kFirst));
+    out << "<details><summary>" << lines.size() - kFirst << " more lines</summary>\n";
+    write_lines(out, lines.subspan(kFirst));
+    out << "</details>\n";
 }
 
 /// What a golden holds, by what follows the name of its case.
@@ -224,7 +234,7 @@ void write_words(std::ostream& out, const CaseResult& result) {
         if (finding.words.empty()) {
             out << "<p class=\"message\">" << escaped(finding.message) << "</p>\n";
         } else {
-            write_lines(out, finding.words);
+            write_first_lines(out, finding.words);
         }
     }
     out << "</div>\n";

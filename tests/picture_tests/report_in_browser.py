@@ -119,6 +119,13 @@ TEXTS = """(() => {
 })()"""
 
 
+# What reaches beyond the window, but for what is scrolled or enlarged by itself.
+TOO_WIDE = """all('body *')
+    .filter(element => element.checkVisibility() && !element.parentElement.closest('.chips, code, .paper, dialog'))
+    .filter(element => element.getBoundingClientRect().right > innerWidth + .5)
+    .map(element => element.outerHTML.slice(0, 60))"""
+
+
 class Report(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -254,6 +261,13 @@ class Report(unittest.TestCase):
         sees = "one('#case1 .{} img').checkVisibility({{visibilityProperty: true}})"
         for kind in ("actual", "golden", "actual"):
             page.wait(sees.format(kind))
+        page.press("s")
+        swaps = """new Promise(resolve => {
+            let count = 0;
+            new MutationObserver(() => ++count).observe(one('#case1 .pictures'), {attributes: true});
+            setTimeout(() => resolve(count), 3 * kBlinkMs);
+        })"""
+        self.assertEqual(page.evaluate(swaps), 0, "by hand alone, once it was by hand")
         calm = self.open(prefers_reduced_motion="reduce")
         self.go_to(calm, "alpha/one")
         calm.press("2")
@@ -306,6 +320,10 @@ class Report(unittest.TestCase):
         page.drag((x, y), (x + 40, y + 20))
         moved = page.evaluate(transforms)
         self.assertEqual(len(set(moved)), 1)
+        place = "(({x, y}) => [x, y])(views.get(one('#case1')))"
+        there = page.evaluate(place)
+        page.drag((x, y), (x - 16, y - 24))
+        self.assertEqual(page.evaluate(place), [there[0] + 2, there[1] + 3], "8 pixels for one")
         self.assertNotEqual(moved, first)
         page.press("z", shift=True)
         self.assertIn("400", page.evaluate("one('#case1 .enlarge').textContent"))
@@ -324,6 +342,7 @@ class Report(unittest.TestCase):
                 if fold:
                     page.evaluate("all('details').forEach(details => details.open = true)")
                 self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), 390)
+                self.assertEqual(page.evaluate(TOO_WIDE), [])
                 self.assertGreaterEqual(min(page.evaluate(TEXTS), key=lambda text: text["size"])["size"], 12)
             # The bars at top and bottom leave room.
             bars = page.evaluate("one('header').offsetHeight + one('.decision').offsetHeight")
@@ -374,7 +393,7 @@ class Report(unittest.TestCase):
         page.write("new")
         page.click(".markall")
         self.assertEqual(page.evaluate(COMMAND), "mobbscope test 'my cases' 'beta two' new --accept report.html")
-        self.assertEqual(page.evaluate("one('.marked').textContent"), "2 of 3 marked")
+        self.assertEqual(page.evaluate("one('.marked').textContent"), "2 of 3 marked, 1 of them not shown")
         page.click("#case3 .take")
         self.assertEqual(page.evaluate(COMMAND), "mobbscope test 'my cases' 'beta two' --accept report.html")
         page.click(".decision .copy")
