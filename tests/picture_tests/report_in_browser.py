@@ -63,16 +63,17 @@ class Folder:
         return (self.path / "report.html").as_uri()
 
 
-def moved_cases(folder, names):
+def moved_cases(folder, names, **case):
     folder.scene("moved", SCENE)
     for name in names:
-        folder.case(name, scene=str(folder.cases / "moved.json"))
+        folder.case(name, scene=str(folder.cases / "moved.json"), **case)
 
 
 def all_outcomes():
     """Two of each kind that is shown whole, one that cannot be read, one that waits, three that pass."""
     folder = Folder("all outcomes")
-    moved_cases(folder, ["alpha/one", "beta two"])
+    # Wider than a phone.
+    moved_cases(folder, ["alpha/one", "beta two"], size="640x360")
     for name in ("fine", "also fine", "alpha/fine"):
         folder.case(name)
     folder.test("--update all")
@@ -119,10 +120,10 @@ TEXTS = """(() => {
 })()"""
 
 
-# What reaches beyond the window, but for what is scrolled or enlarged by itself.
+# What reaches beyond a phone, but for what is scrolled or enlarged by itself.
 TOO_WIDE = """all('body *')
     .filter(element => element.checkVisibility() && !element.parentElement.closest('.chips, code, .paper, dialog'))
-    .filter(element => element.getBoundingClientRect().right > innerWidth + .5)
+    .filter(element => element.getBoundingClientRect().right > 390.5)
     .map(element => element.outerHTML.slice(0, 60))"""
 
 
