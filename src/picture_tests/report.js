@@ -23,10 +23,12 @@ if (matchMedia('(max-width: 700px)').matches) all('details.roomy').forEach(detai
 
 // What stays at the top and at the bottom of the window.
 for (const [name, edge] of [['--head', one('header')], ['--foot', decision]].filter(([, edge]) => edge)) {
-  new ResizeObserver(() => {
+  const measure = () => {
     const sticky = getComputedStyle(edge).position === 'sticky';
     document.documentElement.style.setProperty(name, (sticky ? edge.offsetHeight : 0) + 'px');
-  }).observe(edge);
+  };
+  measure();
+  new ResizeObserver(measure).observe(edge);
 }
 
 // --- what the page shows, as its address says it, so that a link shows the same

@@ -209,17 +209,18 @@ void write_first_lines(std::ostream& out, std::span<const std::string> lines) {
     out << "</details>\n";
 }
 
-/// What a golden holds, by what follows the name of its case.
+/// What a golden holds, by what follows the name of its case; without one, the scene itself says what is to be.
 std::string_view kind_of_golden(const CaseFile& file, const std::filesystem::path& golden) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kKinds{
-        {{".png", "Picture"},
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kKinds{
+        {{"", "What the scene expects"},
+         {".png", "Picture"},
          {".draw.json", "Draw list"},
          {".plain.png", "Picture without text"},
          {".plain.state.json", "State of the window"},
          {".answers.json", "Answers"},
          {".trace.json", "Trace"},
          {".fit.json", "Fit"}}};
-    const std::string ending = file.ending_of(golden);
+    const std::string ending = golden.empty() ? "" : file.ending_of(golden);
     const auto kind = std::ranges::find(kKinds, ending, [](const auto& row) { return row.first; });
     return kind == kKinds.end() ? "Golden" : kind->second;
 }

@@ -233,6 +233,7 @@ class Report(unittest.TestCase):
                      "document.activeElement.dataset.name"):
             self.assertEqual(again.evaluate(what), page.evaluate(what), what)
         self.assertEqual(again.evaluate("document.activeElement.dataset.name"), "beta two")
+        again.wait("one('#case2').getBoundingClientRect().top >= one('header').getBoundingClientRect().bottom")
         again.evaluate("location.hash = '#case3'")
         again.wait("document.activeElement.id === 'case3'")
         self.assertEqual(again.evaluate("filter.value"), "", "a plain link shows all")
