@@ -28,17 +28,16 @@ enum class CaseOutcome {
 /// What reports and the window call an outcome.
 struct OutcomeWords {
     std::string_view name;
-    std::string_view key;          ///< of the summary in JSON
+    std::string_view key;          ///< of the summary in JSON, and what the page calls it
     std::string_view in_sum;       ///< "3 without a golden"
     std::string_view mark, badge;  ///< on the page: a sign that needs no colour, and words
-    std::string_view kind;         ///< which colour on the page: good, bad or quiet
 };
 inline constexpr std::array<OutcomeWords, 5> kOutcomeWords{
-    {{"passed", "passed", "passed", "✓", "passed", "good"},
-     {"different", "different", "different", "≠", "different", "bad"},
-     {"missing golden", "missing", "without a golden", "∅", "no golden", "bad"},
-     {"failed", "failed", "failed", "✕", "failed", "bad"},
-     {"skipped", "skipped", "skipped", "–", "skipped", "quiet"}}};
+    {{"passed", "passed", "passed", "✓", "passed"},
+     {"different", "different", "different", "≠", "different"},
+     {"missing golden", "missing", "without a golden", "∅", "no golden"},
+     {"failed", "failed", "failed", "✕", "failed"},
+     {"skipped", "skipped", "skipped", "–", "skipped"}}};
 static_assert(kOutcomeWords.size() == static_cast<std::size_t>(CaseOutcome::skipped) + 1);
 inline const OutcomeWords& words_of(CaseOutcome outcome) { return kOutcomeWords[static_cast<std::size_t>(outcome)]; }
 inline std::string_view name(CaseOutcome outcome) { return words_of(outcome).name; }

@@ -136,10 +136,16 @@ std::string update_command(const RunFacts& facts, std::span<const std::string_vi
     return out;
 }
 
+std::pair<std::string, std::string> command_around_names(const RunFacts& facts) {
+    const std::string test = "mobbscope test " + shell_word(facts.folder);
+    return facts.page.empty() ? std::pair(test + " --update", std::string())
+                              : std::pair(test, " --accept " + shell_word(facts.page));
+}
+
 std::string accept_command(const RunFacts& facts, std::span<const std::string_view> names) {
-    std::string out = "mobbscope test " + shell_word(facts.folder);
+    auto [out, after] = command_around_names(facts);
     for (const std::string_view name : names) out += ' ' + shell_word(std::string(name));
-    return out + " --accept " + shell_word(facts.page);
+    return out + after;
 }
 
 void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::picture_tests {
@@ -56,7 +57,11 @@ std::string_view if_right(const CaseResult& result);
 /// The command line that takes the pictures of these cases as their goldens, ready for a shell.
 std::string update_command(const RunFacts& facts, std::span<const std::string_view> names);
 
-/// The same from the page of the run (RunFacts::page).
+/// What stands before and behind the names in the command line that takes pictures from the page of the run
+/// (RunFacts::page), or, without a page, in update_command.
+std::pair<std::string, std::string> command_around_names(const RunFacts& facts);
+
+/// The command line that takes the pictures of these cases from the page; of all cases, without names.
 std::string accept_command(const RunFacts& facts, std::span<const std::string_view> names);
 
 }  // namespace mobbscope::picture_tests

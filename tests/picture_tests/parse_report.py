@@ -32,7 +32,7 @@ class Page(html.parser.HTMLParser):
 
     def __init__(self):
         super().__init__()
-        self.open, self.ids, self.links = [], [], []
+        self.open, self.ids, self.links, self.unnamed = [], [], [], False
         self.sections, self.commands, self.title, self.text = [], [], "", ""
 
     def handle_starttag(self, tag, attributes):
@@ -45,12 +45,14 @@ class Page(html.parser.HTMLParser):
             self.links.append(attributes["href"])
         assert not any(name.startswith("on") for name in attributes), attributes
         assert tag not in ("link", "iframe", "object", "form", "b"), tag
-        if tag in ("section", "details"):
+        kind = attributes.get("class")
+        if tag == "section" or kind in ("passed", "skipped") and tag == "details":
             self.sections.append(["case" if tag == "section" else "folded", "", []])
+            self.unnamed = True
         if tag in ("h2", "summary", "code", "title"):
             self.text = ""
         if tag == "figure":
-            self.kind = attributes.get("class")
+            self.kind = kind
         if tag == "img":
             self.picture(attributes)
         elif "src" in attributes:
@@ -72,9 +74,9 @@ class Page(html.parser.HTMLParser):
         assert self.open and self.open[-1] == tag, f"</{tag}> closes {self.open[-1:]}"
         self.open.pop()
         text = " ".join(self.text.split())
-        if tag in ("h2", "summary"):
-            self.sections[-1][1] = text
-        if tag == "code":
+        if tag in ("h2", "summary") and self.unnamed:
+            self.sections[-1][1], self.unnamed = text, False
+        if tag == "code" and text:
             self.commands.append(text)
         if tag == "title":
             self.title = text

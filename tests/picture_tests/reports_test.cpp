@@ -190,6 +190,72 @@ TEST(Reports, ThePageShowsTheNumbersOfADifference) {
     EXPECT_EQ(times(page, "<tr class=\"beyond\">"), 6u);
 }
 
+TEST(Reports, ThePageHasAPartForEachGoldenWithWhatItIsAboutInBold) {
+    CaseResult moved = different("moved");
+    moved.findings = {{"moved.png", "50 pixels <differ>", {}},
+                      {"moved.draw.json",
+                       "moved.draw.json: and 3 more",
+                       {"disk of A, sample 0, base: 1 instead of 2", "the tick label '5: s' is missing",
+                        "row 'A' of the legend, text: 'A' instead of 'B'", "<nothing> in particular"}},
+                      {"moved.trace.json", "moved.trace.json: it is empty", {}},
+                      {"moved.new.json", "unheard of", {}}};
+    const std::string page = written(write_html, {moved});
+    EXPECT_EQ(
+        times(page,
+              "<h3>Picture <small>moved.png</small></h3>\n<p class=\"message\">50 pixels &lt;differ&gt;</p>\n"
+              "<h3>Draw list <small>moved.draw.json</small></h3>\n<ul>\n"
+              "<li><strong>disk of A, sample 0, base</strong>: 1 instead of 2</li>\n"
+              "<li><strong>the tick label &#39;5: s&#39;</strong> is missing</li>\n"
+              "<li><strong>row &#39;A&#39; of the legend</strong>, text: &#39;A&#39; instead of &#39;B&#39;</li>\n"
+              "<li>&lt;nothing&gt; in particular</li>\n</ul>\n"
+              "<h3>Trace <small>moved.trace.json</small></h3>\n"
+              "<p class=\"message\">moved.trace.json: it is empty</p>\n"
+              "<h3>Golden <small>moved.new.json</small></h3>\n"),
+        1u)
+        << page.substr(page.find("<h3>"), 1500);
+    EXPECT_EQ(times(page, "<p class=\"message\">50 pixels differ"), 0u) << "the message repeats what is found";
+}
+
+TEST(Reports, ThePageHasEachNameAsAShellTakesItAndWhatStandsAroundNames) {
+    RunFacts facts = kFacts;
+    facts.page = "it's.html";
+    const std::string page =
+        written(write_html, {different("it's"), missing("plain"), result("x", CaseOutcome::failed)}, facts);
+    EXPECT_EQ(times(page, "data-word=\"&#39;it&#39;\\&#39;&#39;s&#39;\""), 1u);
+    EXPECT_EQ(times(page, "data-word=\"plain\""), 1u);
+    EXPECT_EQ(times(page, "data-word="), 2u) << "what failed cannot be taken";
+    EXPECT_EQ(times(page,
+                    "data-before=\"mobbscope test &#39;my pictures&#39;\" data-after=\" --accept "
+                    "&#39;it&#39;\\&#39;&#39;s.html&#39;\""),
+              1u);
+    parsed(page, "html");
+}
+
+TEST(Reports, ThePageHasCasesWithoutPicturesToo) {
+    CaseResult answers = result("answers", CaseOutcome::different, "answers.answers.json: query 0 collides");
+    answers.findings = {{"answers.answers.json", answers.message, {"query 0: collides instead of not"}}};
+    const std::string page = written(write_html, {answers, result("also", CaseOutcome::passed)});
+    EXPECT_EQ(parsed(page, "html"),
+              "title 1 of 2 picture tests did not pass - my pictures\n"
+              "case ≠ different answers: \n"
+              "folded ✓ passed 1: \n"
+              "command mobbscope test 'my pictures' --update answers\n");
+    EXPECT_EQ(times(page, "<li><strong>query 0</strong>: collides instead of not</li>"), 1u);
+    EXPECT_EQ(times(page, "data-word=\"answers\""), 1u);
+}
+
+TEST(Reports, PicturesThatAreTheSameAreShownOnce) {
+    CaseResult renamed =
+        with_pictures(result("renamed", CaseOutcome::different, "a name"), grey(8, 8, 30), grey(8, 8, 30));
+    renamed.findings = {{"renamed.draw.json", "a name", {"participant 'A' is called 'B'"}}};
+    const std::string page = written(write_html, {renamed});
+    EXPECT_EQ(parsed(page, "html"),
+              "title 1 of 1 picture test did not pass - my pictures\n"
+              "case ≠ different renamed: actual 8x8\n"
+              "command mobbscope test 'my pictures' --update renamed\n");
+    EXPECT_EQ(times(page, "<figcaption>Golden and actual: the same pixels"), 1u);
+}
+
 TEST(Reports, PicturesOfTwoSizesAreComparedByEye) {
     const CaseResult sizes =
         with_pictures(result("sizes", CaseOutcome::different, "the picture is 8x8, the golden 40x20"), grey(8, 8, 30),
@@ -240,7 +306,7 @@ TEST(Reports, APassWithPixelsThatDifferIsSaidAndCanBeSorted) {
     EXPECT_EQ(json["cases"][1]["diff"]["same"], false);
     EXPECT_EQ(json["cases"][1]["diff"]["passes"], true);
     const std::string page = written(write_html, results);
-    EXPECT_EQ(times(page, "data-name=\"some\" data-pixels=\"1\" data-largest=\"170\""), 1u);
+    EXPECT_EQ(times(page, "data-name=\"some\" data-outcome=\"passed\" data-pixels=\"1\" data-largest=\"170\""), 1u);
     EXPECT_EQ(times(page, "1 pixel, up to 170 of 255"), 1u);
     EXPECT_EQ(times(written(write_junit, results), "<system-out>1 of 64 pixels"), 1u);
     parsed(page, "html");
