@@ -133,8 +133,7 @@ std::vector<Command> export_commands() {
                 [](Session& session) {
                     copy_line_of(session, order_of_viewport(session.workspace, session.views), "picture.png", false);
                 },
-                {.shortcut = "Ctrl+Shift+C",
-                 .also = "shell terminal script render frames"}),
+                {.shortcut = "Ctrl+Shift+C", .also = "shell terminal script render frames"}),
         Command("picture.file", "Picture file", "Says where the export dialog writes to.",
                 [](Dialogs& dialogs, Workspace& workspace, const std::string& file) {
                     check_file_name(file);

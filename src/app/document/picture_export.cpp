@@ -11,7 +11,6 @@ namespace mobbscope::app {
 
 namespace {
 
-
 /// The keys of what can be left out.
 std::vector<std::string_view> keys_to_leave_out() {
     std::vector<std::string_view> out;

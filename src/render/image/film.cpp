@@ -38,7 +38,7 @@ const std::vector<Encoder>& encoders() {
     static const std::vector<Encoder> table{
         {".mp4", "libx264", {"-preset", "veryfast", "-crf", "18", "-movflags", "+faststart"}},
         {".mp4", "libopenh264", {"-rc_mode", "quality", "-qmin", "10", "-qmax", "20", "-movflags", "+faststart"}},
-        {".webm", "libvpx-vp9", {"-deadline", "realtime", "-cpu-used", "8", "-row-mt", "1", "-crf", "20", "-b:v", "0"}},
+        {".webm", "libvpx-vp9", {"-deadline", "realtime", "-cpu-used", "6", "-row-mt", "1", "-crf", "10", "-b:v", "0"}},
         {".webm", "libvpx", {"-deadline", "realtime", "-cpu-used", "8", "-crf", "8", "-b:v", "20M", "-qmax", "24"}}};
     return table;
 }
