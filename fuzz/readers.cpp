@@ -291,7 +291,8 @@ void read_request_line(const std::string& bytes) {
 
 void read_report(const std::string& bytes) {
     const MemoryFile file(bytes);
-    const picture_tests::CaseReport report = picture_tests::read_case_report(file.path(), the_case());
+    const picture_tests::CaseReport report =
+        picture_tests::read_case_report(file.path(), kSeedFolder / "case", the_case());
     for (const picture_tests::CaseResult& result : report.results)
         picture_tests::check_bytes(result.fresh, report.file);
 }

@@ -9,7 +9,7 @@ cp -r "$project" "$scratch/crowd"
 cmake --install "$build" --prefix "$scratch/prefix" >"$scratch/log"
 cd "$scratch/crowd"
 mobbscope=$scratch/prefix/bin/mobbscope
-unset MOBBSCOPE_PROGRAM MOBBSCOPE_OUTPUT MOBBSCOPE_UPDATE MOBBSCOPE_BACKEND
+unset MOBBSCOPE_PROGRAM MOBBSCOPE_GOLDENS MOBBSCOPE_OUTPUT MOBBSCOPE_UPDATE MOBBSCOPE_BACKEND
 
 fail() {
   echo "FAILED: $1"
