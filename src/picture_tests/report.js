@@ -55,7 +55,7 @@ function keep() {
 }
 
 function restore() {
-  const plain = document.getElementById(location.hash.slice(1));
+  const plain = cases.find(section => '#' + section.id === location.hash);
   const state = new URLSearchParams(plain ? '' : location.hash.slice(1));
   filter.value = state.get('filter') ?? '';
   const hidden = (state.get('hide') ?? '').split(' ');
