@@ -263,24 +263,27 @@ std::string tests_words(const mobb::TestCounts& now, const mobb::TestCounts& bef
     return out;
 }
 
+/// "query 0, A and B: "
+std::string query_words(const Fit& fit, const Query& one) {
+    return fit.words + "query " + std::to_string(one.index) + ", " + pair_words(one.query.a.name, one.query.b.name) +
+           ": ";
+}
+
 /// Calls with each query that a golden has too, and tells of those that only one side has.
 void each_pair(const std::vector<Fit>& fits, GoldenQueries golden, RankedLines& lines,
                const std::function<void(const std::string&, const Query&, const GoldenQuery&)>& compare) {
     for (const Fit& fit : fits) {
         for (const Query& one : fit.queries) {
-            const std::string names = pair_words(one.query.a.name, one.query.b.name);
-            const std::string query = fit.words + "query " + std::to_string(one.index);
+            const std::string query = query_words(fit, one);
             const auto stored = golden.extract({fit.panel, one.index});
             if (stored.empty()) {
-                lines.add(RankedLines::whole, query + ", " + names + ": the golden does not have it");
+                lines.add(RankedLines::whole, query + "the golden does not have it");
                 continue;
             }
             const GoldenQuery& before = stored.mapped();
-            if (one.query.a.name != before.a || one.query.b.name != before.b) {
-                lines.add(RankedLines::whole,
-                          query + " is of " + names + " instead of " + pair_words(before.a, before.b));
-            }
-            compare(query + ", " + names + ": ", one, before);
+            if (one.query.a.name != before.a || one.query.b.name != before.b)
+                lines.add(RankedLines::whole, query + "the golden has " + pair_words(before.a, before.b));
+            compare(query, one, before);
         }
     }
     for (const auto& [key, before] : golden) {

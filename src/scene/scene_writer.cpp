@@ -132,7 +132,7 @@ void write_expectation(JsonWriter& out, const Expectation& expect) {
         out.key("contact");
         write_contact(out, expect.contact);
     }
-    if (expect.tests != ExpectedTests()) {
+    if (constexpr ExpectedTests none{}; expect.tests != none) {
         out.begin_object("tests");
         for (const mobb::TestKind test : mobb::kTestKinds) {
             if (const auto& count = expect.tests[test.index()]) out.member(mobb::name(test), *count);

@@ -3,6 +3,7 @@
 
 #include <base/base64.h>
 #include <render/image/png.h>
+#include <support/temp_folder.h>
 
 #include "cases/case_folder.h"
 #include "render/backends.h"
@@ -222,7 +223,7 @@ TEST_F(AnswersTestCommandTest, TheGuardedFolderIsFound) {
     if (!std::filesystem::exists(shared)) GTEST_SKIP() << "there is no " << shared;
     ::unsetenv("MESA_GL_VERSION_OVERRIDE");
     if (!testing::open_or_skip(Backend::automatic)) return;
-    const TempFolder folder;
+    const testing::TempFolder folder;
     std::filesystem::copy(shared, folder.path() / "answers");
     const std::string cases_of = (folder.path() / "answers").string();
     const Result run = run_program({"test", cases_of, "--output", output.string()});
