@@ -237,7 +237,8 @@ void read_case(const std::string& bytes) {
 
 void read_golden(const std::string& bytes) {
     using picture_tests::Held;
-    static const picture_tests::Case tested = picture_tests::read_case(MOBBSCOPE_SOURCE_DIR "/tests/goldens/answers.case.json");
+    static const picture_tests::Case tested =
+        picture_tests::read_case(MOBBSCOPE_SOURCE_DIR "/tests/goldens/answers.case.json");
     static const picture_tests::HeldAnswers held(tested.shot, tested.terms);
     const auto is_of = [&](Held what) { return bytes.find(picture_tests::name(what)) != std::string::npos; };
     const Held what = is_of(Held::trace) ? Held::trace : is_of(Held::fit) ? Held::fit : Held::answers;
