@@ -4,7 +4,7 @@
         picture(scene, "crossing", view={"query": 0}, size="640x360")
 
 `scene`: the path of a scene or clip file, the text of a scene, or a dict. Keywords are further keys of the case, as in
-docs/picture_tests.md. `answers` holds the answers to the scene's queries too.
+docs/picture_tests.md. `answers` holds the answers to the scene's queries, and no picture.
 
 The goldens are in the folder `goldens` beside the test's file, or in that of --mobbscope-goldens. `mobbscope` draws, in
 one process for the whole session: that of the environment variable MOBBSCOPE_PROGRAM, the one installed beside this
@@ -139,5 +139,5 @@ def picture(request, _mobbscope_children):
 
 @pytest.fixture
 def answers(request, _mobbscope_children):
-    """The same, and the answers to the scene's queries are those of the golden."""
+    """answers(scene, name, **keys): fails unless the answers to the scene's queries are the golden's."""
     return _checker(request, _mobbscope_children, {"hold": ["answers"]})

@@ -142,7 +142,14 @@ std::vector<std::filesystem::path> orphaned_goldens(const std::filesystem::path&
     for (const CaseFile& file : cases) {
         std::optional<CaseTerms> terms;
         try {
-            terms = read_terms(file);
+            const std::string name = file.file.string();
+            const JsonText value = parse_json(read_file(file.file), name);
+            const JsonPlace root(value, name);
+            terms = read_terms(root, file.file.parent_path());
+            // A scene may be called as a golden is.
+            const auto scene = root.find("scene");
+            if (scene && scene->is_string())
+                owned.insert((file.file.parent_path() / scene->string()).lexically_normal());
         } catch (const InputError&) {
             // What is wrong with a case is told where it is drawn.
         }

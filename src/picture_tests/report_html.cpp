@@ -272,6 +272,10 @@ void write_case(std::ostream& out, const RunFacts& facts, const CaseResult& resu
     }
     out << "</div>\n";
     write_words(out, result);
+    if (taken && stays_different(result)) {
+        out << "<p class=\"message\">Accepting writes the goldens. The case passes once the scene expects this answer, "
+               "too.</p>\n";
+    }
     write_pictures(out, result);
     if (!result.remarks.empty()) {
         out << "<details class=\"roomy words\" open><summary>Notes</summary>\n";
@@ -338,7 +342,7 @@ void write_facts(std::ostream& out, const RunFacts& facts, std::span<const CaseR
     write_fact(out, "Result", sum_of(summary(results)));
     write_fact(out, "Folder", facts.folder);
     if (!facts.shard.empty()) write_fact(out, "Shard", facts.shard);
-    write_fact(out, "Drawn by", drawn_by(facts, results));
+    if (const std::string by = drawn_by(facts, results); !by.empty()) write_fact(out, "Drawn by", by);
     for (const std::string& sentence : other_systems(results)) write_fact(out, "Other system", sentence);
     if (const std::string passed = differing_passes(results); !passed.empty()) write_fact(out, "Passed", passed);
     for (const std::string& orphan : facts.orphans) write_fact(out, "No case has", orphan);

@@ -76,6 +76,7 @@ void write_orphans(std::ostream& out, const RunFacts& facts) {
 }  // namespace
 
 std::string drawn_by(const RunFacts& facts, std::span<const CaseResult> results) {
+    if (std::ranges::all_of(results, draws_nothing)) return {};
     if (facts.backend.empty()) {
         return std::ranges::any_of(results, lacks_opengl) ? "nothing: there is no OpenGL" : "nothing";
     }
@@ -167,7 +168,9 @@ void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
     }
     for (const std::string& orphan : facts.orphans) out << kOrphan << ": " << cleaned(orphan) << kOrphanAdvice << '\n';
     out << cleaned(facts.folder) << (facts.shard.empty() ? "" : ", shard " + facts.shard) << ": "
-        << sum_of(summary(results)) << "; drawn by " << cleaned(drawn_by(facts, results)) << '\n';
+        << sum_of(summary(results));
+    if (const std::string by = drawn_by(facts, results); !by.empty()) out << "; drawn by " << cleaned(by);
+    out << '\n';
     for (const std::string& sentence : other_systems(results)) out << cleaned(sentence) << '\n';
     if (const std::string differing = differing_passes(results); !differing.empty()) out << differing << '\n';
     if (!updatable.empty()) {

@@ -62,7 +62,7 @@ sed -n 's/^ *[0-9: ]*if it is right: mobbscope //p' "$scratch/said" >"$scratch/c
 [ "$(grep -c . "$scratch/commands")" -ge 3 ] || fail "there are no commands"
 if $has_catch; then says 'missing golden: person'; fi
 while read -r command; do expect 0 bash -c "'$mobbscope' $command"; done <"$scratch/commands"
-for file in goldens/meeting.{case.json,png,draw.json} 'goldens/sub folder/people.case.json' pictures/person.png; do
+for file in goldens/meeting.{case.json,png,draw.json} goldens/contact.{case.json,answers.json} 'goldens/sub folder/people.case.json' pictures/person.png; do
   [ -s "$file" ] || fail "$file is not there"
 done
 tests 0
@@ -115,21 +115,25 @@ pytest() { expect "$1" python3 -m pytest -p no:cacheprovider "${@:2}"; }
 rm -rf goldens
 pytest 1
 says 'missing golden: person'
-says '2 failed'
+says '3 failed'
 says_not Traceback
 pytest 0 --mobbscope-update walk test_people.py::test_people
 pytest 1
-says "1 failed, 1 passed"
-expect 0 "$mobbscope" test goldens person --accept mobbscope-test/goldens
+says "2 failed, 1 passed"
+expect 0 "$mobbscope" test goldens person meeting --accept mobbscope-test/goldens
 pytest 0
 expect 0 "$mobbscope" test goldens
 sed -i 's/1.2, 0/1.3, 0/' test_people.py
+cp goldens/meeting.answers.json kept
+sed -i 's/"tests": {"time": [0-9]*/"tests": {"time": 99/' goldens/meeting.answers.json
 pytest 1
 says 'walk.draw.json: disk of '
+says 'tests of time instead of 99'
+mv kept goldens/meeting.answers.json
 pytest 1 --mobbscope-goldens elsewhere
 says "/elsewhere/person.png"
 MESA_GL_VERSION_OVERRIDE=2.1 pytest 0
-says '2 skipped'
+says '1 passed, 2 skipped'
 MOBBSCOPE_PROGRAM=/no/where pytest 1
 says 'there is no program /no/where'
 MOBBSCOPE_PROGRAM=$PWD/ends.sh pytest 1

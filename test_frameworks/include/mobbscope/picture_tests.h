@@ -388,6 +388,6 @@ inline std::string told_catch2(const std::string& message) {
 #endif
 
 #ifdef EXPECT_PICTURE
-/// Holds the answers to the scene's queries too.
+/// Holds the answers to the scene's queries, and no picture.
 #define EXPECT_ANSWERS(scene, name) EXPECT_PICTURE(scene, name, "{\"hold\": [\"answers\"]}")
 #endif

@@ -8,15 +8,18 @@
 #include <string>
 #include <vector>
 
-TEST(Crowd, PeopleMeet) {
+mobb::Capture meeting(double aside) {
     std::vector<mobb::Disk> path;
     for (int i = 0; i < 60; ++i) path.push_back({i * 0.1, 0.0, 0.5});
     const mobb::Tree tree(std::make_shared<const mobb::Clip>(0.1, path), {.leaf = 10});
     const mobb::PlacedTree east(tree, {.translate = {0, 0}});
-    const mobb::PlacedTree west(tree, {.translate = {6, 2}, .rotate_deg = 180});
-
-    EXPECT_PICTURE(mobb::capture(east, west, mobb::query(east, west)), "meeting", R"({"view": {"query": 0}})");
+    const mobb::PlacedTree west(tree, {.translate = {6, aside}, .rotate_deg = 180});
+    return mobb::capture(east, west, mobb::query(east, west));
 }
+
+TEST(Crowd, PeopleMeet) { EXPECT_PICTURE(meeting(2), "meeting", R"({"view": {"query": 0}})"); }
+
+TEST(Crowd, AnswersStay) { EXPECT_ANSWERS(meeting(0.5), "contact"); }
 
 /// Where B begins may be told by the environment, so that a test can make this one fail.
 std::string people(const char* otherwise = std::getenv("B_BEGINS_AT")) {
