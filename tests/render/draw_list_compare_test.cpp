@@ -35,7 +35,7 @@ Json parsed(const std::string& text) { return Json::parse(text); }
 /// A picture with all kinds of things; with an id picture's numbers of pixels.
 Json small_list() {
     return parsed(R"({"size": [640, 360], "background": "#FFFFFFFF", "participants": ["A", "B"],
-        "camera": {"eye": [1, 2, 3], "right": [1, 0, 0], "clip_from_world": [1, 2]},
+        "camera": {"eye": [1, 2, 3], "right": [1, 0, 0], "clip_from_world": [1, 2, 0, 0]},
         "disks": [{"id": 1, "participant": 0, "sample": 2, "base": [0, 0, 0], "radius": 1, "pixels": 200},
                   {"id": 2, "participant": 0, "sample": 3, "base": [1, 0, 0], "radius": 1, "pixels": 200},
                   {"id": 4, "participant": 1, "sample": 3, "base": [2, 0, 0], "radius": 1, "pixels": 200}],
@@ -129,14 +129,14 @@ TEST(DrawListCompare, WhatDiffersIsNamedInOneLine) {
     check([](Json& list) { list["lines"][1]["color"] = "#9"; },
           "line 2 of the surroundings from (0, 1, 0) to (1, 1, 0), color: '#9' instead of '#2'");
     check([](Json& list) { list["lines"][2]["from"][1] = 2.5; },
-          "line 3 of the time cursor from (0, 2, 0) to (1, 2, 0), from: 2.5 instead of 2");
+          "line 3 of the time cursor from (0, 2, 0) to (1, 2, 0), from: y 2.5 instead of 2");
     check([](Json& list) { list["legend"][0]["color"] = "#9"; },
           "row 'level 1' of the legend, color: '#9' instead of '#4'");
     check([](Json& list) { list["overlays"][1]["folded"] = true; }, "panel of the map, folded: true instead of false");
-    check([](Json& list) { list["panels"][1]["max"] = {600, 81}; }, "panel 2 at (500, 10), max: 81 instead of 80");
+    check([](Json& list) { list["panels"][1]["max"] = {600, 81}; }, "panel 2 at (500, 10), max: y 81 instead of 80");
     check([](Json& list) { list["marks"][0]["fill"] = "#9"; }, "mark 1 at (520, 40), fill: '#9' instead of '#8'");
-    check([](Json& list) { list["texts"][3]["at"][0] = 21; }, "tick label '20 s', at: 21 instead of 20");
-    check([](Json& list) { list["texts"][5]["at"][0] = 251; }, "tick label '0', at: 251 instead of 250");
+    check([](Json& list) { list["texts"][3]["at"][0] = 21; }, "tick label '20 s', at: x 21 instead of 20");
+    check([](Json& list) { list["texts"][5]["at"][0] = 251; }, "tick label '0', at: x 251 instead of 250");
     check([](Json& list) { list["texts"][3]["text"] = "25 s"; }, "tick label '20 s', text: '25 s' instead of '20 s'");
     check([](Json& list) { list["texts"][3]["role"] = "note"; }, "tick label '20 s', role: 'note' instead of 'tick'");
     check([](Json& list) { list["texts"][1]["text"] = "level 3", list["legend"][1]["text"] = "level 3"; },
@@ -213,16 +213,16 @@ TEST(DrawListCompare, IdsCountWhereNoObjectIsMissing) {
 TEST(DrawListCompare, WhatFollowsFromTheCameraIsToldAlone) {
     const auto turn = [](Json& list) {
         list["camera"] = parsed(R"({"eye": [1, 5, 6], "right": [0, 1, 0],
-                                                                   "clip_from_world": [2, 2]})");
+                                                                   "clip_from_world": [2, 2, 0, 0]})");
     };
-    EXPECT_EQ(told(turn), Words{"camera, eye: 5 instead of 2 (also right)"});
+    EXPECT_EQ(told(turn), Words{"camera, eye: y 5 instead of 2 (also right)"});
     EXPECT_EQ(told([](Json& list) { list["camera"]["clip_from_world"][0] = 2; }),
               Words{"camera, clip_from_world: 2 instead of 1"});
     EXPECT_EQ(told([](Json& list) { list["camera"]["clip_from_world"][0] = 2, erase(list, "disks", 0); }),
               Words{"the disk of A, sample 2 is missing"});
 }
 
-TEST(DrawListCompare, WhatIsMissingComesFirstAndManyAreCounted) {
+TEST(DrawListCompare, DisksAndBoxesComeFirstAndManyAreCounted) {
     const auto change = [](Json& list) {
         list["disks"][0]["radius"] = 2;
         list["boxes"][0]["fill"] = "#9";
@@ -230,7 +230,8 @@ TEST(DrawListCompare, WhatIsMissingComesFirstAndManyAreCounted) {
         erase(list, "texts", 3);
     };
     EXPECT_EQ(told(change, {.other_fonts = false, .most = 2}),
-              (Words{"the tick label '20 s' is missing", "disk of A, sample 2, radius: 2 instead of 1", "and 2 more"}));
+              (Words{"disk of A, sample 2, radius: 2 instead of 1", "box of A, node 3, fill: '#9' instead of '#0'",
+                     "and 2 more"}));
     Json list = small_list();
     change(list);
     const DrawListComparison all = compared(list.dump(), small_list().dump(), {.other_fonts = false, .most = 2});

@@ -53,6 +53,19 @@ void take_names(Words& actual, const Words& golden) {
     }
 }
 
+/// What the picture is of, whose labels and lines follow it.
+bool is_of_scene(const ElementKind& kind) { return kind.is_object() || kind.list == "participants"; }
+
+/// "x " of the first of two or three numbers that are a place, and so on; else nothing.
+std::string coordinate_of(const JsonValue* place, const Unlike& unlike) {
+    const auto* numbers = place ? place->as<Elements>() : nullptr;
+    if (!numbers || numbers->size() > 3) return "";
+    for (std::size_t i = 0; i < numbers->size(); ++i) {
+        if (&(*numbers)[i] == unlike.golden && unlike.golden->as<double>()) return {"xyz"[i], ' '};
+    }
+    return "";
+}
+
 class Comparer {
   public:
     explicit Comparer(bool other_fonts) : other_fonts_(other_fonts) {}
@@ -80,12 +93,14 @@ class Comparer {
 
     /// `most`: lines in each part.
     DrawListComparison result(std::size_t most) && {
-        // It frames the scene, and moves where that does.
-        other_.insert(other_.end(), cameras_.begin(), cameras_.end());
-        if (gone_.empty() && other_.empty()) other_ = std::move(follows_);
-        gone_.insert(gone_.end(), std::make_move_iterator(other_.begin()), std::make_move_iterator(other_.end()));
-        const std::size_t count = gone_.size();
-        return {first_of(std::move(gone_), most), count, first_of(std::move(pixels_), most)};
+        // The camera frames the scene, and moves where that does.
+        Words all;
+        for (Words* words : {&objects_gone_, &objects_other_, &gone_, &other_, &cameras_}) {
+            all.insert(all.end(), std::make_move_iterator(words->begin()), std::make_move_iterator(words->end()));
+        }
+        if (all.empty()) all = std::move(follows_);
+        const std::size_t count = all.size();
+        return {first_of(std::move(all), most), count, first_of(std::move(pixels_), most)};
     }
 
   private:
@@ -149,7 +164,8 @@ class Comparer {
             if (excuse_of(array, element, side) != WordRoom::Excuse::none) return;
             const bool added = side == WordRoom::in_actual;
             const std::string what = element_words(array.terms.kind, element, i, added ? actual_names_ : golden_names_);
-            tell(gone_, array, "the " + what + (added ? " is not in the golden" : " is missing"));
+            tell(is_of_scene(array.terms.kind) ? objects_gone_ : gone_, array,
+                 "the " + what + (added ? " is not in the golden" : " is missing"));
         };
         for (const std::size_t i : array.alignment.missing) tell_one(array.golden.elements[i], i, WordRoom::in_golden);
         for (const std::size_t i : array.alignment.added) tell_one(array.actual.elements[i], i, WordRoom::in_actual);
@@ -176,7 +192,7 @@ class Comparer {
             const JsonValue& actual = array.actual.elements[here];
             const JsonValue& golden = array.golden.elements[there];
             const std::string what = difference(array, actual, golden, ids);
-            if (!what.empty()) tell(other_, array, words_of(there) + what);
+            if (!what.empty()) tell(is_of_scene(kind) ? objects_other_ : other_, array, words_of(there) + what);
             same = same && what.empty();
             const auto* seen = kind.is_object() ? held<double>(actual, "pixels") : nullptr;
             const auto* before = held<double>(golden, "pixels");
@@ -214,7 +230,7 @@ class Comparer {
             const Unlike unlike = first_unlike(a, g, terms.bound_of(key));
             if (!unlike || (key == "text" && terms.kind.is_text() && may_read(a, golden))) return;
             if (first.empty()) {
-                first = ", " + cleaned(key) + ": " + unlike.words();
+                first = ", " + cleaned(key) + ": " + coordinate_of(g, unlike) + unlike.words();
             } else {
                 also += (also.empty() ? " (also " : ", ") + cleaned(key);
             }
@@ -281,6 +297,8 @@ class Comparer {
     }
 
     bool other_fonts_;
+    // Participants, disks and boxes come first: labels, ticks and the camera follow them.
+    Words objects_gone_, objects_other_;
     Words gone_;     ///< what is missing or not in the golden
     Words other_;    ///< what differs
     Words cameras_;  ///< ... and what differs in cameras

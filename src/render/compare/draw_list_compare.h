@@ -19,8 +19,8 @@ struct DrawListTerms {
 };
 
 struct DrawListComparison {
-    /// What makes it another picture: first what is missing or not in the golden, then what differs, cameras last; one
-    /// line for each thing.
+    /// What makes it another picture, one line for each thing: disks and boxes first, of them and of the rest what is
+    /// missing or not in the golden before what differs; cameras last.
     std::vector<std::string> differences;
     std::size_t count = 0;  ///< of things, also those that are not told
     /// Of which things another number of pixels is seen: "disk of A, sample 3: 120 pixels instead of 200". It is only
