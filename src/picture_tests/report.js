@@ -121,13 +121,15 @@ filter.addEventListener('input', () => { show(); keep(); });
 chips.forEach(chip => chip.addEventListener('click', () => { press(chip, !pressed(chip)); show(); keep(); }));
 orders.forEach(button => button.addEventListener('click', () => { sortBy(button); keep(); }));
 
-function clearFilter() {
+function clearText() {
   filter.value = '';
-  chips.forEach(chip => press(chip, true));
   show();
   keep();
 }
-one('.showall').addEventListener('click', clearFilter);
+one('.showall').addEventListener('click', () => {
+  chips.forEach(chip => press(chip, true));
+  clearText();
+});
 
 // --- what is marked, and the command that takes it
 
@@ -144,8 +146,11 @@ function showMarked() {
   one('.marked').textContent =
     `${taken.length} of ${takeable.length} marked` + (unseen > 0 ? `, ${unseen} of them not shown` : '');
   one('.unmark').hidden = taken.length === 0;
-  const words = [decision.dataset.before, ...taken.map(section => section.dataset.word)].join(' ');
-  one('code', decision).textContent = words + decision.dataset.after;
+  const {before, after} = decision.dataset;
+  const words = taken.map(section => section.dataset.word).join(' ');
+  // Behind -- a name may begin with a dash.
+  const dash = taken.some(section => section.dataset.name.startsWith('-'));
+  one('code', decision).textContent = dash ? `${before}${after} -- ${words}` : `${before} ${words}${after}`;
   one('.command', decision).hidden = one('.copy', decision).hidden = taken.length === 0;
   one('.copy', decision).textContent = 'Copy';
 }
@@ -343,16 +348,20 @@ function focused(shown) {
   return bottom > 0 && top < innerHeight ? index : -1;
 }
 
-// The case that keys act on: else the first that reaches below the upper third of the window.
+// The case that keys act on: else the first that reaches below the upper third of the window, or, at the top of the
+// page, below the bar.
 function current(shown) {
-  const below = shown.findIndex(section => section.getBoundingClientRect().bottom > innerHeight / 3);
-  return focused(shown) >= 0 ? focused(shown) : below;
+  if (focused(shown) >= 0) return focused(shown);
+  const line = scrollY > 0 ? innerHeight / 3 : one('header').getBoundingClientRect().bottom;
+  return shown.findIndex(section => section.getBoundingClientRect().bottom > line);
 }
 
 function showCurrent() {
   const shown = shownCases();
   const id = shown[current(shown)]?.id;
-  links.forEach((link, of) => of === id ? link.setAttribute('aria-current', 'true') : link.removeAttribute('aria-current'));
+  // Where nobody has gone to a case yet, the list shows it paler.
+  const how = focused(shown) >= 0 ? 'true' : 'location';
+  links.forEach((link, of) => of === id ? link.setAttribute('aria-current', how) : link.removeAttribute('aria-current'));
 }
 
 function goTo(section) {
@@ -386,13 +395,13 @@ one('.closes').addEventListener('click', () => keys.close());
 const kModes = {1: 'side', 2: 'blink', 3: 'slide', 4: 'heat'};
 
 addEventListener('keydown', event => {
-  if (event.ctrlKey || event.altKey || event.metaKey || keys.open) return;
+  if (event.ctrlKey || event.altKey || event.metaKey || event.isComposing || keys.open) return;
   const shown = shownCases();
   const index = current(shown);
   const section = shown[index];
   const go = to => { goTo(to); keep(); };
   if (event.target === filter) {
-    if (event.key === 'Escape') clearFilter();
+    if (event.key === 'Escape') clearText();
     if (event.key === 'Enter') go(shown[0]);
     if (event.key === 'Escape') filter.blur();
     return;
@@ -405,8 +414,10 @@ addEventListener('keydown', event => {
     a: () => event.shiftKey ? mark(shown, true) : section && box(section) && mark([section], !box(section).checked),
     '/': () => { filter.focus(); filter.select(); },
     '?': () => keys.showModal(),
-    escape: clearFilter,
+    escape: clearText,
   };
+  // A key that is held goes on from case to case; it does nothing else twice.
+  if (event.repeat && !'jk'.includes(event.key.toLowerCase())) return;
   const mode = kModes[event.key];
   const action = mode ? () => section && chooseMode(section, mode) : actions[event.key.toLowerCase()];
   if (!action) return;

@@ -8,6 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <map>
 #include <sstream>
 #include <vector>
 
@@ -84,13 +87,16 @@ void write_image(std::ostream& out, std::string_view png, const std::string& wha
 void write_figure(std::ostream& out, const char* kind, const char* title, std::string_view png, const std::string& name,
                   const std::optional<PixelRect>& bounds = {}) {
     const PictureSize size = png_size(png, name);
-    out << "<figure class=\"" << kind << "\"><figcaption>" << title << " <small>" << size_text(size)
+    // A frame along the edges of the picture says nothing.
+    const bool framed = bounds && (bounds->width < 0.9 * size.width || bounds->height < 0.9 * size.height);
+    out << "<figure class=\"" << kind << "\" style=\"--width: " << size.width << "; --height: " << size.height
+        << "\"><figcaption>" << title << " <small>" << size_text(size) << (framed ? ", framed where pixels differ" : "")
         << "</small></figcaption><div class=\"paper\"><div class=\"sheet\">";
     write_image(out, png, std::string(title) + ": " + name);
     if (bounds) {
-        out << "<svg viewBox=\"0 0 " << size.width << ' ' << size.height << "\" aria-hidden=\"true\"><rect x=\""
-            << bounds->x << "\" y=\"" << bounds->y << "\" width=\"" << bounds->width << "\" height=\"" << bounds->height
-            << "\"/></svg>";
+        out << "<svg" << (framed ? "" : " class=\"unseen\"") << " viewBox=\"0 0 " << size.width << ' ' << size.height
+            << "\" aria-hidden=\"true\"><rect x=\"" << bounds->x << "\" y=\"" << bounds->y << "\" width=\""
+            << bounds->width << "\" height=\"" << bounds->height << "\"/></svg>";
     }
     out << "</div></div></figure>\n";
 }
@@ -109,8 +115,8 @@ void write_modes(std::ostream& out, bool has_both, bool has_difference) {
     out << "<button type=\"button\" class=\"enlarge\">Zoom: <span>fit</span> <kbd>Z</kbd></button>";
     if (has_both) {
         out << "<button type=\"button\" class=\"swap\" hidden>Swap by hand <kbd>S</kbd></button>"
-            << "<label class=\"slider\" hidden>Actual <input type=\"range\" min=\"0\" max=\"100\" step=\"any\" "
-               "value=\"50\"> Golden</label>";
+            << "<label class=\"slider\" hidden>Golden <input type=\"range\" min=\"0\" max=\"100\" step=\"any\" "
+               "value=\"50\"> Actual</label>";
     }
     out << "</div>\n";
 }
@@ -226,20 +232,56 @@ std::string_view kind_of_golden(const CaseFile& file, const std::filesystem::pat
     return kind == kKinds.end() ? "Golden" : kind->second;
 }
 
+void write_heading(std::ostream& out, const CaseResult& result, const std::filesystem::path& golden) {
+    out << "<h3>" << kind_of_golden(result.file, golden) << " <small>" << escaped(golden.filename().string())
+        << "</small></h3>\n";
+}
+
+/// Agents with their disks and boxes first: labels, ticks and findings only follow from them.
+std::vector<std::string> causes_first(std::vector<std::string> lines) {
+    constexpr std::array<std::string_view, 3> kCauses{"participant ", "disk of ", "box of "};
+    std::stable_partition(lines.begin(), lines.end(), [&](std::string_view line) {
+        if (line.starts_with("picture ")) line.remove_prefix(std::min(line.find(", "), line.size() - 2) + 2);
+        if (line.starts_with("the ")) line.remove_prefix(4);
+        return std::ranges::any_of(kCauses, [&](std::string_view cause) { return line.starts_with(cause); });
+    });
+    return lines;
+}
+
 /// What is wrong, a part for each golden.
 void write_words(std::ostream& out, const CaseResult& result) {
     out << "<div class=\"words\">\n";
     if (result.findings.empty()) out << "<p class=\"message\">" << escaped(result.message) << "</p>\n";
     for (const Finding& finding : result.findings) {
-        out << "<h3>" << kind_of_golden(result.file, finding.golden) << " <small>"
-            << escaped(finding.golden.filename().string()) << "</small></h3>\n";
+        write_heading(out, result, finding.golden);
         if (finding.words.empty()) {
             out << "<p class=\"message\">" << escaped(finding.message) << "</p>\n";
         } else {
-            write_first_lines(out, finding.words);
+            write_first_lines(out, finding.golden == result.file.draw() ? causes_first(finding.words) : finding.words);
         }
     }
     out << "</div>\n";
+}
+
+/// Under the names of the goldens that they begin with.
+void write_notes(std::ostream& out, const CaseResult& result) {
+    if (result.remarks.empty()) return;
+    const std::string stem = std::filesystem::path(result.file.name).filename().string() + '.';
+    std::map<std::string, std::vector<std::string>> notes;
+    for (const std::string& remark : result.remarks) {
+        const std::size_t end = remark.starts_with(stem) ? remark.find(": ", stem.size()) : std::string::npos;
+        if (end == std::string::npos) {
+            notes[""].push_back(remark);
+        } else {
+            notes[remark.substr(0, end)].push_back(remark.substr(end + 2));
+        }
+    }
+    out << "<details class=\"roomy words\" open><summary>Notes</summary>\n";
+    for (const auto& [golden, lines] : notes) {
+        if (!golden.empty()) write_heading(out, result, result.file.file.parent_path() / golden);
+        write_lines(out, lines);
+    }
+    out << "</details>\n";
 }
 
 /// What the page filters and sorts by: of what could not be compared and did not pass, more pixels than pictures have.
@@ -277,11 +319,7 @@ void write_case(std::ostream& out, const RunFacts& facts, const CaseResult& resu
                "too.</p>\n";
     }
     write_pictures(out, result);
-    if (!result.remarks.empty()) {
-        out << "<details class=\"roomy words\" open><summary>Notes</summary>\n";
-        write_lines(out, result.remarks);
-        out << "</details>\n";
-    }
+    write_notes(out, result);
     if (taken) write_commands(out, facts, "Commands that accept this case", names, false);
     out << "</section>\n";
 }
@@ -412,7 +450,7 @@ void write_help(std::ostream& out) {
          {"Shift+A", "marks all that are shown"},
          {"/", "filters by words of names and messages"},
          {"Enter", "in the filter: goes to the first case"},
-         {"Escape", "clears the filter"},
+         {"Escape", "clears the text of the filter"},
          {"?", "these keys"}}};
     out << "<dialog id=\"keys\" aria-label=\"Keys\">\n<h2>Keys</h2>\n<dl>\n";
     for (const auto& [key, what] : kKeys) out << "<dt><kbd>" << key << "</kbd></dt><dd>" << what << "</dd>\n";

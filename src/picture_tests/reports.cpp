@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 namespace mobbscope::picture_tests {
 
@@ -133,7 +134,9 @@ std::string_view if_right(const CaseResult& result) {
 
 std::string update_command(const RunFacts& facts, std::span<const std::string_view> names) {
     std::string out = "mobbscope test " + shell_word(facts.folder) + " --update";
-    for (const std::string_view name : names) out += ' ' + shell_word(std::string(name));
+    // A name that begins with a dash would be taken as an option.
+    for (const std::string_view name : names)
+        out.append(name.starts_with('-') ? " --update=" : " ").append(shell_word(std::string(name)));
     return out;
 }
 
@@ -145,6 +148,8 @@ std::pair<std::string, std::string> command_around_names(const RunFacts& facts) 
 
 std::string accept_command(const RunFacts& facts, std::span<const std::string_view> names) {
     auto [out, after] = command_around_names(facts);
+    const bool dash = std::ranges::any_of(names, [](std::string_view name) { return name.starts_with('-'); });
+    if (dash) out += std::exchange(after, "") + " --";
     for (const std::string_view name : names) out += ' ' + shell_word(std::string(name));
     return out + after;
 }

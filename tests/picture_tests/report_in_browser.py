@@ -38,6 +38,7 @@ class Folder:
         file = self.cases / f"{name}.case.json"
         file.parent.mkdir(exist_ok=True, parents=True)
         case = {"mobbscope_case": 1, "scene": str(self.cases / "still.json"), "size": "320x180"} | case
+        case = {key: value for key, value in case.items() if value is not None}
         file.write_text(json.dumps(case))
 
     def move(self, name):
@@ -171,6 +172,19 @@ class Report(unittest.TestCase):
         self.assertIn("onerror", page.evaluate("one('#case0 .message').textContent"))
         self.assertEqual(page.evaluate("all('.skipped dd').map(dd => dd.textContent)"), ["waits for <rain>"])
 
+    def test_causes_stand_before_what_follows_from_them(self):
+        page = self.open()
+        lines = page.evaluate("all('#case1 div.words li').map(line => line.textContent)")
+        causes = [line.startswith(("disk of ", "box of ")) for line in lines]
+        self.assertEqual(causes, sorted(causes, reverse=True), lines)
+        self.assertEqual((causes[0], causes[-1]), (True, False), lines)
+
+    def test_notes_name_a_golden_once(self):
+        page = self.open()
+        notes = page.evaluate("one('#case1 details.words').textContent")
+        self.assertEqual(notes.count("one.draw.json"), 1, notes)
+        self.assertGreater(page.evaluate("all('#case1 details.words li').length"), 1)
+
     def test_a_text_filters_cases_list_and_counts(self):
         page = self.open()
         self.assertEqual(page.evaluate(SHOWN), ALL)
@@ -203,8 +217,33 @@ class Report(unittest.TestCase):
         self.assertEqual(page.evaluate("one('.shown').textContent"), "6 of 8 shown")
         page.click("[data-chip=passed]")
         self.assertFalse(page.evaluate("one('main > .passed').checkVisibility()"))
-        page.click("[data-chip=different]")
+        page.press("/")
+        page.write("new")
+        page.press("Escape")
+        page.press("Escape")
+        self.assertEqual(page.evaluate(SHOWN), [HOSTILE, "new"], "Escape clears the text alone")
+        page.press("/")
+        page.write("nowhere")
+        page.click(".showall")
         self.assertEqual(page.evaluate(SHOWN), ALL)
+
+    def test_the_first_step_goes_to_the_first_case(self):
+        # Its bottom is above the upper third of a high window.
+        for height in (900, 1500):
+            page = self.open(1280, height)
+            current = "all('nav [aria-current]').map(link => [link.hash, link.getAttribute('aria-current')])"
+            self.assertEqual(page.evaluate(current), [["#case0", "location"]])
+            page.press("j")
+            page.wait("document.activeElement.id === 'case0'")
+            self.assertEqual(page.evaluate(current), [["#case0", "true"]])
+
+    def test_a_key_that_is_held_marks_once(self):
+        page = self.open()
+        self.go_to(page, "alpha/one")
+        for repeat in (False, True, True, True):
+            page.call("Input.dispatchKeyEvent", type="keyDown", text="a", key="a", windowsVirtualKeyCode=65,
+                      autoRepeat=repeat)
+        self.assertEqual(page.evaluate("marked().length"), 1)
 
     def test_order_is_that_of_cases_list_and_keys(self):
         page = self.open()
@@ -279,11 +318,10 @@ class Report(unittest.TestCase):
             self.assertFalse(calm.evaluate(sees.format(other)))
 
     def slide_of(self, page):
-        """Where the actual picture ends, in percent, as it is drawn and as the slider says."""
+        """Where the actual picture begins, in percent, as it is drawn and as the slider says: the golden is left of it."""
         clip = page.evaluate("getComputedStyle(one('#case1 .actual .paper')).clipPath")
-        hidden = clip.removeprefix("inset(0px ").removesuffix(" 0px 0px)")
-        at = page.evaluate("one('#case1 .slider input').valueAsNumber")
-        return hidden, at
+        self.assertRegex(clip, r"^inset\(0px 0px 0px [\d.]+%\)$")
+        return float(clip.split()[-1].rstrip("%)")), page.evaluate("one('#case1 .slider input').valueAsNumber")
 
     def test_the_slider_follows_mouse_and_finger(self):
         for phone in (False, True):
@@ -292,12 +330,14 @@ class Report(unittest.TestCase):
             x, y, width, _ = page.middle("#case1 .actual .paper")
             left = x - width / 2
             (page.swipe if phone else page.drag)((left + width * 0.5, y), (left + width * 0.25, y + 3))
-            hidden, at = self.slide_of(page)
+            begins, at = self.slide_of(page)
             self.assertAlmostEqual(at, 25, delta=1)
-            self.assertTrue(hidden.startswith("calc(100% - ") or hidden.startswith("75"), hidden)
+            self.assertAlmostEqual(begins, at, delta=0.1)
+            self.assertLess(*[page.evaluate(f"one('#case1 .{kind} figcaption small').getBoundingClientRect().right")
+                              for kind in ("golden", "actual")])
             page.evaluate("one('#case1 .slider input').value = 80")
             page.evaluate("one('#case1 .slider input').dispatchEvent(new Event('input'))")
-            self.assertNotEqual(self.slide_of(page)[0], hidden)
+            self.assertEqual(self.slide_of(page)[0], 80)
 
     def test_pictures_are_enlarged_and_moved_together(self):
         page = self.open()
@@ -346,10 +386,45 @@ class Report(unittest.TestCase):
                 self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), 390)
                 self.assertEqual(page.evaluate(TOO_WIDE), [])
                 self.assertGreaterEqual(min(page.evaluate(TEXTS), key=lambda text: text["size"])["size"], 12)
-            # The bars at top and bottom leave room.
-            bars = page.evaluate("one('header').offsetHeight + one('.decision').offsetHeight")
-            self.assertLess(bars, 844 / 3)
-        self.assertFalse(self.open(390, 844, phone=True).evaluate("one('nav').checkVisibility()"), "it is folded")
+            # What stays at top and bottom leaves room.
+            bars = page.evaluate("['--head', '--foot'].map(name => parseFloat(document.documentElement.style."
+                                 "getPropertyValue(name))).reduce((sum, height) => sum + height)")
+            self.assertLess(bars, 844 / 6)
+        page = self.open(390, 844, phone=True)
+        self.assertFalse(page.evaluate("one('nav').checkVisibility()"), "it is folded")
+        self.assertEqual(page.evaluate("all('kbd').filter(key => key.checkVisibility()).length"), 0)
+        first, last = (page.evaluate(f"one('{what}').getBoundingClientRect().top") for what in ("#case0", ".side"))
+        self.assertLess(first, last, "the cases come first")
+        self.assertEqual(page.evaluate("all('.chip').filter(chip => chip.getBoundingClientRect().right > 390).length"), 0)
+        # The button stands beside the title.
+        narrow = self.open(390, 844)
+        right = narrow.evaluate("""(() => {
+            const title = document.createRange();
+            title.selectNodeContents(one('h1'));
+            return title.getBoundingClientRect().right;
+        })()""")
+        self.assertLessEqual(right, narrow.evaluate("one('.helps').getBoundingClientRect().left"))
+
+    def test_pictures_use_the_width(self):
+        page = self.open()
+        self.go_to(page, "alpha/one")
+        card = page.evaluate("one('#case1').clientWidth")
+        widths = "['golden', 'actual', 'difference'].map(kind => one(`#case1 .${kind} img`).clientWidth)"
+        for width in page.evaluate(widths):
+            self.assertGreater(width, 0.45 * card)
+        page.press("2")
+        for width in page.evaluate(widths)[:2]:
+            self.assertGreater(width, 0.95 * card)
+
+    def test_print_has_what_was_found_and_nothing_to_press(self):
+        page = self.open()
+        self.go_to(page, "alpha/one")
+        page.press("a")
+        page.call("Emulation.setEmulatedMedia", media="print")
+        self.assertEqual(page.evaluate("all('button, .take, .command, .decision, #filter')"
+                                       ".filter(it => it.checkVisibility() && !it.matches('.thumbnail')).length"), 0)
+        self.assertEqual(page.evaluate(SHOWN), ALL)
+        self.assertEqual(page.evaluate("getComputedStyle(one('header')).position"), "static")
 
     def test_text_is_legible_in_both_themes(self):
         grounds = set()
@@ -433,6 +508,60 @@ class Report(unittest.TestCase):
         self.assertEqual(failing, ["left", "right"])
         self.assertEqual(urllib.parse.unquote_plus(page.evaluate("location.hash")),
                          "#accept=it's $HOME&case=it's $HOME")
+
+    def test_a_name_with_a_dash_is_no_option(self):
+        folder = Folder("dashes")
+        for name in ("--strict", "-o", "plain"):
+            folder.case(name)
+        self.assertEqual(folder.test("--html report.html").returncode, 1)
+        page = self.browser.page(1280, 900)
+        self.addCleanup(page.call, "Page.close")
+        page.open(folder.page)
+        page.press("A", shift=True)
+        page.click("#case1 .take")
+        self.assertEqual(page.evaluate(COMMAND), "mobbscope test 'my cases' --accept report.html -- --strict plain")
+        self.assertEqual(folder.run(page.evaluate(COMMAND)).returncode, 0)
+        commands = page.evaluate("all('#case1 code').map(code => code.textContent)")
+        self.assertEqual(commands, ["mobbscope test 'my cases' --accept report.html -- -o",
+                                    "mobbscope test 'my cases' --update --update=-o"])
+        for command in commands:
+            golden = folder.cases / "-o.png"
+            golden.unlink(missing_ok=True)
+            self.assertEqual(folder.run(command).returncode, 0, command)
+            self.assertTrue(golden.is_file(), command)
+
+    def test_answers_without_a_picture_and_what_the_scene_expects(self):
+        folder = Folder("answers")
+        folder.scene("expects", SCENE | {"queries": [{"a": "A", "b": "B", "expect": {"collides": True}}]})
+        folder.case("answers", scene=str(folder.cases / "expects.json"), size=None, hold=["answers"])
+        folder.move("moved")
+        folder.case("picture", scene=str(folder.cases / "moved.json"))
+        self.assertEqual(folder.test("--html report.html").returncode, 1)
+        page = self.browser.page(1280, 900)
+        self.addCleanup(page.call, "Page.close")
+        page.open(folder.page)
+        section = "cases.find(section => section.dataset.name === 'answers')"
+        self.assertEqual(page.evaluate(f"all('img, .modes, .pictures', {section}).length"), 0)
+        headings = page.evaluate(f"all('h3', {section}).map(heading => heading.textContent.trim())")
+        self.assertIn("What the scene expects", headings)
+        self.assertIn("Accepting writes the goldens. The case passes once the scene expects this answer, too.",
+                      page.evaluate(f"{section}.textContent"))
+        # All keys work there too.
+        page.evaluate(f"goTo({section})")
+        for key in "1234szZ":
+            page.press(key)
+        page.press("a")
+        self.assertEqual(page.errors, [])
+        folder.run(page.evaluate(COMMAND))
+        self.assertTrue((folder.cases / "answers.answers.json").is_file())
+        # What is left is the scene's: nothing can be accepted.
+        self.assertEqual(json.loads(folder.test("--json", "--html report.html").stdout)["cases"][0]["outcome"],
+                         "different")
+        page.open(folder.page)
+        self.assertEqual(page.evaluate(f"all('h3', {section}).map(heading => heading.textContent.trim())"),
+                         ["What the scene expects"])
+        self.assertEqual(page.evaluate(f"box({section})"), None)
+        self.assertNotIn("Accepting writes", page.evaluate(f"{section}.textContent"))
 
 
 if __name__ == "__main__":

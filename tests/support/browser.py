@@ -37,9 +37,10 @@ class Browser:
 
         self.process = subprocess.Popen(
             [program, "--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--no-first-run",
-             "--force-device-scale-factor=1", "--remote-debugging-pipe", f"--user-data-dir={folder}/profile"],
+             "--disable-dev-shm-usage", "--disable-background-networking", "--force-device-scale-factor=1",
+             "--remote-debugging-pipe", f"--user-data-dir={folder}/profile"],
             stdin=subprocess.DEVNULL, stdout=self.log, stderr=self.log, pass_fds=(3, 4), preexec_fn=connect,
-            start_new_session=True, env={**os.environ, "HOME": folder, "PATH": "/usr/bin:/bin"})
+            start_new_session=True, env={**os.environ, "HOME": folder})
         for end in (its_input, its_output, *high):
             os.close(end)
 
