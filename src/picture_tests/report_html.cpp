@@ -237,17 +237,6 @@ void write_heading(std::ostream& out, const CaseResult& result, const std::files
         << "</small></h3>\n";
 }
 
-/// Agents with their disks and boxes first: labels, ticks and findings only follow from them.
-std::vector<std::string> causes_first(std::vector<std::string> lines) {
-    constexpr std::array<std::string_view, 3> kCauses{"participant ", "disk of ", "box of "};
-    std::stable_partition(lines.begin(), lines.end(), [&](std::string_view line) {
-        if (line.starts_with("picture ")) line.remove_prefix(std::min(line.find(", "), line.size() - 2) + 2);
-        if (line.starts_with("the ")) line.remove_prefix(4);
-        return std::ranges::any_of(kCauses, [&](std::string_view cause) { return line.starts_with(cause); });
-    });
-    return lines;
-}
-
 /// What is wrong, a part for each golden.
 void write_words(std::ostream& out, const CaseResult& result) {
     out << "<div class=\"words\">\n";
@@ -257,7 +246,7 @@ void write_words(std::ostream& out, const CaseResult& result) {
         if (finding.words.empty()) {
             out << "<p class=\"message\">" << escaped(finding.message) << "</p>\n";
         } else {
-            write_first_lines(out, finding.golden == result.file.draw() ? causes_first(finding.words) : finding.words);
+            write_first_lines(out, finding.words);
         }
     }
     out << "</div>\n";
