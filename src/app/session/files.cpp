@@ -8,6 +8,7 @@
 #include <scene/scene_edits.h>
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 #include <set>
 #include <stdexcept>

@@ -46,7 +46,7 @@ const std::vector<Encoder>& encoders() {
 }
 
 /// The lines, without the part of ffmpeg and the address that each comes from.
-std::vector<std::string> lines_of(const std::string& text) {
+std::vector<std::string> lines_said(const std::string& text) {
     std::vector<std::string> out;
     std::istringstream lines(text);
     for (std::string whole; std::getline(lines, whole);) {
@@ -149,7 +149,7 @@ struct Film::State {
     }
 
     bool tells_of_error() const {
-        const std::vector<std::string> lines = lines_of(beginning_of(said, kMostSaid));
+        const std::vector<std::string> lines = lines_said(beginning_of(said, kMostSaid));
         return std::ranges::any_of(lines, [](const std::string& line) { return line.starts_with("Error"); });
     }
 
@@ -157,7 +157,7 @@ struct Film::State {
     [[noreturn]] void refuse(const char* ended_well, const char* works_on) {
         constexpr double kDying = 2;  // seconds
         const std::optional<int> status = process.wait(kDying);
-        const std::vector<std::string> lines = lines_of(beginning_of(said, kMostSaid));
+        const std::vector<std::string> lines = lines_said(beginning_of(said, kMostSaid));
         std::string why = works_on;
         if (status) why = *status == 0 ? ended_well : how_it_ended(*status);
         if (!lines.empty() && !lines.front().empty()) why += " (" + lines.front() + ")";
