@@ -123,9 +123,9 @@ TEST_F(FilmTest, SidesAreMadeEven) {
 
 TEST_F(FilmTest, TheLargestPictureIsMadeEvenToo) {
     stand_in("head -c 100 >/dev/null\n");
-    const Result run = render({scene, "--frames", "0:0", "--size", "3155x3153", "--samples", "8", "-o", film});
+    const Result run = render({scene, "--frames", "0:0", "--size", "5121x3239", "-o", film});
     EXPECT_EQ(run.status, 3) << run.err;
-    expect_argument("-video_size 3154x3152");
+    expect_argument("-video_size 5120x3238");
 }
 
 /// The last step is the answer, which one reads.
