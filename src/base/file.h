@@ -62,8 +62,8 @@ void write_file(const std::filesystem::path& file, std::string_view bytes);
 /// Of work: it is on the disk then, whatever becomes of the machine.
 void write_to_disk(const std::filesystem::path& file, std::string_view bytes);
 
-/// A file that another program writes: it stands in its place, as if write_file had written it, once that is done; else
-/// nothing is left of it. `file` may not be a pipe or a device.
+/// A file that another program writes. `take_place` puts it under its name, as if write_file had written it; without
+/// that nothing is left of it. `file` may not be a pipe or a device.
 class NewFile {
   public:
     /// Throws as write_file does.

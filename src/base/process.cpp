@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
@@ -89,16 +90,21 @@ bool read_some(const Descriptor& from, std::string& bytes) {
 }
 
 bool send_all(const Descriptor& to, std::string_view bytes, std::optional<double> patience) {
+    constexpr double kSlice = 1;  // seconds: those for which both programs are stopped count as one slice
     const int flags = MSG_NOSIGNAL | (patience ? MSG_DONTWAIT : 0);
+    double left = patience.value_or(0);
     while (!bytes.empty()) {
         const ssize_t size = ::send(to.get(), bytes.data(), bytes.size(), flags);
         if (size < 0 && errno == EINTR) continue;
         if (size < 0 && patience && (errno == EAGAIN || errno == EWOULDBLOCK)) {
             pollfd room{to.get(), POLLOUT, 0};
-            const int found = ::poll(&room, 1, static_cast<int>(*patience * 1000));
-            if (found > 0 || (found < 0 && errno == EINTR)) continue;
+            const double slice = std::min(left, kSlice);
+            const int found = ::poll(&room, 1, static_cast<int>(slice * 1000));
+            if (found == 0) left -= slice;
+            if (found > 0 || (found == 0 && left > 0) || (found < 0 && errno == EINTR)) continue;
         }
         if (size < 0) return false;
+        left = patience.value_or(0);
         bytes.remove_prefix(static_cast<std::size_t>(size));
     }
     return true;

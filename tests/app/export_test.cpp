@@ -16,12 +16,16 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
+#include <future>
 #include <memory>
 #include <set>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace mobbscope::app {
@@ -344,7 +348,35 @@ class FilmExportTest : public ExportTest {
         std::filesystem::remove(film);
     }
 
-    const TempFolder programs;
+    /// Whether it comes true, taking in what jobs have done.
+    bool comes(const std::function<bool()>& what) {
+        for (int i = 0; i < 6000 && !what(); ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            session.jobs.poll();
+        }
+        return what();
+    }
+    /// Begins the film, of which the stand-in waits for `go` to be there.
+    void begin_film() {
+        session.options.attended = true;
+        session.options.patience = std::chrono::milliseconds(0);
+        write_program(programs, "ffmpeg",
+                      "case \"$*\" in *-encoders*) echo ' V... libx264 x'; exit 0;; esac\ncd '" +
+                          programs.path().string() +
+                          "'\necho $$ >number\nmv number started\n"
+                          "while [ ! -e go ]; do sleep 0.02; done\ncat >pictures\nprintf film\n");
+        run_command(session, "file.export_film", film.string());
+        ASSERT_TRUE(comes([&] { return std::filesystem::exists(programs.path() / "started"); }));
+        ASSERT_EQ(session.jobs.count(), 1u) << all_messages(session);
+    }
+    bool is_stand_in_gone() const {
+        const std::string number = std::to_string(std::stoi(slurp(programs.path() / "started")));
+        return !std::filesystem::exists("/proc/" + number) || slurp("/proc/" + number + "/cmdline").empty();
+    }
+    bool is_tidy() const { return std::filesystem::is_empty(temporary.path()); }
+
+    const TempFolder programs, temporary;
+    const Environment temporaries{"TMPDIR", temporary.path().string()};
     const std::filesystem::path film = folder.file("a film's.mp4");
     const Environment path{"PATH", programs.path().string() + ':' + std::getenv("PATH")};
 };
@@ -362,6 +394,66 @@ TEST_F(FilmExportTest, TheWindowAndTheLineFilmTheSame) {
     expect_the_line_films_the_same("", " --size 320x240 --play --rate 2");
 }
 
+TEST_F(FilmExportTest, NothingIsLeftOfACancelledFilm) {
+    folder.write("a film's.mp4", "old");
+    begin_film();
+    EXPECT_FALSE(is_tidy()) << "the scene as it was";
+    session.jobs.cancel(0);
+    EXPECT_TRUE(comes([&] { return !Job::any_left() && is_stand_in_gone(); }));
+    EXPECT_TRUE(is_tidy());
+    EXPECT_EQ(slurp(film), "old");
+}
+
+TEST_F(FilmExportTest, AFilmOutlivesItsScene) {
+    begin_film();
+    EXPECT_NE(refusal(session, "file.export_film", film.string()).find("a film is being written to it"),
+              std::string::npos);
+    EXPECT_NO_THROW(session.jobs.require_none());
+    session.files.request_close();
+    EXPECT_FALSE(session.files.closed());
+    EXPECT_NE(all_messages(session).find("quit once more"), std::string::npos);
+    session.files.open({folder.file("stand.csv")});
+    ASSERT_TRUE(comes([&] { return session.workspace.opened.front() == folder.file("stand.csv"); }));
+    ASSERT_EQ(session.jobs.count(), 1u);
+    session.files.visit(session.workspace.document(), "a case");
+    EXPECT_EQ(session.jobs.count(), 1u);
+    session.files.come_back([] {});
+    ASSERT_EQ(session.jobs.count(), 1u);
+    programs.write("go", "");
+    EXPECT_TRUE(comes([&] { return session.jobs.count() == 0; }));
+    EXPECT_EQ(slurp(film), "film") << all_messages(session);
+    EXPECT_NE(all_messages(session).find("Wrote " + film.string()), std::string::npos) << all_messages(session);
+    EXPECT_TRUE(is_tidy());
+}
+
+TEST_F(FilmExportTest, QuittingTwiceEndsAFilm) {
+    begin_film();
+    session.files.request_close();
+    session.files.request_close();
+    EXPECT_TRUE(session.files.closed());
+    session.files.end_work();
+    EXPECT_TRUE(is_tidy());
+    EXPECT_TRUE(comes([&] { return is_stand_in_gone(); }));
+    EXPECT_FALSE(std::filesystem::exists(film));
+}
+
+/// The bar shows films last, and Cancel ends what it shows.
+TEST_F(FilmExportTest, OtherWorkIsCancelledBeforeIt) {
+    begin_film();
+    std::promise<void> go;
+    session.jobs.start("Other work", [&go](JobControl&) -> Job::Finish {
+        go.get_future().wait();
+        return {};
+    });
+    run("click job.0.cancel");
+    ASSERT_EQ(session.jobs.count(), 1u);
+    EXPECT_EQ(session.jobs.purpose(0), JobPurpose::film);
+    go.set_value();
+    run("click job.0.cancel");
+    EXPECT_EQ(session.jobs.count(), 0u);
+    EXPECT_TRUE(comes([] { return !Job::any_left(); }));
+}
+
 TEST_F(FilmExportTest, TheDialogAsksForFilmsInItsOwnWay) {
     run("run file.export_film\nexpect /dialog \"export_picture\"");
     EXPECT_EQ(session.dialogs.input.text, folder.file("a picture's.mp4").string())
@@ -370,6 +462,8 @@ TEST_F(FilmExportTest, TheDialogAsksForFilmsInItsOwnWay) {
     run("click export.turntable\nkey Ctrl+A\ntype 2\nkey Enter\nexpect /export/turntable \"2\"");
     run("click export.path\nkey Ctrl+A\ntype mine\nkey Enter\nexpect /dialog \"none\"");
     EXPECT_EQ(slurp(folder.file("mine.mp4")), "film") << all_messages(session);
+    run("run file.export_film\nclick export.rate\nkey Ctrl+A\ntype 119.88\nkey Enter\nexpect /export/rate \"119.88\"");
+    run("key Escape");
     run("run file.export_picture");
     EXPECT_EQ(export_file(session.workspace, session.settings, session.dialogs), folder.file("mine.png"));
 }
@@ -385,6 +479,7 @@ TEST_F(FilmExportTest, WhatCannotBeIsSaidInOneLine) {
     EXPECT_NE(refusal(session, "file.export_film", folder.file("a.png").string()).find(".mp4 or .webm"),
               std::string::npos);
     EXPECT_NE(refusal(session, "picture.turntable", "0").find("1"), std::string::npos);
+    EXPECT_NE(refusal(session, "picture.turntable", "2.5").find("give 1 to"), std::string::npos);
     EXPECT_NE(refusal(session, "picture.rate", "0"), "");
     EXPECT_NE(refusal(session, "picture.film", "back").find("give play or turn"), std::string::npos);
     const Environment nothing("PATH", folder.scene.parent_path().string());

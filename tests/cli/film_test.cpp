@@ -104,7 +104,7 @@ TEST_F(FilmTest, StepsAndTurntablesHaveARateToo) {
         return all;
     };
     ASSERT_EQ(render(with(steps, {"-o", film})).status, 0);
-    expect_argument("-framerate 10");
+    expect_argument("-framerate 2");
     ASSERT_EQ(render(with(steps, {"-o", film, "--rate", "2.5"})).status, 0);
     expect_argument("-framerate 2.5");
     expect_refused(render(with(steps, {"-o", films.path() / "p.png", "--rate", "2"})), 2, "only a film of them");
@@ -118,6 +118,26 @@ TEST_F(FilmTest, SidesAreMadeEven) {
     EXPECT_NE(run.err.find("322x242"), std::string::npos) << run.err;
     expect_argument("-video_size 322x242");
     EXPECT_EQ(std::filesystem::file_size(programs.path() / "pictures"), 322u * 242 * 4);
+    expect_refused(render({scene, "--frames", "0:0", "--size", "8193x64", "-o", film}), 2, "8193x64");
+}
+
+TEST_F(FilmTest, TheLargestPictureIsMadeEvenToo) {
+    stand_in("head -c 100 >/dev/null\n");
+    const Result run = render({scene, "--frames", "0:0", "--size", "5121x3239", "-o", film});
+    EXPECT_EQ(run.status, 3) << run.err;
+    expect_argument("-video_size 5120x3238");
+}
+
+/// The last step is the answer, which one reads.
+TEST_F(FilmTest, TheLastStepStaysOn) {
+    const Result run = render({scene, "--query", "0", "--frames", "0:1", "--size", "320x240", "-o", film});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_NE(run.err.find(": 6 pictures, 3 s at 2 per second"), std::string::npos) << run.err;
+    const std::string taken = slurp(programs.path() / "pictures");
+    ASSERT_EQ(taken.size(), 6 * kPictureBytes);
+    const auto picture = [&](std::size_t i) { return taken.substr(i * kPictureBytes, kPictureBytes); };
+    EXPECT_TRUE(picture(0) != picture(1));
+    for (std::size_t i = 2; i < 6; ++i) EXPECT_TRUE(picture(i) == picture(1)) << i;
 }
 
 TEST_F(FilmTest, WhatStandsBesideItIsNumbered) {
@@ -179,6 +199,9 @@ TEST_F(FilmTest, WhatGoesWrongIsSaidInOneLine) {
     expect_refused(render_film(film), 3, "ffmpeg did not write all");
     stand_in("cat >/dev/null\nprintf half\necho 'Error writing trailer: No space left on device' >&2\n");
     expect_refused(render_film(film), 3, "did not write all (Error writing trailer: No space left on device)");
+    stand_in(std::string(kTakesAll) + "echo '[libx264 @ 0x1] 3 errors of a mirror are mended' >&2\n");
+    EXPECT_EQ(render_film(films.path() / "other.mp4").status, 0);
+    std::filesystem::remove(films.path() / "other.mp4");
     stand_in("kill -9 $$\n");
     expect_refused(render_film(film), 3, "ffmpeg crashed: Killed");
     EXPECT_EQ(files_in(films.path()), Names{"a walk.mp4"});
@@ -214,10 +237,13 @@ TEST_F(FilmTest, ASignalEndsAll) {
 }
 
 TEST_F(FilmTest, ProgressIsSaidOften) {
+    // Few pictures wait, so drawing waits too, longer than it is silent.
+    stand_in("head -c " + std::to_string(kPictureBytes) + " >/dev/null\nsleep 0.4\n" + kTakesAll);
     const Result run = render({scene, "--play", "--rate", "30", "--size", "320x240", "-o", film, "--progress"});
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_NE(run.err.find("mobbscope: drew "), std::string::npos) << run.err;
     EXPECT_NE(run.err.find(" of 76 pictures\n"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("mobbscope: finishing " + film.string() + '\n'), std::string::npos) << run.err;
 }
 
 }  // namespace

@@ -33,6 +33,19 @@ TEST_F(RenderBatchTest, EachLineIsAPictureAsItWouldBeAlone) {
     EXPECT_EQ(read_png(pictures.path() / "window.png").width, 400) << "what a line says wins";
 }
 
+/// Also where the window's picture, which works in the scene's folder, follows a sequence that is still being written.
+TEST_F(RenderBatchTest, NamesAreRelativeToTheWorkingFolder) {
+    const TempFolder pictures, scenes;
+    const std::string scene = scenes.write("s.json", testing::kStandingScene);
+    const std::string list = folder.write(
+        "list", scene + " --turntable 3 --size 1280x720 -o p.png\n" + scene + " --ui --size 400x300 -o window.png\n");
+    const testing::Result run = testing::run_program({"render", "--batch", list}, {}, "/dev/null",
+                                                     [&] { std::filesystem::current_path(pictures.path()); });
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(files_in(pictures.path()), (Names{"p_0000.png", "p_0001.png", "p_0002.png", "window.png"}));
+    EXPECT_EQ(files_in(scenes.path()), Names{"s.json"});
+}
+
 TEST_F(RenderBatchTest, TheSceneMayStandBesideTheList) {
     const std::string list = folder.write("list", "-o " + std::string(folder.path() / "a.png") + "\n");
     EXPECT_EQ(render_small({kCrossing, "--batch", list}).status, 0);

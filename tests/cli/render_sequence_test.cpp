@@ -181,5 +181,22 @@ TEST(RenderSequence, DrawListsAreNumberedAlike) {
     EXPECT_EQ(files_in(folder.path()), (Names{"s.json", "w_0000.json", "w_0001.json"}));
 }
 
+/// The last one shows no boxes but the proof; the others have their boxes in the picture.
+TEST(RenderSequence, AllStepsAreSeenFromOnePlace) {
+    const TempFolder folder;
+    const auto eye = [&](const std::string& name) {
+        return nlohmann::json::parse(testing::slurp(folder.path() / name))["camera"]["eye"].dump();
+    };
+    const std::string list = folder.path() / "w.json";
+    ASSERT_EQ(render_small({kCrossing, "--query", "0", "--play", "--draw-list", list}).status, 0);
+    const std::string first = eye("w_0000.json");
+    for (const char* name : {"w_0010.json", "w_0019.json", "w_0020.json"}) EXPECT_EQ(eye(name), first) << name;
+    ASSERT_EQ(render_small({kCrossing, "--query", "0", "--step", "0", "--frame-boxes", "--draw-list", list}).status, 0);
+    EXPECT_EQ(eye("w.json"), first);
+    ASSERT_EQ(render_small({kCrossing, "--query", "0", "--step", "20", "--frame-boxes", "--draw-list", list}).status,
+              0);
+    EXPECT_EQ(eye("w.json"), first) << "without a sequence too";
+}
+
 }  // namespace
 }  // namespace mobbscope

@@ -177,7 +177,7 @@ std::optional<std::string> render_line_of(const SceneFile& file, const std::stri
 }
 
 /// A new file in a new folder, which nobody else can have.
-std::filesystem::path temporary_scene_file(const Workspace& workspace) {
+std::filesystem::path temporary_scene_file(const std::string& title) {
     std::error_code error;
     std::filesystem::path folder = std::filesystem::temp_directory_path(error);
     if (error) folder = "/tmp";
@@ -185,17 +185,17 @@ std::filesystem::path temporary_scene_file(const Workspace& workspace) {
     if (!::mkdtemp(name.data())) {
         throw MachineError(folder.string() + ": no temporary folder can be made there: " + std::strerror(errno));
     }
-    const std::string stem = std::filesystem::path(workspace.title()).stem().string();
+    const std::string stem = std::filesystem::path(title).stem().string();
     return std::filesystem::path(name) / ((stem.empty() ? "scene" : stem) + ".json");
 }
 
-/// Throws MachineError, and leaves nothing, if it cannot be written; InputError where nothing may be.
-std::filesystem::path write_temporary_scene(const Files& files, const Workspace& workspace, const ViewState& view) {
-    files.check_may_write("a temporary file for " + workspace.title());
-    Scene temporary = workspace.scene();
+/// Throws MachineError, and leaves nothing, if it cannot be written.
+std::filesystem::path write_temporary_scene(const FittedScene& fitted, const std::string& title,
+                                            const ViewState& view) {
+    Scene temporary = fitted.scene();
     temporary.view = view;
-    temporary.fit = workspace.document().fitted->options();
-    std::filesystem::path file = temporary_scene_file(workspace);
+    temporary.fit = fitted.options();
+    std::filesystem::path file = temporary_scene_file(title);
     try {
         move_to_file(temporary, file);
         write_file(file, to_json(temporary));
@@ -303,10 +303,23 @@ std::optional<std::string> render_line(const Workspace& workspace, const Files& 
 std::string render_line_with_scene(Workspace& workspace, Files& files, Dialogs& dialogs, const PictureOrder& order,
                                    const std::string& output) {
     if (auto line = render_line(workspace, files, dialogs, order, output)) return *line;
-    dialogs.exporting.temporary = {workspace.document().fitted, order.view,
-                                   write_temporary_scene(files, workspace, order.view)};
+    files.check_may_write("a temporary file for " + workspace.title());
+    const std::shared_ptr<const FittedScene>& fitted = workspace.document().fitted;
+    dialogs.exporting.temporary = {fitted, order.view, write_temporary_scene(*fitted, workspace.title(), order.view)};
     return *render_line(workspace, files, dialogs, order,
                         output);  // as no option differs from a scene that was just written
+}
+
+SceneCopy::SceneCopy(const FittedScene& of, const std::string& title, const ViewState& view)
+    : scene_(of.scene()), view_(view), file_(write_temporary_scene(of, title, view)) {}
+
+SceneCopy::~SceneCopy() {
+    std::error_code ignored;
+    std::filesystem::remove_all(file_.parent_path(), ignored);
+}
+
+std::string SceneCopy::render_line(const PictureOrder& order, const std::string& output) const {
+    return *render_line_of({file_, scene_, view_}, "", order, output);  // as no option differs
 }
 
 }  // namespace mobbscope::app

@@ -69,4 +69,23 @@ std::optional<std::string> render_line(const Workspace& workspace, const Files& 
 std::string render_line_with_scene(Workspace& workspace, Files& files, Dialogs& dialogs, const PictureOrder& order,
                                    const std::string& output);
 
+/// A scene in a new folder among the temporary files, for another process; the folder goes with this.
+class SceneCopy {
+  public:
+    /// As if it were saved, seen so and called like that. Throws MachineError. `of` must outlive it.
+    SceneCopy(const FittedScene& of, const std::string& title, const ViewState& view);
+    ~SceneCopy();
+    SceneCopy(const SceneCopy&) = delete;
+    SceneCopy& operator=(const SceneCopy&) = delete;
+
+    const std::filesystem::path& file() const { return file_; }
+    /// "mobbscope render ..." that draws what is ordered of it, seen as it is, into `output`.
+    std::string render_line(const PictureOrder& order, const std::string& output) const;
+
+  private:
+    const Scene& scene_;
+    ViewState view_;
+    std::filesystem::path file_;
+};
+
 }  // namespace mobbscope::app

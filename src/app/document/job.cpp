@@ -22,8 +22,12 @@ struct Counted {
 
 }  // namespace
 
-void JobControl::step(std::size_t done, std::size_t all) {
+void JobControl::check() const {
     if (cancelled_) throw Cancelled();
+}
+
+void JobControl::step(std::size_t done, std::size_t all) {
+    check();
     progress_ = all == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(all);
 }
 

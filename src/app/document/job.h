@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -24,7 +25,9 @@ class JobControl {
     /// `wake`: see tell_news; it must not call the job.
     explicit JobControl(std::function<void()> wake) : wake_(std::move(wake)) {}
 
-    /// The job: so much is done. Throws Cancelled if the person had enough.
+    /// The job: throws Cancelled if the person had enough.
+    void check() const;
+    /// The job: so much is done. Throws likewise.
     void step(std::size_t done, std::size_t all);
     /// The job: there is news. Wakes the window, unless the job was cancelled.
     void tell_news();
@@ -76,11 +79,13 @@ class Job {
     std::shared_ptr<Shared> shared_;
 };
 
-/// What a job is for: `opens` replaces the document.
-enum class JobPurpose { other, opens, imports };
+/// What a job is for: `opens` replaces the document; a `film` is of what was seen when it began, and goes on whatever
+/// is opened.
+enum class JobPurpose { other, opens, imports, film };
 struct RunningJob {
     std::unique_ptr<Job> job;
     JobPurpose purpose = JobPurpose::other;
+    std::filesystem::path writes{};  ///< of a film: the file, from the root
 };
 
 }  // namespace mobbscope::app

@@ -3,7 +3,7 @@
 #include <scene/view_options.h>
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -135,14 +135,19 @@ std::vector<ExportOption> all_export_options() {
          .choices = {"60", "120", "240", "360"},
          .parse =
              [](const std::string& text, PictureExport& to) {
-                 to.turntable = static_cast<int>(std::lround(parse_number_within(text, 1, kMostTurntable)));
+                 const std::optional<int> count = parse_int(text);
+                 if (!count || *count < 1 || *count > kMostTurntable) {
+                     throw std::invalid_argument(in_quotes(text) + " is no number of pictures: give 1 to " +
+                                                 std::to_string(kMostTurntable));
+                 }
+                 to.turntable = *count;
              },
          .text = [](const PictureExport& of) { return std::to_string(of.turntable); }},
         {.key = "rate",
          .title = "Film's pictures a second",
-         .doc = "Says how many pictures a second exported films have; auto: 30, and of a query's steps 10.",
+         .doc = "Says how many pictures a second exported films have; auto: 30, and of a query's steps 2.",
          .argument = "FPS|auto",
-         .choices = {"auto", "5", "10", "24", "30", "60"},
+         .choices = {"auto", "1", "2", "10", "24", "30", "60"},
          .parse =
              [](const std::string& text, PictureExport& to) {
                  to.rate = text == "auto" ? 0 : parse_number_within(text, 1 / kMostFilmRate, kMostFilmRate);

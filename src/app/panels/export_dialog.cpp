@@ -291,7 +291,7 @@ void film_fields(Ui& ui, Settings& settings, const PictureOrder& order) {
                                         .least = 1 / kMostFilmRate,
                                         .most = kMostFilmRate,
                                         .by_factors = true});
-    if (rate) set_export(ui, "rate", formatted("%.4g", *rate));
+    if (rate) set_export(ui, "rate", format_double(*rate));
 }
 
 void settings_fields(Ui& ui, Settings& settings, Views& views, Dialogs& dialogs, const PictureOrder& order,

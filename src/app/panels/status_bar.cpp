@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,28 +58,40 @@ std::string hover_facts(const Workspace& workspace, const QueryInspector& querie
     return out;
 }
 
-/// The work under way: jobs of the scene, the oldest first, and behind them a sweep and that of screens.
-std::vector<const Job*> work_under_way(const Session& session) {
-    std::vector<const Job*> out;
-    for (std::size_t i = 0; i < session.jobs.count(); ++i) out.push_back(&session.jobs.job(i));
-    if (const Job* sweep = session.sweeps.job()) out.push_back(sweep);
-    for (const auto& screen : session.screens) {
-        if (const Job* work = screen->work()) out.push_back(work);
+/// Something under way, and what ends it.
+struct WorkUnderWay {
+    const Job* job = nullptr;
+    std::function<void(Session&)> cancel;
+};
+
+/// Jobs of the scene, the oldest first, behind them a sweep and that of screens; last films, which take minutes.
+std::vector<WorkUnderWay> work_under_way(const Session& session) {
+    std::vector<WorkUnderWay> out;
+    const auto add_jobs = [&](bool films) {
+        for (std::size_t i = 0; i < session.jobs.count(); ++i) {
+            if ((session.jobs.purpose(i) == JobPurpose::film) == films)
+                out.push_back({&session.jobs.job(i), [i](Session& of) { of.jobs.cancel(i); }});
+        }
+    };
+    add_jobs(false);
+    if (const Job* sweep = session.sweeps.job()) out.push_back({sweep, [](Session& of) { of.sweeps.cancel(); }});
+    for (std::size_t i = 0; i < session.screens.size(); ++i) {
+        if (const Job* work = session.screens[i]->work())
+            out.push_back({work, [i](Session& of) { of.screens[i]->cancel(); }});
     }
+    add_jobs(true);
     return out;
 }
 
-/// Ends the first of it.
+/// Ends what the bar shows.
 void cancel_first(Session& session) {
-    if (session.jobs.job()) return session.jobs.cancel(0);
-    if (session.sweeps.is_running()) return session.sweeps.cancel();
-    const auto first = std::ranges::find_if(session.screens, [](const auto& screen) { return screen->work(); });
-    if (first != session.screens.end()) (*first)->cancel();
+    const std::vector<WorkUnderWay> work = work_under_way(session);
+    if (!work.empty()) work.front().cancel(session);
 }
 
 /// The work under way from `right` to the left; returns where it begins.
-float job_part(Ui& ui, const std::vector<const Job*>& work, float right) {
-    const Job& job = *work.front();
+float job_part(Ui& ui, const std::vector<WorkUnderWay>& work, float right) {
+    const Job& job = *work.front().job;
     ui.want_frame_in(kProgressFrame);
     std::string title = job.title();
     if (work.size() > 1) title += formatted(" (and %d more)", static_cast<int>(work.size()) - 1);
@@ -138,7 +152,7 @@ void status_bar(Ui& ui, QueryInspector& queries, ImVec2 size) {
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("What the last frame took");
     }
     ImGui::SetCursorPosY(y);
-    const std::vector<const Job*> work = work_under_way(ui.session);
+    const std::vector<WorkUnderWay> work = work_under_way(ui.session);
     if (!work.empty()) right = job_part(ui, work, right) - pad;
     // What there is least room for is what is under the mouse: its tooltip says it too.
     const Screen* screen = ui.session.screen;

@@ -8,6 +8,7 @@
 #include <scene/scene_edits.h>
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -17,6 +18,14 @@
 namespace mobbscope::app {
 
 namespace {
+
+/// The jobs of that purpose go on in another workspace.
+void carry_over(Workspace& from, JobPurpose purpose, Workspace& to) {
+    for (RunningJob& running : from.jobs) {
+        if (running.purpose == purpose) to.jobs.push_back(std::move(running));
+    }
+    std::erase_if(from.jobs, [](const RunningJob& running) { return !running.job; });
+}
 
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
     std::error_code ignored;
@@ -79,6 +88,7 @@ void Files::replace(Document document, const std::vector<std::filesystem::path>&
     // Nothing is visited any more; who visits something says so afterwards.
     suspended_.reset();
     visited_.clear();
+    carry_over(parts_.workspace, JobPurpose::film, next);
     parts_.workspace = std::move(next);
     look_at_files();
     parts_.imports.tell_of_warnings(0);
@@ -371,6 +381,12 @@ void Files::tell_of_lost_sources() {
 
 void Files::request_close() {
     if (suspended_) return come_back([this] { request_close(); });
+    const bool asked = std::exchange(asked_about_films_, parts_.jobs.any(JobPurpose::film));
+    if (asked_about_films_ && !asked) {
+        return parts_.notifications.tell_of_window(
+            MessageLevel::warning, "A film is being made, and quitting ends it: quit once more, or wait for the film",
+            {{"file.quit", "", "Quit now"}});
+    }
     after_asking([this] { closed_ = true; });
 }
 
@@ -391,6 +407,7 @@ void Files::visit(Document document, const std::string& name) {
     come_back([this, document = std::move(document), name] {
         Workspace before = std::move(parts_.workspace);
         replace(document, {});
+        carry_over(before, JobPurpose::film, parts_.workspace);
         suspended_ = std::move(before);
         visited_ = name;
     });
@@ -404,9 +421,8 @@ void Files::come_back(const std::function<void()>& then) {
         suspended_.reset();
         visited_.clear();
         // What is being opened goes on: it is about no scene that is open.
-        for (RunningJob& running : parts_.workspace.jobs) {
-            if (running.purpose == JobPurpose::opens) before.jobs.push_back(std::move(running));
-        }
+        carry_over(parts_.workspace, JobPurpose::opens, before);
+        carry_over(parts_.workspace, JobPurpose::film, before);
         parts_.workspace = std::move(before);
         parts_.workspace.hovered = {};
         ++parts_.counts.restores;
@@ -416,6 +432,13 @@ void Files::come_back(const std::function<void()>& then) {
 }
 
 void Files::end_work() {
+    constexpr std::chrono::seconds kLongest(2);
+    for (const RunningJob& running : parts_.workspace.jobs) {
+        if (running.purpose != JobPurpose::film) continue;
+        // So that nothing is left of it.
+        running.job->cancel();
+        running.job->wait(kLongest);
+    }
     parts_.workspace.jobs.clear();
     parts_.workspace.import_changes.clear();
     if (suspended_) suspended_->jobs.clear();

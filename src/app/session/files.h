@@ -92,7 +92,7 @@ class Files {
     /// `then`.
     void come_back(const std::function<void()>& then);
 
-    /// Ends the program, after asking if there are unsaved changes.
+    /// Ends the program, after asking if there are unsaved changes; while a film is made only if it is asked twice.
     void request_close();
     bool closed() const { return closed_; }
     /// Ends all work for the workspace and the suspended one.
@@ -126,6 +126,7 @@ class Files {
     Parts parts_;
     std::optional<Workspace> suspended_;
     std::string visited_;
+    bool asked_about_films_ = false;
     bool closed_ = false;
 };
 

@@ -1,4 +1,6 @@
 #include <app/session/jobs.h>
+#include <base/error.h>
+#include <base/file.h>
 
 #include <algorithm>
 #include <memory>
@@ -9,12 +11,27 @@
 namespace mobbscope::app {
 
 void Jobs::require_none() const {
-    if (!workspace_.jobs.empty()) throw std::invalid_argument("wait for \"" + job()->title() + "\", or cancel it");
+    for (const RunningJob& running : workspace_.jobs) {
+        if (running.purpose == JobPurpose::film) continue;
+        throw std::invalid_argument("wait for \"" + running.job->title() + "\", or cancel it");
+    }
 }
 
 void Jobs::start(std::string title, Job::Work work, JobPurpose purpose) {
-    workspace_.jobs.push_back(
-        {std::make_unique<Job>(std::move(title), std::move(work), [&at = *desktop_] { at.wake(); }), purpose});
+    begin({std::make_unique<Job>(std::move(title), std::move(work), [&at = *desktop_] { at.wake(); }), purpose});
+}
+
+void Jobs::start_film(const std::filesystem::path& file, Job::Work work) {
+    const std::filesystem::path whole = whole_path(file);
+    if (std::ranges::count(workspace_.jobs, whole, &RunningJob::writes) > 0)
+        throw InputError(file.string(), "", "a film is being written to it: wait for it, or cancel it");
+    begin({std::make_unique<Job>("Drawing " + file.filename().string(), std::move(work),
+                                 [&at = *desktop_] { at.wake(); }),
+           JobPurpose::film, whole});
+}
+
+void Jobs::begin(RunningJob running) {
+    workspace_.jobs.push_back(std::move(running));
     if (options_.attended && options_.patience.count() == 0) return;
     workspace_.jobs.back().job->wait(options_.attended ? options_.patience : std::chrono::hours(24));
     poll();

@@ -8,6 +8,7 @@
 #include <app/session/session_options.h>
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -21,13 +22,16 @@ class Jobs {
 
     /// Short work is waited for (SessionOptions::patience).
     void start(std::string title, Job::Work work, JobPurpose purpose = JobPurpose::other);
+    /// Likewise a film into that file. Throws InputError while another one is made into it.
+    void start_film(const std::filesystem::path& file, Job::Work work);
     std::size_t count() const { return workspace_.jobs.size(); }
     /// The oldest; null if none.
     const Job* job() const { return workspace_.jobs.empty() ? nullptr : workspace_.jobs.front().job.get(); }
     const Job& job(std::size_t index) const { return *workspace_.jobs[index].job; }
     /// Whether there is one of that purpose.
     bool any(JobPurpose purpose) const;
-    /// Throws std::invalid_argument if there is one.
+    JobPurpose purpose(std::size_t index) const { return workspace_.jobs[index].purpose; }
+    /// Throws std::invalid_argument if there is one, other than of films.
     void require_none() const;
     void cancel(std::size_t index);
     /// Ends those of that purpose; nothing is said.
@@ -38,6 +42,7 @@ class Jobs {
     std::function<void()> after_each;  ///< once a job is done and taken in
 
   private:
+    void begin(RunningJob running);
     void finish(Job& job);
 
     Workspace& workspace_;

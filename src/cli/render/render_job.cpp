@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
@@ -39,17 +40,18 @@ constexpr std::chrono::milliseconds kOften{200};
 /// For who waits: a script hears of films and of a single large picture only, as its pictures show how far it is.
 class Patience {
   public:
-    Patience(std::size_t all, bool films, bool often) : all_(all) {
+    Patience(std::size_t all, bool films, bool often) : all_(all), often_(often) {
         const bool watched = ::isatty(STDERR_FILENO) == 1;
         pause_ = often ? kOften : watched ? std::chrono::seconds(4) : std::chrono::seconds(8);
         silent_ = !often && !watched && !films;
     }
 
-    /// Of many disks a single picture takes long.
-    void begins(const DrawList& list) const {
+    /// Of many disks a single picture takes long; said once.
+    void begins(const DrawList& list) {
         constexpr std::size_t kMany = 50'000;
-        if (list.disks.size() > kMany)
-            say("drawing " + std::to_string(list.disks.size()) + " disks: this may take a while");
+        if (often_ || said_many_ || list.disks.size() <= kMany) return;
+        said_many_ = true;
+        say("drawing " + std::to_string(list.disks.size()) + " disks: this may take a while");
     }
 
     void one_more() {
@@ -59,12 +61,20 @@ class Patience {
         say("drew " + std::to_string(done_) + " of " + std::to_string(all_) + " pictures");
     }
 
+    /// All its pictures are drawn.
+    void finishes(const std::filesystem::path& film) const {
+        if (often_ || (!silent_ && Clock::now() - begun_ > pause_)) say("finishing " + film.string());
+    }
+
   private:
     std::size_t all_;
+    bool often_;
     std::size_t done_ = 0;
+    bool said_many_ = false;
     std::chrono::milliseconds pause_;
     bool silent_;
-    Clock::time_point said_ = Clock::now();
+    Clock::time_point begun_ = Clock::now();
+    Clock::time_point said_ = begun_;
 };
 
 bool needs_renderer(const RenderJob& job) {
@@ -112,8 +122,7 @@ struct Drawn {
 };
 
 /// `renderer`: null where nothing of it needs OpenGL; `film`: that the picture is of, null: none.
-Drawn draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* renderer, Film* film,
-                 const Patience& patience) {
+Drawn draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* renderer, Film* film, Patience& patience) {
     const RenderOutputs& outputs = picture.outputs;
     if (!picture.list) picture.list = build_draw_list(*job.paths, picture.view, job.arguments.picture);
     DrawList list = *std::exchange(picture.list, {});
@@ -129,7 +138,10 @@ Drawn draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* rendere
         const PictureOptions& options = job.arguments.picture;
         add_measure(list, *job.arguments.measure, metrics_of(options.size, options.scale), picture.view.labels);
     }
-    if (film) film->add(renderer->draw(list, job.arguments.picture.samples));
+    if (film) {
+        const bool last = &picture == &job.pictures.back();
+        film->add(renderer->draw(list, job.arguments.picture.samples), last ? 1 + job.held : 1);
+    }
     Drawn out{.outputs = outputs};
     if (is_vector_name(outputs.image)) {
         out.image = picture_bytes(outputs.image, list, job.arguments.picture.samples,
@@ -150,12 +162,27 @@ Drawn draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* rendere
     return out;
 }
 
+/// Films have even sides: the next larger, or smaller where that is too large. `asked`: as `check` allows it.
+PictureSize film_size(const PictureOptions& asked) {
+    const auto [width, height] = asked.size;
+    PictureOptions larger = asked;
+    larger.size = {width + width % 2, height + height % 2};
+    try {
+        check(larger);
+        return larger.size;
+    } catch (const std::invalid_argument&) {
+        return {width - width % 2, height - height % 2};
+    }
+}
+
 /// What came of a film: "walk.mp4: 789 pictures, 26.3 s at 30 per second, 1280x720, 1.2 MB".
 std::string film_report(const RenderJob& job, double rate, std::size_t bytes) {
-    const std::size_t count = job.pictures.size();
+    const std::size_t count = job.pictures.size() + job.held;
+    constexpr double kPerSecond = 100;  // of a second
+    const double seconds = std::round(static_cast<double>(count) / rate * kPerSecond) / kPerSecond;
     return job.arguments.outputs.image.string() + ": " + counted(count, "picture", "pictures") + ", " +
-           brief(static_cast<double>(count) / rate) + " s at " + brief(rate) + " per second, " +
-           size_word(job.arguments.picture.size) + ", " + bytes_text(bytes);
+           format_double(seconds) + " s at " + brief(rate) + " per second, " + size_word(job.arguments.picture.size) +
+           ", " + bytes_text(bytes);
 }
 
 /// Whether --follow says where the camera is: it does unless there is a target.
@@ -213,8 +240,8 @@ std::shared_ptr<KeptPaths> SceneStore::paths(const RenderArguments& arguments) {
 
 void RenderPlan::add(RenderArguments arguments) {
     check_names(arguments.outputs);
-    if (arguments.is_film()) arguments.picture.size = film_size(arguments.picture.size);
     check_together(arguments);
+    if (arguments.is_film()) arguments.picture.size = film_size(arguments.picture);
     if (is_case(arguments.file)) throw InputError(arguments.file, "a case is drawn alone, not in a batch");
     RenderJob job{std::move(arguments), nullptr, {}};
     job.paths = scenes_.paths(job.arguments);
@@ -222,6 +249,7 @@ void RenderPlan::add(RenderArguments arguments) {
     const ViewState view = view_over(fitted, job.arguments.view);
     try {
         job.pictures = pictures_of(*job.paths, view, job.arguments);
+        if (job.arguments.is_film()) job.held = held_pictures(view, job.arguments.sequence);
         check_and_frame(job);
         check_selection(job);
         warn_of_edited_run(job);
@@ -313,6 +341,8 @@ void RenderPlan::draw(Backend backend) {
             film.emplace(*job.film_maker, job.arguments.outputs.image, job.arguments.picture.size, rate);
         for (RenderPicture& picture : job.pictures) {
             if (job.arguments.ui) {
+                // The window's picture changes the working folder, to which names are relative.
+                writing.finish();
                 write_png(picture.outputs.image, picture_tests::window_picture(
                                                      *job.paths->fitted(), picture.view, job.arguments.file, backend,
                                                      job.arguments.picture.size, job.arguments.ui_scale.value_or(1)));
@@ -320,11 +350,13 @@ void RenderPlan::draw(Backend backend) {
                 const auto drawn = std::make_shared<Drawn>(
                     draw_scene(job, picture, renderer ? &*renderer : nullptr, film ? &*film : nullptr, patience));
                 const auto write = [drawn] { drawn->write(); };
-                renderer ? writing.add(write) : write();
+                if (picture.outputs.any()) renderer ? writing.add(write) : write();
             }
             patience.one_more();
         }
-        if (film) say(film_report(job, rate, film->finish()));
+        if (!film) continue;
+        patience.finishes(job.arguments.outputs.image);
+        say(film_report(job, rate, film->finish()));
     }
     writing.finish();
 }

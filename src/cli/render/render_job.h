@@ -52,11 +52,15 @@ std::vector<RenderPicture> pictures_of(KeptPaths& kept, const ViewState& view, c
 /// Pictures a second of a film of that view's pictures.
 double film_rate(const ViewState& view, const SequenceArguments& asked);
 
+/// How many more times such a film shows its last picture: of a query's steps that is the answer, to be read.
+std::size_t held_pictures(const ViewState& view, const SequenceArguments& asked);
+
 struct RenderJob {
     RenderArguments arguments;
     std::shared_ptr<KeptPaths> paths;
     std::vector<RenderPicture> pictures;
     std::optional<FilmMaker> film_maker{};  ///< of a film, once the outputs are checked
+    std::size_t held = 0;                   ///< of a film: how many more times its last picture is shown
 };
 
 /// Plans jobs, and remembers what their pictures have in common.

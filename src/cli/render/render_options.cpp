@@ -177,7 +177,7 @@ void add_sequence_options(Command& command, SequenceArguments& sequence) {
                    "Pictures A to B of the motion, or with a query its steps A to B", "A:B"),
         command.add_flag("--play", sequence.play, "All pictures of the motion, or with a query all its steps"),
         add_parsed(command, "--rate", sequence.rate, number_within(1 / app::kMostFilmRate, app::kMostFilmRate),
-                   "Pictures per second of the motion (30); of a film of a query's steps 10, else 30", "FPS"),
+                   "Pictures per second of the motion, and of a film (30; of a query's steps 2)", "FPS"),
         add_parsed(command, "--turntable", sequence.turntable, parse_turntable, "N pictures once around the scene",
                    "N")};
     for (Option& option : added) option.group("Numbered pictures (OUT_0000.png, ...), or a film");

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <utility>
@@ -45,6 +46,8 @@ Sequence steps(KeptPaths& kept, const ViewState& view) {
     const auto at = [view](int i) {
         ViewState out = view;
         out.step = {Step::Unit::event, static_cast<double>(i)};
+        // One camera has the boxes of all steps in it.
+        out.frame_boxes = out.frame_boxes || out.boxes;
         return out;
     };
     return {static_cast<double>(count),
@@ -84,6 +87,11 @@ bool shows_steps(const ViewState& view, const SequenceArguments& asked) {
 
 double film_rate(const ViewState& view, const SequenceArguments& asked) {
     return asked.rate.value_or(shows_steps(view, asked) ? kUsualRateOfSteps : kUsualRate);
+}
+
+std::size_t held_pictures(const ViewState& view, const SequenceArguments& asked) {
+    if (!shows_steps(view, asked)) return 0;
+    return static_cast<std::size_t>(std::lround(kLastStepHeld * film_rate(view, asked)));
 }
 
 std::vector<RenderPicture> pictures_of(KeptPaths& kept, const ViewState& view, const RenderArguments& arguments) {

@@ -8,6 +8,8 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <exception>
 #include <initializer_list>
 #include <optional>
 #include <sstream>
@@ -43,14 +45,17 @@ const std::vector<Encoder>& encoders() {
     return table;
 }
 
-/// The first line, without the part of ffmpeg and the address that it comes from.
-std::string first_line(const std::string& text) {
-    std::string_view line = trimmed(std::string_view(text).substr(0, text.find('\n')));
-    if (line.starts_with('[')) {
-        const std::size_t end = line.find("] ");
+/// The lines, without the part of ffmpeg and the address that each comes from.
+std::vector<std::string> lines_said(const std::string& text) {
+    std::vector<std::string> out;
+    std::istringstream lines(text);
+    for (std::string whole; std::getline(lines, whole);) {
+        std::string_view line = trimmed(whole);
+        const std::size_t end = line.starts_with('[') ? line.find("] ") : std::string_view::npos;
         if (end != std::string_view::npos) line.remove_prefix(end + 2);
+        out.emplace_back(line);
     }
-    return std::string(line);
+    return out;
 }
 
 /// Whether ffmpeg's list of encoders has one.
@@ -74,33 +79,38 @@ std::string listed_encoders(const fs::path& film, const fs::path& program) {
                        (status ? how_it_ended(*status) : "does not answer"));
 }
 
+/// Thrown where ffmpeg takes no more pictures; what to say of it is found out where the film is added to.
+struct NotTaken : std::exception {
+    const char* what() const noexcept override { return "a picture of a film was not taken"; }
+};
+
 }  // namespace
 
+fs::path find_ffmpeg(const fs::path& film) {
+    if (std::optional<fs::path> program = program_in_path("ffmpeg")) return *std::move(program);
+    throw MachineError(film.string() +
+                       ": films need ffmpeg, which is not in PATH; install it (Debian: apt install ffmpeg), or "
+                       "write pictures, such as -o " +
+                       shell_word(fs::path(film).replace_extension(".png").string()));
+}
+
 FilmMaker find_film_maker(const fs::path& film) {
-    const std::optional<fs::path> program = program_in_path("ffmpeg");
-    if (!program) {
-        throw MachineError(film.string() +
-                           ": films need ffmpeg, which is not in PATH; install it (Debian: apt install ffmpeg), or "
-                           "write pictures, such as -o " +
-                           shell_word(fs::path(film).replace_extension(".png").string()));
-    }
-    const std::string list = listed_encoders(film, *program);
+    const fs::path program = find_ffmpeg(film);
+    const std::string list = listed_encoders(film, program);
     const std::string extension = lower_extension(film);
     std::vector<std::string_view> tried;
     for (const Encoder& encoder : encoders()) {
         if (encoder.extension != extension) continue;
         tried.push_back(encoder.name);
         if (!lists(list, encoder.name)) continue;
-        FilmMaker out{*program, {"-c:v", std::string(encoder.name)}};
+        FilmMaker out{program, {"-c:v", std::string(encoder.name)}};
         out.encoding.insert(out.encoding.end(), encoder.arguments.begin(), encoder.arguments.end());
         return out;
     }
-    throw MachineError(film.string() + ": " + program->string() + " has no encoder for " + extension + " films (" +
+    throw MachineError(film.string() + ": " + program.string() + " has no encoder for " + extension + " films (" +
                        either(tried) + "); install an ffmpeg that has, or name the film " +
                        (extension == ".mp4" ? ".webm" : ".mp4"));
 }
-
-PictureSize film_size(PictureSize size) { return {size.width + size.width % 2, size.height + size.height % 2}; }
 
 /// ffmpeg, and what hands it the pictures.
 struct Film::State {
@@ -130,24 +140,31 @@ struct Film::State {
         return out;
     }
 
-    void send(const Image& picture) {
+    /// On the thread that sends, which does not touch `process`.
+    void send(const Image& picture, std::size_t times) const {
         const char* bytes = static_cast<const char*>(static_cast<const void*>(picture.rgba.data()));
-        if (!send_all(pictures.here, {bytes, picture.rgba.size()}, kPatience))
-            refuse("ended before it had all pictures");
+        for (std::size_t i = 0; i < times; ++i) {
+            if (!send_all(pictures.here, {bytes, picture.rgba.size()}, kPatience)) throw NotTaken();
+        }
     }
 
-    bool tells_of_error() const { return beginning_of(said, kMostSaid).find("rror") != std::string::npos; }
+    bool tells_of_error() const {
+        const std::vector<std::string> lines = lines_said(beginning_of(said, kMostSaid));
+        return std::ranges::any_of(lines, [](const std::string& line) { return line.starts_with("Error"); });
+    }
 
-    /// `unexpected`: what happened where ffmpeg says that all went well.
-    [[noreturn]] void refuse(const char* unexpected) {
+    /// What to say depends on how far ffmpeg is: it ended well, or works on.
+    [[noreturn]] void refuse(const char* ended_well, const char* works_on) {
         constexpr double kDying = 2;  // seconds
         const std::optional<int> status = process.wait(kDying);
-        const std::string line = first_line(beginning_of(said, kMostSaid));
-        std::string why = "takes no more pictures";
-        if (status) why = *status == 0 ? unexpected : how_it_ended(*status);
-        if (!line.empty()) why += " (" + line + ")";
+        const std::vector<std::string> lines = lines_said(beginning_of(said, kMostSaid));
+        std::string why = works_on;
+        if (status) why = *status == 0 ? ended_well : how_it_ended(*status);
+        if (!lines.empty() && !lines.front().empty()) why += " (" + lines.front() + ")";
         throw MachineError(file.string() + ": cannot be written: " + program.string() + ' ' + why);
     }
+
+    [[noreturn]] void refuse_pictures() { refuse("ended before it had all pictures", "takes no more pictures"); }
 
     fs::path file, program;
     NewFile written;
@@ -161,24 +178,32 @@ Film::Film(const FilmMaker& maker, const fs::path& file, PictureSize size, doubl
     : state_(std::make_unique<State>(maker, file, size, rate)) {}
 
 Film::~Film() {
-    // Who waits for it to take a picture hears of its end.
+    // The thread that waits for it to take a picture then goes on.
     state_->process.kill();
     ::shutdown(state_->pictures.here.get(), SHUT_RDWR);
 }
 
-void Film::add(Image picture) {
-    state_->sending.add([&state = *state_, picture = std::move(picture)] { state.send(picture); });
+void Film::add(Image picture, std::size_t times) {
+    try {
+        state_->sending.add([&state = *state_, picture = std::move(picture), times] { state.send(picture, times); });
+    } catch (const NotTaken&) {
+        state_->refuse_pictures();
+    }
 }
 
 std::size_t Film::finish() {
     State& state = *state_;
-    state.sending.finish();
+    try {
+        state.sending.finish();
+    } catch (const NotTaken&) {
+        state.refuse_pictures();
+    }
     send_end(state.pictures.here);
     struct stat written {};
-    // Some end well although they could not write all, and yet say so.
+    // Some versions end with status 0 although the disk is full, and only say so.
     const bool ended_well = state.process.wait(kPatienceAtTheEnd) == 0 && !state.tells_of_error();
     if (!ended_well || ::fstat(state.written.descriptor(), &written) != 0 || written.st_size == 0)
-        state.refuse("did not write all");
+        state.refuse("did not write all", "has all pictures and does not end");
     return state.written.take_place();
 }
 

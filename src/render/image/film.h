@@ -1,4 +1,4 @@
-/// Films: pictures handed to the ffmpeg of the machine, which another process is.
+/// Films: pictures handed to the ffmpeg of the machine, which works in a process of its own.
 #pragma once
 
 #include <render/image/image.h>
@@ -17,25 +17,24 @@ struct FilmMaker {
     std::vector<std::string> encoding;  ///< its arguments about encoder and quality
 };
 
-/// For a film of that name (is_film_name). Throws MachineError, saying what to install, if PATH has no ffmpeg, or that
-/// one has no encoder for such films.
+/// The ffmpeg of PATH. Throws MachineError, naming the film and what to install, if there is none.
+std::filesystem::path find_ffmpeg(const std::filesystem::path& film);
+
+/// For a film of that name (is_film_name). Throws as find_ffmpeg does, and if ffmpeg has no encoder for such films.
 FilmMaker find_film_maker(const std::filesystem::path& film);
 
-/// The sizes that films have: both sides even. The least that is no smaller.
-PictureSize film_size(PictureSize size);
-
-/// A film in the making. It stands in its place once it is finished; else nothing is left of it.
+/// A film in the making. The file appears under its name when it is finished; if it is not, nothing is left of it.
 class Film {
   public:
-    /// `size`: as film_size has it; `rate`: pictures a second. Throws MachineError.
+    /// `size`: both sides even; `rate`: pictures a second. Throws MachineError.
     Film(const FilmMaker& maker, const std::filesystem::path& file, PictureSize size, double rate);
     ~Film();
     Film(const Film&) = delete;
     Film& operator=(const Film&) = delete;
 
-    /// The next picture, of the film's size; its alpha is not looked at. Returns before it is encoded, unless several
-    /// are waiting. Throws MachineError, in ffmpeg's words, if that has failed.
-    void add(Image picture);
+    /// The next picture, of the film's size, shown so many times; its alpha is not looked at. Returns before it is
+    /// encoded, unless several are waiting. Throws MachineError, in ffmpeg's words, if that has failed.
+    void add(Image picture, std::size_t times = 1);
 
     /// All pictures are there. Returns how many bytes the film has. Throws MachineError as `add` does.
     std::size_t finish();

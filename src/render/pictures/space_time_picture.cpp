@@ -189,7 +189,7 @@ class SpaceTimePicture final : public Picture {
 
     /// Boxes of a query come and go with its steps: the roots' stand for them.
     void frame_boxes() {
-        if (test()) {
+        if (view_.query) {
             for (const DrawnAgent& agent : agents_) framed_.add(box_corners(node_box(agent, 0, list_.space)));
             return;
         }
