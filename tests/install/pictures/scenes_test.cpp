@@ -21,6 +21,8 @@ TEST(Crowd, PeopleMeet) { EXPECT_PICTURE(meeting(2), "meeting", R"({"view": {"qu
 
 TEST(Crowd, AnswersStay) { EXPECT_ANSWERS(meeting(0.5), "contact"); }
 
+TEST(Crowd, GoldensAreThoseOfTheFile) { EXPECT_EQ(mobbscope::picture_options().goldens, MOBBSCOPE_GOLDENS); }
+
 /// Where B begins may be told by the environment, so that a test can make this one fail.
 std::string people(const char* otherwise = std::getenv("B_BEGINS_AT")) {
     return R"({
@@ -36,7 +38,7 @@ TEST(Crowd, WordsOfWhatIsWrong) {
     const char* const size = R"({"size": "320x240"})";
     const auto fails = [&](const std::string& scene, const std::string& name, const std::string& keys,
                            const std::string& words) {
-        mobbscope::PictureOptions elsewhere;
+        mobbscope::PictureOptions elsewhere = mobbscope::picture_options();
         elsewhere.output += "/wrong";
         const mobbscope::PictureResult result = mobbscope::check_picture(scene, name, keys, elsewhere);
         if (result.outcome == mobbscope::PictureResult::Outcome::skipped) return;
@@ -51,6 +53,7 @@ TEST(Crowd, WordsOfWhatIsWrong) {
     fails("none.json", "wrong", size, "none.json: there is no such file");
     fails(people(), "../out", size, "cannot be the name of a case");
     fails(people(), "", size, "cannot be the name of a case");
+    fails("", "wrong", size, "the name of a file is empty");
     fails(people(), "two\nlines", size, "cannot be the name of a case");
 }
 
