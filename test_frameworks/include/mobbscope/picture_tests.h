@@ -380,8 +380,9 @@ inline bool skips_in_googletest(const PictureResult& result) {
 #elif defined(CATCH_VERSION_MAJOR) || defined(CATCH_TEST_MACROS_HPP_INCLUDED) || defined(DOCTEST_LIBRARY_INCLUDED)
 #if defined(DOCTEST_LIBRARY_INCLUDED)
 #define MOBBSCOPE_SUCCEED_() CHECK(true)
-#define MOBBSCOPE_FAIL_CHECK_(message) FAIL_CHECK(message)
-#define MOBBSCOPE_FAIL_(message) FAIL(message)
+// FAIL of doctest is not in its JUnit reports.
+#define MOBBSCOPE_FAIL_CHECK_(message) CHECK_MESSAGE(mobbscope_result.passed(), message)
+#define MOBBSCOPE_FAIL_(message) REQUIRE_MESSAGE(mobbscope_result.passed(), message)
 #else
 #include <iostream>
 namespace mobbscope::picture_tests_detail {
