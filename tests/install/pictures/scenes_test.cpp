@@ -45,15 +45,15 @@ TEST(Crowd, WordsOfWhatIsWrong) {
         EXPECT_FALSE(result.passed()) << name;
         EXPECT_NE(result.message.find(words), std::string::npos) << result.message;
     };
-    fails("{\n\"clips\": 3}", "wrong", size, "line 2, /scene/clips");
-    fails("{\n\"clips\": }", "wrong", size, "the scene that the test gives for wrong: line 2");
-    fails(people(), "wrong", "{\"veiw\": {}}", "'veiw'");
-    fails(people(), "wrong", "[]", "the keys that the test gives for wrong: line 1");
-    fails(people(), "wrong", R"({"scene": {}})", "/scene: is given by the test itself");
-    fails("none.json", "wrong", size, "none.json: there is no such file");
+    fails("{\n\"clips\": 3}", "number", size, "line 2, /scene/clips");
+    fails("{\n\"clips\": }", "broken", size, "the scene that the test gives for broken: line 2");
+    fails(people(), "typing error", "{\"veiw\": {}}", "'veiw'");
+    fails(people(), "list", "[]", "the keys that the test gives for list: line 1");
+    fails(people(), "twice", R"({"scene": {}})", "/scene: is given by the test itself");
+    fails("none.json", "no file", size, "none.json: there is no such file");
+    fails("", "no name", size, "the name of a file is empty");
     fails(people(), "../out", size, "cannot be the name of a case");
     fails(people(), "", size, "cannot be the name of a case");
-    fails("", "wrong", size, "the name of a file is empty");
     fails(people(), "two\nlines", size, "cannot be the name of a case");
 }
 
