@@ -155,7 +155,7 @@ with_googletest() {
   mkdir -p "$scratch/odd[1]/cases"
   cd "$scratch/odd[1]"
   cp "$scratch/crowd/person.json" .
-  for name in right 'b[r' 'we[ird;x' "a&b'c" DRAW '${x}'; do
+  for name in right 'b[r' 'we[ird;x' "a&b'c" DRAW "\${x}"; do
     cp "$scratch/crowd/pictures/person.case.json" "cases/$name.case.json"
   done
   expect 0 "$mobbscope" test cases --update right
@@ -165,7 +165,7 @@ with_googletest() {
   expect 0 cmake -B build -D CMAKE_PREFIX_PATH="$scratch/prefix"
   tests 8
   for prefix in a-b a_b; do
-    for name in 'b[r' 'we[ird;x' "a&b'c" DRAW '${x}'; do says " - $prefix.$name (Failed)"; done
+    for name in 'b[r' 'we[ird;x' "a&b'c" DRAW "\${x}"; do says " - $prefix.$name (Failed)"; done
   done
   says '10 tests failed out of 14'
 }

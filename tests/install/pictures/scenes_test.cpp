@@ -2,10 +2,15 @@
 #include <gtest/gtest.h>
 #include <mobb/capture.h>
 #include <mobbscope/picture_tests.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 mobb::Capture meeting(double aside) {
@@ -55,6 +60,29 @@ TEST(Crowd, WordsOfWhatIsWrong) {
     fails(people(), "../out", size, "cannot be the name of a case");
     fails(people(), "", size, "cannot be the name of a case");
     fails(people(), "two\nlines", size, "cannot be the name of a case");
+}
+
+/// A process that was forked while another thread asks can ask, too.
+TEST(Crowd, ForksWhileAThreadAsks) {
+    mobbscope::PictureOptions elsewhere = mobbscope::picture_options();
+    elsewhere.output += "/forked";
+    const auto ask = [&] { mobbscope::check_picture(people(), "forked", R"({"hold": ["fit"]})", elsewhere); };
+    std::atomic<bool> done = false;
+    std::thread other([&] {
+        while (!done) ask();
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    const pid_t forked = ::fork();
+    if (forked == 0) {
+        ::alarm(60);
+        ask();
+        ::_exit(0);
+    }
+    int status = 1;
+    ::waitpid(forked, &status, 0);
+    done = true;
+    other.join();
+    EXPECT_EQ(status, 0);
 }
 
 #if GTEST_HAS_DEATH_TEST
