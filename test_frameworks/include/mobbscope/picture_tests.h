@@ -1,5 +1,5 @@
-/// Picture tests in your own test program: what your code made of a scene is drawn and held against an approved
-/// picture, by `mobbscope`, which draws beside your program. Header only, C++17, POSIX only.
+/// Picture tests in your own test program: `mobbscope`, which runs beside it, draws a scene and compares the picture
+/// with an approved one. Header only, C++17, POSIX only.
 ///
 ///     EXPECT_PICTURE(scene, "name");                                                    GoogleTest, Catch2, doctest
 ///     EXPECT_PICTURE(scene, "name", R"({"view": {"query": 0}, "size": "640x360"})");
@@ -10,14 +10,15 @@
 /// `std::string scene_text(const T&)` beside T makes one of, as mobb::scene_text does of captured queries. The third
 /// argument has further keys of the case as JSON.
 ///
-/// The goldens of "name" are NAME.case.json, NAME.png and NAME.draw.json in the folder MOBBSCOPE_GOLDENS, a macro.
-/// What is drawn otherwise goes to the folder MOBBSCOPE_OUTPUT. CMake's mobbscope_target_goldens(TARGET DIR) defines
-/// both, and MOBBSCOPE_PROGRAM. Variables of the environment go before macros of that name; MOBBSCOPE_UPDATE=all, or
-/// names with commas between them, takes what is drawn as goldens.
+/// In one run a name is for one scene with one set of keys. The goldens of "name" are NAME.case.json, NAME.png and
+/// NAME.draw.json in the folder MOBBSCOPE_GOLDENS, a macro. What is drawn otherwise goes to the folder
+/// MOBBSCOPE_OUTPUT. CMake's mobbscope_target_goldens(TARGET DIR) defines both, and MOBBSCOPE_PROGRAM. Variables of the
+/// environment go before macros of that name; MOBBSCOPE_UPDATE=all, or names with commas between them, takes what is
+/// drawn as goldens.
 #pragma once
 
 #include <fcntl.h>
-#include <poll.h>
+#include <pthread.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/socket.h>
@@ -36,6 +37,7 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <tuple>
 #include <type_traits>
@@ -64,25 +66,18 @@ struct PictureResult {
     bool passed() const { return outcome == Outcome::passed; }
 };
 
+struct PictureOptions {
+    std::string program;  ///< a file, or a name to be looked for in PATH
+    std::string goldens;  ///< their folder; made when the first is taken
+    std::string output;   ///< the folder for pictures of what does not pass
+};
+
 namespace picture_tests_detail {
 
 inline std::string from_environment(const char* name, const std::string& otherwise) {
     const char* value = std::getenv(name);
     return value && *value ? value : otherwise;
 }
-
-}  // namespace picture_tests_detail
-
-struct PictureOptions {
-    /// A file, or a name to be looked for in PATH.
-    std::string program = picture_tests_detail::from_environment("MOBBSCOPE_PROGRAM", MOBBSCOPE_PROGRAM);
-    /// Their folder; made when the first is taken.
-    std::string goldens = picture_tests_detail::from_environment("MOBBSCOPE_GOLDENS", MOBBSCOPE_GOLDENS);
-    /// For pictures of what does not pass.
-    std::string output = picture_tests_detail::from_environment("MOBBSCOPE_OUTPUT", MOBBSCOPE_OUTPUT);
-};
-
-namespace picture_tests_detail {
 
 inline void add_json_text(std::string& out, std::string_view text) {
     out += '"';
@@ -101,16 +96,23 @@ inline void add_json_text(std::string& out, std::string_view text) {
     out += '"';
 }
 
+inline std::string whole_name(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::filesystem::path whole = std::filesystem::absolute(path, error);
+    // mobbscope says what is wrong with it.
+    return error ? path.string() : whole.string();
+}
+
 /// The text of the scene, or the whole name of its file.
 template <class Scene>
 std::string scene_of(const Scene& scene) {
     if constexpr (std::is_same_v<Scene, std::filesystem::path>) {
-        return std::filesystem::absolute(scene).string();
+        return whole_name(scene);
     } else if constexpr (std::is_convertible_v<const Scene&, std::string_view>) {
         const std::string_view text = scene;
         const std::size_t first = text.find_first_not_of(" \t\r\n");
         if (first != text.npos && text[first] == '{') return std::string(text);
-        return std::filesystem::absolute(std::filesystem::path(text)).string();
+        return whole_name(std::filesystem::path(text));
     } else {
         return scene_text(scene);  // found beside Scene
     }
@@ -125,7 +127,7 @@ class Child {
     Child& operator=(const Child&) = delete;
     ~Child() { end(); }
 
-    PictureResult ask(const std::string& request) {
+    PictureResult ask(const std::string& name, const std::string& request) {
         // After a fork, as for a death test, the other process goes on talking to it.
         if (process_ > 0 && owner_ != ::getpid()) forget();
         if (process_ <= 0) {
@@ -133,7 +135,7 @@ class Child {
             if (!why.empty()) return {PictureResult::Outcome::failed, why};
         }
         std::string answer;
-        if (send(request) && receive(answer)) return result_of(answer);
+        if (send(request) && receive(answer)) return result_of(answer, name);
         const int status = end();
         std::string message = options_.program + " ended before it answered";
         if (WIFEXITED(status)) message += " (exit status " + std::to_string(WEXITSTATUS(status)) + ")";
@@ -146,7 +148,13 @@ class Child {
     std::string start() {
         int ends[2];
         complaints_ = std::tmpfile();
-        if (!complaints_ || ::socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0) {
+#ifdef SOCK_CLOEXEC
+        // Another thread may start a program meanwhile, which must not hold this end open.
+        constexpr int kType = SOCK_STREAM | SOCK_CLOEXEC;
+#else
+        constexpr int kType = SOCK_STREAM;
+#endif
+        if (!complaints_ || ::socketpair(AF_UNIX, kType, 0, ends) != 0) {
             const std::string why = std::strerror(errno);
             close_complaints();
             return "no process can be started: " + why;
@@ -170,7 +178,7 @@ class Child {
         ::posix_spawn_file_actions_adddup2(&files, ends[1], 1);
         ::posix_spawn_file_actions_adddup2(&files, ::fileno(complaints_), 2);
         ::posix_spawnattr_init(&how);
-        // Ctrl+C ends the test program; then this one still writes its report.
+        // Ctrl+C ends the test program, and this one writes its report then.
         ::posix_spawnattr_setpgroup(&how, 0);
         ::posix_spawnattr_setflags(&how, POSIX_SPAWN_SETPGROUP);
         const int error = ::posix_spawnp(&process_, options_.program.c_str(), &files, &how, arguments.data(), environ);
@@ -230,13 +238,23 @@ class Child {
         return true;
     }
 
-    static PictureResult result_of(const std::string& answer) {
-        const std::size_t end = answer.find('\n');
-        const std::string outcome = answer.substr(0, end);
+    /// The first line is the outcome and the name, the rest the message.
+    PictureResult result_of(const std::string& answer, const std::string& name) {
+        const std::size_t end_of_line = answer.find('\n');
+        const std::string first = answer.substr(0, end_of_line);
         PictureResult out;
+        out.message = answer.substr(end_of_line + 1, answer.size() - end_of_line - 2);
+        const std::string ending = ' ' + name;
+        const std::size_t length = first.size() - std::min(first.size(), ending.size());
+        if (first.compare(length, first.npos, ending) != 0) {
+            // What it would answer next is not known either.
+            end();
+            out.message = options_.program + " answered '" + first + "' when asked for '" + name + "'\n" + out.message;
+            return out;
+        }
+        const std::string outcome = first.substr(0, length);
         if (outcome == "passed") out.outcome = PictureResult::Outcome::passed;
         if (outcome == "skipped") out.outcome = PictureResult::Outcome::skipped;
-        out.message = answer.substr(end + 1, answer.size() - end - 2);
         return out;
     }
 
@@ -286,23 +304,42 @@ class Child {
     std::string complaints_text_;
 };
 
-/// One child for each folder of goldens, until the program ends.
-inline PictureResult ask(const PictureOptions& options, const std::string& request) {
+inline std::mutex& children_mutex() {
     static std::mutex mutex;
+    return mutex;
+}
+
+/// One child for each folder of goldens, until the program ends.
+inline PictureResult ask(const PictureOptions& options, const std::string& name, const std::string& request) {
+    // A process that is forked while another thread asks would wait for that thread, which it does not have.
+    static const int forks = ::pthread_atfork([] { children_mutex().lock(); }, [] { children_mutex().unlock(); },
+                                              [] { children_mutex().unlock(); });
+    static_cast<void>(forks);
+    std::mutex& mutex = children_mutex();
     static std::map<std::tuple<std::string, std::string, std::string>, Child> children;
     const std::lock_guard<std::mutex> lock(mutex);
     const auto key = std::make_tuple(options.program, options.goldens, options.output);
-    return children.try_emplace(key, options).first->second.ask(request);
+    return children.try_emplace(key, options).first->second.ask(name, request);
 }
 
 }  // namespace picture_tests_detail
+
+/// What the environment says, or else the macros where this is called: `static`, as they may differ between the files
+/// of one program.
+[[maybe_unused]] static PictureOptions picture_options() {
+    using picture_tests_detail::from_environment;
+    return {from_environment("MOBBSCOPE_PROGRAM", MOBBSCOPE_PROGRAM),
+            from_environment("MOBBSCOPE_GOLDENS", MOBBSCOPE_GOLDENS),
+            from_environment("MOBBSCOPE_OUTPUT", MOBBSCOPE_OUTPUT)};
+}
 
 /// Draws `scene` and holds it against the golden `name`. Any thread may call it; one at a time draws. `keys`: a JSON
 /// object with further keys of the case (docs/picture_tests.md), such as "fit", "view" and "size". Never throws for
 /// what is wrong with them: that is the message.
 template <class Scene>
-PictureResult check_picture(const Scene& scene, std::string_view name, std::string_view keys = {},
-                            const PictureOptions& options = {}) {
+[[maybe_unused]] static PictureResult check_picture(const Scene& scene, std::string_view name,
+                                                    std::string_view keys = {},
+                                                    const PictureOptions& options = picture_options()) {
     namespace detail = picture_tests_detail;
     std::string request = "{\"name\": ";
     detail::add_json_text(request, name);
@@ -312,7 +349,7 @@ PictureResult check_picture(const Scene& scene, std::string_view name, std::stri
         request += ", \"keys\": ";
         detail::add_json_text(request, keys);
     }
-    PictureResult result = detail::ask(options, request + "}\n");
+    PictureResult result = detail::ask(options, std::string(name), request + "}\n");
     while (!result.message.empty() && result.message.back() == '\n') result.message.pop_back();
     if (result.passed() && !result.message.empty()) std::printf("%s\n", result.message.c_str());
     return result;
@@ -321,48 +358,55 @@ PictureResult check_picture(const Scene& scene, std::string_view name, std::stri
 }  // namespace mobbscope
 
 // What each framework calls a failure after which the test goes on, one after which it does not, and a test that was
-// skipped. One that cannot skip fails: a picture that nobody drew has not passed.
+// skipped. Where it cannot skip the test fails, as nobody has drawn the picture.
 #if defined(GTEST_SKIP)
 namespace mobbscope::picture_tests_detail {
-inline bool told_googletest_that_skipped(const PictureResult& result) {
+inline bool skips_in_googletest(const PictureResult& result) {
     if (result.outcome != PictureResult::Outcome::skipped) return false;
     [&] { GTEST_SKIP() << result.message; }();
     return true;
 }
 }  // namespace mobbscope::picture_tests_detail
-#define MOBBSCOPE_CHECK_(call, fail)                                                             \
-    switch (0)                                                                                   \
-    case 0:                                                                                      \
-    default:                                                                                     \
-        if (const ::mobbscope::PictureResult mobbscope_result = call;                            \
-            mobbscope_result.passed() ||                                                         \
-            ::mobbscope::picture_tests_detail::told_googletest_that_skipped(mobbscope_result)) { \
-        } else                                                                                   \
+#define MOBBSCOPE_CHECK_(call, fail)                                                                                 \
+    switch (0)                                                                                                       \
+    case 0:                                                                                                          \
+    default:                                                                                                         \
+        if (const ::mobbscope::PictureResult mobbscope_result = call;                                                \
+            mobbscope_result.passed() || ::mobbscope::picture_tests_detail::skips_in_googletest(mobbscope_result)) { \
+        } else                                                                                                       \
             fail << mobbscope_result.message << '\n'
 #define EXPECT_PICTURE(...) MOBBSCOPE_CHECK_(::mobbscope::check_picture(__VA_ARGS__), ADD_FAILURE())
 #define ASSERT_PICTURE(...) MOBBSCOPE_CHECK_(::mobbscope::check_picture(__VA_ARGS__), FAIL())
 #elif defined(CATCH_VERSION_MAJOR) || defined(CATCH_TEST_MACROS_HPP_INCLUDED) || defined(DOCTEST_LIBRARY_INCLUDED)
 #if defined(DOCTEST_LIBRARY_INCLUDED)
 #define MOBBSCOPE_SUCCEED_() CHECK(true)
-#define MOBBSCOPE_FAIL_CHECK_(message) FAIL_CHECK(message)
-#define MOBBSCOPE_FAIL_(message) FAIL(message)
+// FAIL of doctest is not in its JUnit reports.
+#define MOBBSCOPE_FAIL_CHECK_(message) CHECK_MESSAGE(mobbscope_result.passed(), message)
+#define MOBBSCOPE_FAIL_(message) REQUIRE_MESSAGE(mobbscope_result.passed(), message)
 #else
 #include <iostream>
 namespace mobbscope::picture_tests_detail {
-/// Catch2 breaks lines, and with them names of files and commands: the whole message goes beside it, the first line in.
-inline std::string told_catch2(const std::string& message) {
-    std::cerr << message << std::endl;
-    return message.substr(0, message.find('\n'));
+/// Catch2 breaks long lines on a terminal, and with them names of files and commands. These are printed whole as well.
+inline const std::string& with_long_lines_printed(const std::string& message) {
+    constexpr std::size_t kUnbroken = 70;
+    for (std::size_t begin = 0; begin < message.size();) {
+        const std::size_t end = std::min(message.find('\n', begin), message.size());
+        if (end - begin > kUnbroken) std::cerr << message.substr(begin, end - begin) << '\n';
+        begin = end + 1;
+    }
+    std::cerr.flush();
+    return message;
 }
 }  // namespace mobbscope::picture_tests_detail
 #if defined(CATCH_CONFIG_PREFIX_ALL)
 #define MOBBSCOPE_SUCCEED_() CATCH_SUCCEED()
-#define MOBBSCOPE_FAIL_CHECK_(message) CATCH_FAIL_CHECK(::mobbscope::picture_tests_detail::told_catch2(message))
-#define MOBBSCOPE_FAIL_(message) CATCH_FAIL(::mobbscope::picture_tests_detail::told_catch2(message))
+#define MOBBSCOPE_FAIL_CHECK_(message) \
+    CATCH_FAIL_CHECK(::mobbscope::picture_tests_detail::with_long_lines_printed(message))
+#define MOBBSCOPE_FAIL_(message) CATCH_FAIL(::mobbscope::picture_tests_detail::with_long_lines_printed(message))
 #else
 #define MOBBSCOPE_SUCCEED_() SUCCEED()
-#define MOBBSCOPE_FAIL_CHECK_(message) FAIL_CHECK(::mobbscope::picture_tests_detail::told_catch2(message))
-#define MOBBSCOPE_FAIL_(message) FAIL(::mobbscope::picture_tests_detail::told_catch2(message))
+#define MOBBSCOPE_FAIL_CHECK_(message) FAIL_CHECK(::mobbscope::picture_tests_detail::with_long_lines_printed(message))
+#define MOBBSCOPE_FAIL_(message) FAIL(::mobbscope::picture_tests_detail::with_long_lines_printed(message))
 #endif
 #endif
 #if defined(CATCH_SKIP)

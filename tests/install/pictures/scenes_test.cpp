@@ -2,10 +2,15 @@
 #include <gtest/gtest.h>
 #include <mobb/capture.h>
 #include <mobbscope/picture_tests.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 mobb::Capture meeting(double aside) {
@@ -20,6 +25,8 @@ mobb::Capture meeting(double aside) {
 TEST(Crowd, PeopleMeet) { EXPECT_PICTURE(meeting(2), "meeting", R"({"view": {"query": 0}})"); }
 
 TEST(Crowd, AnswersStay) { EXPECT_ANSWERS(meeting(0.5), "contact"); }
+
+TEST(Crowd, GoldensAreThoseOfTheFile) { EXPECT_EQ(mobbscope::picture_options().goldens, MOBBSCOPE_GOLDENS); }
 
 /// Where B begins may be told by the environment, so that a test can make this one fail.
 std::string people(const char* otherwise = std::getenv("B_BEGINS_AT")) {
@@ -36,22 +43,46 @@ TEST(Crowd, WordsOfWhatIsWrong) {
     const char* const size = R"({"size": "320x240"})";
     const auto fails = [&](const std::string& scene, const std::string& name, const std::string& keys,
                            const std::string& words) {
-        mobbscope::PictureOptions elsewhere;
+        mobbscope::PictureOptions elsewhere = mobbscope::picture_options();
         elsewhere.output += "/wrong";
         const mobbscope::PictureResult result = mobbscope::check_picture(scene, name, keys, elsewhere);
         if (result.outcome == mobbscope::PictureResult::Outcome::skipped) return;
         EXPECT_FALSE(result.passed()) << name;
         EXPECT_NE(result.message.find(words), std::string::npos) << result.message;
     };
-    fails("{\n\"clips\": 3}", "wrong", size, "line 2, /scene/clips");
-    fails("{\n\"clips\": }", "wrong", size, "the scene that the test gives for wrong: line 2");
-    fails(people(), "wrong", "{\"veiw\": {}}", "'veiw'");
-    fails(people(), "wrong", "[]", "the keys that the test gives for wrong: line 1");
-    fails(people(), "wrong", R"({"scene": {}})", "/scene: is given by the test itself");
-    fails("none.json", "wrong", size, "none.json: there is no such file");
+    fails("{\n\"clips\": 3}", "number", size, "line 2, /scene/clips");
+    fails("{\n\"clips\": }", "broken", size, "the scene that the test gives for broken: line 2");
+    fails(people(), "typing error", "{\"veiw\": {}}", "'veiw'");
+    fails(people(), "list", "[]", "the keys that the test gives for list: line 1");
+    fails(people(), "twice", R"({"scene": {}})", "/scene: is given by the test itself");
+    fails("none.json", "no file", size, "none.json: there is no such file");
+    fails("", "no name", size, "the name of a file is empty");
     fails(people(), "../out", size, "cannot be the name of a case");
     fails(people(), "", size, "cannot be the name of a case");
     fails(people(), "two\nlines", size, "cannot be the name of a case");
+}
+
+/// A process that was forked while another thread asks can ask, too.
+TEST(Crowd, ForksWhileAThreadAsks) {
+    mobbscope::PictureOptions elsewhere = mobbscope::picture_options();
+    elsewhere.output += "/forked";
+    const auto ask = [&] { mobbscope::check_picture(people(), "forked", R"({"hold": ["fit"]})", elsewhere); };
+    std::atomic<bool> done = false;
+    std::thread other([&] {
+        while (!done) ask();
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    const pid_t forked = ::fork();
+    if (forked == 0) {
+        ::alarm(60);
+        ask();
+        ::_exit(0);
+    }
+    int status = 1;
+    ::waitpid(forked, &status, 0);
+    done = true;
+    other.join();
+    EXPECT_EQ(status, 0);
 }
 
 #if GTEST_HAS_DEATH_TEST
