@@ -55,10 +55,11 @@ bool brings_case(const JsonPlace& result) {
     return brings;
 }
 
-/// The folder of the goldens of what is told at this place; nothing if the report does not say.
+/// The folder of the goldens of what is told at this place; nothing if the report does not say, or only that it is in
+/// there, as ".." is a folder wherever the report was copied to.
 std::optional<std::filesystem::path> told_folder(const JsonPlace& result, const std::filesystem::path& report) {
     const auto told = result.find("folder");
-    if (!told) return std::nullopt;
+    if (!told || std::filesystem::path(told->string()).filename() == ".." || told->string() == ".") return std::nullopt;
     return whole_path(whole_path(report).parent_path() / told->string());
 }
 

@@ -550,7 +550,7 @@ TEST_F(AcceptTest, SaysWhatItCannotTake) {
     EXPECT_EQ(test().status, 1);
     const Result failed = accept(output);
     EXPECT_EQ(failed.status, 1);
-    EXPECT_PRED2(says, failed.err, "path: not accepted: there is no golden to take of it");
+    EXPECT_PRED2(says, failed.err, "path: not accepted: it has no golden to take");
 }
 
 TEST_F(AcceptTest, RefusesWhatIsNoReport) {
