@@ -11,6 +11,7 @@
 #include <render/image/png.h>
 #include <render/image/ssim.h>
 #include <scene/clip_import.h>
+#include <scene/scene.h>
 
 #include <algorithm>
 #include <array>
