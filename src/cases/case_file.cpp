@@ -8,6 +8,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <fstream>
+#include <ios>
 #include <set>
 #include <system_error>
 
@@ -54,10 +57,10 @@ std::vector<Held> read_hold(const JsonPlace& place) {
     place.each([&](const JsonPlace& word) {
         const auto held = enumerator_named<Held>(kHeld, word.string());
         if (!held) {
-            word.fail(in_quotes(word.string()) + " is nothing that a case holds; give " + either(kHeld) +
+            word.fail(in_quotes(word.string()) + " cannot be held; give " + either(kHeld) +
                       did_you_mean(word.string(), std::vector<std::string>(kHeld.begin(), kHeld.end())));
         }
-        if (std::ranges::find(out, *held) != out.end()) word.fail(in_quotes(word.string()) + " stands there twice");
+        if (std::ranges::find(out, *held) != out.end()) word.fail(in_quotes(word.string()) + " is given twice");
         out.push_back(*held);
     });
     return out;
@@ -70,6 +73,16 @@ void refuse_picture_keys(const JsonPlace& root) {
         const auto found = root.find(key);
         if (found) found->fail("the case holds no picture; remove this, or hold the picture too");
     }
+}
+
+/// Whether a file begins as a golden of answers, trace or fit: a scene may have such a name too.
+bool begins_as(Held held, const std::filesystem::path& file) {
+    const std::string key = "\"mobbscope_" + std::string(name(held)) + '"';
+    std::string begin(64, '\0');
+    std::ifstream in(file, std::ios::binary);
+    in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    const std::size_t first = begin.find_first_not_of(" \t\r\n{");
+    return first != begin.npos && std::string_view(begin).substr(first).starts_with(key);
 }
 
 std::vector<CaseFile> search_cases(const std::filesystem::path& folder, std::error_code& error) {
@@ -96,7 +109,22 @@ std::filesystem::path CaseFile::beside(std::string_view ending) const {
     return file.parent_path() / (stem_of(*this) + std::string(ending));
 }
 
+std::filesystem::path CaseFile::folder() const {
+    std::filesystem::path out = file.parent_path();
+    for (auto left = std::ranges::count(name, '/'); left > 0; --left) out = out.parent_path();
+    return out;
+}
+
+std::vector<std::filesystem::path> CaseFile::goldens(std::span<const Held> held) const {
+    std::vector<std::filesystem::path> out;
+    for (const GoldenEnding& one : kGoldenEndings) {
+        if (std::ranges::find(held, one.held) != held.end()) out.push_back(beside(one.ending));
+    }
+    return out;
+}
+
 std::filesystem::path CaseFile::golden_of(Held held) const {
+    if (held == Held::picture) return golden();
     return beside('.' + std::string(mobbscope::picture_tests::name(held)) + ".json");
 }
 
@@ -131,9 +159,14 @@ std::vector<CaseFile> cases_there(const std::filesystem::path& folder) {
 
 bool is_case_name(std::string_view name) {
     const std::filesystem::path path(name);
-    const bool is_plain = is_utf8(name) && path.is_relative() && path.has_filename() &&
-                          std::ranges::none_of(name, [](char c) { return static_cast<unsigned char>(c) < ' '; });
-    return is_plain && std::ranges::none_of(path, [](const auto& part) { return part == ".." || part == "."; });
+    constexpr std::string_view kSigns = ",*?";  // of --update
+    const bool is_plain = is_utf8(name) && path.is_relative() && path.has_filename() && name.find("//") == name.npos &&
+                          name != "all" && name != "1" && std::ranges::none_of(name, [&](char c) {
+                              return static_cast<unsigned char>(c) < ' ' || kSigns.find(c) != kSigns.npos;
+                          });
+    return is_plain && std::ranges::none_of(path, [](const auto& part) {
+               return part == ".." || part == "." || part.native().starts_with('-');
+           });
 }
 
 std::vector<std::filesystem::path> orphaned_goldens(const std::filesystem::path& folder,
@@ -153,9 +186,9 @@ std::vector<std::filesystem::path> orphaned_goldens(const std::filesystem::path&
         } catch (const InputError&) {
             // What is wrong with a case is told where it is drawn.
         }
-        for (const GoldenEnding& one : kGoldenEndings) {
-            if (!terms || terms->holds(one.held)) owned.insert(file.beside(one.ending).lexically_normal());
-        }
+        constexpr std::array kAll{Held::picture, Held::answers, Held::trace, Held::fit};
+        for (const std::filesystem::path& golden : file.goldens(terms ? std::span<const Held>(terms->hold) : kAll))
+            owned.insert(golden.lexically_normal());
         if (terms && terms->mask) owned.insert(terms->mask->lexically_normal());
     }
     std::vector<std::filesystem::path> out;
@@ -168,8 +201,9 @@ std::vector<std::filesystem::path> orphaned_goldens(const std::filesystem::path&
             continue;
         }
         const std::string name = at->path().filename().string();
-        const bool is_golden =
-            std::ranges::any_of(kGoldenEndings, [&](const GoldenEnding& one) { return name.ends_with(one.ending); });
+        const bool is_golden = std::ranges::any_of(kGoldenEndings, [&](const GoldenEnding& one) {
+            return name.ends_with(one.ending) && (one.held == Held::picture || begins_as(one.held, at->path()));
+        });
         if (is_golden && !owned.contains(at->path().lexically_normal())) out.push_back(at->path());
     }
     std::ranges::sort(out);

@@ -1,4 +1,4 @@
-/// A picture test as files: `NAME.case.json` says what to draw (picture_tests/shot.h), and besides
+/// A case as files: `NAME.case.json` says what to draw (picture_tests/shot.h), and besides
 ///
 ///      "mobbscope_case": 1,
 ///      "hold": ["picture", "answers", "trace", "fit"],   what is held; default: the picture alone
@@ -24,6 +24,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,18 +57,22 @@ inline std::string_view name(Held held) { return kHeld[static_cast<std::size_t>(
 struct CaseFile {
     std::string name;  ///< of the file relative to the folder of the cases, without ".case.json"
     std::filesystem::path file;
+    /// The folder that the name is relative to.
+    std::filesystem::path folder() const;
     std::filesystem::path golden() const { return beside(".png"); }
     std::filesystem::path draw() const { return beside(".draw.json"); }
     std::filesystem::path plain() const { return beside(".plain.png"); }
     std::filesystem::path plain_draw() const { return beside(".plain.draw.json"); }
     std::filesystem::path plain_state() const { return beside(".plain.state.json"); }
-    /// Of answers, trace or fit.
+    /// The first golden of what is held.
     std::filesystem::path golden_of(Held held) const;
     using Golden = std::filesystem::path (CaseFile::*)() const;
     /// NAME and this ending.
     std::filesystem::path beside(std::string_view ending) const;
     /// The ending of a file that stands beside it.
     std::string ending_of(const std::filesystem::path& other) const;
+    /// All files that goldens of what is held may have.
+    std::vector<std::filesystem::path> goldens(std::span<const Held> held) const;
 };
 
 /// The case of a name in a folder, whether it is there or not.
@@ -82,14 +87,16 @@ std::vector<CaseFile> find_cases(const std::filesystem::path& folder);
 /// Those that there are: none where there is no such folder.
 std::vector<CaseFile> cases_there(const std::filesystem::path& folder);
 
-/// Whether a case can have this name: it stays in its folder, and a line can tell of it.
+/// Whether a test may give a case this name: it stays in its folder, a line can tell of it, and --update and
+/// MOBBSCOPE_UPDATE take it for nothing else.
 bool is_case_name(std::string_view name);
 
 /// What a run leaves in the folder of its pictures (case_report.h).
 inline constexpr std::string_view kReportFile = "report.json";
 
 /// Where no case holds them: the goldens in a folder and the folders in it. A folder with a report.json is
-/// what a run left (case_report.h), and left out. Of what cannot be searched there are none.
+/// what a run left (case_report.h), and left out; so is a NAME.answers.json, NAME.trace.json or NAME.fit.json that does
+/// not begin as such a golden does. Of what cannot be searched there are none.
 std::vector<std::filesystem::path> orphaned_goldens(const std::filesystem::path& folder,
                                                     const std::vector<CaseFile>& cases);
 

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <iterator>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <system_error>
@@ -53,26 +55,24 @@ bool brings_case(const JsonPlace& result) {
     return brings;
 }
 
-}  // namespace
-
-void write_case_report(std::ostream& out, std::span<const CaseResult> results) {
-    std::ostringstream text;
-    JsonWriter json(text);
-    json.begin_object();
-    json.member("mobbscope_report", kReportVersion);
-    json.begin_array("cases");
-    for (const CaseResult& result : results) {
-        if (!is_told(result)) continue;
-        write_result(json, result, Pictures::not_in_fresh);
-    }
-    json.end_array();
-    json.end_object();
-    // It can only stand in a string.
-    for (const char c : text.str()) c == '<' ? out << "\\u003c" : out << c;
+/// The folder of the goldens of what is told at this place; nothing if the report does not say, or only that it is in
+/// there, as ".." is a folder wherever the report was copied to.
+std::optional<std::filesystem::path> told_folder(const JsonPlace& result, const std::filesystem::path& report) {
+    const auto told = result.find("folder");
+    if (!told || std::filesystem::path(told->string()).filename() == ".." || told->string() == ".") return std::nullopt;
+    return whole_path(whole_path(report).parent_path() / told->string());
 }
 
-CaseReport read_case_report(const std::filesystem::path& report, const std::filesystem::path& folder,
-                            const std::vector<CaseFile>& cases) {
+/// Whether a report that tells of a folder means this one, wherever the report may have been copied to.
+bool is_same_folder(const std::filesystem::path& told, const std::filesystem::path& folder) {
+    std::error_code ignored;
+    if (told == whole_path(folder) || std::filesystem::equivalent(told, folder, ignored)) return true;
+    return !std::filesystem::exists(told, ignored) && own_name(told) == own_name(folder);
+}
+
+/// `others`: takes what the report tells of other folders.
+CaseReport read_report(const std::filesystem::path& report, const std::filesystem::path& folder,
+                       const std::vector<CaseFile>& cases, std::vector<CaseResult>& others) {
     CaseReport out;
     std::error_code ignored;
     out.file = std::filesystem::is_directory(report, ignored) ? report / kReportFile : report;
@@ -88,12 +88,16 @@ CaseReport read_case_report(const std::filesystem::path& report, const std::file
         version.fail("the report has version " + format_double(version.number()) + "; this program reads version " +
                      std::to_string(kReportVersion));
     }
-    std::set<std::string> seen;
+    std::set<std::pair<std::filesystem::path, std::string>> seen;
     root.require("cases").each([&](const JsonPlace& result) {
         const JsonPlace named = result.require("name");
         const std::string& of = named.string();
-        if (!seen.insert(of).second) named.fail("the case " + in_quotes(of) + " stands there twice");
-        if (std::ranges::find(cases, of, &CaseFile::name) != cases.end()) {
+        const std::optional<std::filesystem::path> told = told_folder(result, out.file);
+        if (!seen.insert({told.value_or(folder), of}).second)
+            named.fail("the case " + in_quotes(of) + " is given twice");
+        if (told && !is_same_folder(*told, folder)) {
+            others.push_back(read_result(result, {case_named(*told, of)}));
+        } else if (std::ranges::find(cases, of, &CaseFile::name) != cases.end()) {
             out.results.push_back(read_result(result, cases));
         } else if (is_case_name(of) && brings_case(result)) {
             out.results.push_back(read_result(result, {case_named(folder, of)}));
@@ -101,6 +105,38 @@ CaseReport read_case_report(const std::filesystem::path& report, const std::file
             out.unknown.push_back(of);
         }
     });
+    return out;
+}
+
+}  // namespace
+
+void write_case_report(std::ostream& out, std::span<const CaseResult> results, const std::filesystem::path& where) {
+    std::ostringstream text;
+    JsonWriter json(text);
+    json.begin_object();
+    json.member("mobbscope_report", kReportVersion);
+    json.begin_array("cases");
+    for (const CaseResult& result : results) {
+        if (!is_told(result)) continue;
+        const std::filesystem::path folder = whole_path(result.file.folder());
+        write_result(json, result, Pictures::not_in_fresh,
+                     folder.lexically_relative(whole_path(where)).generic_string());
+    }
+    json.end_array();
+    json.end_object();
+    // It can only stand in a string.
+    for (const char c : text.str()) c == '<' ? out << "\\u003c" : out << c;
+}
+
+CaseReport read_case_report(const std::filesystem::path& report, const std::filesystem::path& folder,
+                            const std::vector<CaseFile>& cases) {
+    std::vector<CaseResult> others;
+    CaseReport out = read_report(report, folder, cases, others);
+    if (out.results.empty() && out.unknown.empty() && !others.empty()) {
+        throw InputError(out.file.string(), "",
+                         "tells of the goldens in " + others.front().file.folder().string() + ", not of those in " +
+                             folder.string() + "; give that folder, or another report");
+    }
     return out;
 }
 
@@ -112,12 +148,14 @@ void add_to_case_report(const std::filesystem::path& output, const std::filesyst
     std::error_code ignored;
     if (std::filesystem::exists(file, ignored)) {
         try {
-            for (CaseResult& before : read_case_report(file, folder, cases_there(folder)).results) {
+            std::vector<CaseResult> others;
+            for (CaseResult& before : read_report(file, folder, cases_there(folder), others).results) {
                 const auto same =
                     std::ranges::find(results, before.file.name,
                                       [](const CaseResult& one) -> const std::string& { return one.file.name; });
                 if (same == results.end()) results.push_back(std::move(before));
             }
+            std::ranges::move(others, std::back_inserter(results));
         } catch (const InputError&) {
             // Of one that is damaged nothing can be kept.
         }
@@ -130,7 +168,7 @@ void add_to_case_report(const std::filesystem::path& output, const std::filesyst
         return;
     }
     std::ostringstream report;
-    write_case_report(report, results);
+    write_case_report(report, results, output);
     write_file(file, std::move(report).str());
 }
 

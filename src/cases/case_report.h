@@ -1,7 +1,8 @@
 /// What a run keeps of the cases that did not pass, with their goldens as they would be now: enough to look at them,
 /// and to take them, on any system and without drawing anything.
 ///
-///     {"mobbscope_report": 1, "cases": [{...}, ...]}      each as in result_line.h
+///     {"mobbscope_report": 1, "cases": [{...}, ...]}      each as in result_line.h, and
+///      "folder": "../goldens"                             of its goldens, relative to the report
 ///
 /// It is `report.json` in the folder of `mobbscope test --output`, and in the page of `--html`.
 #pragma once
@@ -24,8 +25,9 @@ namespace mobbscope::picture_tests {
 inline constexpr std::string_view kReportBegins = "<script type=\"application/json\" id=\"mobbscope-report\">";
 inline constexpr std::string_view kReportEnds = "</script>";
 
-/// Without those that passed or were skipped. No '<' is in it, so that a page can hold it.
-void write_case_report(std::ostream& out, std::span<const CaseResult> results);
+/// Without those that passed or were skipped. No '<' is in it, so that a page can hold it. `where`: the folder that the
+/// report goes to.
+void write_case_report(std::ostream& out, std::span<const CaseResult> results, const std::filesystem::path& where);
 
 struct CaseReport {
     std::filesystem::path file;  ///< that was read
@@ -34,13 +36,15 @@ struct CaseReport {
 };
 
 /// `report`: the folder, its report.json, or the page. `cases`: those that there are in `folder`; one that a test asked
-/// for may be new, and come with its file. Throws InputError if there is no report.
+/// for may be new, and come with its file. What the report tells of other folders is left out. A report that was
+/// copied to another machine is of a folder with the same own name. Throws InputError if there is no report, or it
+/// tells only of other folders.
 CaseReport read_case_report(const std::filesystem::path& report, const std::filesystem::path& folder,
                             const std::vector<CaseFile>& cases);
 
 /// Makes the report in the folder `output`, which is there, tell of these results, whatever it told of their cases, and
-/// leaves what it tells of others; processes may do so at the same time. One that would tell of none is removed. Throws
-/// MachineError.
+/// leaves what it tells of others, also of cases in other folders; processes may do so at the same time. One that would
+/// tell of none is removed. Throws MachineError.
 void add_to_case_report(const std::filesystem::path& output, const std::filesystem::path& folder,
                         std::vector<CaseResult> results);
 

@@ -64,6 +64,18 @@ std::string message_of(std::span<const Finding> findings) {
     return out;
 }
 
+std::vector<std::string> lines_of(const CaseResult& result) {
+    std::vector<std::string> out;
+    for (const Finding& finding : result.findings) {
+        if (finding.words.empty()) out.push_back(finding.message);
+        const bool named = finding.golden.empty() || (!finding.words.empty() && finding.words[0] == finding.message);
+        const std::string before = named ? "" : finding.golden.filename().string() + ": ";
+        for (const std::string& line : finding.words) out.push_back(before + line);
+    }
+    if (out.empty()) out.push_back(result.message);
+    return out;
+}
+
 std::vector<std::filesystem::path> take(CaseResult& result) {
     write_goldens(result.fresh);
     std::vector<std::filesystem::path> written;

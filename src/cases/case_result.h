@@ -152,9 +152,11 @@ std::string sum_of(const Summary& summary);
 /// "a.png: ...; a.draw.json: ..."
 std::string message_of(std::span<const Finding> findings);
 
+/// All that is wrong, the most important fact first, one line each; of one that was skipped why.
+std::vector<std::string> lines_of(const CaseResult& result);
+
 /// Makes the goldens of a case what is drawn now (write_goldens); then the case has passed, unless its scene expects
-/// other answers. Returns what it wrote, not
-/// what it removed. Throws as write_goldens does.
+/// other answers. Returns what it wrote, not what it removed. Throws as write_goldens does.
 std::vector<std::filesystem::path> take(CaseResult& result);
 
 }  // namespace mobbscope::picture_tests

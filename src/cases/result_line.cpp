@@ -117,9 +117,10 @@ ImageDiff read_diff(const JsonPlace& place) {
 
 }  // namespace
 
-void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures) {
+void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures, std::string_view folder) {
     json.begin_object(JsonWriter::Layout::row);
     json.member("name", result.file.name);
+    if (!folder.empty()) json.member("folder", folder);
     json.member("outcome", name(result.outcome));
     json.member("message", result.message);
     json.values("remarks", result.remarks);
@@ -131,8 +132,10 @@ void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures)
         }
         if (!read.empty()) json.values("read", read);
     }
-    json.member("tolerance", name(result.tolerance));
-    json.member("decided_by", name(result.decided_by));
+    // Of what draws nothing no pixel is compared.
+    const bool draws = !draws_nothing(result);
+    json.member("tolerance", draws ? std::optional(std::string(name(result.tolerance))) : std::nullopt);
+    json.member("decided_by", draws ? std::optional(std::string(name(result.decided_by))) : std::nullopt);
     json.member("other_here", result.other_here);
     json.member("backend", result.drawn_by.backend);
     json.member("renderer", result.drawn_by.renderer);
@@ -175,8 +178,9 @@ CaseResult read_result(const JsonPlace& root, const std::vector<CaseFile>& cases
     if (const auto read = root.find("read")) {
         read->each([&](const JsonPlace& one) { result.read.emplace_back(one.string()); });
     }
-    result.tolerance = named<Tolerance>(root.require("tolerance"), kTolerances);
-    result.decided_by = named<DecidedBy>(root.require("decided_by"), kDecidedBy);
+    const JsonPlace tolerance = root.require("tolerance"), decided_by = root.require("decided_by");
+    if (!tolerance.is_null()) result.tolerance = named<Tolerance>(tolerance, kTolerances);
+    if (!decided_by.is_null()) result.decided_by = named<DecidedBy>(decided_by, kDecidedBy);
     result.other_here = root.require("other_here").string();
     result.drawn_by = {root.require("backend").string(), root.require("renderer").string()};
     if (const auto opengl = root.find("opengl")) result.drawn_by.opengl = opengl->string();
@@ -191,7 +195,7 @@ CaseResult read_result(const JsonPlace& root, const std::vector<CaseFile>& cases
         const JsonPlace golden = one.require("golden");
         GoldenChange change{golden_at(golden, *file), unpacked(one.require("bytes")),
                             unpacked(one.require("replaces"))};
-        if (shown_change(result.fresh, change.file)) golden.fail(in_quotes(golden.string()) + " stands there twice");
+        if (shown_change(result.fresh, change.file)) golden.fail(in_quotes(golden.string()) + " is given twice");
         result.fresh.push_back(std::move(change));
     });
     const JsonPlace shown = root.require("shown");

@@ -9,7 +9,8 @@
 ///      "actual": PNG | null, "golden": PNG | null,       in base64; the golden of a case that did not pass
 ///      "fresh": [{"golden": ".png", "bytes": ... | null, "replaces": ... | null}]}   in base64; null: no such file
 ///
-/// Goldens are told by what follows the case's name; "" of a finding: the scene expects another answer.
+/// Goldens are told by what follows the case's name; "" of a finding: the scene expects another answer. `tolerance` and
+/// `decided_by` are null where nothing was drawn.
 #pragma once
 
 #include <base/json.h>
@@ -26,8 +27,9 @@ namespace mobbscope::picture_tests {
 
 /// Which pictures an object holds: where `fresh` has those that are shown, they need not be there twice.
 enum class Pictures { all, not_in_fresh };
-/// With `all` comes how long it took; a report is the same every time.
-void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures);
+/// With `all` comes how long it took; a report is the same every time. `folder`: what a report says of the folder of
+/// the goldens (case_report.h).
+void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures, std::string_view folder = {});
 /// `cases`: those that it may be of. Throws InputError if it is no result.
 CaseResult read_result(const JsonPlace& place, const std::vector<CaseFile>& cases);
 

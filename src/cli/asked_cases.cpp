@@ -50,11 +50,11 @@ std::string scene_in_case(const std::string& scene, const CaseFile& file) {
     check_file_name(scene);
     std::error_code ignored;
     if (!std::filesystem::exists(scene, ignored)) throw InputError(scene, "", "there is no such file");
-    const std::filesystem::path from = std::filesystem::weakly_canonical(whole_path(file.file.parent_path()), ignored);
-    const std::filesystem::path to = std::filesystem::canonical(scene, ignored);
+    // Not through symbolic links, as a case's paths are read.
+    const std::filesystem::path from = whole_path(file.file.parent_path());
     std::ostringstream out;
     JsonWriter json(out);
-    json.value(to.lexically_relative(from).generic_string());
+    json.value(whole_path(scene).lexically_relative(from).generic_string());
     return std::move(out).str();
 }
 
@@ -66,6 +66,11 @@ std::string case_text(const JsonPlace& request, const CaseFile& file) {
         if (!members.empty()) out.append(",\n ").append(members);
     }
     return out + "}\n";
+}
+
+/// The first line of an answer.
+std::string answer_line(CaseOutcome outcome, const std::string& name) {
+    return std::string(picture_tests::name(outcome)) + ' ' + cleaned(name) + '\n';
 }
 
 CaseResult failed_case(const CaseFile& file, const std::string& why) {
@@ -89,19 +94,48 @@ CaseResult AskedCases::drawn(const CaseFile& file, const std::string& asked) {
 
 std::string AskedCases::answer(std::string_view line) {
     const std::string of = "a request";
-    const JsonText text = parse_json(line, of);
-    const JsonPlace root(text, of);
-    root.allow_only({"name", "scene", "keys"});
-    const JsonPlace named = root.require("name");
-    const std::string& name = named.string();
-    if (!picture_tests::is_case_name(name)) {
-        return "failed\n" + in_quotes(name) + " cannot be the name of a case: give words as a file's name has\n";
+    const auto fail = [](const std::string& name, const std::string& why) {
+        return answer_line(CaseOutcome::failed, name) + why + '\n';
+    };
+    try {
+        if (!is_utf8(line)) {
+            // The name may be all right, and tells which test is meant.
+            std::string plain(line);
+            std::ranges::replace_if(
+                plain, [](char c) { return static_cast<unsigned char>(c) > '~'; }, '?');
+            const JsonText text = parse_json(plain, of);
+            const JsonPlace root(text, of);
+            return fail(root.require("name").string(),
+                        "what the test gives is not UTF-8; write its name, scene and keys in UTF-8");
+        }
+        const JsonText text = parse_json(line, of);
+        const JsonPlace root(text, of);
+        root.allow_only({"name", "scene", "keys"});
+        root.require("scene").string();
+        const std::string& name = root.require("name").string();
+        if (picture_tests::is_case_name(name)) return answer_to(root);
+        return fail(name, in_quotes(name) +
+                              " cannot be the name of a case: give words as a file's name has, without , * ? and a "
+                              "leading -; all and 1 have a meaning of their own");
+    } catch (const InputError& error) {
+        return fail("", error.what());
     }
+}
+
+std::string AskedCases::answer_to(const JsonPlace& request) {
+    const std::string& name = request.require("name").string();
     const CaseFile file = picture_tests::case_named(options_.folder, name);
     CaseResult result;
     std::ostringstream wrote;
     try {
-        result = drawn(file, case_text(root, file));
+        const std::string text = case_text(request, file);
+        const auto [before, is_new] = asked_.emplace(name, text);
+        if (!is_new && before->second != text) {
+            // What was found of the first stays.
+            return answer_line(CaseOutcome::failed, name) + "failed: " + cleaned(name) +
+                   ": another test has asked for this name with another scene or other keys; give each its own name\n";
+        }
+        result = drawn(file, text);
         if (!result.fresh.empty() && (options_.update_all || matches_any(options_.update_names, name))) {
             check_is_from_here(options_.folder, result);
             take_named({&result, 1}, {}, wrote);
@@ -109,13 +143,14 @@ std::string AskedCases::answer(std::string_view line) {
     } catch (const InputError& error) {
         result = failed_case(file, error.what());
     }
-    keep_pictures(result, options_.output);
-    std::string out = std::string(picture_tests::name(result.outcome)) + '\n' + wrote.str() +
-                      picture_tests::words_on(result, options_.output);
+    std::string out =
+        answer_line(result.outcome, name) + wrote.str() + picture_tests::words_on(result, options_.output);
     if (can_be_taken(result)) out += "  or run the test with MOBBSCOPE_UPDATE=" + shell_word(name) + '\n';
     std::erase_if(results_, [&](const CaseResult& one) { return one.file.name == name; });
-    if (result.outcome == CaseOutcome::passed) result.actual.clear();
     results_.push_back(std::move(result));
+    // Of what cannot be written the report may still tell.
+    keep_pictures(results_.back(), options_.output);
+    if (results_.back().outcome == CaseOutcome::passed) results_.back().actual.clear();
     return out;
 }
 

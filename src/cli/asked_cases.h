@@ -3,14 +3,17 @@
 ///     {"name": "meeting", "scene": TEXT, "keys": TEXT}
 ///
 /// `scene`: the JSON of a scene if it begins with '{', else the name of a scene or clip file; `keys`, which may be left
-/// out: an object with further keys of the case. The answer is the outcome (case_result.h) on a line of its own, what
-/// is to be said of it on further lines, and an empty line.
+/// out: an object with further keys of the case. The answer is a line with the outcome (case_result.h) and the name,
+/// "missing golden meeting", what is to be said of it on further lines, and an empty line. A name may be asked for
+/// again with the same texts, as a test that is repeated does.
 #pragma once
 
+#include <base/json.h>
 #include <cases/case_result.h>
 #include <cases/drawing_child.h>
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,18 +32,20 @@ class AskedCases {
   public:
     explicit AskedCases(AskedCasesOptions options);
 
-    /// Without the empty line. What is wrong with a case is its answer. Throws InputError if the line is no request.
+    /// Without the empty line. What is wrong with a case or a line is its answer. Throws MachineError.
     std::string answer(std::string_view line);
 
     /// Into the report of `output`. Throws MachineError.
     void keep_report();
 
   private:
+    std::string answer_to(const JsonPlace& request);
     picture_tests::CaseResult drawn(const picture_tests::CaseFile& file, const std::string& asked);
 
     AskedCasesOptions options_;
     picture_tests::LastingDrawer drawer_;
     std::vector<picture_tests::CaseResult> results_;  ///< the last of each case
+    std::map<std::string, std::string> asked_;        ///< by name, the text of the case
 };
 
 }  // namespace mobbscope::cli

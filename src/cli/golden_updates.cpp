@@ -23,11 +23,8 @@ namespace {
 enum class Reply { yes, no, all, quit };
 
 Reply ask(const CaseResult& result, const std::filesystem::path& folder, std::ostream& say) {
-    say << cleaned(result.file.name) << ": " << name(result.outcome) << ": " << cleaned(result.message) << '\n';
-    for (const picture_tests::Finding& finding : result.findings) {
-        if (finding.words.size() < 2) continue;
-        for (const std::string& line : finding.words) say << "    " << cleaned(line) << '\n';
-    }
+    say << cleaned(result.file.name) << ": " << name(result.outcome) << ":\n";
+    for (const std::string& line : lines_of(result)) say << "    " << cleaned(line) << '\n';
     for (const std::filesystem::path& picture : keep_pictures(result, folder)) {
         say << "  " << cleaned(picture.string()) << '\n';
     }
@@ -140,7 +137,7 @@ bool take_report(const std::filesystem::path& report, const std::filesystem::pat
     for (const CaseResult& one : read.results) {
         if (!is_meant(one.file.name)) continue;
         if (one.fresh.empty()) {
-            leave_out(one.file.name, "there is no golden to take of it: " + one.message);
+            leave_out(one.file.name, "it has no golden to take: " + one.message);
             continue;
         }
         if (!one.other_here.empty()) {

@@ -143,7 +143,9 @@ int parse_jobs(const std::string& text) {
 /// Throws InputError if the pictures would go where the goldens are, MachineError if they cannot go where they are to.
 void check_output_folder(const TestCommandArguments& arguments) {
     std::error_code ignored;
-    if (std::filesystem::equivalent(arguments.output, arguments.folder, ignored)) {
+    // Neither needs to be there yet.
+    if (whole_path(arguments.output) == whole_path(arguments.folder) ||
+        std::filesystem::equivalent(arguments.output, arguments.folder, ignored)) {
         throw InputError("--output: " + in_quotes(arguments.output.string()) +
                          " is where the goldens are; give another folder");
     }
@@ -255,28 +257,25 @@ std::string add_facts(RunFacts& facts, std::span<const CaseResult> results) {
     return no_opengl;
 }
 
-/// The pictures of what did not pass, and all of it as a report; whether there are any.
-bool keep_all(const TestCommandArguments& arguments, std::span<const CaseResult> results) {
-    bool kept = false;
-    for (const CaseResult& result : results) kept = !keep_pictures(result, arguments.output).empty() || kept;
+/// What is to be seen of what did not pass, and all of it as a report.
+void keep_all(const TestCommandArguments& arguments, std::span<const CaseResult> results) {
+    for (const CaseResult& result : results) keep_pictures(result, arguments.output);
     const std::filesystem::path file = arguments.output / picture_tests::kReportFile;
     if (picture_tests::summary(results).ok()) {
         // Where only some are run, it may still tell of the others.
         std::error_code ignored;
         if (!is_part(arguments)) std::filesystem::remove(file, ignored);
-        return kept;
+        return;
     }
     std::ostringstream report;
-    write_case_report(report, results);
+    write_case_report(report, results, arguments.output);
     picture_tests::make_folder_of(file);
     check_stays_in_folder(file);
     write_file(file, std::move(report).str());
-    return kept;
 }
 
 /// What goes to standard output when it is all done.
-void print_results(const TestCommandArguments& arguments, const RunFacts& facts, std::span<const CaseResult> results,
-                   bool kept) {
+void print_results(const TestCommandArguments& arguments, const RunFacts& facts, std::span<const CaseResult> results) {
     if (arguments.json) {
         write_json(std::cout, facts, results);
     } else {
@@ -284,9 +283,9 @@ void print_results(const TestCommandArguments& arguments, const RunFacts& facts,
         const bool pictures = std::ranges::any_of(results, [](const CaseResult& one) {
             return one.outcome != picture_tests::CaseOutcome::passed && !one.actual.empty();
         });
-        if (kept) {
-            std::cout << (pictures ? "Pictures" : "Answers")
-                      << " of what did not pass: " << cleaned(arguments.output.string()) << '\n';
+        if (!picture_tests::summary(results).ok()) {
+            std::cout << (pictures ? "Pictures of what" : "What")
+                      << " did not pass: " << cleaned(arguments.output.string()) << '\n';
         }
     }
     flush_results();
@@ -401,9 +400,15 @@ int answer_tests(const TestCommandArguments& arguments) {
                       .backend = arguments.backend,
                       .update_names = arguments.update_names,
                       .update_all = arguments.update_all});
-    for (std::string line; std::getline(std::cin, line);) {
-        std::cout << asked.answer(line) << '\n';
-        flush_results();
+    try {
+        for (std::string line; std::getline(std::cin, line);) {
+            std::cout << asked.answer(line) << '\n';
+            flush_results();
+        }
+    } catch (const MachineError&) {
+        // Who asked has ended meanwhile, or the disk is full: the report is wanted all the more.
+        asked.keep_report();
+        throw;
     }
     asked.keep_report();
     return kDone;
@@ -446,10 +451,10 @@ int draw_and_hold(const TestCommandArguments& arguments) {
     const std::string no_opengl = add_facts(facts, results);
     if (!arguments.json_lines) {
         take(arguments, results);
-        const bool kept = keep_all(arguments, results);
+        keep_all(arguments, results);
         write_report(arguments.junit, picture_tests::write_junit, facts, results);
         write_report(arguments.html, picture_tests::write_html, facts, results);
-        print_results(arguments, facts, results, kept);
+        print_results(arguments, facts, results);
     }
     if (!no_opengl.empty()) throw MachineError(no_opengl);
     write_contact_sheet(arguments, sheet, results);

@@ -56,7 +56,7 @@ std::optional<Image> ContactSheet::draw(std::span<const CaseResult> results, std
                                         Renderer& renderer) const {
     std::vector<const CaseResult*> in_order;
     for (const CaseResult& result : results) {
-        if (!draws_nothing(result)) in_order.push_back(&result);
+        if (!draws_nothing(result) || result.outcome != CaseOutcome::passed) in_order.push_back(&result);
     }
     if (in_order.empty()) return std::nullopt;
     std::ranges::stable_sort(

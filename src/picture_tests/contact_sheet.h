@@ -1,5 +1,5 @@
 /// All pictures of a run in one, small, each with the name of its case: what did not pass stands first, with its
-/// outcome in words and a coloured frame.
+/// outcome in words and a coloured frame; also where there is no picture of it.
 #pragma once
 
 #include <cases/case_result.h>

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace mobbscope::picture_tests {
@@ -31,23 +32,11 @@ std::string counts(const Summary& sum, std::size_t cases, double seconds) {
            attribute("skipped", std::to_string(sum[CaseOutcome::skipped])) + attribute("time", decimal(seconds));
 }
 
-/// What differs in answers, where the message has only the first of it.
-std::vector<std::string> told_lines(const CaseResult& result) {
-    std::vector<std::string> out;
-    for (const Finding& finding : result.findings) {
-        if (finding.words.size() < 2 || finding.golden == result.file.draw() ||
-            finding.golden == result.file.plain_state())
-            continue;
-        out.insert(out.end(), finding.words.begin(), finding.words.end());
-    }
-    return out;
-}
-
 void write_problem(std::ostream& out, const char* element, const RunFacts& facts, const CaseResult& result) {
-    out << "      <" << element << attribute("type", name(result.outcome)) << attribute("message", result.message)
+    const std::vector<std::string> lines = lines_of(result);
+    out << "      <" << element << attribute("type", name(result.outcome)) << attribute("message", lines.front())
         << '>';
-    out << escaped(result.message) << '\n';
-    for (const std::string& line : told_lines(result)) out << escaped(line) << '\n';
+    for (const std::string& line : lines) out << escaped(line) << '\n';
     if (can_be_taken(result)) {
         const std::string_view names[] = {result.file.name};
         out << if_right(result) << ' ' << escaped(update_command(facts, names)) << '\n';
@@ -163,13 +152,11 @@ void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
             pictures = pictures || !draws_nothing(result);
         }
         if (result.outcome == CaseOutcome::passed && result.remarks.empty()) continue;
-        out << name(result.outcome) << ": " << cleaned(result.file.name) << ": " << cleaned(result.message);
-        const bool passed = result.message.empty();
-        for (std::size_t i = 0; i < result.remarks.size(); ++i) {
-            out << (i == 0 && passed ? "" : "; ") << cleaned(result.remarks[i]);
-        }
-        out << '\n';
-        for (const std::string& line : told_lines(result)) out << "  " << cleaned(line) << '\n';
+        std::vector<std::string> lines;
+        if (result.outcome != CaseOutcome::passed) lines = lines_of(result);
+        lines.insert(lines.end(), result.remarks.begin(), result.remarks.end());
+        out << name(result.outcome) << ": " << cleaned(result.file.name) << ": " << cleaned(lines.front()) << '\n';
+        for (std::size_t i = 1; i < lines.size(); ++i) out << "  " << cleaned(lines[i]) << '\n';
     }
     for (const std::string& orphan : facts.orphans) out << kOrphan << ": " << cleaned(orphan) << kOrphanAdvice << '\n';
     out << cleaned(facts.folder) << (facts.shard.empty() ? "" : ", shard " + facts.shard) << ": "
@@ -189,7 +176,7 @@ void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
     JsonWriter json(out);
     json.begin_object();
     json.member("folder", facts.folder);
-    json.member("backend", facts.backend);
+    json.member("backend", std::ranges::all_of(results, draws_nothing) ? kDrawsNothing : facts.backend);
     json.member("renderer", facts.renderer);
     if (!facts.shard.empty()) json.member("shard", facts.shard);
     const Summary sum = summary(results);
@@ -207,8 +194,9 @@ void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
         json.member("message", result.message);
         json.values("remarks", result.remarks);
         json.member("seconds", result.seconds);
-        json.member("tolerance", name(result.tolerance));
-        json.member("decided_by", name(result.decided_by));
+        const bool draws = !draws_nothing(result);
+        json.member("tolerance", draws ? std::optional(std::string(name(result.tolerance))) : std::nullopt);
+        json.member("decided_by", draws ? std::optional(std::string(name(result.decided_by))) : std::nullopt);
         json.key("diff");
         result.image ? write_diff(json, *result.image) : json.null();
         json.end_object();

@@ -23,14 +23,14 @@ struct RunFacts {
     std::string shard{};  ///< "2/3": only every third case, from the second; empty: all that were asked for
 };
 
-/// A line for each case that did not pass and for each that did although something differs, what is to be known of the
-/// run, and the sum.
+/// Of each case that did not pass, and of each that did although something differs, a line with the most important fact
+/// and further lines below it; what is to be known of the run, and the sum.
 void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
 /// {"folder", "backend", "renderer", "shard": "2/3" of a shard, "summary": {...}, "orphans": [...], "cases": [{"name",
 /// "outcome", "message", "remarks": [...], "seconds", "tolerance", "decided_by", "diff": {...} or null}]}; `diff` as in
-/// `mobbscope diff
-/// --json`. Where goldens are from elsewhere (reference.h), "other_system": how was decided, a sentence for each
-/// folder.
+/// `mobbscope diff --json`; `tolerance` and `decided_by` are null where nothing was drawn, and `backend` is "none" if
+/// that is so of all. Where goldens are from elsewhere (reference.h), "other_system": how was decided, a sentence for
+/// each folder.
 void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
 /// JUnit's XML: a failed picture is a failure, one that could not be drawn an error; with `strict` orphans are a test
 /// case of their own.

@@ -1,5 +1,6 @@
 #include <base/error.h>
 #include <base/file.h>
+#include <base/json.h>
 #include <base/text.h>
 #include <picture_tests/held_answers.h>
 #include <picture_tests/reference.h>
@@ -9,11 +10,15 @@
 #include <render/image/image_diff.h>
 #include <render/image/png.h>
 #include <render/image/ssim.h>
+#include <scene/clip_import.h>
+#include <scene/scene.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -28,7 +33,7 @@ std::optional<std::string> fresh_bytes(const CaseResult& result, const std::file
     return found == result.fresh.end() ? std::nullopt : found->bytes;
 }
 
-/// Lines of what differs in a draw list: a report is read, not searched.
+/// Lines of what differs in one golden: a report is read, not searched.
 constexpr std::size_t kMostWords = 12;
 
 bool is_there(const std::filesystem::path& file) {
@@ -152,29 +157,70 @@ void judge_pixels(CaseResult& result, const HeldPicture& held, const std::filesy
     }
 }
 
-/// Lines of what differs, of one golden, as one finding.
+/// At most so many lines that a person reads them.
+void shorten(std::vector<std::string>& lines, std::size_t count) {
+    if (count <= kMostWords) return;
+    lines.resize(kMostWords);
+    lines.push_back("and " + std::to_string(count - kMostWords) + " more");
+}
+
+/// Lines of what differs, of one golden, as one finding. `of` stands before them.
 void add_differences(CaseResult& result, const std::filesystem::path& golden, const std::string& of,
                      std::vector<std::string> lines) {
     const std::size_t count = lines.size();
     const std::string more = count > 1 ? "; and " + std::to_string(count - 1) + " more" : "";
-    std::string message = of + ": " + lines.front() + more;
-    if (count > kMostWords) {
-        lines.resize(kMostWords);
-        lines.push_back("and " + std::to_string(count - kMostWords) + " more");
-    }
+    std::string message = of + (of.empty() ? "" : ": ") + lines.front() + more;
+    shorten(lines, count);
     add_finding(result, CaseOutcome::different, {golden, std::move(message), std::move(lines)});
 }
 
 /// What the scene itself expects, of every query.
-void check_expectations(CaseResult& result, const Shot& shot) {
+void check_expectations(CaseResult& result, const Shot& shot, bool asked) {
     std::vector<std::string> lines = unexpected_answers(shot);
-    if (!lines.empty()) add_differences(result, {}, shot.scene_file.string(), std::move(lines));
+    if (lines.empty()) return;
+    const std::string file = shot.scene_file.string();
+    for (std::string& line : lines) line.insert(0, file + ": ");
+    add_differences(result, {}, "", std::move(lines));
+    result.findings.back().words.push_back("if the answer is right, correct `expect` in " +
+                                           (asked && file == result.file.file ? "the test" : file));
+}
+
+/// "A and B collide at 2.43 s: 18 tests of time, 12 of obb2d": a line for each query of a golden of answers.
+std::vector<std::string> answers_in(const std::string& golden) {
+    const std::string name = "the answers";
+    const JsonText text = parse_json(golden, name);
+    const JsonPlace root(text, name);
+    std::vector<std::string> out;
+    root.require("answers").each([&](const JsonPlace& one) {
+        std::string line = one.require("a").string() + " and " + one.require("b").string();
+        const JsonPlace contact = one.require("contact");
+        line += contact.is_null() ? " do not collide" : " collide at " + brief(contact.require("time").number()) + " s";
+        const JsonPlace tests = one.require("tests");
+        const char* before = ": ";
+        for (int i = 0; i < tests.members(); ++i) {
+            const JsonPlace count = tests.member(i);
+            if (count.number() == 0) continue;
+            line.append(before).append(brief(count.number())).append(*before == ':' ? " tests of " : " of ");
+            line.append(count.key());
+            before = ", ";
+        }
+        out.push_back(std::move(line));
+    });
+    return out;
 }
 
 /// Answers, trace or fit against its golden.
 void compare_held(CaseResult& result, const HeldAnswers& held, Held what) {
     const std::filesystem::path golden = result.file.golden_of(what);
-    if (!is_there(golden)) return add_missing(result, golden);
+    if (!is_there(golden)) {
+        add_missing(result, golden);
+        if (what != Held::answers) return;
+        std::vector<std::string> words = answers_in(held.golden(what));
+        shorten(words, words.size());
+        words.insert(words.begin(), result.findings.back().message);
+        result.findings.back().words = std::move(words);
+        return;
+    }
     try {
         std::vector<std::string> lines = held.differences(what, read_file(golden), golden.string());
         if (!lines.empty()) add_differences(result, golden, golden.filename().string(), std::move(lines));
@@ -192,7 +238,7 @@ void compare_numbers(CaseResult& result, const std::string& actual, const std::s
         if (golden.empty()) {
             return add_finding(result, CaseOutcome::different, {file, file.filename().string() + ": it is empty", {}});
         }
-        const DrawListComparison found =
+        DrawListComparison found =
             compare_draw_lists(actual, what, golden, file.string(), {.other_fonts = other_fonts, .most = kMostWords});
         for (const std::string& line : found.pixels) {
             result.remarks.push_back(file.filename().string() + ": " + line);
@@ -201,7 +247,8 @@ void compare_numbers(CaseResult& result, const std::string& actual, const std::s
         const std::size_t more = found.count - 1;
         const std::string why = file.filename().string() + ": " + found.differences.front() +
                                 (more > 0 ? "; and " + std::to_string(more) + " more" : "");
-        add_finding(result, CaseOutcome::different, {file, why, found.differences});
+        shorten(found.differences, static_cast<std::size_t>(found.count));
+        add_finding(result, CaseOutcome::different, {file, why, std::move(found.differences)});
     } catch (const InputError& error) {
         add_finding(result, CaseOutcome::different, {file, error.what(), {}});
     }
@@ -328,9 +375,11 @@ std::vector<GoldenChange> goldens_of(const CaseFile& file, const Case& tested, D
 /// The goldens of all that is held, of one whose goldens are asked for: `pictures` and those of numbers.
 void add_fresh(CaseResult& result, const CaseTerms& terms, const HeldAnswers* held, std::vector<GoldenChange> pictures,
                const RunOptions& options) {
-    const bool passed = result.outcome == CaseOutcome::passed;
-    result.fresh = std::move(pictures);
+    // What a scene expects no golden mends.
+    const bool passed = result.findings.size() == unmended(result).size();
     if (options.asked) add_golden(result.fresh, result.file.file, options.asked);
+    result.fresh.insert(result.fresh.end(), std::make_move_iterator(pictures.begin()),
+                        std::make_move_iterator(pictures.end()));
     for (const Held what : terms.hold) {
         if (what != Held::picture) add_golden(result.fresh, result.file.golden_of(what), held->golden(what));
     }
@@ -381,37 +430,91 @@ void run_picture(CaseResult& result, const Case& tested, const HeldAnswers* held
     if (result.outcome != CaseOutcome::passed && !shown.golden.rgba.empty()) result.golden = png_bytes(shown.golden);
 }
 
-/// A golden must not take the place of what it is made from.
-void check_is_not_scene(const CaseFile& file, const Case& tested) {
-    for (const Held what : tested.terms.hold) {
-        const std::filesystem::path golden = file.golden_of(what);
-        std::error_code ignored;
-        if (what == Held::picture || !std::filesystem::equivalent(golden, tested.shot.scene_file, ignored)) continue;
-        throw InputError(file.file.string(), "",
-                         "the scene has the name of the golden " + golden.filename().string() + "; rename the scene");
+/// Throws InputError if a golden would take the place of something that the case is made from. `read`: those files.
+void check_replaces_no_input(const CaseFile& file, const Case& tested, bool asked,
+                             std::vector<std::filesystem::path> read) {
+    // Another case may have read these before.
+    const Scene& scene = tested.shot.panels.front().fitted->scene();
+    if (tested.shot.scene_file != file.file) read.push_back(tested.shot.scene_file);
+    for (const SceneClip& clip : scene.clips) {
+        if (clip.source) read.push_back(source_path(scene, clip));
     }
+    if (tested.terms.mask) read.push_back(*tested.terms.mask);
+    std::vector<std::filesystem::path> written = file.goldens(tested.terms.hold);
+    if (asked) written.push_back(file.file);
+    for (const std::filesystem::path& golden : written) {
+        for (const std::filesystem::path& input : read) {
+            std::error_code ignored;
+            if (!std::filesystem::equivalent(golden, input, ignored)) continue;
+            const std::string name = golden.filename().string();
+            throw InputError(file.file.string(), "",
+                             "the case reads " + name + ", where its golden goes; rename the case or that file");
+        }
+    }
+}
+
+/// Whether two texts say the same, whatever the order of their members.
+bool is_same(const JsonValue& a, const JsonValue& b) {
+    if (a.data.index() != b.data.index()) return false;
+    if (const auto* array = a.as<JsonValue::Array>()) {
+        return std::ranges::equal(*array, *b.as<JsonValue::Array>(), is_same);
+    }
+    if (const auto* object = a.as<JsonValue::Object>()) {
+        const auto& other = *b.as<JsonValue::Object>();
+        return object->size() == other.size() && std::ranges::all_of(*object, [&](const JsonMember& one) {
+                   const auto* found = std::ranges::find(other, one.key(), &JsonMember::key);
+                   return found != other.end() && is_same(one.value, found->value);
+               });
+    }
+    const auto* text = a.as<std::string>();
+    if (text) return *text == *b.as<std::string>();
+    const auto* number = a.as<double>();
+    const auto* yes = a.as<bool>();
+    return number ? *number == *b.as<double>() : !yes || *yes == *b.as<bool>();
+}
+
+/// The case that a test asks for must be that of its file: others run that.
+void check_case_file(CaseResult& result, const CaseTerms& terms, const std::string& asked) {
+    const std::filesystem::path& file = result.file.file;
+    if (is_there(file)) {
+        const std::string name = file.filename().string();
+        const auto differs = [&](const std::string& how) {
+            add_finding(result, CaseOutcome::different, {file, name + how, {}});
+        };
+        try {
+            const JsonText before = parse_json(read_file(file), file.string()), now = parse_json(asked, "the test");
+            if (!is_same(before.root(), now.root())) differs(" is not what the test asks for");
+        } catch (const InputError& error) {
+            differs(std::string(" cannot be read: ") + error.what());
+        }
+        return;
+    }
+    // Without its case a golden would be held by nothing but the test that asks.
+    const auto has_golden = [&](Held what) { return is_there(result.file.golden_of(what)); };
+    if (std::ranges::any_of(terms.hold, has_golden)) add_missing(result, file);
 }
 
 /// Reads it and compares all that it holds. `maker`: not null if that is a picture.
 void run(CaseResult& result, PictureMaker* maker, const RunOptions& options) {
+    result.read = take_files_read();
     const Case tested = read_case(result.file.file, options.asked);
+    std::vector<std::filesystem::path> inputs = take_files_read();
+    result.read.insert(result.read.end(), inputs.begin(), inputs.end());
+    std::erase(inputs, whole_path(options.asked ? std::filesystem::path() : result.file.file));
     result.tolerance = tested.terms.tolerance;
     if (tested.terms.skip) {
         result.outcome = CaseOutcome::skipped;
         result.message = *tested.terms.skip;
         return;
     }
-    check_is_not_scene(result.file, tested);
-    check_expectations(result, tested.shot);
+    check_replaces_no_input(result.file, tested, options.asked.has_value(), std::move(inputs));
+    check_expectations(result, tested.shot, options.asked.has_value());
     std::optional<HeldAnswers> held;
     if (tested.terms.hold != std::vector{Held::picture}) held.emplace(tested.shot, tested.terms);
     for (const Held what : tested.terms.hold) {
         if (what != Held::picture) compare_held(result, *held, what);
     }
-    // Without its case a golden would be held by nothing but the test that asks.
-    const auto has_golden = [&](Held what) { return is_there(result.file.golden_of(what)); };
-    if (options.asked && !is_there(result.file.file) && std::ranges::any_of(tested.terms.hold, has_golden))
-        add_missing(result, result.file.file);
+    if (options.asked) check_case_file(result, tested.terms, *options.asked);
     if (tested.terms.holds(Held::picture)) {
         run_picture(result, tested, held ? &*held : nullptr, *maker, options);
     } else if (wants_fresh(result, options)) {
@@ -487,25 +590,30 @@ std::string words_on(const CaseResult& result, const std::filesystem::path& fold
     if (result.outcome == CaseOutcome::passed) return {};
     std::ostringstream out;
     out << name(result.outcome) << ": " << cleaned(result.file.name);
+    const std::vector<std::string> lines = lines_of(result);
     if (result.findings.empty()) out << ": " << cleaned(result.message);
     out << '\n';
+    if (!result.findings.empty()) {
+        for (const std::string& line : lines) out << "  " << cleaned(line) << '\n';
+    }
+    const std::string stem = (whole_path(folder) / result.file.name).string();
+    constexpr std::array kNumbers{Held::answers, Held::trace, Held::fit};
     for (const Finding& finding : result.findings) {
-        if (finding.words.empty()) out << "  " << cleaned(finding.message) << '\n';
-        for (const std::string& word : finding.words)
-            out << "  " << cleaned(finding.golden.filename().string() + ": " + word) << '\n';
+        const bool told =
+            std::ranges::any_of(kNumbers, [&](Held held) { return finding.golden == result.file.golden_of(held); });
+        if (!told || !fresh_bytes(result, finding.golden)) continue;
+        out << "  actual:  " << cleaned(stem + ".actual" + result.file.ending_of(finding.golden)) << '\n';
+        if (is_there(finding.golden)) out << "  golden:  " << cleaned(whole_path(finding.golden).string()) << '\n';
     }
     if (!result.actual.empty()) {
-        const std::string stem = (whole_path(folder) / result.file.name).string();
         const std::string ending = result.file.ending_of(result.shown);
         out << "  actual:  " << cleaned(stem + ".actual" + ending) << '\n';
         if (!result.golden.empty()) out << "  golden:  " << cleaned(whole_path(result.shown).string()) << '\n';
         if (result.image && result.image->same_size) out << "  differs: " << cleaned(stem + ".heat" + ending) << '\n';
     }
     if (can_be_taken(result)) {
-        std::string cases = whole_path(result.file.file).string();
-        cases.resize(cases.size() - result.file.name.size() - kCaseExtension.size() - 1);
-        out << "  if it is right: mobbscope test " << shell_word(cases) << ' ' << shell_word(result.file.name)
-            << " --accept " << shell_word(whole_path(folder).string()) << '\n';
+        out << "  if it is right: mobbscope test " << shell_word(whole_path(result.file.folder()).string()) << ' '
+            << shell_word(result.file.name) << " --accept " << shell_word(whole_path(folder).string()) << '\n';
     } else if (!result.other_here.empty()) {
         out << "  the goldens are from elsewhere: here are " << cleaned(result.other_here) << '\n';
     }

@@ -53,18 +53,30 @@ TEST(Hold, IsThePictureAloneUnlessTheCaseSaysMore) {
         return input_error([&] { read_terms(cases.add("a", R"("hold": )" + hold)); });
     };
     EXPECT_PRED2(says, refused("[]"), "nothing is held; name one or more of picture, answers, trace, fit");
-    EXPECT_PRED2(
-        says, refused(R"(["answer"])"),
-        "'answer' is nothing that a case holds; give picture, answers, trace or fit (did you mean 'answers'?)");
-    EXPECT_PRED2(says, refused(R"(["fit", "fit"])"), "'fit' stands there twice");
+    EXPECT_PRED2(says, refused(R"(["answer"])"),
+                 "'answer' cannot be held; give picture, answers, trace or fit (did you mean 'answers'?)");
+    EXPECT_PRED2(says, refused(R"(["fit", "fit"])"), "'fit' is given twice");
     EXPECT_PRED2(says, refused(R"("fit")"), "/hold");
     EXPECT_PRED2(says, refused(R"(["fit"])"), "/size: the case holds no picture; remove this");
+}
+
+TEST(CaseFile, HasAGoldenOfAllThatItHolds) {
+    const CaseFile file = case_named("goldens", "deep/er/a");
+    EXPECT_EQ(file.golden_of(Held::picture), file.golden());
+    EXPECT_EQ(file.golden_of(Held::fit), "goldens/deep/er/a.fit.json");
+    EXPECT_EQ(file.folder(), "goldens");
 }
 
 TEST(OrphanedGoldens, AreOfWhatTheCaseNoLongerHolds) {
     const CaseFolder cases;
     cases.write("a", R"({"mobbscope_case": 1, "scene": "scene.json", "hold": ["answers"]})");
-    for (const char* file : {"a.png", "a.answers.json", "a.fit.json", "b.trace.json"}) cases.folder().write(file, "");
+    for (const char* file : {"a.png", "a.answers.json"}) cases.folder().write(file, "");
+    cases.folder().write("a.fit.json", "{\n  \"mobbscope_fit\": 1, \"trees\": []}");
+    cases.folder().write("b.trace.json", R"({"mobbscope_trace": 1})");
+    // Scenes, and what other commands write.
+    cases.folder().write("c.answers.json", R"({"clips": {}})");
+    cases.folder().write("c.fit.json", R"({"mobbscope_trace": 1})");
+    cases.folder().write("c.trace.json", "");
     const std::filesystem::path& at = cases.path();
     EXPECT_EQ(orphaned_goldens(at, find_cases(at)),
               (std::vector{at / "a.fit.json", at / "a.png", at / "b.trace.json"}));

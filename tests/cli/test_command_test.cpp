@@ -159,7 +159,7 @@ TEST_F(AnswersTestCommandTest, RunsWithoutOpenGL) {
     Result run = test({"answers"});
     EXPECT_EQ(run.status, 1) << run.err;
     EXPECT_PRED2(says, run.out, "missing golden: answers: there is no golden ");
-    EXPECT_PRED2(says, run.out, "Answers of what did not pass: ");
+    EXPECT_PRED2(says, run.out, "What did not pass: ");
     run = test({"--update", "answers"});
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_PRED2(says, run.out, "wrote " + (cases.path() / "answers.answers.json").string());
@@ -191,7 +191,7 @@ TEST_F(AnswersTestCommandTest, EveryReportSaysWhatDiffers) {
     EXPECT_PRED2(says, slurp(junit), words);
     EXPECT_PRED2(says, slurp(junit), "If what is there now is right: ");
     EXPECT_PRED2(says, slurp(html), words);
-    EXPECT_PRED2(says, slurp(html), "If what is there now is right:");
+    EXPECT_PRED2(says, slurp(html), "Commands that accept this case");
     const nlohmann::json line = nlohmann::json::parse(test({"answers", "--json-lines"}).out);
     EXPECT_EQ(line["findings"][0]["golden"], ".answers.json");
     EXPECT_EQ(line["backend"], "none");
@@ -550,7 +550,7 @@ TEST_F(AcceptTest, SaysWhatItCannotTake) {
     EXPECT_EQ(test().status, 1);
     const Result failed = accept(output);
     EXPECT_EQ(failed.status, 1);
-    EXPECT_PRED2(says, failed.err, "path: not accepted: there is no golden to take of it");
+    EXPECT_PRED2(says, failed.err, "path: not accepted: it has no golden to take");
 }
 
 TEST_F(AcceptTest, RefusesWhatIsNoReport) {
@@ -579,7 +579,7 @@ TEST_F(AcceptTest, RefusesADamagedReportAndWritesNothing) {
     };
     nlohmann::json report = nlohmann::json::parse(whole);
     report["cases"].push_back(report["cases"][0]);
-    expect_refused(report, "/cases/2/name: the case 'path' stands there twice");
+    expect_refused(report, "/cases/2/name: the case 'path' is given twice");
     for (nlohmann::json::size_type i = 0; i < 2; ++i) {
         report = nlohmann::json::parse(whole);
         report["cases"][1]["fresh"][i]["bytes"] = base64("damaged");
@@ -912,14 +912,14 @@ class AskedTest : public DrawnTestCommandTest {
 TEST_F(AskedTest, GoldensOfTestsStandByThemselves) {
     const Result run = ask({{"a", scene}, {"deep/b", file}});
     EXPECT_EQ(run.status, 0) << run.err;
-    EXPECT_TRUE(run.out.starts_with("missing golden\nmissing golden: a\n")) << run.out;
-    EXPECT_PRED2(says, run.out, "MOBBSCOPE_UPDATE=a\n\nmissing golden\nmissing golden: deep/b\n");
+    EXPECT_TRUE(run.out.starts_with("missing golden a\nmissing golden: a\n")) << run.out;
+    EXPECT_PRED2(says, run.out, "MOBBSCOPE_UPDATE=a\n\nmissing golden deep/b\nmissing golden: deep/b\n");
     EXPECT_TRUE(run.out.ends_with("MOBBSCOPE_UPDATE=deep/b\n\n")) << run.out;
     EXPECT_FALSE(std::filesystem::exists(goldens));
     EXPECT_EQ(accept().status, 0) << "a report brings cases that are new";
     EXPECT_PRED2(says, slurp(goldens / "deep/b.case.json"), R"("scene": "../../scene.json",)");
     EXPECT_EQ(run_program({"test", goldens.string(), "--strict"}).status, 0);
-    EXPECT_EQ(ask({{"a", scene}, {"deep/b", file}}).out, "passed\n\npassed\n\n");
+    EXPECT_EQ(ask({{"a", scene}, {"deep/b", file}}).out, "passed a\n\npassed deep/b\n\n");
     EXPECT_FALSE(std::filesystem::exists(output / "report.json"));
     // A golden without its case would be no test for anybody else.
     std::filesystem::remove(goldens / "a.case.json");
@@ -931,7 +931,7 @@ TEST_F(AskedTest, ARunLeavesWhatTheReportTellsOfOthers) {
     ask({{"b", scene}, {"bad", "{}"}});
     EXPECT_PRED2(says, slurp(output / "report.json"), R"("name": "a")");
     EXPECT_PRED2(says, ask({{"b", scene}}, {"--update", "b"}).out,
-                 "passed\nwrote " + (goldens / "b.case.json").string());
+                 "passed b\nwrote " + (goldens / "b.case.json").string());
     const std::string report = slurp(output / "report.json");
     EXPECT_PRED2(says, report, R"("name": "a")");
     EXPECT_FALSE(says(report, R"("name": "b")"));
@@ -945,7 +945,7 @@ TEST_F(AskedTest, WhatIsWrongIsTheAnswer) {
     const auto expect = [&](const Asked& asked, const std::string& words) {
         const Result run = ask({asked});
         EXPECT_EQ(run.status, 0) << run.err;
-        EXPECT_TRUE(run.out.starts_with("failed\n") && run.out.ends_with("\n\n")) << run.out;
+        EXPECT_TRUE(run.out.starts_with("failed ") && run.out.ends_with("\n\n")) << run.out;
         EXPECT_PRED2(says, run.out, words);
     };
     expect({"a", "{\n\"clips\": }"}, "the scene that the test gives for a: line 2");
@@ -956,10 +956,137 @@ TEST_F(AskedTest, WhatIsWrongIsTheAnswer) {
     expect({"a", scene, "{}}, {"}, "the keys that the test gives for a: line 1");
     expect({"a", scene, R"({"mobbscope_case": 1})"}, "/mobbscope_case: is given by the test itself");
     expect({"a", scene, R"({"veiw": {}})"}, "veiw");
-    for (const char* name : {"", "../a", "/a", "a/", "a\nb", ".."})
+    for (const char* name : {"", "../a", "/a", "a/", "a\nb", "..", "a//b", "a,b", "a*", "b/-x", "-x", "all", "1"})
         expect({name, scene}, "cannot be the name of a case");
     expect_test_refused(ask({}, {"--update"}), "--update: standard input asks");
     expect_test_refused(ask({}, {"--jobs", "2"}), "--asked: standard input says what is drawn");
+}
+
+/// Without pictures.
+class AskedAnswersTest : public AskedTest {
+  protected:
+    void SetUp() override {}
+    const std::string answers = R"({"hold": ["answers"]})";
+};
+
+TEST_F(AskedAnswersTest, ANameIsOfOneCase) {
+    const Result run =
+        ask({{"a", scene, answers}, {"a", scene, R"({"hold": ["fit"]})"}, {"a", scene, answers}}, {"--update", "a"});
+    EXPECT_PRED2(says, run.out, "failed a\nfailed: a: another test has asked for this name");
+    EXPECT_PRED2(says, run.out, "\n\npassed a\n");
+    EXPECT_FALSE(std::filesystem::exists(goldens / "a.fit.json"));
+    // What was found of the first stays.
+    std::filesystem::remove(goldens / "a.answers.json");
+    ask({{"a", scene, answers}, {"a", scene, R"({"hold": ["fit"]})"}});
+    EXPECT_PRED2(says, slurp(output / "report.json"), R"("there is no golden)");
+}
+
+TEST_F(AskedAnswersTest, AMissingGoldenSaysWhatItWouldHold) {
+    const Result run = ask({{"a", scene, answers}});
+    EXPECT_PRED2(says, run.out, "\n  A and B collide at ");
+    EXPECT_PRED2(says, run.out, " tests of time, ");
+    EXPECT_PRED2(says, run.out, "\n  actual:  " + (output / "a.actual.answers.json").string() + '\n');
+}
+
+TEST_F(AskedAnswersTest, ACaseThatItsTestHasChangedIsTold) {
+    ASSERT_EQ(ask({{"a", scene, answers}}, {"--update", "all"}).status, 0);
+    EXPECT_EQ(ask({{"a", scene, " " + answers}}).out, "passed a\n\n") << "it says the same";
+    const Result changed = ask({{"a", scene, R"({"hold": ["answers"], "time_limit": 5})"}});
+    EXPECT_TRUE(changed.out.starts_with("different a\ndifferent: a\n  a.case.json is not what the test asks for\n"))
+        << changed.out;
+    EXPECT_EQ(accept().status, 0);
+    EXPECT_PRED2(says, slurp(goldens / "a.case.json"), R"("time_limit": 5)");
+}
+
+TEST_F(AskedAnswersTest, FoldersOfGoldensMayShareAReport) {
+    ask({{"a", scene, answers}});
+    const std::string others = (cases.path() / "others").string();
+    const auto in_others = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all{"test", others};
+        all.insert(all.end(), more.begin(), more.end());
+        return run_program(all, {}, cases.path() / "lines");
+    };
+    expect_test_refused(in_others({"--accept", output.string()}), "tells of the goldens in " + goldens.string());
+    in_others({"--asked", "--output", output.string()});
+    EXPECT_EQ(accept().status, 0);
+    EXPECT_TRUE(std::filesystem::exists(goldens / "a.answers.json"));
+    EXPECT_FALSE(std::filesystem::exists(others));
+    EXPECT_EQ(in_others({"--accept", output.string()}).status, 0);
+    EXPECT_TRUE(std::filesystem::exists(others + "/a.answers.json"));
+    // A report that was copied finds its folder by name.
+    std::filesystem::remove_all(goldens);
+    ask({{"a", scene, answers}});
+    std::filesystem::create_directories(cases.path() / "far/away");
+    std::filesystem::rename(output / "report.json", cases.path() / "far/away/report.json");
+    EXPECT_EQ(run_program({"test", goldens.string(), "--accept", (cases.path() / "far/away").string()}).status, 0);
+}
+
+TEST_F(AskedAnswersTest, TheReportIsKeptWhenTheAskerIsGone) {
+    std::string lines;
+    for (const char* name : {"a", "b"})
+        lines += nlohmann::json{{"name", name}, {"scene", scene}, {"keys", answers}}.dump() + '\n';
+    cases.folder().write("lines", lines);
+    const std::string command = "{ cat '" + (cases.path() / "lines").string() + "'; sleep 1; cat '" +
+                                (cases.path() / "lines").string() + "'; } | '" MOBBSCOPE_PROGRAM "' test '" +
+                                goldens.string() + "' --asked --output '" + output.string() +
+                                "' 2>/dev/null | head -n 1";
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    EXPECT_PRED2(says, slurp(output / "report.json"), R"("name": "a")");
+}
+
+TEST_F(AskedAnswersTest, TextThatIsNotUtf8FailsItsCaseAlone) {
+    cases.folder().write("lines", "{\"name\": \"a\", \"scene\": \"\xe4\"}\nnonsense\n" +
+                                      nlohmann::json{{"name", "b"}, {"scene", scene}, {"keys", answers}}.dump() + '\n');
+    const Result run =
+        run_program({"test", goldens.string(), "--asked", "--output", output.string()}, {}, cases.path() / "lines");
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_TRUE(run.out.starts_with("failed a\nwhat the test gives is not UTF-8")) << run.out;
+    EXPECT_PRED2(says, run.out, "\nfailed \na request: line 1");
+    EXPECT_PRED2(says, run.out, "\nmissing golden b\n");
+}
+
+TEST_F(AskedAnswersTest, GoldensMayStandBehindALink) {
+    std::filesystem::create_directories(cases.path() / "real/deep/er");
+    std::filesystem::create_directory_symlink("real/deep/er", goldens);
+    EXPECT_EQ(ask({{"a", file, answers}}, {"--update", "a"}).status, 0);
+    EXPECT_PRED2(says, slurp(goldens / "a.case.json"), R"("scene": "../scene.json")");
+    EXPECT_EQ(ask({{"a", file, answers}}).out, "passed a\n\n");
+    EXPECT_EQ(run_program({"test", goldens.string(), "--output", output.string()}).status, 0);
+}
+
+TEST_F(AskedAnswersTest, GoldensAndPicturesGoToTwoFolders) {
+    cases.folder().write("lines", "");
+    expect_test_refused(run_program({"test", goldens.string(), "--asked", "--output", goldens.string() + '/'}, {},
+                                    cases.path() / "lines"),
+                        "is where the goldens are");
+}
+
+TEST_F(DrawnTestCommandTest, NoGoldenReplacesWhatTheCaseReads) {
+    for (const char* ending : {".draw.json", ".answers.json"}) {
+        const std::string scene = "c" + std::string(ending);
+        const std::filesystem::path file = cases.folder().write(scene, testing::kSmallScene);
+        cases.write("c", R"({"mobbscope_case": 1, "hold": ["picture", "answers"], "scene": ")" + scene + "\"}");
+        const Result run = test({"c", "--update", "c"});
+        EXPECT_PRED2(says, run.out,
+                     "failed: c: " + (cases.path() / "c.case.json").string() + ": the case reads " + scene);
+        EXPECT_EQ(slurp(file), testing::kSmallScene);
+        std::filesystem::remove(file);
+    }
+}
+
+TEST_F(AnswersTestCommandTest, UpdateOfAllLeavesGoldensThatPass) {
+    ASSERT_EQ(test({"--update", "answers"}).status, 0);
+    const std::filesystem::path golden = cases.path() / "answers.answers.json";
+    const std::string before = slurp(golden) + '\n';
+    cases.folder().write("answers.answers.json", before);
+    cases.folder().write("scene.json", std::string(testing::kSmallScene).insert(1, R"( "queries": [{"a": "A", "b": "B",
+        "expect": {"tests": {"time": 1000}}}],)"));
+    const Result run = test({"answers", "--update", "all"});
+    EXPECT_EQ(run.status, 1);
+    EXPECT_EQ(slurp(golden), before);
+    EXPECT_PRED2(says, run.out,
+                 "\n  if the answer is right, correct `expect` in " + (cases.path() / "scene.json").string());
+    EXPECT_PRED2(says, run.out, "What did not pass: ");
 }
 
 TEST_F(DrawnTestCommandTest, BothBackendsDrawTheSamePicture) {

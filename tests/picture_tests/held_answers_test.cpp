@@ -263,7 +263,7 @@ TEST_F(HeldAnswersTest, ASceneIsNotItsGolden) {
     const CaseFile file = cases.write("b", R"({"mobbscope_case": 1, "scene": "b.fit.json", "hold": ["fit"]})");
     const CaseResult result = run(file, {.fresh = FreshGoldens::of_all});
     EXPECT_EQ(result.outcome, CaseOutcome::failed);
-    EXPECT_PRED2(says, result.message, "the scene has the name of the golden b.fit.json");
+    EXPECT_PRED2(says, result.message, "the case reads b.fit.json, where its golden goes");
     EXPECT_TRUE(result.fresh.empty());
 }
 

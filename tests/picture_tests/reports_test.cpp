@@ -120,6 +120,24 @@ TEST(Reports, TextHasALineForEachThatDidNotPass) {
               "failed: a: crashed\nd: 1 failed; drawn by nothing\n");
 }
 
+TEST(Reports, WhatDiffersIsSaidOnceTheMostImportantFirst) {
+    CaseResult numbers = result("numbers", CaseOutcome::different, "as long as all findings together");
+    numbers.drawn_by.backend = kDrawsNothing;
+    numbers.findings = {{{}, "", {"s.json: query 0: expected no collision", "correct it"}},
+                        {numbers.file.golden_of(Held::fit), "numbers.fit.json: a; and 1 more", {"a", "b"}},
+                        {numbers.file.golden_of(Held::answers), "there is no golden", {}}};
+    EXPECT_TRUE(written(write_text, {numbers}, {"d", "", ""})
+                    .starts_with("different: numbers: s.json: query 0: expected no collision\n"
+                                 "  correct it\n"
+                                 "  numbers.fit.json: a\n"
+                                 "  numbers.fit.json: b\n"
+                                 "  there is no golden\n"
+                                 "d: 1 different\n"));
+    const auto json = nlohmann::json::parse(written(write_json, {numbers}, {"d", "", ""}));
+    EXPECT_EQ(json["backend"], "none");
+    EXPECT_TRUE(json["cases"][0]["tolerance"].is_null() && json["cases"][0]["decided_by"].is_null());
+}
+
 TEST(Reports, TextHoldsNoControlCharacters) {
     EXPECT_EQ(written(write_text, one_of_each()).find('\x1b'), std::string::npos);
 }

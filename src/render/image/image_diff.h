@@ -36,17 +36,18 @@ struct ImageDiff {
     std::array<std::int64_t, 256> histogram{};
     std::optional<PixelRect> unequal_bounds{};  ///< of the unequal pixels
     std::optional<PixelRect> bounds{};          ///< of the differing pixels
-    Image heat;                                 ///< where they differ, see heat_map.h; empty if the sizes differ
+    Image heat;  ///< where they differ, see heat_map.h; empty if the sizes differ or it was left out
 
     double fraction() const { return pixels > 0 ? static_cast<double>(differing) / static_cast<double>(pixels) : 0; }
     /// The most pixels that may differ.
     std::int64_t allowed() const { return options.allowed(pixels); }
 };
 
+/// Whether ImageDiff::heat is made.
+enum class HeatMap { drawn, left_out };
 /// Colours count by their opacity, as they are seen: under a transparent pixel none does. `mask`: of the same size;
 /// pixels that are black or transparent in it are not compared. Null: all are. Throws std::invalid_argument if the
 /// pictures have one size and the mask another.
-enum class HeatMap { drawn, left_out };
 ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& options = {},
                const Image* mask = nullptr, HeatMap heat = HeatMap::drawn);
 
