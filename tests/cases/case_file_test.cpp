@@ -57,7 +57,7 @@ TEST(Hold, IsThePictureAloneUnlessTheCaseSaysMore) {
         says, refused(R"(["answer"])"),
         "'answer' is nothing that a case holds; give picture, answers, trace or fit (did you mean 'answers'?)");
     EXPECT_PRED2(says, refused(R"(["fit", "fit"])"), "'fit' stands there twice");
-    EXPECT_PRED2(says, refused(R"("fit")"), "/hold");
+    EXPECT_PRED2(says, refused(R"("fit")"), "/hold: give an array: [\"fit\"]");
     EXPECT_PRED2(says, refused(R"(["fit"])"), "/size: the case holds no picture; remove this");
 }
 
