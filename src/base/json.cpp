@@ -185,7 +185,7 @@ class JsonTextBuilder : public nlohmann::json_sax<nlohmann::json> {
         const JsonMember& second = **std::next(twice);
         throw InputError(file_,
                          "line " + std::to_string(second.value.line) + ", " + pointer() + pointer_token(second.key()),
-                         "the key " + in_quotes(second.key()) + " stands twice, first in line " +
+                         "the key " + in_quotes(second.key()) + " is given twice, first in line " +
                              std::to_string((*twice)->value.line) + "; remove one");
     }
 
@@ -267,6 +267,15 @@ int JsonPlace::integer(int least, int most) const {
     if (value >= least && value <= most && value == std::floor(value)) return static_cast<int>(value);
     fail(format_double(value) + " is out of range; give a whole number from " + std::to_string(least) + " to " +
          std::to_string(most));
+}
+
+std::int64_t JsonPlace::count(std::int64_t least) const {
+    constexpr std::int64_t kMost = 9007199254740992;  // beyond, doubles are not all whole numbers
+    const double value = number();
+    if (value >= static_cast<double>(least) && value <= static_cast<double>(kMost) && value == std::floor(value))
+        return static_cast<std::int64_t>(value);
+    fail(format_double(value) + " is out of range; give a whole number from " + std::to_string(least) + " to " +
+         std::to_string(kMost));
 }
 
 bool JsonPlace::boolean() const {

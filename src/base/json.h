@@ -123,6 +123,8 @@ class JsonPlace {
     double number() const;
     double number(double least, double most) const;
     int integer(int least, int most) const;
+    /// How many there are of something: a whole number, at least `least`.
+    std::int64_t count(std::int64_t least = 0) const;
     bool boolean() const;
     const std::string& string() const;
 

@@ -52,6 +52,7 @@ constexpr auto kGoldenEndings = std::to_array<GoldenEnding>({{".plain.state.json
                                                              {".fit.json", Held::fit}});
 
 std::vector<Held> read_hold(const JsonPlace& place) {
+    if (place.is_string()) place.fail("give an array: [\"" + cleaned(place.string()) + "\"]");
     if (place.size() == 0) place.fail("nothing is held; name one or more of " + listed(kHeld) + ", or remove the key");
     std::vector<Held> out;
     place.each([&](const JsonPlace& word) {

@@ -115,7 +115,7 @@ std::vector<QueryCertificate> read_certificates(std::string_view text, const std
     std::set<int> known;
     place.require("queries").each([&](const JsonPlace& query) {
         out.push_back(read_certificate(query, fitted));
-        if (!known.insert(out.back().query).second) query.fail("the proof of this query stands twice");
+        if (!known.insert(out.back().query).second) query.fail("the proof of this query is given twice");
     });
     return out;
 }

@@ -11,6 +11,7 @@
 #include <scene/scene_json.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -29,7 +30,18 @@ using Fit = HeldAnswers::Fit;
 using Query = HeldAnswers::Query;
 
 constexpr int kVersion = 1;
-constexpr double kMostCount = 9007199254740992;  // beyond, doubles are not all whole numbers
+
+std::vector<std::string> titles_of(const Shot& shot) {
+    std::vector<std::string> out;
+    for (const PicturePanel& panel : shot.panels) out.push_back(panel.title);
+    return out;
+}
+
+/// "panel 'fine', ", or with its index in the golden: "panel 1, "
+std::string panel_words(const std::vector<std::string>& titles, std::size_t panel) {
+    const bool has_title = panel < titles.size() && !titles[panel].empty();
+    return "panel " + (has_title ? in_quotes(titles[panel]) : std::to_string(panel)) + ", ";
+}
 
 /// The different fits of the panels.
 std::vector<Fit> fits_of(const Shot& shot) {
@@ -39,10 +51,8 @@ std::vector<Fit> fits_of(const Shot& shot) {
         if (std::ranges::find(out, fitted, &Fit::fitted) == out.end()) out.push_back({i, "", fitted});
     }
     if (out.size() == 1) return out;
-    for (Fit& fit : out) {
-        const std::string& title = shot.panels[fit.panel].title;
-        fit.words = "panel " + (title.empty() ? std::to_string(fit.panel + 1) : in_quotes(title)) + ", ";
-    }
+    const std::vector<std::string> titles = titles_of(shot);
+    for (Fit& fit : out) fit.words = panel_words(titles, fit.panel);
     return out;
 }
 
@@ -138,6 +148,7 @@ std::string trees_text(const std::vector<Fit>& fits) {
 /// The entries of a golden of a kind; throws InputError if it is none.
 JsonPlace entries_of(const JsonPlace& root, Held held, const char* list) {
     const std::string key = "mobbscope_" + std::string(name(held));
+    root.allow_only({key, list});
     const JsonPlace version = root.require(key);
     if (version.number() != kVersion) {
         version.fail("the golden has version " + format_double(version.number()) + "; this program reads version " +
@@ -169,9 +180,10 @@ GoldenQuery read_answer(const JsonPlace& entry) {
     const JsonPlace contact = entry.require("contact"), tests = entry.require("tests");
     out.contact = read_contact(contact, kMaxInt, kMaxInt);
     if (entry.require("collides").boolean() != out.contact.has_value()) contact.fail("it does not fit collides");
+    const ExpectedTests counts = read_test_counts(tests);
     for (const mobb::TestKind test : mobb::kTestKinds) {
-        const auto count = tests.find(mobb::name(test));
-        if (count) out.tests[test] = static_cast<std::int64_t>(count->number(0, kMostCount));
+        if (!counts[test.index()]) tests.fail("the key " + in_quotes(mobb::name(test)) + " is missing");
+        out.tests[test] = *counts[test.index()];
     }
     return out;
 }
@@ -181,8 +193,7 @@ GoldenQuery read_stored_trace(const JsonPlace& entry) {
     GoldenQuery out{entry.require("a").string(), entry.require("b").string(), {}, {}};
     const JsonPlace trace = entry.require("trace");
     out.trace = read_trace(trace, kMaxInt, kMaxInt);
-    const double events = entry.require("events").number(out.trace.size(), kMostCount);
-    out.trace.leave_out(static_cast<std::int64_t>(events) - out.trace.size());
+    out.trace.leave_out(entry.require("events").count(out.trace.size()) - out.trace.size());
     return out;
 }
 
@@ -197,7 +208,7 @@ GoldenQueries read_queries(const std::string& golden, const std::string& file, H
     entries.each([&](const JsonPlace& entry) {
         const JsonPlace query = entry.require("query");
         const Key<std::size_t> key{panel_of(entry), static_cast<std::size_t>(query.integer(0, kMaxInt))};
-        if (!out.emplace(key, read(entry)).second) query.fail("the query stands there twice");
+        if (!out.emplace(key, read(entry)).second) query.fail("the query is given twice");
     });
     return out;
 }
@@ -245,20 +256,18 @@ std::string contact_words(const mobb::Contact& now, const mobb::Contact& before)
     return out;
 }
 
-/// "31 tests of time instead of 10 (3.1 times as many), 4 of samples instead of 2 (2 times as many)"; empty if none
+/// "31 tests of time instead of 10 (3.1 times as many), 2 of samples instead of 4 (2 times fewer)"; empty if none
 /// differs. `off`: how far the number that is the farthest off is, as a factor.
 std::string tests_words(const mobb::TestCounts& now, const mobb::TestCounts& before, double& off) {
-    constexpr double kNearlyAsMany = 1.1;
     std::string out;
     for (const mobb::TestKind test : mobb::kTestKinds) {
         if (now[test] == before[test]) continue;
         const double times = static_cast<double>(now[test]) / static_cast<double>(before[test]);
-        const double factor = std::max(times, 1 / times);
-        off = std::max(off, factor);
+        off = std::max(off, std::max(times, 1 / times));
         out += out.empty() ? counted(now[test], "test", "tests") : ", " + std::to_string(now[test]);
         out.append(" of ").append(mobb::name(test)).append(" instead of ").append(std::to_string(before[test]));
-        if (std::isfinite(factor) && factor >= kNearlyAsMany)
-            out.append(" (").append(figure(times, 2)).append(" times as many)");
+        const std::string ratio = ratio_words(now[test], before[test]);
+        if (!ratio.empty()) out.append(" (").append(ratio).append(")");
     }
     return out;
 }
@@ -269,15 +278,21 @@ std::string query_words(const Fit& fit, const Query& one) {
            ": ";
 }
 
+/// Before what is said of a panel of the golden.
+std::string words_of_panel(const HeldAnswers::Fits& fits, std::size_t panel) {
+    const auto fit = std::ranges::find(fits.fits, panel, &Fit::panel);
+    return fit == fits.fits.end() ? panel_words(fits.titles, panel) : fit->words;
+}
+
 /// Calls with each query that a golden has too, and tells of those that only one side has.
-void each_pair(const std::vector<Fit>& fits, GoldenQueries golden, RankedLines& lines,
+void each_pair(const HeldAnswers::Fits& fits, GoldenQueries golden, RankedLines& lines,
                const std::function<void(const std::string&, const Query&, const GoldenQuery&)>& compare) {
-    for (const Fit& fit : fits) {
+    for (const Fit& fit : fits.fits) {
         for (const Query& one : fit.queries) {
             const std::string query = query_words(fit, one);
             const auto stored = golden.extract({fit.panel, one.index});
             if (stored.empty()) {
-                lines.add(RankedLines::whole, query + "the golden does not have it");
+                lines.add(RankedLines::whole, query + "the golden has no such query");
                 continue;
             }
             const GoldenQuery& before = stored.mapped();
@@ -287,13 +302,13 @@ void each_pair(const std::vector<Fit>& fits, GoldenQueries golden, RankedLines& 
         }
     }
     for (const auto& [key, before] : golden) {
-        const std::string panel = key.first > 0 ? "panel " + std::to_string(key.first + 1) + ", " : "";
-        lines.add(RankedLines::whole, panel + "query " + std::to_string(key.second) + " of the golden, " +
-                                          pair_words(before.a, before.b) + ": it is not asked any more");
+        lines.add(RankedLines::whole, words_of_panel(fits, key.first) + "query " + std::to_string(key.second) + ", " +
+                                          pair_words(before.a, before.b) +
+                                          ": only the golden has it, now it is not asked");
     }
 }
 
-Differences answers_that_differ(const std::vector<Fit>& fits, GoldenQueries golden) {
+Differences answers_that_differ(const HeldAnswers::Fits& fits, GoldenQueries golden) {
     RankedLines lines;
     each_pair(fits, std::move(golden), lines,
               [&](const std::string& query, const Query& one, const GoldenQuery& before) {
@@ -315,20 +330,28 @@ Differences answers_that_differ(const std::vector<Fit>& fits, GoldenQueries gold
     return lines.sorted();
 }
 
-Differences traces_that_differ(const std::vector<Fit>& fits, GoldenQueries golden) {
+Differences traces_that_differ(const HeldAnswers::Fits& fits, GoldenQueries golden) {
     RankedLines lines;
     each_pair(fits, std::move(golden), lines,
               [&](const std::string& query, const Query& one, const GoldenQuery& before) {
                   const TraceCheck check = check_trace(before.trace, *one.answer.trace);
-                  if (check.agrees()) return;
+                  if (check.agrees() && before.trace.size() == one.answer.trace->size()) return;
+                  if (check.agrees()) {
+                      // Both are recorded with one limit.
+                      return lines.add(RankedLines::tests,
+                                       query + "the golden has only " + std::to_string(before.trace.size()) + " of " +
+                                           counted(check.stored_events, "event", "events") + ", now there are " +
+                                           std::to_string(one.answer.trace->size()) + "; it was cut");
+                  }
                   lines.add(RankedLines::tests, query + check_words(check, before.trace, *one.answer.trace));
               });
     return lines.sorted();
 }
 
-/// Whether two numbers, words or truth values of a tree are the same but for rounding.
-bool same_scalar(const JsonPlace& now, const JsonPlace& before) {
+/// Whether two numbers, words or truth values of a tree are the same but for rounding, which whole numbers do not have.
+bool same_scalar(const JsonPlace& now, const JsonPlace& before, bool whole) {
     if (now.is_number() && before.is_number()) {
+        if (whole) return now.number() == before.number();
         const double size = std::max(1.0, std::abs(before.number()));
         return std::abs(now.number() - before.number()) <= kFitAgreement * size;
     }
@@ -339,29 +362,56 @@ bool same_scalar(const JsonPlace& now, const JsonPlace& before) {
 std::string shown(const JsonPlace& value) {
     if (value.is_number()) return format_double(value.number());
     if (value.is_boolean()) return value.boolean() ? "true" : "false";
-    return value.is_string() ? cleaned(value.string()) : "another kind of value";
+    if (value.is_array()) return counted(value.size(), "value", "values");
+    if (value.is_null()) return "null";
+    return value.is_string() ? cleaned(value.string()) : "an object";
+}
+
+/// The same with the type, of values of two types: "the text '10'"
+std::string shown_with_type(const JsonPlace& value) {
+    return value.is_string() ? "the text " + in_quotes(value.string()) : shown(value);
 }
 
 /// "half[1] 0.41 instead of 0.4": the first that differs of two values, which may be arrays; empty if nothing does.
-std::string value_words(const JsonPlace& now, const JsonPlace& before, const std::string& what) {
-    if (!now.is_array() || !before.is_array() || now.size() != before.size())
-        return same_scalar(now, before) ? "" : what + ' ' + shown(now) + " instead of " + shown(before);
+std::string value_words(const JsonPlace& now, const JsonPlace& before, const std::string& what, bool whole) {
+    if (!now.is_array() || !before.is_array() || now.size() != before.size()) {
+        if (same_scalar(now, before, whole)) return "";
+        if (now.is_string() != before.is_string())
+            return what + ' ' + shown_with_type(now) + " instead of " + shown_with_type(before);
+        return what + ' ' + shown(now) + " instead of " + shown(before);
+    }
     for (int i = 0; i < now.size(); ++i) {
         const JsonPlace one = now[i], other = before[i];
-        std::string words = value_words(one, other, what + '[' + std::to_string(i) + ']');
+        std::string words = value_words(one, other, what + '[' + std::to_string(i) + ']', whole);
         if (!words.empty()) return words;
     }
     return "";
 }
 
-/// The same of the members of two objects, of each that differs, but for their nodes.
+/// The same of the members of two objects, of each that differs, but for their nodes. Throws InputError if the golden
+/// has others.
 std::string members_words(const JsonPlace& now, const JsonPlace& before) {
+    constexpr std::array<std::string_view, 6> kWhole{"leaf", "first", "count", "index", "parent", "level"};
+    const auto kind = now.find("kind"), golden_kind = before.find("kind");
+    // Boxes of two kinds have other members.
+    if (kind && golden_kind) {
+        std::string words = value_words(*kind, *golden_kind, "kind", false);
+        if (!words.empty()) return words;
+    }
+    std::vector<std::string_view> keys;
+    if (now.find("nodes")) keys.push_back("panel");
+    for (int i = 0; i < now.members(); ++i) {
+        const JsonPlace member = now.member(i);
+        keys.push_back(member.key());
+    }
+    before.allow_only(keys);
     std::string out;
     for (int i = 0; i < now.members(); ++i) {
         const JsonPlace member = now.member(i);
         if (member.key() == "nodes") continue;
         const JsonPlace other = before.require(member.key());
-        const std::string words = value_words(member, other, member.key());
+        const bool whole = std::ranges::find(kWhole, member.key()) != kWhole.end();
+        const std::string words = value_words(member, other, member.key(), whole);
         if (!words.empty()) out.append(out.empty() ? "" : ", ").append(words);
     }
     return out;
@@ -386,9 +436,9 @@ std::string tree_words(const JsonPlace& now, const JsonPlace& before) {
     return out;
 }
 
-Differences trees_that_differ(const std::vector<Fit>& fits, const std::string& golden, const std::string& file) {
+Differences trees_that_differ(const HeldAnswers::Fits& fits, const std::string& golden, const std::string& file) {
     const std::string name = "the fit";
-    const JsonText value = parse_json(golden, file), now_value = parse_json(trees_text(fits), name);
+    const JsonText value = parse_json(golden, file), now_value = parse_json(trees_text(fits.fits), name);
     const JsonPlace root(value, file), now_root(now_value, name);
     const JsonPlace stored = entries_of(root, Held::fit, "trees"), now = now_root.require("trees");
     std::map<Key<std::string>, int> golden_trees;
@@ -396,20 +446,16 @@ Differences trees_that_differ(const std::vector<Fit>& fits, const std::string& g
         const JsonPlace entry = stored[i];
         const JsonPlace clip = entry.require("clip");
         if (!golden_trees.emplace(Key<std::string>{panel_of(entry), clip.string()}, i).second)
-            clip.fail("the tree of " + in_quotes(clip.string()) + " stands there twice");
+            clip.fail("the tree of " + in_quotes(clip.string()) + " is given twice");
     }
-    const auto words_of = [&](std::size_t panel) {
-        const auto fit = std::ranges::find(fits, panel, &Fit::panel);
-        return fit == fits.end() ? "panel " + std::to_string(panel + 1) + ", " : fit->words;
-    };
     RankedLines lines;
     for (int i = 0; i < now.size(); ++i) {
         const JsonPlace entry = now[i];
         const std::string& clip = entry.require("clip").string();
-        const std::string tree = words_of(panel_of(entry)) + "fit of " + in_quotes(clip) + ": ";
+        const std::string tree = words_of_panel(fits, panel_of(entry)) + "fit of " + in_quotes(clip) + ": ";
         const auto at = golden_trees.extract({panel_of(entry), clip});
         if (at.empty()) {
-            lines.add(RankedLines::whole, tree + "the golden does not have it");
+            lines.add(RankedLines::whole, tree + "the golden has no such tree");
             continue;
         }
         const JsonPlace before = stored[at.mapped()];
@@ -417,17 +463,17 @@ Differences trees_that_differ(const std::vector<Fit>& fits, const std::string& g
         if (!words.empty()) lines.add(RankedLines::tests, tree + words);
     }
     for (const auto& [key, unused] : golden_trees) {
-        lines.add(RankedLines::whole, words_of(key.first) + "fit of " + in_quotes(key.second) +
-                                          ": there is no such clip any more, but in the golden");
+        lines.add(RankedLines::whole, words_of_panel(fits, key.first) + "fit of " + in_quotes(key.second) +
+                                          ": only the golden has it, now there is no such tree");
     }
     return lines.sorted();
 }
 
 }  // namespace
 
-HeldAnswers::HeldAnswers(const Shot& shot, const CaseTerms& terms) : fits_(fits_of(shot)) {
+HeldAnswers::HeldAnswers(const Shot& shot, const CaseTerms& terms) : fits_{fits_of(shot), titles_of(shot)} {
     if (!terms.holds(Held::answers) && !terms.holds(Held::trace)) return;
-    for (Fit& fit : fits_) {
+    for (Fit& fit : fits_.fits) {
         for (const std::size_t index : asked(shot, fit)) {
             const SceneQuery query = fit.fitted->queries()[index];
             fit.queries.push_back({index, query, answer(*fit.fitted, query, {.trace = terms.holds(Held::trace)})});
@@ -441,8 +487,8 @@ HeldAnswers::HeldAnswers(const Shot& shot, const CaseTerms& terms) : fits_(fits_
 }
 
 std::string HeldAnswers::golden(Held held) const {
-    if (held == Held::answers) return answers_text(fits_);
-    return held == Held::trace ? traces_text(fits_) : trees_text(fits_);
+    if (held == Held::answers) return answers_text(fits_.fits);
+    return held == Held::trace ? traces_text(fits_.fits) : trees_text(fits_.fits);
 }
 
 Differences HeldAnswers::differences(Held held, const std::string& golden, const std::string& file) const {

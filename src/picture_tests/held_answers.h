@@ -49,13 +49,18 @@ class HeldAnswers {
     /// A fit, and what is asked with it.
     struct Fit {
         std::size_t panel = 0;  ///< the first that has it
-        std::string words;      ///< before what is said of it, "panel 2, "; empty where there is only one fit
+        std::string words;      ///< before what is said of it, "panel 1, "; empty where there is only one fit
         std::shared_ptr<const FittedScene> fitted;
         std::vector<Query> queries{};
     };
 
+    struct Fits {
+        std::vector<Fit> fits;
+        std::vector<std::string> titles;  ///< of the panels
+    };
+
   private:
-    std::vector<Fit> fits_;
+    Fits fits_;
 };
 
 /// The answers to all queries of the scene that are not those that it expects, in the words of `mobbscope query`, with

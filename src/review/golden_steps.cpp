@@ -23,6 +23,12 @@ std::vector<GoldenChange> changes_of(const std::vector<Taken>& taken) {
     return out;
 }
 
+/// Somebody has accepted the same before.
+bool is_there_already(const std::vector<GoldenChange>& fresh) {
+    return std::ranges::all_of(
+        fresh, [](const GoldenChange& one) { return picture_tests::golden_bytes(one.file) == one.bytes; });
+}
+
 }  // namespace
 
 std::vector<ReviewNews> GoldenSteps::accept(const std::vector<std::size_t>& indices) {
@@ -48,11 +54,17 @@ std::vector<ReviewNews> GoldenSteps::accept(const std::vector<std::size_t>& indi
 
 std::vector<ReviewNews> GoldenSteps::write(const std::vector<std::size_t>& indices) {
     Step step;
-    std::vector<ReviewNews> refused;
+    std::vector<ReviewNews> refused, known;
     std::exception_ptr first_refusal;
     for (const std::size_t index : indices) {
         ReviewCase& one = review_.change(index);
         try {
+            if (is_there_already(one.result.fresh)) {
+                one.accepted = true;
+                one.marked = false;
+                known.push_back({MessageLevel::info, one.file.name + ": it is the golden already"});
+                continue;
+            }
             if (one.from_output) picture_tests::check_bytes(one.result.fresh, review_.output());
             picture_tests::write_goldens(one.result.fresh);
         } catch (const std::exception& error) {
@@ -64,7 +76,8 @@ std::vector<ReviewNews> GoldenSteps::write(const std::vector<std::size_t>& indic
         one.accepted = true;
         one.marked = false;
     }
-    if (step.taken.empty()) std::rethrow_exception(first_refusal);
+    if (step.taken.empty() && first_refusal) std::rethrow_exception(first_refusal);
+    if (step.taken.empty()) return known;
     step.title = step.taken.size() == 1 ? "accepting " + review_.cases()[step.taken.front().index].file.name
                                         : "accepting " + counted(step.taken.size(), "picture", "pictures");
     step.said = "Accepted " + step.title.substr(std::string_view("accepting ").size()) + "; undo gives the golden" +
@@ -73,6 +86,7 @@ std::vector<ReviewNews> GoldenSteps::write(const std::vector<std::size_t>& indic
     std::vector<ReviewNews> said{{MessageLevel::info, step.said}};
     steps_.push_back(std::move(step));
     ++done_;
+    said.insert(said.end(), known.begin(), known.end());
     said.insert(said.end(), refused.begin(), refused.end());
     return said;
 }

@@ -23,14 +23,20 @@ std::shared_ptr<const Image> picture_of(const std::filesystem::path& file) {
     return std::make_shared<const Image>(read_png(file));
 }
 
-/// Of a case without a picture, where one is there.
-std::filesystem::path first_golden_of(const CaseFile& file) {
+/// Those that are there, or would be.
+std::vector<std::filesystem::path> number_files_of(const ReviewCase& one) {
     using picture_tests::Held;
-    std::error_code ignored;
+    std::vector<std::filesystem::path> out;
     for (const Held held : {Held::answers, Held::trace, Held::fit}) {
-        if (std::filesystem::exists(file.golden_of(held), ignored)) return file.golden_of(held);
+        const std::filesystem::path golden = one.file.golden_of(held);
+        std::error_code ignored;
+        if (std::filesystem::exists(golden, ignored) ||
+            std::ranges::find(one.result.findings, golden, &picture_tests::Finding::golden) !=
+                one.result.findings.end()) {
+            out.push_back(golden);
+        }
     }
-    return {};
+    return out;
 }
 
 /// The picture of packed bytes, which the program made itself.
@@ -178,11 +184,11 @@ std::vector<std::size_t> Review::marked() const {
 std::string Review::why_not_accept(std::size_t index) const {
     const ReviewCase& one = cases_[index];
     if (!one.drawn()) return "it is not drawn yet";
-    if (one.accepted) return "it is accepted";
+    if (one.accepted) return "it is the golden already";
     const CaseOutcome outcome = one.outcome();
     if (outcome == CaseOutcome::passed) return "it passed";
     if (outcome == CaseOutcome::skipped) return "it was skipped";
-    if (outcome == CaseOutcome::failed) return "there is nothing of it to take";
+    if (outcome == CaseOutcome::failed) return "it failed, so there is no golden to take";
     if (!one.result.other_here.empty()) return "its goldens are from elsewhere: here are " + one.result.other_here;
     if (!can_be_taken(one.result)) return "no golden differs, but its scene expects another answer; correct the scene";
     return "";
@@ -208,6 +214,11 @@ const ReviewPictures& Review::pictures() {
     ReviewCase& one = cases_[current_];
     pictures_.golden_file = one.file.golden();
     if (one.drawn()) one.viewed = true;
+    pictures_.number_files = number_files_of(one);
+    for (const picture_tests::GoldenChange& fresh : one.result.fresh) {
+        const bool is_held = std::ranges::find(pictures_.number_files, fresh.file) != pictures_.number_files.end();
+        if (is_held && fresh.bytes) pictures_.numbers[fresh.file] = held_rows(fresh.replaces, *fresh.bytes);
+    }
     try {
         if (one.drawn()) pictures_.actual = picture_from(one.result.actual);
         if (one.accepted) {
@@ -219,7 +230,7 @@ const ReviewPictures& Review::pictures() {
             pictures_.golden = picture_of(one.file.golden());
         }
         if (!one.result.shown.empty()) pictures_.golden_file = one.result.shown;
-        if (draws_nothing(one.result)) pictures_.golden_file = first_golden_of(one.file);
+        if (draws_nothing(one.result)) pictures_.golden_file.clear();
         if (!pictures_.golden || !pictures_.actual) return pictures_;
         ImageDiff found = compared_again(one.result, *pictures_.actual, *pictures_.golden);
         Image heat = std::exchange(found.heat, {});

@@ -5,11 +5,14 @@
 #include <cases/case_result.h>
 #include <render/image/image.h>
 #include <render/image/image_diff.h>
+#include <review/held_table.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace mobbscope::app {
 
@@ -37,9 +40,11 @@ struct ReviewCase {
 /// The pictures of one case. Null where there is none.
 struct ReviewPictures {
     std::shared_ptr<const Image> golden, actual, difference;
-    std::optional<ImageDiff> diff;      ///< without its heat map
-    std::filesystem::path golden_file;  ///< that is compared: the case's own, or the one without text
-    std::string why_not;                ///< a picture cannot be read; else empty
+    std::optional<ImageDiff> diff;                    ///< without its heat map
+    std::filesystem::path golden_file;                ///< that is compared: the case's own, or the one without text
+    std::vector<std::filesystem::path> number_files;  ///< goldens of answers, traces and fits
+    std::map<std::filesystem::path, std::vector<HeldRow>> numbers;  ///< of those that are others now
+    std::string why_not;                                            ///< a picture cannot be read; else empty
 };
 
 }  // namespace mobbscope::app

@@ -40,14 +40,13 @@ std::string passed_sentence(const ReviewCase& one) {
 std::string sentence_of(const Review& review, const ReviewCase& one) {
     if (one.state == ReviewCase::State::waiting) return "It is being drawn.";
     if (!one.drawn()) {
-        return review.output().empty() ? "It was not drawn yet."
-                                       : "There is no picture of it in " + review.output().string() +
-                                             ": it passed there, or was not drawn.";
+        return review.output().empty()
+                   ? "It was not drawn yet."
+                   : "It is not in " + review.output().string() + ": it passed there, or was not run.";
     }
     if (one.accepted) {
-        return std::string(draws_nothing(one.result) ? "What it holds is the golden now"
-                                                     : "The picture is the golden now") +
-               "; undo gives the one before back." +
+        return std::string(draws_nothing(one.result) ? "Its goldens are replaced; undo brings the old ones back."
+                                                     : "The picture is the golden now; undo brings the old one back.") +
                (stays_different(one.result) ? " The scene still expects another answer." : "");
     }
     if (one.outcome() == CaseOutcome::passed) return passed_sentence(one);
@@ -199,7 +198,7 @@ void findings(Ui& ui, const ReviewCase& one, const ReviewPictures& pictures) {
 /// What is to be known besides.
 void remarks(Ui& ui, const ReviewCase& one) {
     if (one.accepted || one.result.remarks.empty()) return;
-    heading(ui, "REMARKS", "decided by " + std::string(name(one.result.decided_by)));
+    heading(ui, "REMARKS", draws_nothing(one.result) ? "" : "decided by " + std::string(name(one.result.decided_by)));
     for (const std::string& remark : one.result.remarks) words(ui.style.quiet, remark);
 }
 
@@ -243,12 +242,14 @@ void files(Ui& ui, const Review& review, const ReviewCase& one, const ReviewPict
     heading(ui, "FILES");
     path_of_file(ui, "case", one.file.file.string());
     if (!pictures.golden_file.empty()) path_of_file(ui, "golden", pictures.golden_file.string());
+    for (const std::filesystem::path& golden : pictures.number_files) path_of_file(ui, "golden", golden.string());
     if (one.from_output) path_of_file(ui, "report", review.output().string());
     // "llvmpipe (LLVM 15.0.6, 256 bits)": the processor makes no difference.
     const std::string& renderer = one.result.drawn_by.renderer;
     if (one.from_output) {
         words(ui.style.quiet,
-              "The actual picture is the report's. Accepting it takes the report's goldens byte by byte.");
+              std::string(draws_nothing(one.result) ? "What is there now is" : "The actual picture is") +
+                  " the report's. Accepting takes the report's goldens byte by byte.");
     } else if (one.drawn() && draws_nothing(one.result)) {
         words(ui.style.quiet, "Answered by mobbscope test, which drew nothing.");
     } else if (one.drawn() && !one.result.drawn_by.backend.empty()) {

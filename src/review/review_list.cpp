@@ -18,7 +18,10 @@ std::string sum_of(const Review& review) {
     std::string out;
     if (left < std::ssize(review.cases())) out = picture_tests::sum_of(review.summary());
     if (left > 0)
-        out += (out.empty() ? "" : ", ") + std::to_string(left) + (review.run.drawing() ? " to draw" : " not drawn");
+        out += (out.empty() ? "" : ", ") + std::to_string(left) +
+               (review.run.drawing()      ? " to draw"
+                : review.output().empty() ? " not drawn"
+                                          : " not in the report");
     return out;
 }
 
@@ -146,11 +149,13 @@ void case_row(Ui& ui, const Review& review, std::size_t index, float height, con
     const float top = corner.y + (height - 2 * line) / 2;
     const float room = end.x - pad - left;
     const std::string name = fitted_name(one.file.name, room, names);
-    const std::string outcome = fitted_text(outcome_words(one), room);
+    const bool is_left_out = one.state == ReviewCase::State::not_drawn && !review.output().empty();
+    const std::string whole_outcome = is_left_out ? "not in the report" : outcome_words(one);
+    const std::string outcome = fitted_text(whole_outcome, room);
     draw.AddText({left, top}, ui.style.text, name.c_str());
     draw.AddText({left, top + line}, one.drawn() ? outcome_color(ui.style, one) : ui.style.quiet, outcome.c_str());
     if (hovered && over_box) ImGui::SetTooltip("Marks the case, to accept it with others (M)");
-    if (!over_box) tell_whole(ui, name + "   " + outcome, one.file.name + "   " + outcome_words(one));
+    if (!over_box) tell_whole(ui, name + "   " + outcome, one.file.name + "   " + whole_outcome);
     ImGui::PopID();
     if (!clicked) return;
     const bool marks = over_box || ImGui::GetIO().KeyCtrl;

@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -290,51 +288,63 @@ void drag_pictures(Ui& ui, const ReviewLook& look, const PictureView& view, cons
 
 // --- of a case without a picture
 
-/// Lines that another text does not have.
-std::vector<std::string> lines_only_in(const std::string& text, const std::string& other) {
-    const auto lines_of = [](const std::string& all) {
-        std::vector<std::string> out;
-        std::istringstream in(all);
-        for (std::string line; std::getline(in, line);) out.emplace_back(trimmed(line));
-        return out;
-    };
-    const std::vector<std::string> others = lines_of(other);
-    const std::set<std::string> known(others.begin(), others.end());
-    std::vector<std::string> out = lines_of(text);
-    std::erase_if(out, [&](const std::string& line) { return known.contains(line); });
-    return out;
+/// A cell that a line has no room for is told whole by its tooltip.
+void held_cell(const Ui& ui, ImU32 color, const std::string& text) {
+    ImGui::TableNextColumn();
+    fitted_line(ui, color, text.empty() ? "-" : text, ImGui::GetContentRegionAvail().x);
 }
 
-void some_lines(Ui& ui, const char* title, ImU32 color, const std::vector<std::string>& lines) {
-    constexpr std::size_t kMostLines = 6;
-    if (lines.empty()) return;
-    ImGui::Dummy({0, ui.px(4)});
-    text_line(ui.style.quiet, title);
-    ImGui::Indent(ui.px(10));
-    ImGui::PushFont(ui.style.mono);
-    for (std::size_t i = 0; i < std::min(lines.size(), kMostLines); ++i) words(color, cleaned(lines[i]));
-    ImGui::PopFont();
-    if (lines.size() > kMostLines)
-        text_line(ui.style.quiet, "and " + counted(lines.size() - kMostLines, "line", "lines") + " more");
-    ImGui::Unindent(ui.px(10));
+/// Golden and actual numbers side by side; what changed stands out.
+void held_table(Ui& ui, const std::string& id, const std::vector<HeldRow>& rows) {
+    constexpr std::size_t kMostRows = 60;
+    const std::size_t shown = std::min(rows.size(), kMostRows);
+    for (std::size_t first = 0; first < shown;) {
+        std::size_t end = first;
+        while (end < shown && rows[end].of == rows[first].of) ++end;
+        ImGui::Dummy({0, ui.px(4)});
+        text_line(ui.style.text, rows[first].of);
+        ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {ui.px(4), ui.px(1)});
+        const std::string name = id + std::to_string(first);
+        if (ImGui::BeginTable(name.c_str(), 4, ImGuiTableFlags_SizingStretchProp)) {
+            for (const float share : {0.28f, 0.24f, 0.24f, 0.24f})
+                ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, share);
+            for (const char* head : {"", "golden", "actual", ""}) {
+                ImGui::TableNextColumn();
+                text_line(ui.style.quiet, head, ui.style.caption);
+            }
+            for (; first < end; ++first) {
+                const HeldRow& row = rows[first];
+                ImGui::TableNextRow();
+                held_cell(ui, row.changed ? ui.style.text : ui.style.quiet, row.what);
+                held_cell(ui, row.changed ? ui.style.text : ui.style.quiet, row.golden);
+                held_cell(ui, row.changed ? ui.style.warning : ui.style.quiet, row.actual);
+                ImGui::TableNextColumn();
+                if (!row.ratio.empty()) text_line(ui.style.quiet, row.ratio);
+            }
+            ImGui::EndTable();
+        }
+        ImGui::PopStyleVar();
+        first = end;
+    }
+    if (rows.size() > shown)
+        text_line(ui.style.quiet, "and " + counted(rows.size() - shown, "number", "numbers") + " more");
 }
 
-/// What is said of a golden, and the lines of it that are others now.
-void held_finding(Ui& ui, const ReviewCase& one, const picture_tests::Finding& finding) {
+/// What is said of a golden, and its numbers beside those that are there now.
+void held_finding(Ui& ui, const ReviewPictures& pictures, const picture_tests::Finding& finding) {
     const std::string title = finding.golden.empty() ? "scene" : finding.golden.filename().string();
     heading(ui, title.c_str());
     ui.mark("held." + title);
     if (finding.words.empty()) words(ui.style.text, cleaned(finding.message) + '.');
     for (const std::string& line : finding.words) words(ui.style.text, cleaned(line));
-    const auto fresh = std::ranges::find(one.result.fresh, finding.golden, &picture_tests::GoldenChange::file);
-    if (fresh == one.result.fresh.end() || !fresh->bytes) return;
-    const std::string before = fresh->replaces.value_or("");
-    some_lines(ui, "golden", ui.style.quiet, lines_only_in(before, *fresh->bytes));
-    some_lines(ui, "actual", ui.style.text, lines_only_in(*fresh->bytes, before));
+    const auto numbers = pictures.numbers.find(finding.golden);
+    if (numbers == pictures.numbers.end() || numbers->second.empty()) return;
+    held_table(ui, title, numbers->second);
+    ui.mark_only("held." + title + ".table");
 }
 
 /// In the place of pictures.
-void held_words(Ui& ui, const ReviewCase& one) {
+void held_words(Ui& ui, const ReviewCase& one, const ReviewPictures& pictures) {
     ImGui::BeginChild("held", {0, 0}, false, ImGuiWindowFlags_NoBackground);
     const std::vector<picture_tests::Finding> findings = one.accepted ? unmended(one.result) : one.result.findings;
     if (findings.empty()) {
@@ -342,7 +352,7 @@ void held_words(Ui& ui, const ReviewCase& one) {
                                   ? "The case holds no picture. All that it holds is as its goldens say."
                                   : cleaned(one.result.message));
     }
-    for (const picture_tests::Finding& finding : findings) held_finding(ui, one, finding);
+    for (const picture_tests::Finding& finding : findings) held_finding(ui, pictures, finding);
     ImGui::EndChild();
 }
 
@@ -351,7 +361,7 @@ void held_words(Ui& ui, const ReviewCase& one) {
 std::optional<glm::ivec2> review_pictures(Ui& ui, Review& review) {
     const ReviewPictures& pictures = review.pictures();
     if (review.shown().drawn() && draws_nothing(review.shown().result)) {
-        held_words(ui, review.shown());
+        held_words(ui, review.shown(), pictures);
         return std::nullopt;
     }
     mode_buttons(ui, review);

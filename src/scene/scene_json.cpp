@@ -61,7 +61,7 @@ std::string test_names() {
 
 mobb::TestKind read_test(const JsonPlace& place) {
     if (const auto test = mobb::test_from_name(place.string())) return *test;
-    place.fail(in_quotes(place.string()) + " is no test; give " + test_names());
+    place.fail(in_quotes(place.string()) + " is no kind of test; give " + test_names());
 }
 
 mobb::Outcome read_outcome(const JsonPlace& place, mobb::TestKind test) {
@@ -135,6 +135,17 @@ std::optional<mobb::Contact> read_contact(const JsonPlace& place, int samples_a,
                          place.require("a_sample").integer(0, samples_a - 1),
                          place.require("b_sample").integer(0, samples_b - 1),
                          place.require("distance").number(0, kAnyLength), place.require("radii").number(0, kAnyLength)};
+}
+
+std::array<std::optional<std::int64_t>, mobb::kTestKindCount> read_test_counts(const JsonPlace& place) {
+    std::array<std::optional<std::int64_t>, mobb::kTestKindCount> out;
+    for (int i = 0; i < place.members(); ++i) {
+        const JsonPlace member = place.member(i);
+        const auto test = mobb::test_from_name(member.key());
+        if (!test) member.fail(in_quotes(member.key()) + " is no kind of test; give " + test_names());
+        out[test->index()] = member.count();
+    }
+    return out;
 }
 
 void write_event(JsonWriter& out, const mobb::Trace& trace, int step, bool avoidable) {

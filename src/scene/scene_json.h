@@ -7,6 +7,8 @@
 #include <mobb/trace.h>
 #include <mobb/tree.h>
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -30,6 +32,9 @@ void write_fit(JsonWriter& out, const mobb::FitOptions& fit);
 void write_contact(JsonWriter& out, const std::optional<mobb::Contact>& contact);
 /// `samples_a`, `samples_b`: how many samples the two clips have. Throws InputError.
 std::optional<mobb::Contact> read_contact(const JsonPlace& place, int samples_a, int samples_b);
+
+/// How many tests of the kinds that are named, by mobb::TestKind::index(). Throws InputError.
+std::array<std::optional<std::int64_t>, mobb::kTestKindCount> read_test_counts(const JsonPlace& place);
 
 /// One event a line. `axis` and `gap` are null where nothing is separated, `pairs` is empty where none is measured.
 /// `avoidable`: events that are marked so, in order.

@@ -423,7 +423,7 @@ class SceneReader {
     static std::shared_ptr<const mobb::Trace> read_stored_trace(const JsonPlace& query, const JsonPlace& place,
                                                                 int samples_a, int samples_b) {
         mobb::Trace trace = read_trace(place, samples_a, samples_b);
-        if (const auto events = query.find("events")) trace.leave_out(read_count(*events, trace.size()) - trace.size());
+        if (const auto events = query.find("events")) trace.leave_out(events->count(trace.size()) - trace.size());
         return std::make_shared<const mobb::Trace>(std::move(trace));
     }
 
@@ -455,24 +455,8 @@ class SceneReader {
     }
 
     static ExpectedTests read_expected_tests(const JsonPlace& place) {
-        std::vector<std::string_view> names;
-        for (const mobb::TestKind test : mobb::kTestKinds) names.push_back(mobb::name(test));
-        place.allow_only(names);
         if (place.members() == 0) place.fail("no kind of test is named; name one or more, such as time, or remove it");
-        ExpectedTests out;
-        for (const mobb::TestKind test : mobb::kTestKinds) {
-            const auto count = place.find(mobb::name(test));
-            if (count) out[test.index()] = read_count(*count, 0);
-        }
-        return out;
-    }
-
-    /// A whole number.
-    static std::int64_t read_count(const JsonPlace& place, double least) {
-        constexpr double kMost = 9007199254740992;  // beyond, doubles are not all whole numbers
-        const double count = place.number(least, kMost);
-        if (count != std::floor(count)) place.fail("must be a whole number");
-        return static_cast<std::int64_t>(count);
+        return read_test_counts(place);
     }
 
     void check_viewed_query(const JsonPlace& view) const {

@@ -105,7 +105,7 @@ TEST(Json, ALineBreakAfterANumberIsNotItsLine) {
 
 TEST(Json, AKeyThatStandsTwiceIsRefused) {
     EXPECT_EQ(json_refusal("{\"a\": 1,\n\"b\": 2,\n\"a\": 3}"),
-              "f.json: line 3, /a: the key 'a' stands twice, first in line 1; remove one");
+              "f.json: line 3, /a: the key 'a' is given twice, first in line 1; remove one");
     EXPECT_TRUE(
         json_refusal("{\"x\": [0, {\"y/\": {\"b\": 1, \"b\": 2}}]}").starts_with("f.json: line 1, /x/1/y~1/b: "))
         << json_refusal("{\"x\": [0, {\"y/\": {\"b\": 1, \"b\": 2}}]}");

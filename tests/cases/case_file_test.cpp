@@ -56,7 +56,7 @@ TEST(Hold, IsThePictureAloneUnlessTheCaseSaysMore) {
     EXPECT_PRED2(says, refused(R"(["answer"])"),
                  "'answer' cannot be held; give picture, answers, trace or fit (did you mean 'answers'?)");
     EXPECT_PRED2(says, refused(R"(["fit", "fit"])"), "'fit' is given twice");
-    EXPECT_PRED2(says, refused(R"("fit")"), "/hold");
+    EXPECT_PRED2(says, refused(R"("fit")"), "/hold: give an array: [\"fit\"]");
     EXPECT_PRED2(says, refused(R"(["fit"])"), "/size: the case holds no picture; remove this");
 }
 

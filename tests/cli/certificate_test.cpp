@@ -148,7 +148,7 @@ TEST_F(Certificates, ThatAreNoneAreRefusedWithStatusTwo) {
         {[](json& j) { j["queries"][0]["query"] = 2; }, "the scene has 2 queries"},
         {[](json& j) { j["queries"][0]["query"] = -1; }, "/queries/0/query"},
         {[](json& j) { j["queries"][0]["query"] = 0.5; }, "/queries/0/query"},
-        {[](json& j) { j["queries"].push_back(j["queries"][0]); }, "stands twice"},
+        {[](json& j) { j["queries"].push_back(j["queries"][0]); }, "is given twice"},
         {[](json& j) { j["queries"][0]["b"] = "C"; }, "it is about 'C', and the scene's query about 'B'"},
         {[](json& j) { j["queries"][0]["collides"] = true; }, "/queries/0/collides"},
         {[](json& j) { j["queries"][0].erase("contact"); }, "contact"},

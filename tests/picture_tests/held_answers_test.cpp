@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -142,8 +143,8 @@ TEST_F(HeldAnswersTest, CollisionsComeFirstThenContactsThenTests) {
     const std::vector<std::string> words = run(file).findings.at(0).words;
     ASSERT_EQ(words.size(), 5u);
     EXPECT_PRED2(says, words[0], "query 2, A and far: no collision; the golden has one at ");
-    EXPECT_EQ(words[1], "query 3, B and C: the golden does not have it");
-    EXPECT_EQ(words[2], "query 9 of the golden, B and C: it is not asked any more");
+    EXPECT_EQ(words[1], "query 3, B and C: the golden has no such query");
+    EXPECT_EQ(words[2], "query 9, B and C: only the golden has it, now it is not asked");
     EXPECT_PRED2(says, words[3], "query 1, A and C: in contact they are apart by ");
     EXPECT_PRED2(says, words[4], "query 0, A and B: ");
 }
@@ -191,8 +192,12 @@ TEST_F(HeldAnswersTest, EachFitOfThePanelsIsHeld) {
         golden["answers"][1]["tests"]["time"] = 1;
     });
     EXPECT_PRED2(says, run(file).message, "panel 'fine', query 0, A and B: ");
+    const CaseResult no_title = run(add(R"(["answers"])", R"("panels": [{}, {"fit": {"leaf": 1}}])"));
+    EXPECT_PRED2(says, no_title.message, "panel 1, query 0, A and B: ");
+    const CaseResult alike = run(add(R"(["fit"])", R"("panels": [{"title": "coarse"}, {"title": "fine"}])"));
+    EXPECT_PRED2(says, alike.message, "panel 'fine', fit of 'walk': only the golden has it");
     const CaseResult alone = run(add(R"(["fit"])"));
-    EXPECT_PRED2(says, alone.message, "panel 2, fit of 'walk': there is no such clip any more");
+    EXPECT_PRED2(says, alone.message, "panel 1, fit of 'walk': only the golden has it, now there is no such tree");
 }
 
 TEST_F(HeldAnswersTest, NodesMayBeRoundedOtherwise) {
@@ -210,6 +215,68 @@ TEST_F(HeldAnswersTest, NodesMayBeRoundedOtherwise) {
     const CaseResult result = run(file);
     EXPECT_EQ(result.outcome, CaseOutcome::different);
     EXPECT_PRED2(says, result.message, "a.fit.json: fit of 'walk': node 2: half[1] ");
+}
+
+TEST_F(HeldAnswersTest, ACutTraceIsFound) {
+    const CaseFile file = add(R"(["trace"])");
+    take_of(file);
+    const std::string whole = read_file(file.golden_of(Held::trace));
+    for (const std::size_t left : {0, 1}) {
+        write_file(file.golden_of(Held::trace), whole);
+        std::size_t events = 0;
+        change(file, Held::trace, [&](Json& golden) {
+            Json& trace = golden["traces"][0]["trace"];
+            events = trace.size();
+            trace.erase(trace.begin() + static_cast<std::ptrdiff_t>(left), trace.end());
+        });
+        const CaseResult result = run(file);
+        EXPECT_EQ(result.outcome, CaseOutcome::different);
+        EXPECT_PRED2(says, result.message,
+                     "query 0, A and B: the golden has only " + std::to_string(left) + " of " + std::to_string(events) +
+                         " events, now there are " + std::to_string(events) + "; it was cut");
+    }
+}
+
+TEST_F(HeldAnswersTest, TreesAreComparedInPlainWords) {
+    const CaseFile file = add(R"(["fit"])");
+    take_of(file);
+    const std::string whole = read_file(file.golden_of(Held::fit));
+    const auto message = [&](const std::function<void(Json&)>& with) {
+        write_file(file.golden_of(Held::fit), whole);
+        change(file, Held::fit, [&](Json& golden) { with(golden["trees"][0]); });
+        return run(file).message;
+    };
+    EXPECT_PRED2(says, message([](Json& tree) { tree["nodes"][1]["half"] = {1}; }),
+                 "node 1: half 2 values instead of 1 value");
+    EXPECT_PRED2(says, message([](Json& tree) { tree["nodes"][1]["half"] = "1"; }),
+                 "node 1: half 2 values instead of the text '1'");
+    EXPECT_PRED2(says, message([](Json& tree) { tree["leaf"] = "2"; }), "leaf 2 instead of the text '2'");
+    EXPECT_PRED2(says, message([](Json& tree) { tree["leaf"] = 2.0000000001; }), "leaf 2 instead of 2.0000000001");
+    EXPECT_PRED2(says, message([](Json& tree) { tree["nodes"][1]["first"] = 1e-10; }),
+                 "node 1: first 0 instead of 1e-10");
+    EXPECT_PRED2(says, message([](Json& tree) { tree["nodes"][1]["note"] = 1; }), "unknown key 'note'");
+    EXPECT_PRED2(says, message([](Json& tree) { tree["note"] = 1; }), "unknown key 'note'");
+
+    // Boxes of another kind have other members: that alone is told.
+    write_file(file.golden_of(Held::fit), whole);
+    const std::string other = run(add(R"(["fit"])", R"("fit": {"tree": "umobb"})")).message;
+    EXPECT_PRED2(says, other, "tree umobb instead of mobb");
+    EXPECT_PRED2(says, other, "node 0: kind obb3d instead of obb2d, and ");
+}
+
+TEST_F(HeldAnswersTest, FewerTestsAreTimesFewer) {
+    EXPECT_EQ(ratio_words(31, 10), "3.1 times as many");
+    EXPECT_EQ(ratio_words(1, 13), "13 times fewer");
+    EXPECT_EQ(ratio_words(10, 28), "2.8 times fewer");
+    EXPECT_EQ(ratio_words(100, 101), "");
+    EXPECT_EQ(ratio_words(0, 5), "");
+    const CaseFile file = add(R"(["answers"])");
+    take_of(file);
+    change(file, Held::answers, [](Json& golden) {
+        Json& tests = golden["answers"][0]["tests"]["time"];
+        tests = tests.get<int>() * 13;
+    });
+    EXPECT_PRED2(says, run(file).message, " (13 times fewer)");
 }
 
 TEST_F(HeldAnswersTest, ADamagedGoldenIsOneLineAndCanBeTaken) {
@@ -247,13 +314,25 @@ TEST_F(HeldAnswersTest, AGoldenIsHeldToItsForm) {
     const auto twice = [](const char* list) {
         return [list](Json& golden) { golden[list].push_back(golden[list][0]); };
     };
-    EXPECT_PRED2(says, message(Held::answers, twice("answers")), "the query stands there twice");
-    EXPECT_PRED2(says, message(Held::trace, twice("traces")), "the query stands there twice");
-    EXPECT_PRED2(says, message(Held::fit, twice("trees")), "the tree of 'walk' stands there twice");
+    EXPECT_PRED2(says, message(Held::answers, twice("answers")), "the query is given twice");
+    EXPECT_PRED2(says, message(Held::trace, twice("traces")), "the query is given twice");
+    EXPECT_PRED2(says, message(Held::fit, twice("trees")), "the tree of 'walk' is given twice");
     EXPECT_PRED2(says, message(Held::answers, [](Json& golden) { golden["answers"][0]["contact"] = nullptr; }),
                  "it does not fit collides");
     EXPECT_PRED2(says, message(Held::fit, [](Json& golden) { golden["trees"][0]["nodes"][0].erase("half"); }), "half");
     EXPECT_PRED2(says, message(Held::trace, [](Json& golden) { golden["traces"][0]["events"] = 0; }), "events");
+    EXPECT_PRED2(says, message(Held::trace, [](Json& golden) { golden["traces"][0]["events"] = 1e3 + 0.5; }),
+                 "1000.5 is out of range; give a whole number from ");
+    const auto first_answer = [&](const std::function<void(Json&)>& with) {
+        return message(Held::answers, [&](Json& golden) { with(golden["answers"][0]); });
+    };
+    EXPECT_PRED2(says, first_answer([](Json& one) { one["tests"]["time"] = one["tests"]["time"].get<int>() + 0.5; }),
+                 "give a whole number from 0");
+    EXPECT_PRED2(says, first_answer([](Json& one) { one["tests"]["foo"] = 3; }),
+                 "'foo' is no kind of test; give time, obb2d, obb3d, moving, aabb, block or samples");
+    EXPECT_PRED2(says, first_answer([](Json& one) { one["tests"].erase("time"); }), "the key 'time' is missing");
+    for (const Held held : kNumbers)
+        EXPECT_PRED2(says, message(held, [](Json& golden) { golden["note"] = 1; }), "unknown key 'note'");
     EXPECT_PRED2(says, message(Held::trace, [](Json& golden) { golden["traces"][0]["trace"].erase(1); }), "step");
 }
 
@@ -305,8 +384,8 @@ TEST_F(HeldAnswersTest, WhatTheSceneExpectsIsChecked) {
     // Each panel's fit.
     expect(R"({"tests": {"obb2d": 0}})");
     const CaseResult panels = run(add(R"(["fit"])", R"("panels": [{}, {"fit": {"leaf": 1}}])"));
-    EXPECT_PRED2(says, panels.message, "panel 1, query 0: expected 0 tests of obb2d");
-    EXPECT_PRED2(says, panels.findings.at(0).words.at(1), "panel 2, query 0: expected 0 tests of obb2d");
+    EXPECT_PRED2(says, panels.message, "panel 0, query 0: expected 0 tests of obb2d");
+    EXPECT_PRED2(says, panels.findings.at(0).words.at(1), "panel 1, query 0: expected 0 tests of obb2d");
 }
 
 TEST_F(HeldAnswersTest, KeysOfPicturesAreRefusedWithoutOne) {

@@ -386,7 +386,8 @@ TEST(Review, WhatHasNoPictureIsLeftOutAndSaid) {
     w.key("Shift+A");
     EXPECT_TRUE(w.one("moved").accepted);
     EXPECT_TRUE(w.one("missing").accepted);
-    EXPECT_NE(w.said().find("Not accepted: same: there is nothing of it to take"), std::string::npos) << w.said();
+    EXPECT_NE(w.said().find("Not accepted: same: it failed, so there is no golden to take"), std::string::npos)
+        << w.said();
     w.key("Ctrl+Z");
     EXPECT_NE(w.said().find("Undone: accepting 2 pictures"), std::string::npos) << w.said();
     w.key("Ctrl+Y");
@@ -892,6 +893,44 @@ TEST(Review, AReportsGoldensAreTakenByteByByteAndDrawNothing) {
         w.key("Ctrl+Z");
         EXPECT_EQ(w.files.bytes("moved.png"), before);
     }
+    // Somebody else has accepted it meanwhile.
+    EXPECT_EQ(ThreeCases::run("test '" + w.files.cases().string() + "' moved --accept '" + out.string() + "'"), 0);
+    w.key("A");
+    EXPECT_TRUE(w.one("moved").accepted);
+    EXPECT_NE(w.said().find("moved: it is the golden already"), std::string::npos) << w.said();
+    EXPECT_FALSE(w.review().goldens.has_undo());
+}
+
+TEST(Review, GoldenNumbersStandBesideThoseOfNow) {
+    const auto answers = [](int time, const char* contact) {
+        return R"({"mobbscope_answers": 1, "answers": [{"query": 0, "a": "A", "b": "B", "collides": true, "contact": )" +
+               std::string(contact) + R"(, "tests": {"time": )" + std::to_string(time) + R"(, "aabb": 0}}]})";
+    };
+    const auto line = [](const HeldRow& row) {
+        return row.what + '|' + row.golden + '|' + row.actual + '|' + row.ratio + (row.changed ? "|changed" : "");
+    };
+    std::vector<std::string> lines;
+    for (const HeldRow& row : held_rows(answers(13, R"({"time": 0.5})"), answers(1, R"({"time": 0.5})"))) {
+        EXPECT_EQ(row.of, "query 0, A and B");
+        lines.push_back(line(row));
+    }
+    EXPECT_EQ(lines, (std::vector<std::string>{"collides|true|true|", "contact time|0.5|0.5|",
+                                               "tests time|13|1|13 times fewer|changed"}));
+    EXPECT_TRUE(held_rows(answers(1, "null"), answers(1, "null")).empty());
+    EXPECT_TRUE(held_rows("{", answers(1, "null")).empty());
+    EXPECT_EQ(held_rows(std::nullopt, answers(1, "null")).size(), 2u) << "without a golden all that there is";
+
+    const auto trees = [](const char* kind, const char* half) {
+        return R"({"mobbscope_fit": 1, "trees": [{"clip": "walk", "nodes": [{"index": 0}, {"index": 1, "kind": ")" +
+               std::string(kind) + R"(", "half": )" + half + "}]}]}";
+    };
+    const std::vector<HeldRow> kinds = held_rows(trees("obb2d", "[1, 2]"), trees("obb3d", "[1, 2, 3]"));
+    ASSERT_EQ(kinds.size(), 1u);
+    EXPECT_EQ(kinds[0].of, "fit of 'walk', node 1");
+    EXPECT_EQ(line(kinds[0]), "kind|obb2d|obb3d||changed");
+    const std::vector<HeldRow> halves = held_rows(trees("obb2d", "[1, 2]"), trees("obb2d", "[1.0000000000001, 3]"));
+    ASSERT_EQ(halves.size(), 1u);
+    EXPECT_EQ(line(halves[0]), "half[1]|2|3||changed");
 }
 
 TEST(Review, AnswersAreShownInWordsAndAccepted) {
@@ -911,6 +950,8 @@ TEST(Review, AnswersAreShownInWordsAndAccepted) {
     w.window->settle();
     EXPECT_EQ(outcome_name(w.one("answers")), "different") << w.said();
     EXPECT_TRUE(w.window->shell().marks().all().contains("held.answers.answers.json"));
+    EXPECT_TRUE(w.window->shell().marks().all().contains("held.answers.answers.json.table"));
+    EXPECT_EQ(w.review().pictures().number_files, std::vector{w.files.file("answers.answers.json")});
     EXPECT_FALSE(w.window->shell().marks().all().contains("picture.0"));
     w.key("A");
     EXPECT_TRUE(w.one("answers").accepted) << w.said();

@@ -72,8 +72,11 @@ TEST(Scene, TestsAreExpectedByTheirKind) {
     };
     EXPECT_NE(refused(R"({"tests": {}})").find("no kind of test is named"), std::string::npos);
     EXPECT_NE(refused(R"({"tests": {"obb2": 1}})").find("'obb2d'"), std::string::npos);
+    EXPECT_NE(refused(R"({"tests": {"boxes": 1}})")
+                  .find("'boxes' is no kind of test; give time, obb2d, obb3d, moving, aabb, block or samples"),
+              std::string::npos);
     EXPECT_NE(refused(R"({"tests": {"time": -1}})").find("/expect/tests/time"), std::string::npos);
-    EXPECT_NE(refused(R"({"tests": {"time": 1.5}})").find("must be a whole number"), std::string::npos);
+    EXPECT_NE(refused(R"({"tests": {"time": 1.5}})").find("give a whole number from 0"), std::string::npos);
     EXPECT_NE(refused("{}").find("collides"), std::string::npos);
     EXPECT_NE(refused(R"({"contact": null, "tests": {"time": 1}})").find("collides"), std::string::npos);
 }
