@@ -76,8 +76,7 @@ GraphRig read_rig(const JsonPlace& place) {
     std::unordered_set<std::string> names;
     for (int i = 0; i < joints.size(); ++i) {
         const JsonPlace name = joints[i];
-        if (!names.insert(name.string()).second)
-            name.fail("the joint " + in_quotes(name.string()) + " is given twice");
+        if (!names.insert(name.string()).second) name.fail("the joint " + in_quotes(name.string()) + " is given twice");
         rig.joints.push_back(name.string());
     }
     return rig;
