@@ -1,6 +1,7 @@
 #include <base/error.h>
 #include <base/text.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -176,6 +177,13 @@ std::string figure(double value, int digits) {
     // What rounds up to one digit more would else become a power.
     return size >= std::pow(10, digits) - 0.5 && size < 1e9 ? formatted("%.0f", value)
                                                             : formatted("%.*g", digits, value);
+}
+
+std::string ratio_words(double now, double before) {
+    constexpr double kNearlyAsMany = 1.1;
+    const auto [less, more] = std::minmax(now, before);
+    if (less <= 0 || more / less < kNearlyAsMany) return "";
+    return figure(more / less, 2) + (now > before ? " times as many" : " times fewer");
 }
 
 std::string to_thousandth(double value) {

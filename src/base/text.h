@@ -40,6 +40,10 @@ std::string brief(double value);
 /// A figure for people: so many significant digits, and all those before the point: "1.235", "12346".
 std::string figure(double value, int digits = 4);
 
+/// How many there are now, against before: "3.1 times as many", "13 times fewer"; empty where they are nearly as many,
+/// or one of them is 0 or less.
+std::string ratio_words(double now, double before);
+
 /// A place or a time for people: to the thousandth, however large, without zeros at the end.
 std::string to_thousandth(double value);
 

@@ -266,7 +266,7 @@ std::string tests_words(const mobb::TestCounts& now, const mobb::TestCounts& bef
         off = std::max(off, std::max(times, 1 / times));
         out += out.empty() ? counted(now[test], "test", "tests") : ", " + std::to_string(now[test]);
         out.append(" of ").append(mobb::name(test)).append(" instead of ").append(std::to_string(before[test]));
-        const std::string ratio = ratio_words(now[test], before[test]);
+        const std::string ratio = ratio_words(static_cast<double>(now[test]), static_cast<double>(before[test]));
         if (!ratio.empty()) out.append(" (").append(ratio).append(")");
     }
     return out;

@@ -1,13 +1,13 @@
+#include <base/error.h>
+#include <base/json.h>
 #include <base/text.h>
 #include <review/held_table.h>
-#include <scene/answer.h>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -17,6 +17,12 @@ namespace mobbscope::app {
 namespace {
 
 using HeldJson = nlohmann::ordered_json;
+/// Throws InputError if it is no JSON, or nested deeper than what recurses can go.
+HeldJson parsed(const std::string& text) {
+    parse_json(text, "a golden");
+    return HeldJson::parse(text);
+}
+
 /// Paths and what stands there, in the order of the file.
 using Leaves = std::vector<std::pair<std::string, const HeldJson*>>;
 
@@ -86,8 +92,7 @@ bool add_rows(const std::string& of, const Leaves* golden, const Leaves& actual,
         const bool is_tests = path.starts_with("tests ");
         if (is_tests && (row.golden.empty() || row.golden == "0") && row.actual == "0") continue;
         if (row.changed && is_tests && before && now && before->is_number() && now->is_number())
-            row.ratio = ratio_words(static_cast<std::int64_t>(now->get<double>()),
-                                    static_cast<std::int64_t>(before->get<double>()));
+            row.ratio = ratio_words(now->get<double>(), before->get<double>());
         any |= row.changed;
         out.push_back(std::move(row));
     }
@@ -145,10 +150,14 @@ std::vector<std::pair<std::string, const HeldJson*>> entries_in(const HeldJson& 
 }  // namespace
 
 std::vector<HeldRow> held_rows(const std::optional<std::string>& golden, const std::string& actual) {
-    const HeldJson before = golden ? HeldJson::parse(*golden, nullptr, false) : HeldJson::object();
-    const HeldJson now = HeldJson::parse(actual, nullptr, false);
     std::vector<HeldRow> out;
-    if (before.is_discarded() || now.is_discarded()) return out;
+    HeldJson before = HeldJson::object(), now;
+    try {
+        if (golden) before = parsed(*golden);
+        now = parsed(actual);
+    } catch (const InputError&) {
+        return out;
+    }
     const auto stored = entries_in(before), present = entries_in(now);
     const auto in = [](const auto& entries, const std::string& title) -> const HeldJson* {
         const auto at = std::ranges::find(entries, title, [](const auto& entry) { return entry.first; });

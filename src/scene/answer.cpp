@@ -101,15 +101,6 @@ std::string sentence(const SceneQuery& query, const std::optional<mobb::Contact>
            metres(contact->radii) + " m.";
 }
 
-std::string ratio_words(std::int64_t now, std::int64_t before) {
-    constexpr double kNearlyAsMany = 1.1;
-    const auto [less, more] = std::minmax(now, before);
-    if (less <= 0) return "";
-    const double times = static_cast<double>(more) / static_cast<double>(less);
-    if (times < kNearlyAsMany) return "";
-    return figure(times, 2) + (now > before ? " times as many" : " times fewer");
-}
-
 bool expects_tests(const SceneQuery& query) {
     return query.expect &&
            std::ranges::any_of(query.expect->tests, [](const auto& tests) { return tests.has_value(); });

@@ -5,7 +5,6 @@
 #include <scene/fitted_scene.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,10 +35,6 @@ void write_answer(JsonWriter& out, std::size_t index, const SceneQuery& query, c
 
 /// The answer in words: who collides when and where, or that they never do.
 std::string sentence(const SceneQuery& query, const std::optional<mobb::Contact>& contact);
-
-/// How many tests there are now, against before: "3.1 times as many", "13 times fewer"; empty where they are nearly as
-/// many, or one of them is 0.
-std::string ratio_words(std::int64_t now, std::int64_t before);
 
 /// Whether the file says how many tests of some kind the answer is to take.
 bool expects_tests(const SceneQuery& query);

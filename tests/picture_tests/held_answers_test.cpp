@@ -221,7 +221,7 @@ TEST_F(HeldAnswersTest, ACutTraceIsFound) {
     const CaseFile file = add(R"(["trace"])");
     take_of(file);
     const std::string whole = read_file(file.golden_of(Held::trace));
-    for (const std::size_t left : {0, 1}) {
+    for (const std::size_t left : {0u, 1u}) {
         write_file(file.golden_of(Held::trace), whole);
         std::size_t events = 0;
         change(file, Held::trace, [&](Json& golden) {
