@@ -494,12 +494,18 @@ void check_case_file(CaseResult& result, const CaseTerms& terms, const std::stri
     if (std::ranges::any_of(terms.hold, has_golden)) add_missing(result, file);
 }
 
+/// Those that were read since; they are the result's, too.
+std::vector<std::filesystem::path> add_files_read(CaseResult& result) {
+    std::vector<std::filesystem::path> files = take_files_read();
+    result.read.insert(result.read.end(), files.begin(), files.end());
+    return files;
+}
+
 /// Reads it and compares all that it holds. `maker`: not null if that is a picture.
 void run(CaseResult& result, PictureMaker* maker, const RunOptions& options) {
-    result.read = take_files_read();
+    add_files_read(result);
     const Case tested = read_case(result.file.file, options.asked);
-    std::vector<std::filesystem::path> inputs = take_files_read();
-    result.read.insert(result.read.end(), inputs.begin(), inputs.end());
+    std::vector<std::filesystem::path> inputs = add_files_read(result);
     std::erase(inputs, whole_path(options.asked ? std::filesystem::path() : result.file.file));
     result.tolerance = tested.terms.tolerance;
     if (tested.terms.skip) {
@@ -574,7 +580,7 @@ CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view 
         result.fresh.clear();
     }
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    result.read = take_files_read();
+    add_files_read(result);
     return result;
 }
 
