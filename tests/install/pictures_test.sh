@@ -135,10 +135,10 @@ with_googletest() {
   grep -Eq 'pictures.new .*Failed' "$scratch/said" || fail "pictures.new has not failed"
   grep -Eq 'pictures.person .*Passed' "$scratch/said" || fail "pictures.person has not passed"
   says 'failed: bad: '
-  mv pictures gone
+  cmake -E rename pictures gone
   tests 8 -R '^pictures'
   says 'the cases cannot be listed'
-  mv gone pictures
+  cmake -E rename gone pictures
 
   # What CTest runs believes nothing that this run has not told.
   cases=$(find "$scratch/prefix" -name cases.sh)
@@ -214,7 +214,7 @@ with_pytest() {
   pytest 1
   says 'walk.draw.json: '
   says 'of time instead of 99'
-  mv kept goldens/meeting.answers.json
+  cmake -E rename kept goldens/meeting.answers.json
   pytest 1 --mobbscope-goldens elsewhere
   says "/elsewhere/person.png"
   MESA_GL_VERSION_OVERRIDE=2.1 pytest 0
