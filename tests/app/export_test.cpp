@@ -363,7 +363,7 @@ class FilmExportTest : public ExportTest {
         write_program(programs, "ffmpeg",
                       "case \"$*\" in *-encoders*) echo ' V... libx264 x'; exit 0;; esac\ncd '" +
                           programs.path().string() +
-                          "'\necho $$ >number\nmv number started\n"
+                          "'\necho $$ >number\nln number started\n"
                           "while [ ! -e go ]; do sleep 0.02; done\ncat >pictures\nprintf film\n");
         run_command(session, "file.export_film", film.string());
         ASSERT_TRUE(comes([&] { return std::filesystem::exists(programs.path() / "started"); }));

@@ -216,7 +216,7 @@ TEST_F(FilmTest, ADeviceHoldsNone) {
 
 /// Neither a file nor an ffmpeg is left of a film that is broken off.
 TEST_F(FilmTest, ASignalEndsAll) {
-    stand_in("echo $$ >\"$HERE/number\"\nmv \"$HERE/number\" \"$HERE/started\"\nexec sleep 600\n");
+    stand_in("echo $$ >\"$HERE/number\"\nln \"$HERE/number\" \"$HERE/started\"\nexec sleep 600\n");
     const std::string path = programs.path().string() + ':' + std::getenv("PATH");
     const pid_t child =
         testing::start_program({"render", scene, "--play", "--rate", "200", "--size", "320x240", "-o", film}, {},

@@ -141,7 +141,8 @@ with_googletest() {
   cmake -E rename gone pictures
 
   # What CTest runs believes nothing that this run has not told.
-  cases=$(find "$scratch/prefix" -name cases.sh)
+  shopt -s globstar
+  cases=$(echo "$scratch"/prefix/**/cases.sh)
   printf '<testcase name="old" time="0">\n</testcase>\n' >junit.xml
   expect 1 sh "$cases" tell junit.xml . nobody
   says 'does not tell of it'
@@ -162,7 +163,7 @@ with_googletest() {
   printf '%s\n' 'cmake_minimum_required(VERSION 3.25)' 'project(odd LANGUAGES NONE)' 'enable_testing()' \
     'find_package(mobbscope REQUIRED)' 'mobbscope_add_picture_tests(cases NAME a-b)' \
     'mobbscope_add_picture_tests(cases NAME a_b LABELS one two)' >CMakeLists.txt
-  expect 0 cmake -B build -D CMAKE_PREFIX_PATH="$scratch/prefix"
+  expect 0 cmake -B build -G "$generator" -D CMAKE_PREFIX_PATH="$scratch/prefix" -D CMAKE_CXX_COMPILER="$compiler"
   tests 8
   for prefix in a-b a_b; do
     for name in 'b[r' 'we[ird;x' "a&b'c" DRAW "\${x}"; do says " - $prefix.$name (Failed)"; done

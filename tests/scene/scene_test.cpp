@@ -71,7 +71,8 @@ TEST(Scene, TestsAreExpectedByTheirKind) {
         return testing::input_error([&] { parse_plain(expecting(expect_text)); });
     };
     EXPECT_NE(refused(R"({"tests": {}})").find("no kind of test is named"), std::string::npos);
-    EXPECT_NE(refused(R"({"tests": {"obb2": 1}})").find("'obb2d'"), std::string::npos);
+    EXPECT_NE(refused(R"({"tests": {"obb2": 1}})").find("'obb2' is no kind of test; give time, obb2d"),
+              std::string::npos);
     EXPECT_NE(refused(R"({"tests": {"boxes": 1}})")
                   .find("'boxes' is no kind of test; give time, obb2d, obb3d, moving, aabb, block or samples"),
               std::string::npos);
