@@ -45,6 +45,7 @@ struct ImageDiff {
 
 /// Whether ImageDiff::heat is made.
 enum class HeatMap { drawn, left_out };
+
 /// Colours count by their opacity, as they are seen: under a transparent pixel none does. `mask`: of the same size;
 /// pixels that are black or transparent in it are not compared. Null: all are. Throws std::invalid_argument if the
 /// pictures have one size and the mask another.
