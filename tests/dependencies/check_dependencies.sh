@@ -16,7 +16,7 @@ int main(void) { return dlopen("libEGL.so.1", RTLD_NOW) ? 0 : 3; }
 C
 printf '#!/bin/sh\nexec "$@"\n' >tests/app/real_window/under_xvfb.sh
 printf '#!/bin/sh\ncat "$(dirname "$0")/packages"\n' >scripts/setup
-printf '#!/bin/sh\n# no git here\nwords=(git)\nif Xvfb -help; then echo there; fi\n' >scripts/demo
+printf '#!/bin/sh\n# no git here\nwords=(git)\ncat >text <<"END"\ngit\nEND\nif Xvfb -help; then echo there; fi\n' >scripts/demo
 chmod +x tests/app/real_window/under_xvfb.sh scripts/setup
 printf 'opens egl libEGL.so.1\ncalls xdotool # moves the mouse\n' >third_party/run_time.txt
 
