@@ -215,9 +215,13 @@ std::string either(std::span<const std::string_view> names) {
     return listed(names.first(names.size() - 1)) + " or " + std::string(names.back());
 }
 
+char lower_letter(char letter) {
+    return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+}
+
 std::string lower(std::string_view text) {
     std::string out(text);
-    for (char& c : out) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    for (char& c : out) c = lower_letter(c);
     return out;
 }
 

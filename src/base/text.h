@@ -68,6 +68,7 @@ std::string listed(std::span<const std::string_view> names);
 std::string either(std::span<const std::string_view> names);
 
 /// With small letters for the capitals of ASCII.
+char lower_letter(char letter);
 std::string lower(std::string_view text);
 
 /// Without blanks (space, tab, carriage return) at both ends.

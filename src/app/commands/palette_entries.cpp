@@ -49,8 +49,6 @@ constexpr double kNone = -std::numeric_limits<double>::infinity();
 
 bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || static_cast<unsigned char>(c) >= 0x80; }
 
-char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
-
 struct SearchField {
     std::string_view text;
     double share = 1;
@@ -64,7 +62,7 @@ enum class Letters { together, strewn };
 double found_in(std::string_view word, const SearchField& field, Letters letters) {
     if (const auto begun = word_score(word, field.text)) return *begun;
     if (field.by_words) return 0;
-    const auto alike = [&](char a, char b) { return lower(a) == lower(b); };
+    const auto alike = [&](char a, char b) { return lower_letter(a) == lower_letter(b); };
     const bool within =
         std::search(field.text.begin(), field.text.end(), word.begin(), word.end(), alike) != field.text.end();
     if (within && word.size() >= kLeastWithin) return kWithin;
@@ -119,7 +117,7 @@ class Collector {
     /// ... of a thing, before commands about it where its whole name is looked for.
     void add(std::string_view id, std::string argument, std::string title, std::string_view detail,
              std::initializer_list<SearchField> fields) {
-        const double extra = std::ranges::equal(title, text_, {}, lower, lower) ? kNamed : 0;
+        const double extra = std::ranges::equal(title, text_, {}, lower_letter, lower_letter) ? kNamed : 0;
         add(*find_command(id, commands(session_)), std::move(argument), std::move(title), detail, fields, words_,
             extra);
     }
@@ -263,7 +261,7 @@ void add_node(Collector& out, const Session& session, const std::string& text) {
     try {
         const auto [name, place] = name_and_word(text, "the node");
         for (const PlacedAgent& who : session.workspace.fitted().placed_agents()) {
-            if (!std::ranges::equal(who.name, name, {}, lower, lower)) continue;
+            if (!std::ranges::equal(who.name, name, {}, lower_letter, lower_letter)) continue;
             static_cast<void>(node_at(session.workspace.fitted().tree(who.clip), place));
             const std::string named = who.name + ' ' + std::string(place);
             out.add("go.node", named, named, "Node", {{named}});
@@ -339,7 +337,7 @@ std::optional<double> fuzzy_score(std::string_view word, std::string_view text) 
         double before = kNone;  // the best of those that end before j
         for (std::size_t j = 0; j < text.size(); ++j) {
             if (j > 0) before = std::max(before, best[j - 1]);
-            if (lower(text[j]) != lower(word[i])) continue;
+            if (lower_letter(text[j]) != lower_letter(word[i])) continue;
             const bool starts = in_word(text[j]) && (j == 0 || !in_word(text[j - 1]));
             const double here = kLetter + (starts ? kWordStart : 0);
             if (i == 0) {
@@ -360,7 +358,7 @@ std::optional<double> word_score(std::string_view word, std::string_view text) {
     std::optional<double> best;
     for (std::size_t at = 0; at + word.size() <= text.size(); ++at) {
         if (at > 0 && in_word(text[at - 1])) continue;
-        if (!std::ranges::equal(word, text.substr(at, word.size()), {}, lower, lower)) continue;
+        if (!std::ranges::equal(word, text.substr(at, word.size()), {}, lower_letter, lower_letter)) continue;
         const std::size_t end = at + word.size();
         if (end == text.size() || !in_word(text[end])) return kWhole;
         best = kBegin;

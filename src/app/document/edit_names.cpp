@@ -3,7 +3,6 @@
 #include <scene/view_options.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -63,7 +62,7 @@ std::string words_of_names(const ViewOption& option, const ViewState& from, cons
 std::string words_of_option(const ViewOption& option, const ViewState& from, const ViewState& to) {
     if (option.names) return words_of_names(option, from, to);
     std::string title(option.title);
-    title[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(title[0])));
+    title[0] = lower_letter(title[0]);
     if (option.toggle) return title + (to.*option.toggle ? ": on" : ": off");
     return title + ": " + option.text(to);
 }

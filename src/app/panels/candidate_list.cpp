@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <limits>
 #include <string>
 #include <utility>
@@ -69,11 +68,7 @@ struct ListedCandidate {
 };
 
 bool has_text(const ListedCandidate& candidate, const std::string& text) {
-    const auto same = [](char a, char b) {
-        return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-    };
-    const std::string all = candidate.name + ' ' + candidate.remark;
-    return std::search(all.begin(), all.end(), text.begin(), text.end(), same) != all.end() || text.empty();
+    return lower(candidate.name + ' ' + candidate.remark).find(lower(text)) != std::string::npos;
 }
 
 /// What was taken first, then why the others were not.

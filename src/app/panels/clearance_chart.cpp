@@ -16,7 +16,7 @@ namespace mobbscope::app {
 namespace {
 
 /// What the chart covers, and where.
-struct Chart {
+struct ChartArea {
     ImVec2 min, max;
     mobb::Interval time;
     ChartAxis x;    ///< seconds
@@ -24,7 +24,7 @@ struct Chart {
 };
 
 /// The least of each column as a curve, and above it how much more there is in the column.
-void draw_curve(ImDrawList& list, const Style& style, const Chart& chart, const std::vector<ValueColumn>& columns) {
+void draw_curve(ImDrawList& list, const Style& style, const ChartArea& chart, const std::vector<ValueColumn>& columns) {
     std::vector<ImVec2> curve;
     for (std::size_t k = 0; k < columns.size(); ++k) {
         const ValueColumn& column = columns[k];
@@ -44,7 +44,7 @@ void draw_curve(ImDrawList& list, const Style& style, const Chart& chart, const 
 /// Of the distance of bones.
 ImU32 bones_color(const Style& style) { return mark_color(style, EventMark::overlap); }
 
-void least_mark(ImDrawList& list, const Style& style, const Chart& chart, const ClearancePiece& least) {
+void least_mark(ImDrawList& list, const Style& style, const ChartArea& chart, const ClearancePiece& least) {
     const EventMark mark = least.clearance < 0 ? EventMark::hit : EventMark::separated;
     const ImVec2 at{chart.x.pixel(least.approach.is_still() ? 0.5 * (least.t0 + least.t1) : least.least_at),
                     chart.y.pixel(least.clearance)};
@@ -53,7 +53,7 @@ void least_mark(ImDrawList& list, const Style& style, const Chart& chart, const 
 }
 
 /// The least distance of bones in each step, and when they were measured at all.
-void draw_bodies(Ui& ui, const Chart& chart, const BodyDistances& bodies) {
+void draw_bodies(Ui& ui, const ChartArea& chart, const BodyDistances& bodies) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImU32 color = bones_color(ui.style);
     const auto x_of = [&](double t) { return std::clamp(chart.x.pixel(t), chart.min.x, chart.max.x); };
@@ -67,7 +67,7 @@ void draw_bodies(Ui& ui, const Chart& chart, const BodyDistances& bodies) {
 }
 
 /// The times in which bones were measured, behind the curves.
-void draw_measured_times(Ui& ui, const Chart& chart, const BodyDistances& bodies) {
+void draw_measured_times(Ui& ui, const ChartArea& chart, const BodyDistances& bodies) {
     for (const mobb::Interval& interval : bodies.intervals) {
         const float from = std::clamp(chart.x.pixel(interval.t0), chart.min.x, chart.max.x);
         const float to = std::clamp(chart.x.pixel(interval.t1), from + 1, chart.max.x + 1);
@@ -140,7 +140,7 @@ void QueryPictures::clearance(Ui& ui, QueryInspector& queries, const QueryFindin
 
     const mobb::Interval time = time_span(ui.workspace);
     const float right = at.x + static_cast<float>(width);
-    Chart chart{at, {right, at.y + height - label}, time, {time.t0, time.t1, at.x, right}};
+    ChartArea chart{at, {right, at.y + height - label}, time, {time.t0, time.t1, at.x, right}};
     const std::vector<ValueColumn>& columns = clearance_.of(
         queries.findings(), {width, 0}, [&] { return columns_of(clearance, chart.time.t0, chart.time.t1, width); });
     const BodyDistances* measured = bodies.of(queries.findings());

@@ -1,9 +1,9 @@
 #include <app/ui/focus.h>
+#include <base/text.h>
 
 #include <imgui_internal.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cfloat>
 #include <cmath>
 #include <iterator>
@@ -44,8 +44,6 @@ bool is_typing() {
     const ImGuiContext& context = *ImGui::GetCurrentContext();
     return context.ActiveId != 0 && context.ActiveId == context.InputTextState.ID;
 }
-
-char lower_letter(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
 bool is_arrow(Key key) { return key == Key::left || key == Key::right || key == Key::up || key == Key::down; }
 

@@ -1,3 +1,4 @@
+#include <base/text.h>
 #include <explain/bodies.h>
 #include <explain/query_sentence.h>
 #include <import/skeleton/motion.h>
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -143,12 +143,7 @@ void add_outline(const DrawList& list, Pen& pen, const Figure& f, float width) {
     }
 }
 
-bool is_head(const std::string& name) {
-    std::string lower = name;
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return lower.find("head") != std::string::npos;
-}
+bool is_head(const std::string& name) { return lower(name).find("head") != std::string::npos; }
 
 float bone_width(const Figure& f, float scale) { return std::clamp(kBone * f.pixels, 1.1f * scale, 6 * scale); }
 
