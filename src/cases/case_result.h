@@ -22,7 +22,7 @@ enum class CaseOutcome {
     different,       ///< what is held is not the golden's, or an answer not the expected one
     missing_golden,  ///< there is nothing to hold it against
     failed,          ///< the case cannot be read or drawn
-    skipped,         ///< by the case, or as there is no OpenGL
+    skipped,         ///< by the case, or its picture alone, as there is no OpenGL
 };
 
 /// What reports and the window call an outcome.
@@ -90,14 +90,14 @@ struct CaseResult {
     /// What is other here than where the goldens are from (picture_tests/reference.h); empty if nothing is.
     std::string other_here;
     DrawnBy drawn_by;
+    std::string not_drawn;                    ///< why there is no OpenGL for its picture; all else is held. Else empty
     std::vector<std::filesystem::path> read;  ///< by the process that drew it and not told before; from the root
 };
 
-/// Whether the case holds no picture, and was run.
+/// Whether there is no OpenGL for its picture.
+inline bool lacks_opengl(const CaseResult& result) { return !result.not_drawn.empty(); }
+/// Whether the case was run, and holds no picture or lacks OpenGL for it.
 bool draws_nothing(const CaseResult& result);
-
-/// Whether it was skipped as there is no OpenGL; why is its message.
-bool lacks_opengl(const CaseResult& result);
 
 /// The pictures of a result, compared anew with its mask, for the heat map. Throws InputError if the mask cannot be
 /// read.
@@ -156,7 +156,7 @@ std::string message_of(std::span<const Finding> findings);
 std::vector<std::string> lines_of(const CaseResult& result);
 
 /// Makes the goldens of a case what is drawn now (write_goldens); then the case has passed, unless its scene expects
-/// other answers. Returns what it wrote, not what it removed. Throws as write_goldens does.
+/// other answers, or is skipped, where its picture was not drawn. Returns what it wrote, not what it removed. Throws as write_goldens does.
 std::vector<std::filesystem::path> take(CaseResult& result);
 
 }  // namespace mobbscope::picture_tests

@@ -140,6 +140,7 @@ void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures,
     json.member("backend", result.drawn_by.backend);
     json.member("renderer", result.drawn_by.renderer);
     json.member("opengl", result.drawn_by.opengl);
+    if (lacks_opengl(result)) json.member("not_drawn", result.not_drawn);
     json.key("diff");
     result.image ? write_diff(json, *result.image) : json.null();
     json.list("findings", result.findings, [&](const Finding& finding) {
@@ -184,6 +185,7 @@ CaseResult read_result(const JsonPlace& root, const std::vector<CaseFile>& cases
     result.other_here = root.require("other_here").string();
     result.drawn_by = {root.require("backend").string(), root.require("renderer").string()};
     if (const auto opengl = root.find("opengl")) result.drawn_by.opengl = opengl->string();
+    if (const auto not_drawn = root.find("not_drawn")) result.not_drawn = not_drawn->string();
     const JsonPlace diff = root.require("diff");
     if (!diff.is_null()) result.image = read_diff(diff);
     root.require("findings").each([&](const JsonPlace& finding) {

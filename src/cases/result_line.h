@@ -10,7 +10,7 @@
 ///      "fresh": [{"golden": ".png", "bytes": ... | null, "replaces": ... | null}]}   in base64; null: no such file
 ///
 /// Goldens are told by what follows the case's name; "" of a finding: the scene expects another answer. `tolerance` and
-/// `decided_by` are null where nothing was drawn.
+/// `decided_by` are null where nothing was drawn. Where there is no OpenGL for its picture, "not_drawn" says why.
 #pragma once
 
 #include <base/json.h>

@@ -501,13 +501,31 @@ std::vector<std::filesystem::path> add_files_read(CaseResult& result) {
     return files;
 }
 
-/// Reads it and compares all that it holds. `maker`: not null if that is a picture.
-void run(CaseResult& result, PictureMaker* maker, const RunOptions& options) {
+/// Of a case whose picture cannot be drawn: it is skipped, unless something else is wrong with it.
+void leave_picture_out(CaseResult& result, const CaseTerms& terms, std::string_view no_opengl) {
+    result.not_drawn = no_opengl;
+    const std::string not_drawn = "the picture was not drawn: " + result.not_drawn;
+    if (!result.findings.empty()) {
+        result.remarks.push_back(not_drawn);
+        return;
+    }
+    std::vector<std::string_view> held;
+    for (const Held what : terms.hold) {
+        if (what != Held::picture) held.push_back(name(what));
+    }
+    result.outcome = CaseOutcome::skipped;
+    result.message = held.empty() ? result.not_drawn : "as in the goldens: " + listed(held) + "; " + not_drawn;
+}
+
+/// Reads it and compares all that it holds.
+void run(CaseResult& result, PictureMaker* maker, std::string_view no_opengl, const RunOptions& options) {
     add_files_read(result);
     const Case tested = read_case(result.file.file, options.asked);
     std::vector<std::filesystem::path> inputs = add_files_read(result);
     std::erase(inputs, whole_path(options.asked ? std::filesystem::path() : result.file.file));
     result.tolerance = tested.terms.tolerance;
+    const bool draws = tested.terms.holds(Held::picture);
+    if (!draws) result.drawn_by = {std::string(kDrawsNothing), {}};
     if (tested.terms.skip) {
         result.outcome = CaseOutcome::skipped;
         result.message = *tested.terms.skip;
@@ -520,21 +538,14 @@ void run(CaseResult& result, PictureMaker* maker, const RunOptions& options) {
     for (const Held what : tested.terms.hold) {
         if (what != Held::picture) compare_held(result, *held, what);
     }
-    if (options.asked) check_case_file(result, tested.terms, *options.asked);
-    if (tested.terms.holds(Held::picture)) {
+    // Of a picture alone nothing can be taken without OpenGL, and no case is written that has no golden.
+    if (options.asked && (maker || held)) check_case_file(result, tested.terms, *options.asked);
+    if (draws && maker) {
         run_picture(result, tested, held ? &*held : nullptr, *maker, options);
-    } else if (wants_fresh(result, options)) {
+    } else if (held && wants_fresh(result, options)) {
         add_fresh(result, tested.terms, &*held, {}, options);
     }
-}
-
-/// Whether there is a picture; nothing where that cannot be found out.
-std::optional<bool> holds_picture(const CaseFile& file, const std::optional<std::string>& asked) {
-    try {
-        return read_terms(file, asked).holds(Held::picture);
-    } catch (const std::exception&) {
-        return std::nullopt;
-    }
+    if (draws && !maker) leave_picture_out(result, tested.terms, no_opengl);
 }
 
 }  // namespace
@@ -554,21 +565,13 @@ double similarity_loss(const Image& actual, const Image& golden, const Image* ma
 CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl, const RunOptions& options) {
     CaseResult result;
     result.file = file;
-    const std::optional<bool> draws = holds_picture(file, options.asked);
-    if (draws.value_or(false) && !maker) {
-        result.outcome = CaseOutcome::skipped;
-        result.message = no_opengl;
-        return result;
-    }
     const auto begin = std::chrono::steady_clock::now();
-    if (maker && draws.value_or(true)) {
+    if (maker) {
         const Renderer& renderer = maker->renderer();
         result.drawn_by = {std::string(maker->backend()), renderer.context().device(), reference_of(renderer).opengl};
-    } else {
-        result.drawn_by.backend = kDrawsNothing;
     }
     try {
-        run(result, maker, options);
+        run(result, maker, no_opengl, options);
     } catch (const std::exception& error) {
         result.outcome = CaseOutcome::failed;
         result.message = error.what();
@@ -601,6 +604,10 @@ std::string words_on(const CaseResult& result, const std::filesystem::path& fold
     out << '\n';
     if (!result.findings.empty()) {
         for (const std::string& line : lines) out << "  " << cleaned(line) << '\n';
+    }
+    // There is nothing else to remark on where nothing was drawn.
+    if (lacks_opengl(result)) {
+        for (const std::string& remark : result.remarks) out << "  " << cleaned(remark) << '\n';
     }
     const std::string stem = (whole_path(folder) / result.file.name).string();
     constexpr std::array kNumbers{Held::answers, Held::trace, Held::fit};

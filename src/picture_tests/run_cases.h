@@ -12,8 +12,8 @@
 
 namespace mobbscope::picture_tests {
 
-/// Runs one case. `maker` null: there is no OpenGL, for the reason given; a case with a picture is skipped. Never
-/// throws for what is wrong with a case.
+/// Runs one case. `maker` null: there is no OpenGL, for the reason given; a case with a picture is skipped, if all else
+/// that it holds is as its goldens say. Never throws for what is wrong with a case.
 CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl,
                     const RunOptions& options = {});
 

@@ -208,6 +208,47 @@ TEST_F(AnswersTestCommandTest, EveryReportSaysWhatDiffers) {
     EXPECT_PRED2(says, slurp(html), "answers") << "one that passed without a picture";
 }
 
+TEST_F(AnswersTestCommandTest, BesideAPictureAnswersAreHeldWithoutOpenGL) {
+    const auto write = [&](const std::string& more) {
+        cases.write("both", R"({"mobbscope_case": 1, "scene": "scene.json", "size": "160x120",
+                                "hold": ["picture", "answers"])" + more + "}");
+    };
+    const std::string html = (output / "report.html").string(), junit = (output / "junit.xml").string();
+    const auto run = [&] { return test({"--html", html, "--junit", junit}); };
+    write("");
+    Result taken = test({"--update", "both"});
+    EXPECT_EQ(taken.status, 3) << "the picture is skipped";
+    EXPECT_PRED2(says, taken.out, "wrote " + (cases.path() / "both.answers.json").string());
+    ASSERT_EQ(test({"--update", "answers"}).status, 0);
+
+    const std::string words = "as in the goldens: answers; the picture was not drawn: no OpenGL 3.3";
+    Result held = run();
+    EXPECT_EQ(held.status, 3) << held.out;
+    EXPECT_TRUE(held.err.starts_with("mobbscope: no OpenGL 3.3")) << held.err;
+    EXPECT_PRED2(says, held.out, "skipped: both: " + words);
+    EXPECT_PRED2(says, held.out, "1 passed, 3 skipped; drawn by nothing: there is no OpenGL");
+    EXPECT_PRED2(says, slurp(html), words);
+    EXPECT_PRED2(says, slurp(junit), "<skipped message=\"" + words);
+    const nlohmann::json json = nlohmann::json::parse(test({"both", "--json"}).out);
+    EXPECT_EQ(json["cases"][0]["outcome"], "skipped");
+    EXPECT_PRED2(says, json["cases"][0]["message"].get<std::string>(), words);
+
+    write(R"(, "fit": {"leaf": 1})");
+    held = run();
+    EXPECT_EQ(held.status, 1) << "a difference weighs more than what was not drawn";
+    EXPECT_TRUE(is_one_line(held.err)) << held.err;
+    EXPECT_PRED2(says, held.err, "warning: no OpenGL 3.3");
+    EXPECT_PRED2(says, held.out, "different: both: both.answers.json: query 0, A and B: ");
+    EXPECT_PRED2(says, held.out, "\n  the picture was not drawn: no OpenGL 3.3");
+    for (const std::string& report : {html, junit}) {
+        EXPECT_PRED2(says, slurp(report), "both.answers.json: ");
+        EXPECT_PRED2(says, slurp(report), "the picture was not drawn: no OpenGL 3.3");
+    }
+    EXPECT_EQ(test({"both", "--json-lines"}).status, 1);
+    EXPECT_EQ(run_program({"test", cases.path().string(), "both", "--accept", html}).status, 0);
+    EXPECT_EQ(run().status, 3);
+}
+
 TEST_F(AnswersTestCommandTest, WhatTheSceneExpectsNoGoldenMends) {
     cases.folder().write("scene.json", std::string(testing::kSmallScene).insert(1, R"( "queries": [{"a": "A", "b": "B",
         "expect": {"tests": {"time": 1000}}}],)"));
@@ -986,6 +1027,20 @@ TEST_F(AskedAnswersTest, AMissingGoldenSaysWhatItWouldHold) {
     EXPECT_PRED2(says, run.out, "\n  A and B collide at ");
     EXPECT_PRED2(says, run.out, " tests of time, ");
     EXPECT_PRED2(says, run.out, "\n  actual:  " + (output / "a.actual.answers.json").string() + '\n');
+}
+
+TEST_F(AskedAnswersTest, BesideAPictureTheyAreHeldWithoutOpenGL) {
+    ::setenv("MESA_GL_VERSION_OVERRIDE", "2.1", 1);
+    const std::string both = R"({"hold": ["picture", "answers"])";
+    const Result taken = ask({{"a", scene, both + "}"}}, {"--update", "a"});
+    EXPECT_TRUE(taken.out.starts_with("skipped a\nwrote ")) << taken.out;
+    EXPECT_PRED2(says, ask({{"a", scene, both + "}"}}).out,
+                 "skipped a\nskipped: a: as in the goldens: answers; the picture was not drawn: no OpenGL 3.3");
+    const Result differs = ask({{"a", scene, both + R"(, "fit": {"leaf": 1}})"}});
+    EXPECT_TRUE(differs.out.starts_with("different a\n")) << differs.out;
+    EXPECT_PRED2(says, differs.out, "a.answers.json: query 0, A and B: ");
+    EXPECT_PRED2(says, differs.out, "\n  the picture was not drawn: no OpenGL 3.3");
+    ::unsetenv("MESA_GL_VERSION_OVERRIDE");
 }
 
 TEST_F(AskedAnswersTest, ACaseThatItsTestHasChangedIsTold) {
