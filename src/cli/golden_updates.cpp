@@ -8,7 +8,9 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <string_view>
 
@@ -125,7 +127,7 @@ bool take_report(const std::filesystem::path& report, const std::filesystem::pat
     const auto is_meant = [&](const std::string& name) { return patterns.empty() || matches_any(patterns, name); };
     std::vector<GoldenChange> changes;
     bool all = true;
-    int taken = 0;
+    int taken = 0, known = 0;
     const auto leave_out = [&](const std::string& name, const std::string& why) {
         warn(name + ": not accepted: " + why);
         all = false;
@@ -143,18 +145,20 @@ bool take_report(const std::filesystem::path& report, const std::filesystem::pat
         if (!one.other_here.empty()) {
             warn(one.file.name + ": the report is not from where its goldens are: it was drawn with " + one.other_here);
         }
-        ++taken;
-        for (const GoldenChange& change : one.fresh) {
-            // Whoever accepts twice has it already.
-            if (picture_tests::golden_bytes(change.file) != change.bytes) changes.push_back(change);
-        }
+        const std::size_t before = changes.size();
+        std::ranges::copy_if(one.fresh, std::back_inserter(changes), [](const GoldenChange& change) {
+            return picture_tests::golden_bytes(change.file) != change.bytes;
+        });
+        ++(changes.size() > before ? taken : known);
     }
     check_bytes(changes, read.file);
     write_goldens(changes);
     for (const GoldenChange& change : changes) {
         say << (change.bytes ? "wrote " : "removed ") << cleaned(change.file.string()) << '\n';
     }
-    say << "accepted " << counted(taken, "case", "cases") << " of " << cleaned(read.file.string()) << '\n';
+    const std::string of = cleaned(read.file.string());
+    if (known > 0) say << counted(known, "case has", "cases have") << " the goldens of " << of << " already\n";
+    if (taken > 0 || known == 0) say << "accepted " << counted(taken, "case", "cases") << " of " << of << '\n';
     return all;
 }
 

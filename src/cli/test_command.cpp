@@ -6,6 +6,7 @@
 #include <cases/case_report.h>
 #include <cases/case_result.h>
 #include <cases/drawing_child.h>
+#include <cases/golden_change.h>
 #include <cases/result_line.h>
 #include <cli/asked_cases.h>
 #include <cli/command_line.h>
@@ -260,18 +261,8 @@ std::string add_facts(RunFacts& facts, std::span<const CaseResult> results) {
 /// What is to be seen of what did not pass, and all of it as a report.
 void keep_all(const TestCommandArguments& arguments, std::span<const CaseResult> results) {
     for (const CaseResult& result : results) keep_pictures(result, arguments.output);
-    const std::filesystem::path file = arguments.output / picture_tests::kReportFile;
-    if (picture_tests::summary(results).ok()) {
-        // Where only some are run, it may still tell of the others.
-        std::error_code ignored;
-        if (!is_part(arguments)) std::filesystem::remove(file, ignored);
-        return;
-    }
-    std::ostringstream report;
-    write_case_report(report, results, arguments.output);
-    picture_tests::make_folder_of(file);
-    check_stays_in_folder(file);
-    write_file(file, std::move(report).str());
+    using picture_tests::Cases;
+    add_to_case_report(arguments.output, arguments.folder, results, is_part(arguments) ? Cases::some : Cases::all);
 }
 
 /// What goes to standard output when it is all done.

@@ -587,14 +587,6 @@ CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view 
     return result;
 }
 
-void make_folder_of(const std::filesystem::path& file) {
-    const std::filesystem::path folder = file.parent_path();
-    if (folder.empty()) return;
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) throw MachineError(folder.string() + ": cannot be made: " + error.message());
-}
-
 std::string words_on(const CaseResult& result, const std::filesystem::path& folder) {
     if (result.outcome == CaseOutcome::passed) return {};
     std::ostringstream out;

@@ -27,9 +27,6 @@ double similarity_loss(const Image& actual, const Image& golden, const Image* ma
 inline constexpr double kMostLoss = 0.01;
 inline constexpr double kMostLossWithDrawList = 0.25;
 
-/// Makes the folder that a file goes to, if need be. Throws MachineError.
-void make_folder_of(const std::filesystem::path& file);
-
 /// What a person is to know of a case that did not pass, on lines of their own, first its outcome: what differs, where
 /// `keep_pictures` puts its pictures, and how they are taken. Empty if it passed.
 std::string words_on(const CaseResult& result, const std::filesystem::path& folder);

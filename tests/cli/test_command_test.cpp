@@ -560,7 +560,10 @@ TEST_F(AcceptTest, TakesThePicturesOfAReportByteByByte) {
         EXPECT_EQ(slurp(cases.path() / "path.png"), slurp(output / "path.actual.png"));
         EXPECT_EQ(slurp(cases.path() / "path.draw.json"), draw);
         EXPECT_EQ(slurp(cases.path() / "query/end.png"), slurp(output / "query/end.actual.png"));
-        EXPECT_EQ(accept(report).status, 0) << "twice is once";
+        const Result again = accept(report);
+        EXPECT_EQ(again.status, 0) << "twice is once";
+        EXPECT_PRED2(says, again.out, "2 cases have the goldens of ");
+        EXPECT_FALSE(says(again.out, "accepted")) << again.out;
         cases.folder().write("path.draw.json", old_draw());
     }
 }
@@ -569,6 +572,8 @@ TEST_F(AcceptTest, OfSomeOfItsCases) {
     EXPECT_EQ(accept(page, {"path"}).status, 0);
     EXPECT_EQ(slurp(cases.path() / "path.png"), slurp(output / "path.actual.png"));
     EXPECT_FALSE(exists("query/end.png"));
+    const std::string rest = accept(page).out;
+    EXPECT_PRED2(says, rest, "1 case has the goldens of " + page.string() + " already\naccepted 1 case of ");
     expect_test_refused(accept(page, {"pth"}), "there is no case 'pth'");
     cases.add("fine");
     expect_test_refused(accept(page, {"fine"}), "'fine' passed there, or was not drawn");
@@ -592,6 +597,32 @@ TEST_F(AcceptTest, SaysWhatItCannotTake) {
     const Result failed = accept(output);
     EXPECT_EQ(failed.status, 1);
     EXPECT_PRED2(says, failed.err, "path: not accepted: it has no golden to take");
+}
+
+TEST_F(AcceptTest, AReportTellsOfTheCasesThatThereAre) {
+    const std::filesystem::path report = output / "report.json";
+    const auto names = [&] {
+        const nlohmann::json told = nlohmann::json::parse(slurp(report));
+        std::vector<std::string> out;
+        for (const nlohmann::json& one : told["cases"]) out.push_back(one["name"].get<std::string>());
+        return out;
+    };
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(test({"path"}).status, 1);
+    EXPECT_EQ(names(), (Names{"path", "query/end"})) << "what a run of some leaves out stays";
+    cases.add("path");
+    EXPECT_EQ(test({"path"}).status, 0);
+    EXPECT_EQ(names(), Names{"query/end"}) << "and what passes goes";
+
+    // Folders may share a report.
+    std::filesystem::create_directory(cases.path() / "others");
+    cases.write("others/far", R"({"mobbscope_case": 1, "scene": "../scene.json", "hold": ["answers"]})");
+    EXPECT_EQ(run_program({"test", (cases.path() / "others").string(), "--output", output.string()}).status, 1);
+    EXPECT_EQ(names(), (Names{"far", "query/end"}));
+    std::filesystem::remove_all(cases.path() / "others");
+    std::filesystem::remove(cases.path() / "query/end.case.json");
+    EXPECT_EQ(test().status, 0);
+    EXPECT_EQ(names(), Names{"far"}) << "a run of all leaves what is told of other folders alone";
 }
 
 TEST_F(AcceptTest, RefusesWhatIsNoReport) {
@@ -1074,6 +1105,18 @@ TEST_F(AskedAnswersTest, FoldersOfGoldensMayShareAReport) {
     std::filesystem::create_directories(cases.path() / "far/away");
     std::filesystem::rename(output / "report.json", cases.path() / "far/away/report.json");
     EXPECT_EQ(run_program({"test", goldens.string(), "--accept", (cases.path() / "far/away").string()}).status, 0);
+}
+
+TEST_F(AskedAnswersTest, ARunOfAllCasesDropsThoseThatAreNoFiles) {
+    ask({{"a", scene, answers}, {"b", scene, answers}}, {"--update", "b"});
+    const auto run = [&](const std::vector<std::string>& names) {
+        std::vector<std::string> all{"test", goldens.string(), "--output", output.string()};
+        all.insert(all.end(), names.begin(), names.end());
+        EXPECT_EQ(run_program(all).status, 0);
+        return std::filesystem::exists(output / "report.json");
+    };
+    EXPECT_TRUE(run({"b"})) << "of some cases: a may be asked for again";
+    EXPECT_FALSE(run({}));
 }
 
 TEST_F(AskedAnswersTest, TheReportIsKeptWhenTheAskerIsGone) {
