@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -62,11 +63,20 @@ inline std::string_view name(DecidedBy by) { return kDecidedBy[static_cast<std::
 /// In the place of a backend: the case holds no picture.
 inline constexpr std::string_view kDrawsNothing = "none";
 
+/// What pictures depend on, as a reference has it (picture_tests/reference.h).
+struct Reference {
+    std::map<std::string, std::string> fonts;  ///< file name to SHA-256, 64 hexadecimal digits
+    std::string imgui;                         ///< version of Dear ImGui
+    std::string opengl;                        ///< the driver's version and what draws; the processor does not matter
+
+    bool operator==(const Reference&) const = default;
+};
+
 /// What drew the pictures.
 struct DrawnBy {
-    std::string backend;   ///< "osmesa", "egl", kDrawsNothing; empty without OpenGL
-    std::string renderer;  ///< what OpenGL calls itself
-    std::string opengl{};  ///< what a reference says of it (picture_tests/reference.h)
+    std::string backend;    ///< "osmesa", "egl", kDrawsNothing; empty without OpenGL
+    std::string renderer;   ///< what OpenGL calls itself
+    Reference reference{};  ///< of a result that an older version wrote some of it may be empty
 };
 
 /// Pictures are packed, as the bytes of PNG files: a run may have hundreds.

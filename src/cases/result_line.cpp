@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <sstream>
 #include <string>
@@ -139,7 +140,12 @@ void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures,
     json.member("other_here", result.other_here);
     json.member("backend", result.drawn_by.backend);
     json.member("renderer", result.drawn_by.renderer);
-    json.member("opengl", result.drawn_by.opengl);
+    const Reference& reference = result.drawn_by.reference;
+    json.member("opengl", reference.opengl);
+    json.member("imgui", reference.imgui);
+    json.begin_object("fonts");
+    for (const auto& [font, hash] : reference.fonts) json.member(font, hash);
+    json.end_object();
     if (lacks_opengl(result)) json.member("not_drawn", result.not_drawn);
     json.key("diff");
     result.image ? write_diff(json, *result.image) : json.null();
@@ -165,6 +171,15 @@ void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures,
     json.end_object();
 }
 
+std::map<std::string, std::string> read_fonts(const JsonPlace& place) {
+    std::map<std::string, std::string> out;
+    for (int i = 0; i < place.members(); ++i) {
+        const JsonPlace font = place.member(i);
+        out.emplace(font.key(), font.string());
+    }
+    return out;
+}
+
 CaseResult read_result(const JsonPlace& root, const std::vector<CaseFile>& cases) {
     const JsonPlace named_case = root.require("name");
     const std::string& of = named_case.string();
@@ -184,7 +199,10 @@ CaseResult read_result(const JsonPlace& root, const std::vector<CaseFile>& cases
     if (!decided_by.is_null()) result.decided_by = named<DecidedBy>(decided_by, kDecidedBy);
     result.other_here = root.require("other_here").string();
     result.drawn_by = {root.require("backend").string(), root.require("renderer").string()};
-    if (const auto opengl = root.find("opengl")) result.drawn_by.opengl = opengl->string();
+    Reference& reference = result.drawn_by.reference;
+    if (const auto opengl = root.find("opengl")) reference.opengl = opengl->string();
+    if (const auto imgui = root.find("imgui")) reference.imgui = imgui->string();
+    if (const auto fonts = root.find("fonts")) reference.fonts = read_fonts(*fonts);
     if (const auto not_drawn = root.find("not_drawn")) result.not_drawn = not_drawn->string();
     const JsonPlace diff = root.require("diff");
     if (!diff.is_null()) result.image = read_diff(diff);

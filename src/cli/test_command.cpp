@@ -63,7 +63,7 @@ struct TestCommandArguments {
     bool update = false;
     bool update_all = false;                ///< of those that are run
     std::vector<std::string> update_names;  ///< neither: ask
-    bool new_reference = false;             ///< with update_all, of all cases
+    bool new_reference = false;             ///< with update_all or accept, of all cases
     std::filesystem::path accept;           ///< the report to take goldens from; empty: none
     bool strict = false;                    ///< an orphaned golden is a failure
     std::filesystem::path output = "mobbscope-test";
@@ -413,7 +413,8 @@ int draw_and_hold(const TestCommandArguments& arguments) {
                                                                : picture_tests::cases_there(arguments.folder);
     if (!arguments.accept.empty()) {
         check_reports(arguments, all);
-        const bool taken = take_report(arguments.accept, arguments.folder, all, arguments.names, std::cout);
+        const bool taken = take_report(arguments.accept, arguments.folder, all, arguments.names,
+                                       arguments.new_reference, std::cout);
         flush_results();
         return taken ? kDone : kFailed;
     }
@@ -460,9 +461,11 @@ int draw_and_hold(const TestCommandArguments& arguments) {
 
 /// A reference is that of all goldens of a folder.
 void check_new_reference(const TestCommandArguments& arguments) {
-    const bool takes_all = arguments.update_all && arguments.names.empty() && arguments.shard.is_all();
-    if (!arguments.new_reference || takes_all) return;
-    throw InputError("--new-reference: goldens are from one place; take all of them, with --update all and no NAME");
+    const bool takes = arguments.update_all || !arguments.accept.empty();
+    if (!arguments.new_reference || (takes && arguments.names.empty() && arguments.shard.is_all())) return;
+    throw InputError(
+        "--new-reference: goldens are from one place; take all of them, with --update all or --accept REPORT, and no "
+        "NAME");
 }
 
 /// Throws InputError for an option that says nothing where standard input says which cases are drawn.
@@ -513,8 +516,8 @@ void add_test_options(Command& command, TestCommandArguments& arguments) {
                     "NAME")
         .any_number();
     command.add_flag("--new-reference", arguments.new_reference,
-                     "With --update all: say in reference.json what the goldens are drawn with, where they "
-                     "must be the very same");
+                     "With --update all or --accept: say in reference.json what the goldens are drawn with, where "
+                     "they must be the very same");
     add_parsed(command, "--accept", arguments.accept, parse_file_name,
                "Draw nothing: take the goldens of a report, the folder of --output or the page of --html, byte "
                "by byte, on any system",

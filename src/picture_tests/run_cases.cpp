@@ -568,7 +568,7 @@ CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view 
     const auto begin = std::chrono::steady_clock::now();
     if (maker) {
         const Renderer& renderer = maker->renderer();
-        result.drawn_by = {std::string(maker->backend()), renderer.context().device(), reference_of(renderer).opengl};
+        result.drawn_by = {std::string(maker->backend()), renderer.context().device(), reference_of(renderer)};
     }
     try {
         run(result, maker, no_opengl, options);

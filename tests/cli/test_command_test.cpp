@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -97,6 +98,7 @@ TEST_F(TestCommandTest, RefusesWhatIsNoRun) {
     expect_test_refused(test({"--new-reference"}), "--new-reference: ");
     expect_test_refused(test({"path", "--update", "all", "--new-reference"}), "--new-reference: ");
     expect_test_refused(test({"--update", "path", "--new-reference"}), "--new-reference: ");
+    expect_test_refused(test({"path", "--accept", "a", "--new-reference"}), "--new-reference: ");
     EXPECT_EQ(run_program({"test"}).status, 2);
 }
 
@@ -682,6 +684,60 @@ TEST_F(AcceptTest, SaysThatAReportIsFromElsewhere) {
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_PRED2(says, run.err, "path: the report is not from where its goldens are: it was drawn with ");
     EXPECT_EQ(slurp(cases.path() / "path.png"), slurp(output / "path.actual.png"));
+}
+
+TEST_F(AcceptTest, TakesTheReferenceOfAReport) {
+    // As another system drew it, whose goldens there are none of yet.
+    nlohmann::json report = nlohmann::json::parse(slurp(output / "report.json"));
+    const std::filesystem::path file = cases.path() / "there.json";
+    const auto write = [&] { cases.folder().write("there.json", report.dump()); };
+    for (nlohmann::json& one : report["cases"]) {
+        EXPECT_EQ(one["fonts"].size(), 2u);
+        one["opengl"] = "Mesa 1.0.0, llvmpipe";
+    }
+    write();
+    const Result run = accept(file, {"--new-reference"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    EXPECT_PRED2(says, run.out, "wrote " + (cases.path() / "query/reference.json").string());
+    EXPECT_PRED2(says, run.out, "accepted 2 cases of ");
+    const nlohmann::json reference = nlohmann::json::parse(slurp(cases.path() / "reference.json"));
+    EXPECT_EQ(reference["opengl"], "Mesa 1.0.0, llvmpipe");
+    EXPECT_EQ(reference["fonts"], report["cases"][0]["fonts"]);
+    EXPECT_EQ(reference["imgui"], report["cases"][0]["imgui"]);
+    EXPECT_PRED2(says, test().out, " for Mesa 1.0.0, llvmpipe ");
+    const Result again = accept(file, {"--new-reference"});
+    EXPECT_FALSE(says(again.out, "wrote")) << again.out;
+    EXPECT_PRED2(says, again.out, "2 cases have the goldens of ");
+}
+
+TEST_F(AcceptTest, RefusesAReportThatIsNotEnoughForAReference) {
+    const std::string whole = slurp(output / "report.json");
+    const auto expect_refused = [&](const std::function<void(nlohmann::json&)>& change, const std::string& words) {
+        nlohmann::json report = nlohmann::json::parse(whole);
+        change(report["cases"]);
+        cases.folder().write("damaged.json", report.dump());
+        expect_test_refused(accept(cases.path() / "damaged.json", {"--new-reference"}), words);
+        EXPECT_EQ(slurp(cases.path() / "path.png"), before) << words;
+        EXPECT_FALSE(exists("reference.json") || exists("query/end.png")) << words;
+    };
+    using Json = nlohmann::json;
+    expect_refused([](Json& told) { told[0].erase("fonts"); }, "path: --new-reference: the report does not say what");
+    expect_refused([](Json& told) { told[1]["other_here"] = "Mesa 1 for 2"; },
+                   "(Mesa 1 for 2), so the report may lack some that differ; remove " +
+                       (cases.path() / "query/reference.json").string());
+    expect_refused([](Json& told) { told[1]["not_drawn"] = "no OpenGL"; }, "query/end: --new-reference: its picture");
+    expect_refused([](Json& told) { told[1]["fresh"] = Json::array(); }, "query/end: it has no golden to take");
+    expect_refused([](Json& told) { told[1]["name"] = "gone"; }, "gone: there is no such case; --new-reference takes");
+    expect_refused([](Json& told) { told = Json::array(); }, "--new-reference: the report tells of no picture");
+    cases.add("third");
+    expect_refused(
+        [](Json& told) {
+            told.push_back(told[0]);
+            told[2]["name"] = "third";
+            told[2]["imgui"] = "0.1";
+        },
+        "third: --new-reference: the report is of several systems (Dear ImGui 0.1 for ");
 }
 
 TEST_F(DrawnTestCommandTest, AFailedPictureNeverTouchesItsGolden) {
