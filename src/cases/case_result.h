@@ -100,7 +100,7 @@ struct CaseResult {
     /// What is other here than where the goldens are from (picture_tests/reference.h); empty if nothing is.
     std::string other_here;
     DrawnBy drawn_by;
-    std::string not_drawn;                    ///< why there is no OpenGL for its picture; all else is held. Else empty
+    std::string not_drawn;                    ///< why its picture was not drawn, without OpenGL; else empty
     std::vector<std::filesystem::path> read;  ///< by the process that drew it and not told before; from the root
 };
 
@@ -165,8 +165,9 @@ std::string message_of(std::span<const Finding> findings);
 /// All that is wrong, the most important fact first, one line each; of one that was skipped why.
 std::vector<std::string> lines_of(const CaseResult& result);
 
-/// Makes the goldens of a case what is drawn now (write_goldens); then the case has passed, unless its scene expects
-/// other answers, or is skipped, where its picture was not drawn. Returns what it wrote, not what it removed. Throws as write_goldens does.
+/// Makes the goldens of a case what is drawn now (write_goldens). Then the case has passed, or is skipped if its
+/// picture was not drawn, unless its scene expects other answers. Returns what it wrote, not what it removed. Throws as
+/// write_goldens does.
 std::vector<std::filesystem::path> take(CaseResult& result);
 
 }  // namespace mobbscope::picture_tests

@@ -21,8 +21,6 @@ namespace mobbscope::picture_tests {
 
 namespace {
 
-constexpr double kMostPixels = 1e12;
-
 std::optional<std::string> packed(const std::optional<std::string>& bytes) {
     if (!bytes) return std::nullopt;
     return base64(*bytes);
@@ -74,8 +72,6 @@ Value named(const JsonPlace& place, std::span<const std::string_view> names) {
     return *value;
 }
 
-std::int64_t read_count(const JsonPlace& place) { return static_cast<std::int64_t>(place.number(0, kMostPixels)); }
-
 PictureSize read_picture_size(const JsonPlace& place) {
     place.require_size(2, "the width and the height");
     return {place[0].integer(0, kMaxInt), place[1].integer(0, kMaxInt)};
@@ -96,9 +92,9 @@ ImageDiff read_diff(const JsonPlace& place) {
     const JsonPlace actual = place.require("size_a"), reference = place.require("size_b");
     out.actual_size = read_picture_size(actual);
     out.reference_size = read_picture_size(reference);
-    out.pixels = read_count(place.require("pixels"));
-    out.unequal = read_count(place.require("unequal"));
-    out.differing = read_count(place.require("failing"));
+    out.pixels = place.require("pixels").count();
+    out.unequal = place.require("unequal").count();
+    out.differing = place.require("failing").count();
     out.largest = place.require("maximum").integer(0, 255);
     out.mean = place.require("mean").number(0, 255);
     const JsonPlace unequal_bounds = place.require("unequal_bounds"), bounds = place.require("bounds");
@@ -106,12 +102,10 @@ ImageDiff read_diff(const JsonPlace& place) {
     out.bounds = read_bounds(bounds);
     const JsonPlace histogram = place.require("histogram");
     histogram.require_size(static_cast<int>(out.histogram.size()), "the pixels of each difference");
-    for (std::size_t i = 0; i < out.histogram.size(); ++i) {
-        out.histogram[i] = read_count(histogram[static_cast<int>(i)]);
-    }
+    for (std::size_t i = 0; i < out.histogram.size(); ++i) out.histogram[i] = histogram[static_cast<int>(i)].count();
     out.options.channel_tolerance = place.require("threshold").number(0, 255);
     out.options.pixel_fraction = place.require("allowed").number(0, 1);
-    out.options.least_pixels = read_count(place.require("least_pixels"));
+    out.options.least_pixels = place.require("least_pixels").count();
     out.options.shift = place.require("shift").integer(0, 1);
     return out;
 }

@@ -92,8 +92,8 @@ References references_of(const picture_tests::CaseReport& read) {
     }
     if (out.empty()) {
         throw InputError(read.file.string(), "",
-                         "--new-reference: the report tells of no picture, and so not what drew them; take that of a job "
-                         "in which one differs");
+                         "--new-reference: the report tells of no picture, and so not what drew them; take that of a "
+                         "job in which one differs");
     }
     return out;
 }

@@ -7,6 +7,7 @@
 #include <picture_tests/run_cases.h>
 #include <picture_tests/test_case.h>
 #include <render/compare/draw_list_compare.h>
+#include <render/compare/json_values.h>
 #include <render/image/image_diff.h>
 #include <render/image/png.h>
 #include <render/image/ssim.h>
@@ -453,26 +454,6 @@ void check_replaces_no_input(const CaseFile& file, const Case& tested, bool aske
     }
 }
 
-/// Whether two texts say the same, whatever the order of their members.
-bool is_same(const JsonValue& a, const JsonValue& b) {
-    if (a.data.index() != b.data.index()) return false;
-    if (const auto* array = a.as<JsonValue::Array>()) {
-        return std::ranges::equal(*array, *b.as<JsonValue::Array>(), is_same);
-    }
-    if (const auto* object = a.as<JsonValue::Object>()) {
-        const auto& other = *b.as<JsonValue::Object>();
-        return object->size() == other.size() && std::ranges::all_of(*object, [&](const JsonMember& one) {
-                   const auto* found = std::ranges::find(other, one.key(), &JsonMember::key);
-                   return found != other.end() && is_same(one.value, found->value);
-               });
-    }
-    const auto* text = a.as<std::string>();
-    if (text) return *text == *b.as<std::string>();
-    const auto* number = a.as<double>();
-    const auto* yes = a.as<bool>();
-    return number ? *number == *b.as<double>() : !yes || *yes == *b.as<bool>();
-}
-
 /// The case that a test asks for must be that of its file: others run that.
 void check_case_file(CaseResult& result, const CaseTerms& terms, const std::string& asked) {
     const std::filesystem::path& file = result.file.file;
@@ -483,7 +464,8 @@ void check_case_file(CaseResult& result, const CaseTerms& terms, const std::stri
         };
         try {
             const JsonText before = parse_json(read_file(file), file.string()), now = parse_json(asked, "the test");
-            if (!is_same(before.root(), now.root())) differs(" is not what the test asks for");
+            if (compare::first_unlike(&now.root(), &before.root(), compare::kExactly))
+                differs(" is not what the test asks for");
         } catch (const InputError& error) {
             differs(std::string(" cannot be read: ") + error.what());
         }

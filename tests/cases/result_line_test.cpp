@@ -69,6 +69,10 @@ TEST(ResultLine, IsReadAsItIsWritten) {
     EXPECT_EQ(read.fresh[0].replaces, "old");
     EXPECT_FALSE(read.fresh[1].replaces);
     EXPECT_NE(input_error([&] { read_result_line("{}", {file}); }), "");
+    std::string half = line.str();
+    half.replace(half.find("\"pixels\": 2"), 11, "\"pixels\": 2.5");
+    EXPECT_NE(input_error([&] { read_result_line(half, {file}); }).find("/diff/pixels: 2.5 is out of range"),
+              std::string::npos);
     EXPECT_NE(input_error([&] { read_result_line(line.str(), {}); }), "");
 }
 
