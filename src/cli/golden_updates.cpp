@@ -169,8 +169,9 @@ bool take_report(const std::filesystem::path& report, const std::filesystem::pat
     const auto leave_out = [&](const std::string& name, const std::string& why) {
         if (new_reference) {
             throw InputError(read.file.string(), cleaned(name),
-                             why + "; --new-reference takes all or nothing: mend the case, run the job again and take "
-                                   "its report");
+                             why +
+                                 "; --new-reference takes all or nothing: mend the case, run the job again and take "
+                                 "its report");
         }
         warn(name + ": not accepted: " + why);
         all = false;

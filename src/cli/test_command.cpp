@@ -413,8 +413,8 @@ int draw_and_hold(const TestCommandArguments& arguments) {
                                                                : picture_tests::cases_there(arguments.folder);
     if (!arguments.accept.empty()) {
         check_reports(arguments, all);
-        const bool taken = take_report(arguments.accept, arguments.folder, all, arguments.names,
-                                       arguments.new_reference, std::cout);
+        const bool taken =
+            take_report(arguments.accept, arguments.folder, all, arguments.names, arguments.new_reference, std::cout);
         flush_results();
         return taken ? kDone : kFailed;
     }

@@ -35,7 +35,8 @@ TEST(ResultLine, IsReadAsItIsWritten) {
     result.actual = png_bytes(actual);
     result.golden = png_bytes(Image(2, 1));
     result.image = diff(actual, Image(2, 1));
-    result.drawn_by = {"osmesa", "llvmpipe (LLVM 15.0.6, 256 bits)",
+    result.drawn_by = {"osmesa",
+                       "llvmpipe (LLVM 15.0.6, 256 bits)",
                        {{{"Inter.otf", "01ab"}, {"Mono.ttf", "cd"}}, "1.86", "Mesa 22.3.6, llvmpipe"}};
     result.findings = {{file.golden(), "pixels", {}}, {file.draw(), "numbers", {"box of A", "and 1 more"}}};
     result.fresh = {{file.golden(), "new", "old"}, {file.draw(), "{}", {}}};

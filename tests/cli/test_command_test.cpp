@@ -213,7 +213,8 @@ TEST_F(AnswersTestCommandTest, EveryReportSaysWhatDiffers) {
 TEST_F(AnswersTestCommandTest, BesideAPictureAnswersAreHeldWithoutOpenGL) {
     const auto write = [&](const std::string& more) {
         cases.write("both", R"({"mobbscope_case": 1, "scene": "scene.json", "size": "160x120",
-                                "hold": ["picture", "answers"])" + more + "}");
+                                "hold": ["picture", "answers"])" +
+                                more + "}");
     };
     const std::string html = (output / "report.html").string(), junit = (output / "junit.xml").string();
     const auto run = [&] { return test({"--html", html, "--junit", junit}); };

@@ -519,9 +519,9 @@ TEST(RunCase, IsSkippedWithoutOpenGL) {
     const CaseResult later = run(R"("skip": "until then")");
     EXPECT_EQ(later.message, "until then");
     EXPECT_FALSE(lacks_opengl(later));
-    const CaseResult asked = run_case(case_named(cases.path(), "new"), nullptr, "no OpenGL",
-                                      {.fresh = FreshGoldens::of_all,
-                                       .asked = R"({"mobbscope_case": 1, "scene": "scene.json"})"});
+    const CaseResult asked =
+        run_case(case_named(cases.path(), "new"), nullptr, "no OpenGL",
+                 {.fresh = FreshGoldens::of_all, .asked = R"({"mobbscope_case": 1, "scene": "scene.json"})"});
     EXPECT_EQ(asked.outcome, CaseOutcome::skipped) << asked.message;
     EXPECT_TRUE(asked.fresh.empty()) << "no case without a golden";
 }
