@@ -232,9 +232,9 @@ TEST_F(AnswersTestCommandTest, BesideAPictureAnswersAreHeldWithoutOpenGL) {
     EXPECT_PRED2(says, held.out, "1 passed, 3 skipped; drawn by nothing: there is no OpenGL");
     EXPECT_PRED2(says, slurp(html), words);
     EXPECT_PRED2(says, slurp(junit), "<skipped message=\"" + words);
-    const nlohmann::json json = nlohmann::json::parse(test({"both", "--json"}).out);
-    EXPECT_EQ(json["cases"][0]["outcome"], "skipped");
-    EXPECT_PRED2(says, json["cases"][0]["message"].get<std::string>(), words);
+    const nlohmann::json told = nlohmann::json::parse(test({"both", "--json"}).out)["cases"][0];
+    EXPECT_EQ(told["outcome"], "skipped");
+    EXPECT_PRED2(says, told["message"].get<std::string>(), words);
 
     write(R"(, "fit": {"leaf": 1})");
     held = run();
@@ -603,29 +603,32 @@ TEST_F(AcceptTest, SaysWhatItCannotTake) {
 }
 
 TEST_F(AcceptTest, AReportTellsOfTheCasesThatThereAre) {
-    const std::filesystem::path report = output / "report.json";
-    const auto names = [&] {
-        const nlohmann::json told = nlohmann::json::parse(slurp(report));
-        std::vector<std::string> out;
+    using Told = std::vector<std::string>;
+    const auto names = [](const std::filesystem::path& folder) {
+        const nlohmann::json told = nlohmann::json::parse(slurp(folder / "report.json"));
+        Told out;
         for (const nlohmann::json& one : told["cases"]) out.push_back(one["name"].get<std::string>());
         return out;
     };
-    using Names = std::vector<std::string>;
     EXPECT_EQ(test({"path"}).status, 1);
-    EXPECT_EQ(names(), (Names{"path", "query/end"})) << "what a run of some leaves out stays";
+    EXPECT_EQ(names(output), (Told{"path", "query/end"})) << "what a run of some leaves out stays";
     cases.add("path");
     EXPECT_EQ(test({"path"}).status, 0);
-    EXPECT_EQ(names(), Names{"query/end"}) << "and what passes goes";
+    EXPECT_EQ(names(output), Told{"query/end"}) << "and what passes goes";
 
     // Folders may share a report.
-    std::filesystem::create_directory(cases.path() / "others");
-    cases.write("others/far", R"({"mobbscope_case": 1, "scene": "../scene.json", "hold": ["answers"]})");
-    EXPECT_EQ(run_program({"test", (cases.path() / "others").string(), "--output", output.string()}).status, 1);
-    EXPECT_EQ(names(), (Names{"far", "query/end"}));
-    std::filesystem::remove_all(cases.path() / "others");
+    const CaseFolder others;
+    others.write("far", R"({"mobbscope_case": 1, "scene": "scene.json", "hold": ["answers"]})");
+    const testing::TempFolder shared;
+    const auto run = [&](const CaseFolder& of) {
+        return run_program({"test", of.path().string(), "--output", shared.path().string()}).status;
+    };
+    EXPECT_EQ(run(others), 1);
+    EXPECT_EQ(run(cases), 1);
+    EXPECT_EQ(names(shared.path()), (Told{"far", "query/end"}));
     std::filesystem::remove(cases.path() / "query/end.case.json");
-    EXPECT_EQ(test().status, 0);
-    EXPECT_EQ(names(), Names{"far"}) << "a run of all leaves what is told of other folders alone";
+    EXPECT_EQ(run(cases), 0);
+    EXPECT_EQ(names(shared.path()), Told{"far"}) << "a run of all leaves only what is told of other folders";
 }
 
 TEST_F(AcceptTest, RefusesWhatIsNoReport) {

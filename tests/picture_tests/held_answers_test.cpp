@@ -99,7 +99,7 @@ TEST_F(HeldAnswersTest, BesideAPictureTheyAreHeldWithoutOpenGL) {
     EXPECT_TRUE(lacks_opengl(result));
     EXPECT_TRUE(result.remarks.empty() && result.fresh.empty());
 
-    change(file, Held::trace, [](Json& golden) { golden["traces"][0]["trace"][0]["outcome"] = "separated"; });
+    change(file, Held::trace, [](Json& golden) { golden["traces"][0]["trace"][0]["outcome"] = "disjoint_in_time"; });
     result = run(file);
     EXPECT_EQ(result.outcome, CaseOutcome::different);
     EXPECT_PRED2(says, result.message, "a.trace.json: query 0, A and B: ");
