@@ -218,7 +218,7 @@ picture_tests::CaseResult a_result() {
     result.image = diff(actual, golden);
     result.findings = {{result.file.golden(), "pixels", {}}, {result.file.draw(), "numbers", {"box of A"}}};
     result.fresh = {{result.file.golden(), result.actual, result.golden}, {result.file.draw(), "{}", {}}};
-    result.drawn_by = {"osmesa", "llvmpipe", "Mesa 22.3.6, llvmpipe"};
+    result.drawn_by = {"osmesa", "llvmpipe", {{{"Inter.otf", "01ab"}}, "1.86", "Mesa 22.3.6, llvmpipe"}};
     return result;
 }
 

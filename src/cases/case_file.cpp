@@ -176,14 +176,9 @@ std::vector<std::filesystem::path> orphaned_goldens(const std::filesystem::path&
     for (const CaseFile& file : cases) {
         std::optional<CaseTerms> terms;
         try {
-            const std::string name = file.file.string();
-            const JsonText value = parse_json(read_file(file.file), name);
-            const JsonPlace root(value, name);
-            terms = read_terms(root, file.file.parent_path());
+            terms = read_terms(file);
             // A scene may be called as a golden is.
-            const auto scene = root.find("scene");
-            if (scene && scene->is_string())
-                owned.insert((file.file.parent_path() / scene->string()).lexically_normal());
+            owned.insert(terms->scene.lexically_normal());
         } catch (const InputError&) {
             // What is wrong with a case is told where it is drawn.
         }
@@ -237,6 +232,8 @@ CaseTerms read_terms(const JsonPlace& root, const std::filesystem::path& folder)
         if (skip->string().empty()) skip->fail("say why the case is skipped");
         out.skip = skip->string();
     }
+    const auto scene = root.find("scene");
+    if (scene && scene->is_string()) out.scene = folder / scene->string();
     return out;
 }
 

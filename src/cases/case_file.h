@@ -109,6 +109,7 @@ struct CaseTerms {
     std::vector<Held> hold{Held::picture};      ///< at least one, each once
     double time_limit = 60;                     ///< seconds that drawing and comparing may take
     std::optional<std::string> skip;            ///< why
+    std::filesystem::path scene;                ///< empty: it stands in the case
 
     bool holds(Held held) const;
 };

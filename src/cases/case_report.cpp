@@ -141,34 +141,36 @@ CaseReport read_case_report(const std::filesystem::path& report, const std::file
 }
 
 void add_to_case_report(const std::filesystem::path& output, const std::filesystem::path& folder,
-                        std::vector<CaseResult> results) {
+                        std::span<const CaseResult> results, Cases cases) {
     constexpr std::chrono::seconds kPatience(60);
-    const Descriptor lock = lock_folder(output, kPatience);
+    const auto name_of = [](const CaseResult& one) -> const std::string& { return one.file.name; };
+    std::vector<CaseResult> told;
+    std::ranges::copy_if(results, std::back_inserter(told), is_told);
     const std::filesystem::path file = output / kReportFile;
     std::error_code ignored;
+    if (results.empty() || (told.empty() && !std::filesystem::exists(file, ignored))) return;
+    make_folder_of(file);
+    const Descriptor lock = lock_folder(output, kPatience);
     if (std::filesystem::exists(file, ignored)) {
         try {
             std::vector<CaseResult> others;
-            for (CaseResult& before : read_report(file, folder, cases_there(folder), others).results) {
-                const auto same =
-                    std::ranges::find(results, before.file.name,
-                                      [](const CaseResult& one) -> const std::string& { return one.file.name; });
-                if (same == results.end()) results.push_back(std::move(before));
-            }
-            std::ranges::move(others, std::back_inserter(results));
+            std::vector<CaseResult> before = read_report(file, folder, cases_there(folder), others).results;
+            std::erase_if(before, [&](const CaseResult& one) {
+                return cases == Cases::all || std::ranges::find(results, one.file.name, name_of) != results.end();
+            });
+            for (std::vector<CaseResult>* kept : {&before, &others}) std::ranges::move(*kept, std::back_inserter(told));
         } catch (const InputError&) {
             // Of one that is damaged nothing can be kept.
         }
     }
-    std::erase_if(results, [](const CaseResult& one) { return !is_told(one); });
-    std::ranges::sort(results, {}, [](const CaseResult& one) -> const std::string& { return one.file.name; });
+    std::ranges::sort(told, {}, name_of);
     check_stays_in_folder(file);
-    if (results.empty()) {
+    if (told.empty()) {
         std::filesystem::remove(file, ignored);
         return;
     }
     std::ostringstream report;
-    write_case_report(report, results, output);
+    write_case_report(report, told, output);
     write_file(file, std::move(report).str());
 }
 

@@ -42,11 +42,13 @@ struct CaseReport {
 CaseReport read_case_report(const std::filesystem::path& report, const std::filesystem::path& folder,
                             const std::vector<CaseFile>& cases);
 
-/// Makes the report in the folder `output`, which is there, tell of these results, whatever it told of their cases, and
-/// leaves what it tells of others, also of cases in other folders; processes may do so at the same time. One that would
-/// tell of none is removed. Throws MachineError.
+/// Whether results are of all cases of a folder: what a report tells of others there is gone.
+enum class Cases { some, all };
+/// Makes the report in the folder `output` tell of these results, whatever it told of their cases, and leaves what it
+/// tells of others, also of cases in other folders; processes may do so at the same time. One that would tell of none
+/// is removed. Throws MachineError.
 void add_to_case_report(const std::filesystem::path& output, const std::filesystem::path& folder,
-                        std::vector<CaseResult> results);
+                        std::span<const CaseResult> results, Cases cases);
 
 /// Throws InputError if what a report would write is no picture, or no JSON: a damaged one must not become a golden.
 void check_bytes(std::span<const GoldenChange> changes, const std::filesystem::path& report);

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,7 +23,7 @@ enum class CaseOutcome {
     different,       ///< what is held is not the golden's, or an answer not the expected one
     missing_golden,  ///< there is nothing to hold it against
     failed,          ///< the case cannot be read or drawn
-    skipped,         ///< by the case, or as there is no OpenGL
+    skipped,         ///< by the case, or its picture alone, as there is no OpenGL
 };
 
 /// What reports and the window call an outcome.
@@ -62,11 +63,20 @@ inline std::string_view name(DecidedBy by) { return kDecidedBy[static_cast<std::
 /// In the place of a backend: the case holds no picture.
 inline constexpr std::string_view kDrawsNothing = "none";
 
+/// What pictures depend on, as a reference has it (picture_tests/reference.h).
+struct Reference {
+    std::map<std::string, std::string> fonts;  ///< file name to SHA-256, 64 hexadecimal digits
+    std::string imgui;                         ///< version of Dear ImGui
+    std::string opengl;                        ///< the driver's version and what draws; the processor does not matter
+
+    bool operator==(const Reference&) const = default;
+};
+
 /// What drew the pictures.
 struct DrawnBy {
-    std::string backend;   ///< "osmesa", "egl", kDrawsNothing; empty without OpenGL
-    std::string renderer;  ///< what OpenGL calls itself
-    std::string opengl{};  ///< what a reference says of it (picture_tests/reference.h)
+    std::string backend;    ///< "osmesa", "egl", kDrawsNothing; empty without OpenGL
+    std::string renderer;   ///< what OpenGL calls itself
+    Reference reference{};  ///< of a result that an older version wrote some of it may be empty
 };
 
 /// Pictures are packed, as the bytes of PNG files: a run may have hundreds.
@@ -90,14 +100,14 @@ struct CaseResult {
     /// What is other here than where the goldens are from (picture_tests/reference.h); empty if nothing is.
     std::string other_here;
     DrawnBy drawn_by;
+    std::string not_drawn;                    ///< why its picture was not drawn, without OpenGL; else empty
     std::vector<std::filesystem::path> read;  ///< by the process that drew it and not told before; from the root
 };
 
-/// Whether the case holds no picture, and was run.
+/// Whether there is no OpenGL for its picture.
+inline bool lacks_opengl(const CaseResult& result) { return !result.not_drawn.empty(); }
+/// Whether the case was run, and holds no picture or lacks OpenGL for it.
 bool draws_nothing(const CaseResult& result);
-
-/// Whether it was skipped as there is no OpenGL; why is its message.
-bool lacks_opengl(const CaseResult& result);
 
 /// The pictures of a result, compared anew with its mask, for the heat map. Throws InputError if the mask cannot be
 /// read.
@@ -155,8 +165,9 @@ std::string message_of(std::span<const Finding> findings);
 /// All that is wrong, the most important fact first, one line each; of one that was skipped why.
 std::vector<std::string> lines_of(const CaseResult& result);
 
-/// Makes the goldens of a case what is drawn now (write_goldens); then the case has passed, unless its scene expects
-/// other answers. Returns what it wrote, not what it removed. Throws as write_goldens does.
+/// Makes the goldens of a case what is drawn now (write_goldens). Then the case has passed, or is skipped if its
+/// picture was not drawn, unless its scene expects other answers. Returns what it wrote, not what it removed. Throws as
+/// write_goldens does.
 std::vector<std::filesystem::path> take(CaseResult& result);
 
 }  // namespace mobbscope::picture_tests

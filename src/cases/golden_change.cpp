@@ -12,13 +12,11 @@ namespace mobbscope::picture_tests {
 namespace {
 
 void write_one(const GoldenChange& change) {
-    std::error_code error;
     if (change.bytes) {
-        // Of a new case the folder may be new too; one that cannot be made is told by what is written.
-        const std::filesystem::path folder = change.file.parent_path();
-        if (!folder.empty()) std::filesystem::create_directories(folder, error);
+        make_folder_of(change.file);  // of a new case it may be new too
         return write_file(change.file, *change.bytes);
     }
+    std::error_code error;
     std::filesystem::remove(change.file, error);
     if (error) throw MachineError(change.file.string() + ": cannot be removed: " + error.message());
 }
@@ -43,6 +41,14 @@ std::optional<std::string> golden_bytes(const std::filesystem::path& file) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) return std::nullopt;
     return read_file(file);
+}
+
+void make_folder_of(const std::filesystem::path& file) {
+    const std::filesystem::path folder = file.parent_path();
+    if (folder.empty()) return;
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw MachineError(folder.string() + ": cannot be made: " + error.message());
 }
 
 std::vector<GoldenChange> taken_back(std::span<const GoldenChange> changes) {

@@ -19,6 +19,9 @@ struct GoldenChange {
 /// What a file holds now; nothing if there is none. Throws InputError if it cannot be read.
 std::optional<std::string> golden_bytes(const std::filesystem::path& file);
 
+/// Makes the folder that a file goes to, if need be. Throws MachineError.
+void make_folder_of(const std::filesystem::path& file);
+
 /// What takes the changes back.
 std::vector<GoldenChange> taken_back(std::span<const GoldenChange> changes);
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <sstream>
 #include <string>
@@ -19,8 +20,6 @@
 namespace mobbscope::picture_tests {
 
 namespace {
-
-constexpr double kMostPixels = 1e12;
 
 std::optional<std::string> packed(const std::optional<std::string>& bytes) {
     if (!bytes) return std::nullopt;
@@ -73,8 +72,6 @@ Value named(const JsonPlace& place, std::span<const std::string_view> names) {
     return *value;
 }
 
-std::int64_t read_count(const JsonPlace& place) { return static_cast<std::int64_t>(place.number(0, kMostPixels)); }
-
 PictureSize read_picture_size(const JsonPlace& place) {
     place.require_size(2, "the width and the height");
     return {place[0].integer(0, kMaxInt), place[1].integer(0, kMaxInt)};
@@ -95,9 +92,9 @@ ImageDiff read_diff(const JsonPlace& place) {
     const JsonPlace actual = place.require("size_a"), reference = place.require("size_b");
     out.actual_size = read_picture_size(actual);
     out.reference_size = read_picture_size(reference);
-    out.pixels = read_count(place.require("pixels"));
-    out.unequal = read_count(place.require("unequal"));
-    out.differing = read_count(place.require("failing"));
+    out.pixels = place.require("pixels").count();
+    out.unequal = place.require("unequal").count();
+    out.differing = place.require("failing").count();
     out.largest = place.require("maximum").integer(0, 255);
     out.mean = place.require("mean").number(0, 255);
     const JsonPlace unequal_bounds = place.require("unequal_bounds"), bounds = place.require("bounds");
@@ -105,12 +102,10 @@ ImageDiff read_diff(const JsonPlace& place) {
     out.bounds = read_bounds(bounds);
     const JsonPlace histogram = place.require("histogram");
     histogram.require_size(static_cast<int>(out.histogram.size()), "the pixels of each difference");
-    for (std::size_t i = 0; i < out.histogram.size(); ++i) {
-        out.histogram[i] = read_count(histogram[static_cast<int>(i)]);
-    }
+    for (std::size_t i = 0; i < out.histogram.size(); ++i) out.histogram[i] = histogram[static_cast<int>(i)].count();
     out.options.channel_tolerance = place.require("threshold").number(0, 255);
     out.options.pixel_fraction = place.require("allowed").number(0, 1);
-    out.options.least_pixels = read_count(place.require("least_pixels"));
+    out.options.least_pixels = place.require("least_pixels").count();
     out.options.shift = place.require("shift").integer(0, 1);
     return out;
 }
@@ -139,7 +134,13 @@ void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures,
     json.member("other_here", result.other_here);
     json.member("backend", result.drawn_by.backend);
     json.member("renderer", result.drawn_by.renderer);
-    json.member("opengl", result.drawn_by.opengl);
+    const Reference& reference = result.drawn_by.reference;
+    json.member("opengl", reference.opengl);
+    json.member("imgui", reference.imgui);
+    json.begin_object("fonts");
+    for (const auto& [font, hash] : reference.fonts) json.member(font, hash);
+    json.end_object();
+    if (lacks_opengl(result)) json.member("not_drawn", result.not_drawn);
     json.key("diff");
     result.image ? write_diff(json, *result.image) : json.null();
     json.list("findings", result.findings, [&](const Finding& finding) {
@@ -164,6 +165,15 @@ void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures,
     json.end_object();
 }
 
+std::map<std::string, std::string> read_fonts(const JsonPlace& place) {
+    std::map<std::string, std::string> out;
+    for (int i = 0; i < place.members(); ++i) {
+        const JsonPlace font = place.member(i);
+        out.emplace(font.key(), font.string());
+    }
+    return out;
+}
+
 CaseResult read_result(const JsonPlace& root, const std::vector<CaseFile>& cases) {
     const JsonPlace named_case = root.require("name");
     const std::string& of = named_case.string();
@@ -183,7 +193,11 @@ CaseResult read_result(const JsonPlace& root, const std::vector<CaseFile>& cases
     if (!decided_by.is_null()) result.decided_by = named<DecidedBy>(decided_by, kDecidedBy);
     result.other_here = root.require("other_here").string();
     result.drawn_by = {root.require("backend").string(), root.require("renderer").string()};
-    if (const auto opengl = root.find("opengl")) result.drawn_by.opengl = opengl->string();
+    Reference& reference = result.drawn_by.reference;
+    if (const auto opengl = root.find("opengl")) reference.opengl = opengl->string();
+    if (const auto imgui = root.find("imgui")) reference.imgui = imgui->string();
+    if (const auto fonts = root.find("fonts")) reference.fonts = read_fonts(*fonts);
+    if (const auto not_drawn = root.find("not_drawn")) result.not_drawn = not_drawn->string();
     const JsonPlace diff = root.require("diff");
     if (!diff.is_null()) result.image = read_diff(diff);
     root.require("findings").each([&](const JsonPlace& finding) {

@@ -2,7 +2,8 @@
 /// the processes that draw tell it, and how a report keeps it (case_report.h).
 ///
 ///     {"name", "outcome", "message", "remarks": [...], "seconds", "tolerance", "decided_by", "other_here", "backend",
-///      "renderer", "opengl", "diff": {...} | null,                             as `mobbscope diff --json`
+///      "renderer", "opengl", "imgui", "fonts": {FILE: SHA-256},
+///      "diff": {...} | null,                             as `mobbscope diff --json`
 ///      "findings": [{"golden": ".draw.json", "message", "words": [...]}],
 ///      "shown": ".png",                                  the golden that the pictures are of
 ///      "mask": FILE | null,                              relative to the case
@@ -10,7 +11,7 @@
 ///      "fresh": [{"golden": ".png", "bytes": ... | null, "replaces": ... | null}]}   in base64; null: no such file
 ///
 /// Goldens are told by what follows the case's name; "" of a finding: the scene expects another answer. `tolerance` and
-/// `decided_by` are null where nothing was drawn.
+/// `decided_by` are null where nothing was drawn. Where there is no OpenGL for its picture, "not_drawn" says why.
 #pragma once
 
 #include <base/json.h>
@@ -18,6 +19,7 @@
 #include <cases/case_file.h>
 #include <cases/case_result.h>
 
+#include <map>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -30,6 +32,8 @@ enum class Pictures { all, not_in_fresh };
 /// With `all` comes how long it took; a report is the same every time. `folder`: what a report says of the folder of
 /// the goldens (case_report.h).
 void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures, std::string_view folder = {});
+/// "fonts", here and of a reference.
+std::map<std::string, std::string> read_fonts(const JsonPlace& place);
 /// `cases`: those that it may be of. Throws InputError if it is no result.
 CaseResult read_result(const JsonPlace& place, const std::vector<CaseFile>& cases);
 

@@ -155,12 +155,7 @@ std::string AskedCases::answer_to(const JsonPlace& request) {
 }
 
 void AskedCases::keep_report() {
-    const std::filesystem::path report = options_.output / picture_tests::kReportFile;
-    std::error_code ignored;
-    if (results_.empty()) return;
-    if (picture_tests::summary(results_).ok() && !std::filesystem::exists(report, ignored)) return;
-    picture_tests::make_folder_of(report);
-    add_to_case_report(options_.output, options_.folder, std::move(results_));
+    add_to_case_report(options_.output, options_.folder, results_, picture_tests::Cases::some);
 }
 
 }  // namespace mobbscope::cli

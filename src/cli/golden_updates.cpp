@@ -8,8 +8,11 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <iostream>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <string_view>
 
 namespace mobbscope::cli {
@@ -59,6 +62,42 @@ void check_patterns(const picture_tests::CaseReport& read, const std::vector<Cas
     }
 }
 
+/// By folder, what its goldens are drawn with.
+using References = std::map<std::filesystem::path, picture_tests::Reference>;
+
+/// What drew the pictures of a report. Throws InputError if it does not say, or if they are not all goldens that differ
+/// from what that draws.
+References references_of(const picture_tests::CaseReport& read) {
+    References out;
+    for (const CaseResult& one : read.results) {
+        const auto refuse = [&](const std::string& why) {
+            throw InputError(read.file.string(), cleaned(one.file.name), "--new-reference: " + why);
+        };
+        const picture_tests::Reference& reference = one.drawn_by.reference;
+        if (lacks_opengl(one)) refuse("its picture was not drawn; take the report of a job with OpenGL");
+        if (draws_nothing(one)) continue;
+        if (reference.fonts.empty() || reference.opengl.empty())
+            refuse("the report does not say what drew it; run the job again with this Mobbscope and take its report");
+        if (!one.other_here.empty()) {
+            const std::string file = picture_tests::reference_file(one.file.file.parent_path()).string();
+            refuse("the job compared it with goldens of another system (" + one.other_here +
+                   "), so the report may lack some that differ; remove " + file +
+                   ", run the job again and take its report");
+        }
+        const auto [known, is_new] = out.emplace(one.file.file.parent_path(), reference);
+        if (known->second != reference) {
+            refuse("the report is of several systems (" + what_is_other(reference, known->second) +
+                   "); take that of one job");
+        }
+    }
+    if (out.empty()) {
+        throw InputError(read.file.string(), "",
+                         "--new-reference: the report tells of no picture, and so not what drew them; take that of a "
+                         "job in which one differs");
+    }
+    return out;
+}
+
 }  // namespace
 
 bool matches_any(const std::vector<std::string>& patterns, const std::string& name) {
@@ -102,12 +141,12 @@ void take_as_reference(std::vector<CaseResult>& results, std::ostream& say) {
         return;
     }
     take_named(results, {}, say);
-    std::map<std::filesystem::path, std::string> drawn_by;
+    References references;
     for (const CaseResult& result : results) {
-        if (!draws_nothing(result)) drawn_by[result.file.file.parent_path()] = result.drawn_by.opengl;
+        if (!draws_nothing(result)) references[result.file.file.parent_path()] = result.drawn_by.reference;
     }
-    for (const auto& [folder, opengl] : drawn_by) {
-        picture_tests::write_reference(folder, picture_tests::reference_with(opengl));
+    for (const auto& [folder, reference] : references) {
+        picture_tests::write_reference(folder, reference);
         say << "wrote " << cleaned(picture_tests::reference_file(folder).string()) << '\n';
     }
 }
@@ -119,14 +158,21 @@ picture_tests::RunOptions run_options(const std::string& name, const std::vector
 }
 
 bool take_report(const std::filesystem::path& report, const std::filesystem::path& folder,
-                 const std::vector<CaseFile>& cases, const std::vector<std::string>& patterns, std::ostream& say) {
+                 const std::vector<CaseFile>& cases, const std::vector<std::string>& patterns, bool new_reference,
+                 std::ostream& say) {
     const picture_tests::CaseReport read = picture_tests::read_case_report(report, folder, cases);
     check_patterns(read, cases, patterns);
     const auto is_meant = [&](const std::string& name) { return patterns.empty() || matches_any(patterns, name); };
     std::vector<GoldenChange> changes;
     bool all = true;
-    int taken = 0;
+    int taken = 0, known = 0;
     const auto leave_out = [&](const std::string& name, const std::string& why) {
+        if (new_reference) {
+            throw InputError(read.file.string(), cleaned(name),
+                             why +
+                                 "; --new-reference takes all or nothing: mend the case, run the job again and take "
+                                 "its report");
+        }
         warn(name + ": not accepted: " + why);
         all = false;
     };
@@ -140,21 +186,29 @@ bool take_report(const std::filesystem::path& report, const std::filesystem::pat
             leave_out(one.file.name, "it has no golden to take: " + one.message);
             continue;
         }
-        if (!one.other_here.empty()) {
+        if (!new_reference && !one.other_here.empty()) {
             warn(one.file.name + ": the report is not from where its goldens are: it was drawn with " + one.other_here);
         }
-        ++taken;
-        for (const GoldenChange& change : one.fresh) {
-            // Whoever accepts twice has it already.
-            if (picture_tests::golden_bytes(change.file) != change.bytes) changes.push_back(change);
-        }
+        const std::size_t before = changes.size();
+        std::ranges::copy_if(one.fresh, std::back_inserter(changes), [](const GoldenChange& change) {
+            return picture_tests::golden_bytes(change.file) != change.bytes;
+        });
+        ++(changes.size() > before ? taken : known);
+    }
+    for (const auto& [of, reference] : new_reference ? references_of(read) : References()) {
+        const std::filesystem::path file = picture_tests::reference_file(of);
+        const std::optional<std::string> now = picture_tests::golden_bytes(file);
+        const std::string text = picture_tests::reference_text(reference);
+        if (now != text) changes.push_back({file, text, now});
     }
     check_bytes(changes, read.file);
     write_goldens(changes);
     for (const GoldenChange& change : changes) {
         say << (change.bytes ? "wrote " : "removed ") << cleaned(change.file.string()) << '\n';
     }
-    say << "accepted " << counted(taken, "case", "cases") << " of " << cleaned(read.file.string()) << '\n';
+    const std::string of = cleaned(read.file.string());
+    if (known > 0) say << counted(known, "case has", "cases have") << " the goldens of " << of << " already\n";
+    if (taken > 0 || known == 0) say << "accepted " << counted(taken, "case", "cases") << " of " << of << '\n';
     return all;
 }
 

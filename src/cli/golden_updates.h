@@ -37,11 +37,12 @@ void check_is_from_here(const std::filesystem::path& folder, const picture_tests
 void take_as_reference(std::vector<picture_tests::CaseResult>& results, std::ostream& say);
 
 /// Makes the goldens of a report (case_report.h) those of its cases, byte by byte, all or none: of those that
-/// `patterns` name, without patterns of all. Whether none that was meant is left out; those are said. Throws InputError
-/// if the report cannot be read, knows none of them or was not held against the goldens that are there now,
-/// MachineError if they cannot be written.
+/// `patterns` name, without patterns of all. Whether none that was meant is left out; those are said, as are those that
+/// have these goldens already. `new_reference`: their folders say then that they are drawn with what the job drew with.
+/// Throws InputError if the report cannot be read, knows none of them, was not held against the goldens that are there
+/// now, or is not enough for a new reference; MachineError if they cannot be written.
 bool take_report(const std::filesystem::path& report, const std::filesystem::path& folder,
                  const std::vector<picture_tests::CaseFile>& cases, const std::vector<std::string>& patterns,
-                 std::ostream& say);
+                 bool new_reference, std::ostream& say);
 
 }  // namespace mobbscope::cli

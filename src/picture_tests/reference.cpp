@@ -4,12 +4,14 @@
 #include <base/json.h>
 #include <base/json_writer.h>
 #include <base/text.h>
+#include <cases/result_line.h>
 #include <render/drawlist/font.h>
 
 #include <imgui.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -38,20 +40,16 @@ std::string hash_in(const Reference& reference, const std::string& font) {
 
 }  // namespace
 
-Reference reference_with(std::string opengl) {
+Reference reference_of(const Renderer& renderer) {
     Reference out;
     for (const FontFace face : {FontFace::text, FontFace::mono}) {
         out.fonts.emplace(Font::file_name(face), Font::file_sha256(face));
     }
     out.imgui = IMGUI_VERSION;
-    out.opengl = std::move(opengl);
-    return out;
-}
-
-Reference reference_of(const Renderer& renderer) {
     // "llvmpipe (LLVM 15.0.6, 256 bits)": the pictures are the same whatever the processor.
     const std::string& device = renderer.context().device();
-    return reference_with(driver_of(renderer.context().version()) + ", " + device.substr(0, device.find(" (")));
+    out.opengl = driver_of(renderer.context().version()) + ", " + device.substr(0, device.find(" ("));
+    return out;
 }
 
 std::filesystem::path reference_file(const std::filesystem::path& folder) { return folder / "reference.json"; }
@@ -69,18 +67,11 @@ std::optional<Reference> read_reference(const std::filesystem::path& folder) {
         version.fail("the reference has version " + format_double(version.number()) + "; this program reads version " +
                      std::to_string(kReferenceVersion));
     }
-    Reference out;
     const JsonPlace fonts = root.require("fonts");
-    for (int i = 0; i < fonts.members(); ++i) {
-        const JsonPlace font = fonts.member(i);
-        out.fonts.emplace(font.key(), font.string());
-    }
-    out.imgui = root.require("imgui").string();
-    out.opengl = root.require("opengl").string();
-    return out;
+    return Reference{read_fonts(fonts), root.require("imgui").string(), root.require("opengl").string()};
 }
 
-void write_reference(const std::filesystem::path& folder, const Reference& reference) {
+std::string reference_text(const Reference& reference) {
     std::ostringstream text;
     JsonWriter json(text);
     json.begin_object();
@@ -91,8 +82,12 @@ void write_reference(const std::filesystem::path& folder, const Reference& refer
     json.member("imgui", reference.imgui);
     json.member("opengl", reference.opengl);
     json.end_object();
+    return std::move(text).str();
+}
+
+void write_reference(const std::filesystem::path& folder, const Reference& reference) {
     check_stays_in_folder(reference_file(folder));
-    write_file(reference_file(folder), text.str());
+    write_file(reference_file(folder), reference_text(reference));
 }
 
 Image coarse_picture(const Image& image) {

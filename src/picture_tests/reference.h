@@ -13,26 +13,18 @@
 /// small and coarse (coarse_picture), with the loose tolerance, and of a window by its state, NAME.plain.state.json.
 #pragma once
 
+#include <cases/case_result.h>
 #include <render/gl/renderer.h>
 #include <render/image/image.h>
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 
 namespace mobbscope::picture_tests {
 
-struct Reference {
-    std::map<std::string, std::string> fonts;  ///< file name to SHA-256, 64 hexadecimal digits
-    std::string imgui;                         ///< version of Dear ImGui
-    std::string opengl;                        ///< the driver's version and what draws; the processor does not matter
-};
-
 /// What this program draws with here.
 Reference reference_of(const Renderer& renderer);
-/// The same where something else draws; `opengl`: as in a reference.
-Reference reference_with(std::string opengl);
 
 /// The file in a folder of cases.
 std::filesystem::path reference_file(const std::filesystem::path& folder);
@@ -40,6 +32,8 @@ std::filesystem::path reference_file(const std::filesystem::path& folder);
 /// What it says; nothing if there is none. Throws InputError.
 std::optional<Reference> read_reference(const std::filesystem::path& folder);
 
+/// The text of the file.
+std::string reference_text(const Reference& reference);
 /// Throws MachineError.
 void write_reference(const std::filesystem::path& folder, const Reference& reference);
 

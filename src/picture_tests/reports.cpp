@@ -66,9 +66,9 @@ void write_orphans(std::ostream& out, const RunFacts& facts) {
 }  // namespace
 
 std::string drawn_by(const RunFacts& facts, std::span<const CaseResult> results) {
-    if (std::ranges::all_of(results, draws_nothing)) return {};
     if (facts.backend.empty()) {
-        return std::ranges::any_of(results, lacks_opengl) ? "nothing: there is no OpenGL" : "nothing";
+        if (std::ranges::any_of(results, lacks_opengl)) return "nothing: there is no OpenGL";
+        return std::ranges::all_of(results, draws_nothing) ? "" : "nothing";
     }
     return facts.renderer.empty() ? facts.backend : facts.backend + ", " + facts.renderer;
 }
@@ -176,7 +176,7 @@ void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
     JsonWriter json(out);
     json.begin_object();
     json.member("folder", facts.folder);
-    json.member("backend", std::ranges::all_of(results, draws_nothing) ? kDrawsNothing : facts.backend);
+    json.member("backend", drawn_by(facts, results).empty() ? kDrawsNothing : facts.backend);
     json.member("renderer", facts.renderer);
     if (!facts.shard.empty()) json.member("shard", facts.shard);
     const Summary sum = summary(results);

@@ -38,7 +38,7 @@ void write_junit(std::ostream& out, const RunFacts& facts, std::span<const CaseR
 /// One page that needs nothing else: actual picture, golden, difference, and the two in turn.
 void write_html(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
 
-/// "osmesa (llvmpipe)", or that nothing was drawn.
+/// "osmesa, llvmpipe", or that nothing was drawn; empty where there is no picture.
 std::string drawn_by(const RunFacts& facts, std::span<const CaseResult> results);
 
 /// For each folder whose goldens are from elsewhere (reference.h) a sentence: what is other here, and by what its cases

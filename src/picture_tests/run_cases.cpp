@@ -7,6 +7,7 @@
 #include <picture_tests/run_cases.h>
 #include <picture_tests/test_case.h>
 #include <render/compare/draw_list_compare.h>
+#include <render/compare/json_values.h>
 #include <render/image/image_diff.h>
 #include <render/image/png.h>
 #include <render/image/ssim.h>
@@ -453,26 +454,6 @@ void check_replaces_no_input(const CaseFile& file, const Case& tested, bool aske
     }
 }
 
-/// Whether two texts say the same, whatever the order of their members.
-bool is_same(const JsonValue& a, const JsonValue& b) {
-    if (a.data.index() != b.data.index()) return false;
-    if (const auto* array = a.as<JsonValue::Array>()) {
-        return std::ranges::equal(*array, *b.as<JsonValue::Array>(), is_same);
-    }
-    if (const auto* object = a.as<JsonValue::Object>()) {
-        const auto& other = *b.as<JsonValue::Object>();
-        return object->size() == other.size() && std::ranges::all_of(*object, [&](const JsonMember& one) {
-                   const auto* found = std::ranges::find(other, one.key(), &JsonMember::key);
-                   return found != other.end() && is_same(one.value, found->value);
-               });
-    }
-    const auto* text = a.as<std::string>();
-    if (text) return *text == *b.as<std::string>();
-    const auto* number = a.as<double>();
-    const auto* yes = a.as<bool>();
-    return number ? *number == *b.as<double>() : !yes || *yes == *b.as<bool>();
-}
-
 /// The case that a test asks for must be that of its file: others run that.
 void check_case_file(CaseResult& result, const CaseTerms& terms, const std::string& asked) {
     const std::filesystem::path& file = result.file.file;
@@ -483,7 +464,8 @@ void check_case_file(CaseResult& result, const CaseTerms& terms, const std::stri
         };
         try {
             const JsonText before = parse_json(read_file(file), file.string()), now = parse_json(asked, "the test");
-            if (!is_same(before.root(), now.root())) differs(" is not what the test asks for");
+            if (compare::first_unlike(&now.root(), &before.root(), compare::kExactly))
+                differs(" is not what the test asks for");
         } catch (const InputError& error) {
             differs(std::string(" cannot be read: ") + error.what());
         }
@@ -501,13 +483,31 @@ std::vector<std::filesystem::path> add_files_read(CaseResult& result) {
     return files;
 }
 
-/// Reads it and compares all that it holds. `maker`: not null if that is a picture.
-void run(CaseResult& result, PictureMaker* maker, const RunOptions& options) {
+/// Of a case whose picture cannot be drawn: it is skipped, unless something else is wrong with it.
+void leave_picture_out(CaseResult& result, const CaseTerms& terms, std::string_view no_opengl) {
+    result.not_drawn = no_opengl;
+    const std::string not_drawn = "the picture was not drawn: " + result.not_drawn;
+    if (!result.findings.empty()) {
+        result.remarks.push_back(not_drawn);
+        return;
+    }
+    std::vector<std::string_view> held;
+    for (const Held what : terms.hold) {
+        if (what != Held::picture) held.push_back(name(what));
+    }
+    result.outcome = CaseOutcome::skipped;
+    result.message = held.empty() ? result.not_drawn : "as in the goldens: " + listed(held) + "; " + not_drawn;
+}
+
+/// Reads it and compares all that it holds.
+void run(CaseResult& result, PictureMaker* maker, std::string_view no_opengl, const RunOptions& options) {
     add_files_read(result);
     const Case tested = read_case(result.file.file, options.asked);
     std::vector<std::filesystem::path> inputs = add_files_read(result);
     std::erase(inputs, whole_path(options.asked ? std::filesystem::path() : result.file.file));
     result.tolerance = tested.terms.tolerance;
+    const bool draws = tested.terms.holds(Held::picture);
+    if (!draws) result.drawn_by = {std::string(kDrawsNothing), {}};
     if (tested.terms.skip) {
         result.outcome = CaseOutcome::skipped;
         result.message = *tested.terms.skip;
@@ -520,21 +520,14 @@ void run(CaseResult& result, PictureMaker* maker, const RunOptions& options) {
     for (const Held what : tested.terms.hold) {
         if (what != Held::picture) compare_held(result, *held, what);
     }
-    if (options.asked) check_case_file(result, tested.terms, *options.asked);
-    if (tested.terms.holds(Held::picture)) {
+    // Of a picture alone nothing can be taken without OpenGL, and no case is written that has no golden.
+    if (options.asked && (maker || held)) check_case_file(result, tested.terms, *options.asked);
+    if (draws && maker) {
         run_picture(result, tested, held ? &*held : nullptr, *maker, options);
-    } else if (wants_fresh(result, options)) {
+    } else if (held && wants_fresh(result, options)) {
         add_fresh(result, tested.terms, &*held, {}, options);
     }
-}
-
-/// Whether there is a picture; nothing where that cannot be found out.
-std::optional<bool> holds_picture(const CaseFile& file, const std::optional<std::string>& asked) {
-    try {
-        return read_terms(file, asked).holds(Held::picture);
-    } catch (const std::exception&) {
-        return std::nullopt;
-    }
+    if (draws && !maker) leave_picture_out(result, tested.terms, no_opengl);
 }
 
 }  // namespace
@@ -554,21 +547,13 @@ double similarity_loss(const Image& actual, const Image& golden, const Image* ma
 CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl, const RunOptions& options) {
     CaseResult result;
     result.file = file;
-    const std::optional<bool> draws = holds_picture(file, options.asked);
-    if (draws.value_or(false) && !maker) {
-        result.outcome = CaseOutcome::skipped;
-        result.message = no_opengl;
-        return result;
-    }
     const auto begin = std::chrono::steady_clock::now();
-    if (maker && draws.value_or(true)) {
+    if (maker) {
         const Renderer& renderer = maker->renderer();
-        result.drawn_by = {std::string(maker->backend()), renderer.context().device(), reference_of(renderer).opengl};
-    } else {
-        result.drawn_by.backend = kDrawsNothing;
+        result.drawn_by = {std::string(maker->backend()), renderer.context().device(), reference_of(renderer)};
     }
     try {
-        run(result, maker, options);
+        run(result, maker, no_opengl, options);
     } catch (const std::exception& error) {
         result.outcome = CaseOutcome::failed;
         result.message = error.what();
@@ -584,14 +569,6 @@ CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view 
     return result;
 }
 
-void make_folder_of(const std::filesystem::path& file) {
-    const std::filesystem::path folder = file.parent_path();
-    if (folder.empty()) return;
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) throw MachineError(folder.string() + ": cannot be made: " + error.message());
-}
-
 std::string words_on(const CaseResult& result, const std::filesystem::path& folder) {
     if (result.outcome == CaseOutcome::passed) return {};
     std::ostringstream out;
@@ -601,6 +578,10 @@ std::string words_on(const CaseResult& result, const std::filesystem::path& fold
     out << '\n';
     if (!result.findings.empty()) {
         for (const std::string& line : lines) out << "  " << cleaned(line) << '\n';
+    }
+    // There is nothing else to remark on where nothing was drawn.
+    if (lacks_opengl(result)) {
+        for (const std::string& remark : result.remarks) out << "  " << cleaned(remark) << '\n';
     }
     const std::string stem = (whole_path(folder) / result.file.name).string();
     constexpr std::array kNumbers{Held::answers, Held::trace, Held::fit};

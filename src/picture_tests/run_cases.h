@@ -12,8 +12,8 @@
 
 namespace mobbscope::picture_tests {
 
-/// Runs one case. `maker` null: there is no OpenGL, for the reason given; a case with a picture is skipped. Never
-/// throws for what is wrong with a case.
+/// Runs one case. `maker` null: there is no OpenGL, for the reason given; a case with a picture is skipped, if all else
+/// that it holds is as its goldens say. Never throws for what is wrong with a case.
 CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl,
                     const RunOptions& options = {});
 
@@ -26,9 +26,6 @@ double similarity_loss(const Image& actual, const Image& golden, const Image* ma
 /// what is small (measured by bench/guard: docs/ci.md).
 inline constexpr double kMostLoss = 0.01;
 inline constexpr double kMostLossWithDrawList = 0.25;
-
-/// Makes the folder that a file goes to, if need be. Throws MachineError.
-void make_folder_of(const std::filesystem::path& file);
 
 /// What a person is to know of a case that did not pass, on lines of their own, first its outcome: what differs, where
 /// `keep_pictures` puts its pictures, and how they are taken. Empty if it passed.

@@ -29,7 +29,7 @@ struct ReviewCase {
     bool marked = false;                 ///< chosen, among several
 
     bool drawn() const { return state == State::drawn; }
-    /// Passed, if its goldens were taken; only of what is drawn.
+    /// As after `take`, if its goldens were taken; only of what is drawn.
     picture_tests::CaseOutcome outcome() const;
     /// Drawn, and neither passed nor skipped.
     bool failing() const;

@@ -350,7 +350,8 @@ void held_words(Ui& ui, const ReviewCase& one, const ReviewPictures& pictures) {
     if (findings.empty()) {
         words(ui.style.quiet, one.outcome() == picture_tests::CaseOutcome::passed
                                   ? "The case holds no picture. All that it holds is as its goldens say."
-                                  : cleaned(one.result.message));
+                              : one.accepted ? "The picture was not drawn: " + cleaned(one.result.not_drawn)
+                                             : cleaned(one.result.message));
     }
     for (const picture_tests::Finding& finding : findings) held_finding(ui, pictures, finding);
     ImGui::EndChild();

@@ -85,8 +85,9 @@ TEST(OrphanedGoldens, AreOfWhatTheCaseNoLongerHolds) {
 TEST(OrphanedGoldens, AreThoseThatNoCaseHas) {
     const CaseFolder cases;
     cases.add("kept", R"("mask": "mask.png")");
+    cases.write("b", R"({"mobbscope_case": 1, "scene": "scene.draw.json"})");
     for (const char* file : {"kept.png", "kept.draw.json", "kept.plain.png", "mask.png", "lost.png", "gone.draw.json",
-                             "gone.plain.state.json", "notes.txt"}) {
+                             "gone.plain.state.json", "notes.txt", "scene.draw.json"}) {
         cases.folder().write(file, "");
     }
     std::filesystem::create_directories(cases.path() / "deeper");

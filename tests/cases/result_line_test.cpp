@@ -35,7 +35,9 @@ TEST(ResultLine, IsReadAsItIsWritten) {
     result.actual = png_bytes(actual);
     result.golden = png_bytes(Image(2, 1));
     result.image = diff(actual, Image(2, 1));
-    result.drawn_by = {"osmesa", "llvmpipe (LLVM 15.0.6, 256 bits)", "Mesa 22.3.6, llvmpipe"};
+    result.drawn_by = {"osmesa",
+                       "llvmpipe (LLVM 15.0.6, 256 bits)",
+                       {{{"Inter.otf", "01ab"}, {"Mono.ttf", "cd"}}, "1.86", "Mesa 22.3.6, llvmpipe"}};
     result.findings = {{file.golden(), "pixels", {}}, {file.draw(), "numbers", {"box of A", "and 1 more"}}};
     result.fresh = {{file.golden(), "new", "old"}, {file.draw(), "{}", {}}};
     std::ostringstream line;
@@ -50,7 +52,7 @@ TEST(ResultLine, IsReadAsItIsWritten) {
     EXPECT_EQ(read.seconds, 1.5);
     EXPECT_EQ(read.tolerance, Tolerance::loose);
     EXPECT_EQ(read.drawn_by.backend, "osmesa");
-    EXPECT_EQ(read.drawn_by.opengl, "Mesa 22.3.6, llvmpipe");
+    EXPECT_EQ(read.drawn_by.reference, result.drawn_by.reference);
     EXPECT_EQ(read.actual, result.actual);
     EXPECT_EQ(read.golden, result.golden);
     ASSERT_TRUE(read.image);
@@ -68,6 +70,10 @@ TEST(ResultLine, IsReadAsItIsWritten) {
     EXPECT_EQ(read.fresh[0].replaces, "old");
     EXPECT_FALSE(read.fresh[1].replaces);
     EXPECT_NE(input_error([&] { read_result_line("{}", {file}); }), "");
+    std::string half = line.str();
+    half.replace(half.find("\"pixels\": 2"), 11, "\"pixels\": 2.5");
+    EXPECT_NE(input_error([&] { read_result_line(half, {file}); }).find("/diff/pixels: 2.5 is out of range"),
+              std::string::npos);
     EXPECT_NE(input_error([&] { read_result_line(line.str(), {}); }), "");
 }
 

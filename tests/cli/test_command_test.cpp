@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -97,6 +98,7 @@ TEST_F(TestCommandTest, RefusesWhatIsNoRun) {
     expect_test_refused(test({"--new-reference"}), "--new-reference: ");
     expect_test_refused(test({"path", "--update", "all", "--new-reference"}), "--new-reference: ");
     expect_test_refused(test({"--update", "path", "--new-reference"}), "--new-reference: ");
+    expect_test_refused(test({"path", "--accept", "a", "--new-reference"}), "--new-reference: ");
     EXPECT_EQ(run_program({"test"}).status, 2);
 }
 
@@ -206,6 +208,48 @@ TEST_F(AnswersTestCommandTest, EveryReportSaysWhatDiffers) {
     EXPECT_FALSE(exists("out/answers.actual.answers.json"));
     EXPECT_EQ(test({"answers", "--html", html}).status, 0);
     EXPECT_PRED2(says, slurp(html), "answers") << "one that passed without a picture";
+}
+
+TEST_F(AnswersTestCommandTest, BesideAPictureAnswersAreHeldWithoutOpenGL) {
+    const auto write = [&](const std::string& more) {
+        cases.write("both", R"({"mobbscope_case": 1, "scene": "scene.json", "size": "160x120",
+                                "hold": ["picture", "answers"])" +
+                                more + "}");
+    };
+    const std::string html = (output / "report.html").string(), junit = (output / "junit.xml").string();
+    const auto run = [&] { return test({"--html", html, "--junit", junit}); };
+    write("");
+    Result taken = test({"--update", "both"});
+    EXPECT_EQ(taken.status, 3) << "the picture is skipped";
+    EXPECT_PRED2(says, taken.out, "wrote " + (cases.path() / "both.answers.json").string());
+    ASSERT_EQ(test({"--update", "answers"}).status, 0);
+
+    const std::string words = "as in the goldens: answers; the picture was not drawn: no OpenGL 3.3";
+    Result held = run();
+    EXPECT_EQ(held.status, 3) << held.out;
+    EXPECT_TRUE(held.err.starts_with("mobbscope: no OpenGL 3.3")) << held.err;
+    EXPECT_PRED2(says, held.out, "skipped: both: " + words);
+    EXPECT_PRED2(says, held.out, "1 passed, 3 skipped; drawn by nothing: there is no OpenGL");
+    EXPECT_PRED2(says, slurp(html), words);
+    EXPECT_PRED2(says, slurp(junit), "<skipped message=\"" + words);
+    const nlohmann::json told = nlohmann::json::parse(test({"both", "--json"}).out)["cases"][0];
+    EXPECT_EQ(told["outcome"], "skipped");
+    EXPECT_PRED2(says, told["message"].get<std::string>(), words);
+
+    write(R"(, "fit": {"leaf": 1})");
+    held = run();
+    EXPECT_EQ(held.status, 1) << "a difference weighs more than what was not drawn";
+    EXPECT_TRUE(is_one_line(held.err)) << held.err;
+    EXPECT_PRED2(says, held.err, "warning: no OpenGL 3.3");
+    EXPECT_PRED2(says, held.out, "different: both: both.answers.json: query 0, A and B: ");
+    EXPECT_PRED2(says, held.out, "\n  the picture was not drawn: no OpenGL 3.3");
+    for (const std::string& report : {html, junit}) {
+        EXPECT_PRED2(says, slurp(report), "both.answers.json: ");
+        EXPECT_PRED2(says, slurp(report), "the picture was not drawn: no OpenGL 3.3");
+    }
+    EXPECT_EQ(test({"both", "--json-lines"}).status, 1);
+    EXPECT_EQ(run_program({"test", cases.path().string(), "both", "--accept", html}).status, 0);
+    EXPECT_EQ(run().status, 3);
 }
 
 TEST_F(AnswersTestCommandTest, WhatTheSceneExpectsNoGoldenMends) {
@@ -519,7 +563,10 @@ TEST_F(AcceptTest, TakesThePicturesOfAReportByteByByte) {
         EXPECT_EQ(slurp(cases.path() / "path.png"), slurp(output / "path.actual.png"));
         EXPECT_EQ(slurp(cases.path() / "path.draw.json"), draw);
         EXPECT_EQ(slurp(cases.path() / "query/end.png"), slurp(output / "query/end.actual.png"));
-        EXPECT_EQ(accept(report).status, 0) << "twice is once";
+        const Result again = accept(report);
+        EXPECT_EQ(again.status, 0) << "twice is once";
+        EXPECT_PRED2(says, again.out, "2 cases have the goldens of ");
+        EXPECT_FALSE(says(again.out, "accepted")) << again.out;
         cases.folder().write("path.draw.json", old_draw());
     }
 }
@@ -528,6 +575,8 @@ TEST_F(AcceptTest, OfSomeOfItsCases) {
     EXPECT_EQ(accept(page, {"path"}).status, 0);
     EXPECT_EQ(slurp(cases.path() / "path.png"), slurp(output / "path.actual.png"));
     EXPECT_FALSE(exists("query/end.png"));
+    const std::string rest = accept(page).out;
+    EXPECT_PRED2(says, rest, "1 case has the goldens of " + page.string() + " already\naccepted 1 case of ");
     expect_test_refused(accept(page, {"pth"}), "there is no case 'pth'");
     cases.add("fine");
     expect_test_refused(accept(page, {"fine"}), "'fine' passed there, or was not drawn");
@@ -551,6 +600,35 @@ TEST_F(AcceptTest, SaysWhatItCannotTake) {
     const Result failed = accept(output);
     EXPECT_EQ(failed.status, 1);
     EXPECT_PRED2(says, failed.err, "path: not accepted: it has no golden to take");
+}
+
+TEST_F(AcceptTest, AReportTellsOfTheCasesThatThereAre) {
+    using Told = std::vector<std::string>;
+    const auto names = [](const std::filesystem::path& folder) {
+        const nlohmann::json told = nlohmann::json::parse(slurp(folder / "report.json"));
+        Told out;
+        for (const nlohmann::json& one : told["cases"]) out.push_back(one["name"].get<std::string>());
+        return out;
+    };
+    EXPECT_EQ(test({"path"}).status, 1);
+    EXPECT_EQ(names(output), (Told{"path", "query/end"})) << "what a run of some leaves out stays";
+    cases.add("path");
+    EXPECT_EQ(test({"path"}).status, 0);
+    EXPECT_EQ(names(output), Told{"query/end"}) << "and what passes goes";
+
+    // Folders may share a report.
+    const CaseFolder others;
+    others.write("far", R"({"mobbscope_case": 1, "scene": "scene.json", "hold": ["answers"]})");
+    const testing::TempFolder shared;
+    const auto run = [&](const CaseFolder& of) {
+        return run_program({"test", of.path().string(), "--output", shared.path().string()}).status;
+    };
+    EXPECT_EQ(run(others), 1);
+    EXPECT_EQ(run(cases), 1);
+    EXPECT_EQ(names(shared.path()), (Told{"far", "query/end"}));
+    std::filesystem::remove(cases.path() / "query/end.case.json");
+    EXPECT_EQ(run(cases), 0);
+    EXPECT_EQ(names(shared.path()), Told{"far"}) << "a run of all leaves only what is told of other folders";
 }
 
 TEST_F(AcceptTest, RefusesWhatIsNoReport) {
@@ -610,6 +688,60 @@ TEST_F(AcceptTest, SaysThatAReportIsFromElsewhere) {
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_PRED2(says, run.err, "path: the report is not from where its goldens are: it was drawn with ");
     EXPECT_EQ(slurp(cases.path() / "path.png"), slurp(output / "path.actual.png"));
+}
+
+TEST_F(AcceptTest, TakesTheReferenceOfAReport) {
+    // As another system drew it, whose goldens there are none of yet.
+    nlohmann::json report = nlohmann::json::parse(slurp(output / "report.json"));
+    const std::filesystem::path file = cases.path() / "there.json";
+    const auto write = [&] { cases.folder().write("there.json", report.dump()); };
+    for (nlohmann::json& one : report["cases"]) {
+        EXPECT_EQ(one["fonts"].size(), 2u);
+        one["opengl"] = "Mesa 1.0.0, llvmpipe";
+    }
+    write();
+    const Result run = accept(file, {"--new-reference"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    EXPECT_PRED2(says, run.out, "wrote " + (cases.path() / "query/reference.json").string());
+    EXPECT_PRED2(says, run.out, "accepted 2 cases of ");
+    const nlohmann::json reference = nlohmann::json::parse(slurp(cases.path() / "reference.json"));
+    EXPECT_EQ(reference["opengl"], "Mesa 1.0.0, llvmpipe");
+    EXPECT_EQ(reference["fonts"], report["cases"][0]["fonts"]);
+    EXPECT_EQ(reference["imgui"], report["cases"][0]["imgui"]);
+    EXPECT_PRED2(says, test().out, " for Mesa 1.0.0, llvmpipe ");
+    const Result again = accept(file, {"--new-reference"});
+    EXPECT_FALSE(says(again.out, "wrote")) << again.out;
+    EXPECT_PRED2(says, again.out, "2 cases have the goldens of ");
+}
+
+TEST_F(AcceptTest, RefusesAReportThatIsNotEnoughForAReference) {
+    const std::string whole = slurp(output / "report.json");
+    const auto expect_refused = [&](const std::function<void(nlohmann::json&)>& change, const std::string& words) {
+        nlohmann::json report = nlohmann::json::parse(whole);
+        change(report["cases"]);
+        cases.folder().write("damaged.json", report.dump());
+        expect_test_refused(accept(cases.path() / "damaged.json", {"--new-reference"}), words);
+        EXPECT_EQ(slurp(cases.path() / "path.png"), before) << words;
+        EXPECT_FALSE(exists("reference.json") || exists("query/end.png")) << words;
+    };
+    using Json = nlohmann::json;
+    expect_refused([](Json& told) { told[0].erase("fonts"); }, "path: --new-reference: the report does not say what");
+    expect_refused([](Json& told) { told[1]["other_here"] = "Mesa 1 for 2"; },
+                   "(Mesa 1 for 2), so the report may lack some that differ; remove " +
+                       (cases.path() / "query/reference.json").string());
+    expect_refused([](Json& told) { told[1]["not_drawn"] = "no OpenGL"; }, "query/end: --new-reference: its picture");
+    expect_refused([](Json& told) { told[1]["fresh"] = Json::array(); }, "query/end: it has no golden to take");
+    expect_refused([](Json& told) { told[1]["name"] = "gone"; }, "gone: there is no such case; --new-reference takes");
+    expect_refused([](Json& told) { told = Json::array(); }, "--new-reference: the report tells of no picture");
+    cases.add("third");
+    expect_refused(
+        [](Json& told) {
+            told.push_back(told[0]);
+            told[2]["name"] = "third";
+            told[2]["imgui"] = "0.1";
+        },
+        "third: --new-reference: the report is of several systems (Dear ImGui 0.1 for ");
 }
 
 TEST_F(DrawnTestCommandTest, AFailedPictureNeverTouchesItsGolden) {
@@ -988,9 +1120,25 @@ TEST_F(AskedAnswersTest, AMissingGoldenSaysWhatItWouldHold) {
     EXPECT_PRED2(says, run.out, "\n  actual:  " + (output / "a.actual.answers.json").string() + '\n');
 }
 
+TEST_F(AskedAnswersTest, BesideAPictureTheyAreHeldWithoutOpenGL) {
+    ::setenv("MESA_GL_VERSION_OVERRIDE", "2.1", 1);
+    const std::string both = R"({"hold": ["picture", "answers"])";
+    const Result taken = ask({{"a", scene, both + "}"}}, {"--update", "a"});
+    EXPECT_TRUE(taken.out.starts_with("skipped a\nwrote ")) << taken.out;
+    EXPECT_PRED2(says, ask({{"a", scene, both + "}"}}).out,
+                 "skipped a\nskipped: a: as in the goldens: answers; the picture was not drawn: no OpenGL 3.3");
+    const Result differs = ask({{"a", scene, both + R"(, "fit": {"leaf": 1}})"}});
+    EXPECT_TRUE(differs.out.starts_with("different a\n")) << differs.out;
+    EXPECT_PRED2(says, differs.out, "a.answers.json: query 0, A and B: ");
+    EXPECT_PRED2(says, differs.out, "\n  the picture was not drawn: no OpenGL 3.3");
+    ::unsetenv("MESA_GL_VERSION_OVERRIDE");
+}
+
 TEST_F(AskedAnswersTest, ACaseThatItsTestHasChangedIsTold) {
     ASSERT_EQ(ask({{"a", scene, answers}}, {"--update", "all"}).status, 0);
     EXPECT_EQ(ask({{"a", scene, " " + answers}}).out, "passed a\n\n") << "it says the same";
+    const std::string nearly = std::string(scene).replace(scene.find("0.45]"), 5, "0.45001]");
+    EXPECT_PRED2(says, ask({{"a", nearly, answers}}).out, "a.case.json is not what the test asks for");
     const Result changed = ask({{"a", scene, R"({"hold": ["answers"], "time_limit": 5})"}});
     EXPECT_TRUE(changed.out.starts_with("different a\ndifferent: a\n  a.case.json is not what the test asks for\n"))
         << changed.out;
@@ -1019,6 +1167,18 @@ TEST_F(AskedAnswersTest, FoldersOfGoldensMayShareAReport) {
     std::filesystem::create_directories(cases.path() / "far/away");
     std::filesystem::rename(output / "report.json", cases.path() / "far/away/report.json");
     EXPECT_EQ(run_program({"test", goldens.string(), "--accept", (cases.path() / "far/away").string()}).status, 0);
+}
+
+TEST_F(AskedAnswersTest, ARunOfAllCasesDropsThoseThatAreNoFiles) {
+    ask({{"a", scene, answers}, {"b", scene, answers}}, {"--update", "b"});
+    const auto run = [&](const std::vector<std::string>& names) {
+        std::vector<std::string> all{"test", goldens.string(), "--output", output.string()};
+        all.insert(all.end(), names.begin(), names.end());
+        EXPECT_EQ(run_program(all).status, 0);
+        return std::filesystem::exists(output / "report.json");
+    };
+    EXPECT_TRUE(run({"b"})) << "of some cases: a may be asked for again";
+    EXPECT_FALSE(run({}));
 }
 
 TEST_F(AskedAnswersTest, TheReportIsKeptWhenTheAskerIsGone) {

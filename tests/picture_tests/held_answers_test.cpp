@@ -1,5 +1,6 @@
 // Answers, traces and fits held by a case: what is found, and in which words. Nothing is drawn, so no OpenGL is needed.
 #include <base/file.h>
+#include <cases/result_line.h>
 #include <picture_tests/held_answers.h>
 #include <picture_tests/run_cases.h>
 #include <support/input_error.h>
@@ -15,6 +16,7 @@
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -74,11 +76,37 @@ TEST_F(HeldAnswersTest, NeedNoOpenGL) {
     EXPECT_FALSE(std::filesystem::exists(file.golden()));
     EXPECT_EQ(run(file).outcome, CaseOutcome::passed);
 
-    const CaseResult picture = run(add(R"(["picture", "answers"])"));
-    EXPECT_EQ(picture.outcome, CaseOutcome::skipped) << "a picture needs it";
     const CaseResult skipped = run(add(R"(["answers"])", R"("skip": "why")"));
     EXPECT_EQ(skipped.outcome, CaseOutcome::skipped);
     EXPECT_FALSE(lacks_opengl(skipped)) << "that is not the reason";
+}
+
+TEST_F(HeldAnswersTest, BesideAPictureTheyAreHeldWithoutOpenGL) {
+    const CaseFile file = add(R"(["answers", "picture", "trace"])");
+    CaseResult result = run(file);
+    EXPECT_EQ(result.outcome, CaseOutcome::missing_golden);
+    EXPECT_EQ(result.findings.size(), 2u);
+    ASSERT_EQ(result.fresh.size(), 2u) << "of the picture there is nothing to take";
+    EXPECT_EQ(result.remarks, std::vector<std::string>{"the picture was not drawn: no OpenGL"});
+    EXPECT_PRED2(says, words_on(result, "out"), "\n  the picture was not drawn: no OpenGL\n");
+    take(result);
+    EXPECT_EQ(result.outcome, CaseOutcome::skipped);
+    EXPECT_EQ(result.message, "the picture was not drawn: no OpenGL");
+
+    result = run(file);
+    EXPECT_EQ(result.outcome, CaseOutcome::skipped);
+    EXPECT_EQ(result.message, "as in the goldens: answers, trace; the picture was not drawn: no OpenGL");
+    EXPECT_TRUE(lacks_opengl(result));
+    EXPECT_TRUE(result.remarks.empty() && result.fresh.empty());
+
+    change(file, Held::trace, [](Json& golden) { golden["traces"][0]["trace"][0]["outcome"] = "disjoint_in_time"; });
+    result = run(file);
+    EXPECT_EQ(result.outcome, CaseOutcome::different);
+    EXPECT_PRED2(says, result.message, "a.trace.json: query 0, A and B: ");
+    EXPECT_TRUE(lacks_opengl(result) && can_be_taken(result));
+    std::stringstream line;
+    write_result_line(line, result);
+    EXPECT_EQ(read_result_line(line.str(), {file}).not_drawn, "no OpenGL");
 }
 
 TEST_F(HeldAnswersTest, OneDigitOfAContactIsFound) {

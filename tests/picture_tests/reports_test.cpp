@@ -114,7 +114,9 @@ TEST(Reports, TextHasALineForEachThatDidNotPass) {
               "15.0.6, 256 bits)\n"
               "Look at the pictures. Those that are right become goldens with\n"
               "  mobbscope test 'my pictures' --update 'levels/new one' moved\n");
-    EXPECT_EQ(written(write_text, {result("a", CaseOutcome::skipped, "no OpenGL")}, {"d", "", ""}),
+    CaseResult lacking = result("a", CaseOutcome::skipped, "no OpenGL");
+    lacking.not_drawn = "no OpenGL";
+    EXPECT_EQ(written(write_text, {lacking}, {"d", "", ""}),
               "skipped: a: no OpenGL\nd: 1 skipped; drawn by nothing: there is no OpenGL\n");
     EXPECT_EQ(written(write_text, {result("a", CaseOutcome::failed, "crashed")}, {"d", "", ""}),
               "failed: a: crashed\nd: 1 failed; drawn by nothing\n");

@@ -508,9 +508,22 @@ TEST_F(RunCaseWithReferenceTest, NoCaseIsCalledAsAGoldenIs) {
 
 TEST(RunCase, IsSkippedWithoutOpenGL) {
     const CaseFolder cases;
-    const CaseResult result = run_case(cases.add("a", R"("veiw": {})"), nullptr, "no OpenGL (osmesa: none)");
+    const auto run = [&](const std::string& more) {
+        return run_case(cases.add("a", more), nullptr, "no OpenGL (osmesa: none)");
+    };
+    const CaseResult result = run("");
     EXPECT_EQ(result.outcome, CaseOutcome::skipped);
     EXPECT_EQ(result.message, "no OpenGL (osmesa: none)");
+    EXPECT_TRUE(lacks_opengl(result));
+    EXPECT_EQ(run(R"("veiw": {})").outcome, CaseOutcome::failed) << "what is wrong is seen without a picture";
+    const CaseResult later = run(R"("skip": "until then")");
+    EXPECT_EQ(later.message, "until then");
+    EXPECT_FALSE(lacks_opengl(later));
+    const CaseResult asked =
+        run_case(case_named(cases.path(), "new"), nullptr, "no OpenGL",
+                 {.fresh = FreshGoldens::of_all, .asked = R"({"mobbscope_case": 1, "scene": "scene.json"})"});
+    EXPECT_EQ(asked.outcome, CaseOutcome::skipped) << asked.message;
+    EXPECT_TRUE(asked.fresh.empty()) << "no case without a golden";
 }
 
 TEST_F(RunCaseTest, PanelsFillTheirPicture) {

@@ -870,6 +870,18 @@ TEST(Review, TheScenesCommandsAreNotForPictureTests) {
     EXPECT_EQ(why_not(w.session, command_named("review.accept", commands(w.session))), "no picture tests are shown");
 }
 
+TEST(Review, AcceptingPassesWhatIsWholeAndSkipsWhatWasNotDrawn) {
+    ReviewCase one;
+    one.state = ReviewCase::State::drawn;
+    one.accepted = true;
+    one.result.outcome = picture_tests::CaseOutcome::different;
+    EXPECT_EQ(one.outcome(), picture_tests::CaseOutcome::passed);
+    one.result.not_drawn = "no OpenGL";
+    EXPECT_EQ(one.outcome(), picture_tests::CaseOutcome::skipped);
+    one.result.findings = {{{}, "the scene expects another answer", {}}};
+    EXPECT_EQ(one.outcome(), picture_tests::CaseOutcome::different);
+}
+
 TEST(Review, AReportsGoldensAreTakenByteByByteAndDrawNothing) {
     ReviewWorld w;
     const fs::path out = w.files.path() / "out";

@@ -64,6 +64,7 @@ std::string shown(const JsonValue* value) {
 }
 
 bool agree(double a, double b, double bound) {
+    if (bound == kExactly) return a == b;
     return std::abs(a - b) <= std::max({bound, kNear, kNearShare * std::abs(a), kNearShare * std::abs(b)});
 }
 

@@ -52,6 +52,8 @@ bool each_member(const JsonValue& actual, const JsonValue& golden, const Call& c
 /// A value on one line, or the beginning of a long one; null is "nothing".
 std::string shown(const JsonValue* value);
 
+/// In place of a bound: only what is the same agrees.
+inline constexpr double kExactly = -1;
 /// Whether they are as near as two that are rounded to six digits, or within the bound.
 bool agree(double a, double b, double bound);
 
