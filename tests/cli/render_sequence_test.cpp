@@ -6,22 +6,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::expect_refused;
-using testing::files_in;
-using testing::kCrossing;
-using testing::render_small;
-using testing::TempFolder;
-
-using Names = std::set<std::string>;
-
-/// Two seconds of walking, four samples, and an agent who stands.
-std::string short_scene(const TempFolder& folder) {
-    return folder.write(
-        "s.json",
-        R"({"clips": {"c": {"dt": 0.5, "motion": "linear", "samples": [[0,0,0.4],[1,0,0.4],[2,0,0.4],[3,0,0.4]]}},
-        "agents": [{"name": "A", "clip": "c"}, {"name": "B", "clip": "c", "translate": [0, 3], "start": 1}]})");
-}
-
 class RenderSequenceTest : public testing::DrawingTest {
   protected:
     const TempFolder pictures;
