@@ -62,7 +62,7 @@ TEST_F(FilmTest, ItsPicturesAreThoseOfTheNumberedFiles) {
     const Result run = render_film(film, {"--rate", "2"});
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(run.out, "");
-    EXPECT_EQ(run.err, "mobbscope: " + film.string() + ": 3 pictures, 1.5 s at 2 per second, 320x240, 4 B\n");
+    EXPECT_EQ(run.err, "mobbscope: " + film.string() + ": 4 B, 1.5 s: 3 pictures of 320x240 at 2 a second\n");
     EXPECT_EQ(files_in(films.path()), Names{"a walk.mp4"});
     EXPECT_EQ(slurp(film), "film");
     const std::string taken = slurp(programs.path() / "pictures");
@@ -114,7 +114,7 @@ TEST_F(FilmTest, TheLargestPictureIsMadeEvenToo) {
 TEST_F(FilmTest, TheLastStepStaysOn) {
     const Result run = render({scene, "--query", "0", "--frames", "0:1", "--size", "320x240", "-o", film});
     EXPECT_EQ(run.status, 0) << run.err;
-    EXPECT_NE(run.err.find(": 6 pictures, 3 s at 2 per second"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("3 s: 6 pictures of 320x240 at 2 a second"), std::string::npos) << run.err;
     const std::string taken = slurp(programs.path() / "pictures");
     ASSERT_EQ(taken.size(), 6 * kPictureBytes);
     const auto picture = [&](std::size_t i) { return taken.substr(i * kPictureBytes, kPictureBytes); };
