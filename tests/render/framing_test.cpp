@@ -147,8 +147,12 @@ TEST(Framing, ATurningCameraShowsAllFromEverySide) {
 
 /// A box far down in a tree may reach out of the root's.
 TEST(Framing, AFilmsCameraHoldsTheBoxesOfAllItsPictures) {
-    for (const mobb::TreeKind kind : {mobb::TreeKind::mobb, mobb::TreeKind::moving}) {
-        const FittedScene fitted = testing::hit_scene(kind);
+    mobb::FitOptions options;
+    options.leaf = 4;
+    options.time_scale = 0.2;
+    for (const mobb::TreeKind kind : {mobb::TreeKind::moving, mobb::TreeKind::hybrid1}) {
+        options.tree = kind;
+        const FittedScene fitted(testing::scene_of({{}, {{1, -1}, 90, 0}}), options);
         KeptPaths paths(std::make_shared<const FittedScene>(fitted));
         for (const int free_top : {0, 150}) {
             SCOPED_TRACE(free_top);
@@ -163,6 +167,7 @@ TEST(Framing, AFilmsCameraHoldsTheBoxesOfAllItsPictures) {
                 return std::min(room.x, room.y);
             };
             ViewState view;
+            view.time_height = 3;
             view.levels = {1, 4, false};
             EXPECT_NEAR(closest(view, Played::motion, 3, [](ViewState& of, int i) { of.time = 0.5 * i; }), 0.05 / 1.1,
                         2e-3);
