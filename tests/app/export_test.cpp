@@ -1,6 +1,7 @@
 // Exported pictures: the dialog by keys and clicks, and the command line that does the same.
 #include <app/commands/picture_order.h>
 #include <app/script/script.h>
+#include <app/script/state_json.h>
 #include <app/window/headless_window.h>
 #include <app/window/picture_clipboard.h>
 #include <base/error.h>
@@ -15,6 +16,7 @@
 #include "app/crossing_folder.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <cstdlib>
@@ -385,7 +387,7 @@ TEST_F(FilmExportTest, TheWindowAndTheLineFilmTheSame) {
     run("run picture.file " + film.string());
     expect_the_line_films_the_same("run picture.background transparent", " --size 320x240 --play --rate 2");
     EXPECT_NE(all_messages(session).find("Wrote " + film.string() + ": "), std::string::npos) << all_messages(session);
-    EXPECT_NE(all_messages(session).find(" at 2 per second, 320x240, 4 B"), std::string::npos);
+    EXPECT_NE(all_messages(session).find(" pictures of 320x240 at 2 a second"), std::string::npos);
     expect_the_line_films_the_same("run picture.film turn\nrun picture.turntable 3", " --turntable 3 --rate 2");
     expect_the_line_films_the_same("run picture.film play\nrun query.select 0\nrun step.first\nrun step.to 7",
                                    " --size 320x240 --play --rate 2");
@@ -466,6 +468,31 @@ TEST_F(FilmExportTest, TheDialogAsksForFilmsInItsOwnWay) {
     run("key Escape");
     run("run file.export_picture");
     EXPECT_EQ(export_file(session.workspace, session.settings, session.dialogs), folder.file("mine.png"));
+}
+
+/// Before it is made, in the words of what was made.
+TEST_F(FilmExportTest, TheDialogSaysWhatTheFilmWillBe) {
+    run("run picture.file " + film.string() + "\nrun picture.size 321x240\nrun file.export_film");
+    EXPECT_TRUE(window->shell().marks().all().contains("export.length"));
+    const auto says = [&] { return state_json(session).at("export").at("length").get<std::string>(); };
+    EXPECT_EQ(says(), "2.5 s: 5 pictures of 322x240 at 2 a second");
+    for (const char* change :
+         {"rate 3.5", "film turn\nrun picture.turntable 3", "rate auto", "film play\nrun query.select 0"}) {
+        run(std::string("run picture.") + change);
+        const std::string said = says();
+        run("run picture.write");
+        EXPECT_NE(all_messages(session).find("Wrote " + film.string() + ": 4 B, " + said), std::string::npos)
+            << said << '\n'
+            << all_messages(session);
+    }
+    session.files.open({folder.write("slow.json", R"({"clips": {"c": {"dt": 1e4, "samples": [[0,0,1], [1,0,1]]}}})")});
+    window->settle();
+    run("run file.export_film");
+    EXPECT_EQ(says(), "These are 600000 pictures, and at most 100000 are made at once: lower the rate.");
+    run("key Enter");
+    EXPECT_EQ(session.dialogs.now, Dialog::export_picture);
+    run("run picture.rate 2");
+    EXPECT_EQ(says(), "20000 s: 40000 pictures of 322x240 at 2 a second");
 }
 
 TEST_F(FilmExportTest, WhatCannotBeIsSaidInOneLine) {

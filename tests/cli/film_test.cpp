@@ -13,15 +13,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::expect_refused;
-using testing::files_in;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
-
-using Names = std::set<std::string>;
-
 constexpr std::size_t kPictureBytes = 320 * 240 * 4;
 
 /// A stand-in that has these encoders, and else does that.
@@ -54,10 +45,8 @@ class FilmTest : public testing::DrawingTest {
         return run_program(arguments, {}, "/dev/null", in_child);
     }
     /// Three pictures into that film, and what else is asked.
-    Result render_film(const std::filesystem::path& name, std::vector<std::string> more = {}) {
-        std::vector<std::string> arguments{scene, "--frames", "1:3", "--size", "320x240", "-o", name.string()};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        return render(arguments);
+    Result render_film(const std::filesystem::path& name, const std::vector<std::string>& more = {}) {
+        return render(with({scene, "--frames", "1:3", "--size", "320x240", "-o", name.string()}, more));
     }
     std::string arguments() const { return slurp(programs.path() / "arguments"); }
     void expect_argument(const std::string& one) const {
@@ -65,10 +54,7 @@ class FilmTest : public testing::DrawingTest {
     }
 
     const TempFolder films, programs;
-    const std::string scene = folder.write(
-        "s.json",
-        R"({"clips": {"c": {"dt": 0.5, "motion": "linear", "samples": [[0,0,0.4],[1,0,0.4],[2,0,0.4],[3,0,0.4]]}},
-        "agents": [{"name": "A", "clip": "c"}, {"name": "B", "clip": "c", "translate": [0, 3], "start": 1}]})");
+    const std::string scene = short_scene(folder);
     const std::filesystem::path film = films.path() / "a walk.mp4";
 };
 
@@ -76,7 +62,7 @@ TEST_F(FilmTest, ItsPicturesAreThoseOfTheNumberedFiles) {
     const Result run = render_film(film, {"--rate", "2"});
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(run.out, "");
-    EXPECT_EQ(run.err, "mobbscope: " + film.string() + ": 3 pictures, 1.5 s at 2 per second, 320x240, 4 B\n");
+    EXPECT_EQ(run.err, "mobbscope: " + film.string() + ": 4 B, 1.5 s: 3 pictures of 320x240 at 2 a second\n");
     EXPECT_EQ(files_in(films.path()), Names{"a walk.mp4"});
     EXPECT_EQ(slurp(film), "film");
     const std::string taken = slurp(programs.path() / "pictures");
@@ -99,10 +85,6 @@ TEST_F(FilmTest, TheNameSaysWhichKindItIs) {
 
 TEST_F(FilmTest, StepsAndTurntablesHaveARateToo) {
     const std::vector<std::string> steps{scene, "--query", "0", "--frames", "0:1", "--size", "320x240"};
-    const auto with = [](std::vector<std::string> all, const std::vector<std::string>& more) {
-        all.insert(all.end(), more.begin(), more.end());
-        return all;
-    };
     ASSERT_EQ(render(with(steps, {"-o", film})).status, 0);
     expect_argument("-framerate 2");
     ASSERT_EQ(render(with(steps, {"-o", film, "--rate", "2.5"})).status, 0);
@@ -132,7 +114,7 @@ TEST_F(FilmTest, TheLargestPictureIsMadeEvenToo) {
 TEST_F(FilmTest, TheLastStepStaysOn) {
     const Result run = render({scene, "--query", "0", "--frames", "0:1", "--size", "320x240", "-o", film});
     EXPECT_EQ(run.status, 0) << run.err;
-    EXPECT_NE(run.err.find(": 6 pictures, 3 s at 2 per second"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("3 s: 6 pictures of 320x240 at 2 a second"), std::string::npos) << run.err;
     const std::string taken = slurp(programs.path() / "pictures");
     ASSERT_EQ(taken.size(), 6 * kPictureBytes);
     const auto picture = [&](std::size_t i) { return taken.substr(i * kPictureBytes, kPictureBytes); };

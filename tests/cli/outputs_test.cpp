@@ -30,13 +30,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::expect_refused;
-using testing::files_in;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
-
 using Option = std::pair<std::string, std::string>;  ///< of a command: {"graph build", "-o"}
 
 /// A run that writes, but for the name of the file.

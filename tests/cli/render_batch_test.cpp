@@ -4,14 +4,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::expect_refused;
-using testing::files_in;
-using testing::kCrossing;
-using testing::render_small;
-using testing::TempFolder;
-
-using Names = std::set<std::string>;
-
 class RenderBatchTest : public testing::DrawingTest {};
 
 TEST_F(RenderBatchTest, EachLineIsAPictureAsItWouldBeAlone) {

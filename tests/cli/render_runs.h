@@ -19,6 +19,14 @@ namespace mobbscope::testing {
 
 inline const std::string kCrossing = MOBBSCOPE_SOURCE_DIR "/assets/scenes/crossing.json";
 
+/// Two who walk for 1.5 seconds, one of them a second later.
+inline std::string short_scene(const TempFolder& folder) {
+    return folder.write(
+        "s.json",
+        R"({"clips": {"c": {"dt": 0.5, "motion": "linear", "samples": [[0,0,0.4],[1,0,0.4],[2,0,0.4],[3,0,0.4]]}},
+        "agents": [{"name": "A", "clip": "c"}, {"name": "B", "clip": "c", "translate": [0, 3], "start": 1}]})");
+}
+
 /// A person who stands for a moment: the least that everything is drawn of.
 inline constexpr const char* kStandingScene =
     R"({"mobbscope": 1, "clips": {"p": {"dt": 1, "samples": [[0, 0, 0.4], [0.1, 0, 0.4]]}}, "agents": [{"name": "A", "clip": "p"}]})";
@@ -30,6 +38,12 @@ inline void expect_refused(const Result& run, int status, const std::string& why
     EXPECT_EQ(run.out, "");
 }
 
+/// Some arguments, and more.
+inline std::vector<std::string> with(std::vector<std::string> all, const std::vector<std::string>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
 /// The arguments of small pictures: "render", then those given.
 inline Result render_small(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "render");
@@ -37,8 +51,10 @@ inline Result render_small(std::vector<std::string> arguments) {
     return run_program(arguments);
 }
 
-inline std::set<std::string> files_in(const std::filesystem::path& folder) {
-    std::set<std::string> out;
+using Names = std::set<std::string>;
+
+inline Names files_in(const std::filesystem::path& folder) {
+    Names out;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) out.insert(entry.path().filename());
     return out;
 }
@@ -65,3 +81,20 @@ class DrawingTest : public ::testing::Test {
 };
 
 }  // namespace mobbscope::testing
+
+namespace mobbscope {
+
+using testing::expect_refused;
+using testing::files_in;
+using testing::is_one_line;
+using testing::kCrossing;
+using testing::Names;
+using testing::render_small;
+using testing::Result;
+using testing::run_program;
+using testing::short_scene;
+using testing::slurp;
+using testing::TempFolder;
+using testing::with;
+
+}  // namespace mobbscope

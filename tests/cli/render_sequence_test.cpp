@@ -6,22 +6,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::expect_refused;
-using testing::files_in;
-using testing::kCrossing;
-using testing::render_small;
-using testing::TempFolder;
-
-using Names = std::set<std::string>;
-
-/// Two seconds of walking, four samples, and an agent who stands.
-std::string short_scene(const TempFolder& folder) {
-    return folder.write(
-        "s.json",
-        R"({"clips": {"c": {"dt": 0.5, "motion": "linear", "samples": [[0,0,0.4],[1,0,0.4],[2,0,0.4],[3,0,0.4]]}},
-        "agents": [{"name": "A", "clip": "c"}, {"name": "B", "clip": "c", "translate": [0, 3], "start": 1}]})");
-}
-
 class RenderSequenceTest : public testing::DrawingTest {
   protected:
     const TempFolder pictures;
@@ -184,18 +168,58 @@ TEST(RenderSequence, DrawListsAreNumberedAlike) {
 /// The last one shows no boxes but the proof; the others have their boxes in the picture.
 TEST(RenderSequence, AllStepsAreSeenFromOnePlace) {
     const TempFolder folder;
-    const auto eye = [&](const std::string& name) {
-        return nlohmann::json::parse(testing::slurp(folder.path() / name))["camera"]["eye"].dump();
-    };
     const std::string list = folder.path() / "w.json";
+    const auto eye = [&](const std::string& name) {
+        return nlohmann::json::parse(slurp(folder.path() / name))["camera"]["eye"].dump();
+    };
     ASSERT_EQ(render_small({kCrossing, "--query", "0", "--play", "--draw-list", list}).status, 0);
     const std::string first = eye("w_0000.json");
     for (const char* name : {"w_0010.json", "w_0019.json", "w_0020.json"}) EXPECT_EQ(eye(name), first) << name;
-    ASSERT_EQ(render_small({kCrossing, "--query", "0", "--step", "0", "--frame-boxes", "--draw-list", list}).status, 0);
-    EXPECT_EQ(eye("w.json"), first);
-    ASSERT_EQ(render_small({kCrossing, "--query", "0", "--step", "20", "--frame-boxes", "--draw-list", list}).status,
-              0);
-    EXPECT_EQ(eye("w.json"), first) << "without a sequence too";
+    ASSERT_EQ(render_small({kCrossing, "--query", "0", "--frames", "10:11", "--draw-list", list}).status, 0);
+    EXPECT_EQ(eye("w_0010.json"), first) << "a part of the film is the same as in the whole";
+    const auto alone = [&](const char* step) {
+        const std::vector<std::string> arguments{kCrossing, "--query", "0", "--step", step, "--frame-boxes"};
+        EXPECT_EQ(render_small(with(arguments, {"--draw-list", list})).status, 0);
+        return eye("w.json");
+    };
+    EXPECT_EQ(alone("0"), alone("20")) << "without a sequence too";
+}
+
+/// All is below it if it would cover some of a path; else the pictures are as large as without it.
+TEST(RenderSequence, TheCaptionCoversNoPath) {
+    for (const std::vector<std::string>& kind :
+         std::vector<std::vector<std::string>>{{"--query", "0", "--play"},
+                                               {"--play", "--rate", "2"},
+                                               {"--show", "moment", "--play", "--rate", "2"},
+                                               {"--turntable", "6"}}) {
+        SCOPED_TRACE(kind.front());
+        const TempFolder folder;
+        ASSERT_EQ(render_small(with({kCrossing, "--draw-list", folder.path() / "w.json"}, kind)).status, 0);
+        for (const std::string& name : files_in(folder.path())) {
+            const nlohmann::json list = nlohmann::json::parse(slurp(folder.path() / name));
+            const nlohmann::json& caption = list["overlays"][0];
+            ASSERT_EQ(caption["name"].get<std::string>(), "caption");
+            const auto to_clip = list["camera"]["clip_from_world"].get<std::vector<double>>();
+            for (const nlohmann::json& disk : list["disks"]) {
+                const auto p = disk["base"].get<std::vector<double>>();
+                const auto clip = [&](std::size_t row) {
+                    return to_clip[row] * p[0] + to_clip[4 + row] * p[1] +
+                           to_clip[8 + row] * (p[2] + disk["height"].get<double>()) + to_clip[12 + row];
+                };
+                const double x = 160 * (1 + clip(0) / clip(3)), y = 120 * (1 - clip(1) / clip(3));
+                EXPECT_TRUE(x > caption["max"][0].get<double>() || y > caption["max"][1].get<double>()) << name;
+            }
+        }
+    }
+    const TempFolder folder;
+    const auto eye = [&](const std::vector<std::string>& more) {
+        const std::string list = folder.path() / "w.json";
+        const std::vector<std::string> wide{"render", kCrossing, "--frames", "0:0", "--draw-list", list};
+        EXPECT_EQ(run_program(with(wide, more)).status, 0);
+        return nlohmann::json::parse(slurp(folder.path() / "w_0000.json"))["camera"]["eye"].dump();
+    };
+    EXPECT_EQ(eye({}), eye({"--no-caption"}));
+    EXPECT_NE(eye({"--query", "0"}), eye({"--query", "0", "--no-caption"}));
 }
 
 }  // namespace

@@ -11,14 +11,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::expect_refused;
-using testing::is_one_line;
-using testing::kCrossing;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
-
 const std::string kSize = "320x240";
 
 /// The arguments of a small picture of a scene, and more.

@@ -6,11 +6,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::expect_refused;
-using testing::kCrossing;
-using testing::render_small;
-using testing::TempFolder;
-
 class RenderViewTest : public testing::DrawingTest {};
 
 TEST_F(RenderViewTest, AViewStateGoesOverTheScenesAndOptionsOverBoth) {

@@ -22,18 +22,22 @@ namespace {
 using testing::kGoldenSize;
 
 /// How much of the picture is left, at least, between the disks and its edges: of its width and of its height; below 0:
-/// something is cut off.
-glm::vec2 room_around(const DrawList& list) {
-    const glm::vec2 size(list.size.width, list.size.height);
+/// something is cut off. `boxes`: also around these; `free_top`: pixels at the top that are no part of the picture.
+glm::vec2 room_around(const DrawList& list, bool boxes = false, int free_top = 0) {
+    const glm::vec2 first(0, free_top), size = glm::vec2(list.size.width, list.size.height) - first;
     glm::vec2 room(1e6f);
+    const auto see = [&](glm::vec3 point) {
+        const glm::vec2 pixel = list.projection.project(point).value_or(glm::vec2(-1e6f)) - first;
+        room = glm::min(room, glm::min(pixel, size - pixel) / size);
+    };
     for (const DiskInstance& disk : list.disks) {
         for (const glm::vec3& way : rim_directions()) {
-            for (const glm::vec3& rim : {disk.base + disk.radius * way, disk.top + disk.top_radius * way}) {
-                const auto pixel = list.projection.project(rim);
-                if (!pixel) return glm::vec2(-1);
-                room = glm::min(room, glm::min(*pixel, size - *pixel) / size);
-            }
+            see(disk.base + disk.radius * way);
+            see(disk.top + disk.top_radius * way);
         }
+    }
+    for (const BoxInstance& box : list.boxes) {
+        if (boxes && box.pickable) std::ranges::for_each(box_corners(box), see);
     }
     return room;
 }
@@ -127,7 +131,8 @@ TEST(Framing, ATurningCameraShowsAllFromEverySide) {
             view.camera.preset = CameraPreset::free;
             view.camera.pitch_deg = pitch;
             view.camera.perspective = perspective;
-            view.camera = turning_camera(paths, view, kGoldenSize);
+            view.boxes = false;
+            view.camera = film_camera(paths, view, kGoldenSize, Played::turn);
             float closest = 1;
             for (int i = 0; i < 36; ++i) {
                 view.camera.yaw_deg += 10;
@@ -136,6 +141,42 @@ TEST(Framing, ATurningCameraShowsAllFromEverySide) {
             }
             EXPECT_GT(closest, 0.04) << pitch << (perspective ? " in perspective" : "");
             EXPECT_LT(closest, 0.15) << pitch << (perspective ? " in perspective" : "");
+        }
+    }
+}
+
+/// A box far down in a tree may reach out of the root's.
+TEST(Framing, AFilmsCameraHoldsTheBoxesOfAllItsPictures) {
+    mobb::FitOptions options;
+    options.leaf = 4;
+    options.time_scale = 0.2;
+    for (const mobb::TreeKind kind : {mobb::TreeKind::moving, mobb::TreeKind::hybrid1}) {
+        options.tree = kind;
+        const FittedScene fitted(testing::scene_of({{}, {{1, -1}, 90, 0}}), options);
+        KeptPaths paths(std::make_shared<const FittedScene>(fitted));
+        for (const int free_top : {0, 150}) {
+            SCOPED_TRACE(free_top);
+            const auto closest = [&](const ViewState& seen, Played played, int pictures, const auto& picture) {
+                ViewState view = seen;
+                view.camera = film_camera(paths, view, kGoldenSize, played, free_top);
+                glm::vec2 room(1);
+                for (int i = 0; i < pictures; ++i) {
+                    picture(view, i);
+                    room = glm::min(room, room_around(build_draw_list(fitted, view, kGoldenSize), true, free_top));
+                }
+                return std::min(room.x, room.y);
+            };
+            ViewState view;
+            view.time_height = 3;
+            view.levels = {1, 4, false};
+            EXPECT_NEAR(closest(view, Played::motion, 3, [](ViewState& of, int i) { of.time = 0.5 * i; }), 0.05 / 1.1,
+                        2e-3);
+            EXPECT_GT(closest(view, Played::turn, 12, [](ViewState& of, int) { of.camera.yaw_deg += 30; }), 0.04);
+            view.query = 0;
+            const int steps = paths.recorded(view).trace.size();
+            const auto go_to = [](ViewState& of, int i) { of.step = {Step::Unit::event, static_cast<double>(i)}; };
+            go_to(view, 0);
+            EXPECT_NEAR(closest(view, Played::steps, steps, go_to), 0.05 / 1.1, 2e-3);
         }
     }
 }

@@ -245,6 +245,21 @@ PictureOrder ordered_for(const std::filesystem::path& file, PictureOrder order, 
     return order;
 }
 
+std::string film_text(const Workspace& workspace, const PictureOrder& order) {
+    const Played played = played_of(order.view, order.film->turns);
+    const FilmPace pace = film_pace(played, order.film->rate);
+    double count = order.film->turntable;
+    if (played == Played::steps) count = workspace.recorded()->trace.size();
+    if (played == Played::motion) count = played_motion(*workspace.document().fitted, order.view, pace.rate).pictures;
+    if (count > kMostPictures) {
+        throw std::invalid_argument(
+            "These are " + brief(count) + " pictures, and at most " + std::to_string(kMostPictures) +
+            " are made at once: " +
+            (played == Played::steps ? "give the command line --frames A:B for --play." : "lower the rate."));
+    }
+    return mobbscope::film_text(static_cast<std::size_t>(count), pace, film_size(order.options));
+}
+
 DrawList draw_list_of(const Workspace& workspace, const PictureOrder& order, std::shared_ptr<SceneFigures> figures) {
     check(order.options);
     KeptPaths paths(workspace.document().fitted, std::move(figures));

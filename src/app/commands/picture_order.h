@@ -42,6 +42,10 @@ PictureOrder order_to_export(const Settings& settings, const Workspace& workspac
 /// Makes it a film, as the settings say, where the file is called like one (is_film_name).
 PictureOrder ordered_for(const std::filesystem::path& file, PictureOrder order, const Settings& settings);
 
+/// What an ordered film will be, in the words that `render` has for what it made. Throws std::invalid_argument if these
+/// are more pictures than are made at once.
+std::string film_text(const Workspace& workspace, const PictureOrder& order);
+
 /// As `render` draws it, which counts the scene's queries where that is shown; `figures`: of what these have. Throws
 /// std::invalid_argument if it cannot be drawn.
 DrawList draw_list_of(const Workspace& workspace, const PictureOrder& order,

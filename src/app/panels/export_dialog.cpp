@@ -281,11 +281,10 @@ void film_fields(Ui& ui, Settings& settings, const PictureOrder& order) {
         if (count) set_export(ui, "turntable", formatted("%.0f", *count));
     }
     form_label(ui, "Rate", "Pictures a second");
-    const double usual = steps && !wanted.film_turns ? kUsualRateOfSteps : kUsualRate;
     const auto rate = field_with_reset(ui, "rate", wanted.rate > 0,
                                        {.mark = "export.rate",
                                         .what = "The pictures a second",
-                                        .now = wanted.rate > 0 ? wanted.rate : usual,
+                                        .now = film_pace(played_of(order.view, wanted.film_turns), wanted.rate).rate,
                                         .before = wanted.rate > 0 ? "" : "auto: ",
                                         .unit = "a second",
                                         .least = 1 / kMostFilmRate,
@@ -515,11 +514,16 @@ void export_dialog(Ui& ui) {
     const ExportTarget target = target_of(ui.workspace, ui.session.settings, ui.session.dialogs);
     const PictureOrder order = ordered_for(
         target.file, order_to_export(ui.session.settings, ui.workspace, ui.session.views), ui.session.settings);
-    std::string why_no_size;
+    std::string why_no_size, film, why_no_film;
     try {
         check(order.options);
     } catch (const std::invalid_argument& error) {
         why_no_size = error.what();
+    }
+    try {
+        if (order.film && why_no_size.empty()) film = film_text(ui.workspace, order);
+    } catch (const std::invalid_argument& error) {
+        why_no_film = error.what();
     }
     begin_dialog(ui, "export", {kExportWidth, kExportHeight});
     text_line(ui.style.text, order.film ? "Export film" : "Export picture", ui.style.title);
@@ -538,12 +542,22 @@ void export_dialog(Ui& ui) {
     ImGui::BeginChild("result", {0, height});
     const float caption = ui.style.caption->FontSize + 2 * ImGui::GetStyle().ItemSpacing.y;
     const float lines = std::min(command_line_height(), 0.4f * height);
-    if (why_no_size.empty()) draw_preview(ui, ui.session.dialogs, order, std::max(height - lines - caption, ui.px(40)));
+    const float said = order.film ? ImGui::GetTextLineHeightWithSpacing() : 0;
+    if (why_no_size.empty())
+        draw_preview(ui, ui.session.dialogs, order, std::max(height - lines - caption - said, ui.px(40)));
+    if (order.film) {
+        fitted_line(ui, why_no_film.empty() ? ui.style.text : ui.style.error, film + why_no_film,
+                    ImGui::GetContentRegionAvail().x);
+        ui.mark_only("export.length");
+    }
     text_line(ui.style.quiet, "COMMAND LINE THAT DOES THE SAME", ui.style.caption);
     if (why_no_size.empty()) command_line(ui, ui.session.files, ui.session.dialogs, order, target);
     ImGui::EndChild();
     ImGui::Dummy({0, ui.px(2)});
-    const std::string why_not = why_no_size.empty() ? target.why_not : why_no_size;
+    std::string why_not = target.why_not;
+    for (const std::string* why : {&why_no_film, &why_no_size}) {
+        if (!why->empty()) why_not = *why;
+    }
     bool wanted = export_buttons(ui, ui.session.dialogs, order.film.has_value(), why_no_size, why_not);
     wanted |= entered || (pressed(ImGuiKey_Enter) && !keys_are_taken);
     end_dialog();

@@ -1,3 +1,4 @@
+#include <app/commands/picture_order.h>
 #include <app/script/state_json.h>
 #include <base/text.h>
 #include <explain/query_sentence.h>
@@ -245,13 +246,23 @@ Json import_json(const Imports& imports, const Workspace& workspace) {
             {"refused", std::move(refused)}};
 }
 
-/// The export dialog: what it is asked for, by the options' keys, and the file.
-Json export_json(const Dialogs& dialogs, const Settings& settings) {
-    Json json{{"file", dialogs.exporting.file}};
+/// The export dialog: what it is asked for, by the options' keys, the file, and what a film will be.
+Json export_json(const Session& session) {
+    const ExportDialog& dialog = session.dialogs.exporting;
+    Json json{{"file", dialog.file}};
     for (const ExportOption& option : export_options()) {
-        json[option.key] = option.text(settings.picture_export);
+        json[option.key] = option.text(session.settings.picture_export);
     }
-    if (dialogs.exporting.temporary) json["temporary_scene"] = dialogs.exporting.temporary->file.string();
+    if (dialog.temporary) json["temporary_scene"] = dialog.temporary->file.string();
+    const PictureOrder order =
+        ordered_for(export_file(session.workspace, session.settings, session.dialogs),
+                    order_to_export(session.settings, session.workspace, session.views), session.settings);
+    if (!order.film || session.workspace.empty()) return json;
+    try {
+        json["length"] = film_text(session.workspace, order);
+    } catch (const std::invalid_argument& error) {
+        json["length"] = error.what();
+    }
     return json;
 }
 
@@ -362,7 +373,7 @@ Json state_json(const Session& session) {
     json["job"] = nullptr;
     if (const Job* job = session.jobs.job()) json["job"] = {{"title", job->title()}, {"progress", job->progress()}};
     if (session.dialogs.now == Dialog::import_clip) json["import"] = import_json(session.imports, session.workspace);
-    if (session.dialogs.now == Dialog::export_picture) json["export"] = export_json(session.dialogs, session.settings);
+    if (session.dialogs.now == Dialog::export_picture) json["export"] = export_json(session);
     for (const auto& screen : session.screens) screen->add_state(json);
     if (session.views.count() > 1) {
         json["links"] = Json::object();

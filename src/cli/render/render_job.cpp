@@ -21,7 +21,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
@@ -140,7 +139,7 @@ Drawn draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* rendere
     }
     if (film) {
         const bool last = &picture == &job.pictures.back();
-        film->add(renderer->draw(list, job.arguments.picture.samples), last ? 1 + job.held : 1);
+        film->add(renderer->draw(list, job.arguments.picture.samples), last ? 1 + job.pace.held : 1);
     }
     Drawn out{.outputs = outputs};
     if (is_vector_name(outputs.image)) {
@@ -162,42 +161,10 @@ Drawn draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* rendere
     return out;
 }
 
-/// Films have even sides: the next larger, or smaller where that is too large. `asked`: as `check` allows it.
-PictureSize film_size(const PictureOptions& asked) {
-    const auto [width, height] = asked.size;
-    PictureOptions larger = asked;
-    larger.size = {width + width % 2, height + height % 2};
-    try {
-        check(larger);
-        return larger.size;
-    } catch (const std::invalid_argument&) {
-        return {width - width % 2, height - height % 2};
-    }
-}
-
-/// What came of a film: "walk.mp4: 789 pictures, 26.3 s at 30 per second, 1280x720, 1.2 MB".
-std::string film_report(const RenderJob& job, double rate, std::size_t bytes) {
-    const std::size_t count = job.pictures.size() + job.held;
-    constexpr double kPerSecond = 100;  // of a second
-    const double seconds = std::round(static_cast<double>(count) / rate * kPerSecond) / kPerSecond;
-    return job.arguments.outputs.image.string() + ": " + counted(count, "picture", "pictures") + ", " +
-           format_double(seconds) + " s at " + brief(rate) + " per second, " + size_word(job.arguments.picture.size) +
-           ", " + bytes_text(bytes);
-}
-
-/// Whether --follow says where the camera is: it does unless there is a target.
-bool is_near_followed(const RenderJob& job) {
-    const ViewState& view = job.pictures.front().view;
-    return job.arguments.view.says("follow") && !view.follow.empty() && !view.camera.target && !view.projection;
-}
-
-/// One camera for all, so that none jumps.
-void see_from(std::vector<RenderPicture>& pictures, const Camera& camera, bool turns) {
-    for (RenderPicture& picture : pictures) {
-        const double yaw = turns ? picture.view.camera.yaw_deg : camera.yaw_deg;
-        picture.view.camera = camera;
-        picture.view.camera.yaw_deg = yaw;
-    }
+/// What came of a film: "walk.mp4: 1.2 MB, 26.3 s: 789 pictures of 1280x720 at 30 a second".
+std::string film_report(const RenderJob& job, std::size_t bytes) {
+    return job.arguments.outputs.image.string() + ": " + bytes_text(bytes) + ", " +
+           film_text(job.pictures.size(), job.pace, job.arguments.picture.size);
 }
 
 /// Says once if a choice that pictures show does not come out as the run says.
@@ -249,7 +216,8 @@ void RenderPlan::add(RenderArguments arguments) {
     const ViewState view = view_over(fitted, job.arguments.view);
     try {
         job.pictures = pictures_of(*job.paths, view, job.arguments);
-        if (job.arguments.is_film()) job.held = held_pictures(view, job.arguments.sequence);
+        const SequenceArguments& sequence = job.arguments.sequence;
+        job.pace = film_pace(played_of(view, sequence.turntable.has_value()), sequence.rate.value_or(0));
         check_and_frame(job);
         check_selection(job);
         warn_of_edited_run(job);
@@ -262,11 +230,8 @@ void RenderPlan::add(RenderArguments arguments) {
 }
 
 void RenderPlan::check_and_frame(RenderJob& job) {
-    const bool turns = job.arguments.sequence.turntable.has_value();
-    const bool near = is_near_followed(job);
-    const bool turns_about_all = turns && !near && !job.pictures.front().view.camera.target;
+    const bool near = is_near_followed(job.pictures.front().view, job.arguments);
     std::optional<Camera> camera;  // of all pictures, so that none jumps
-    if (turns_about_all) camera = turning_camera(*job.paths, job.pictures.front().view, job.arguments.picture.size);
     const Progress progress =
         tell("planned", "pictures", progress_ ? std::optional<std::chrono::milliseconds>(kOften) : std::nullopt);
     std::size_t planned = 0;
@@ -278,11 +243,16 @@ void RenderPlan::check_and_frame(RenderJob& job) {
             const Camera seen = framing_followed(*job.paths->fitted(), picture.view, list);
             if (!camera) camera = seen;
             camera->distance = std::max(camera->distance, seen.distance);
-        } else if (!camera && !job.arguments.ui) {
+        } else if (!job.arguments.ui) {
             keep(picture, std::move(list));
         }
     }
-    if (camera) see_from(job.pictures, *camera, turns);
+    if (!camera) return;
+    for (RenderPicture& picture : job.pictures) {
+        const double yaw = job.arguments.sequence.turntable ? picture.view.camera.yaw_deg : camera->yaw_deg;
+        picture.view.camera = *camera;
+        picture.view.camera.yaw_deg = yaw;
+    }
 }
 
 /// Unless there are many already: a long batch would fill the memory.
@@ -336,9 +306,8 @@ void RenderPlan::draw(Backend backend) {
     for (RenderJob& job : jobs_) {
         // A renderer forks to be watched, and a child has no other threads: it is there before there are any.
         std::optional<Film> film;
-        const double rate = film_rate(job.pictures.front().view, job.arguments.sequence);
         if (job.film_maker)
-            film.emplace(*job.film_maker, job.arguments.outputs.image, job.arguments.picture.size, rate);
+            film.emplace(*job.film_maker, job.arguments.outputs.image, job.arguments.picture.size, job.pace.rate);
         for (RenderPicture& picture : job.pictures) {
             if (job.arguments.ui) {
                 // The window's picture changes the working folder, to which names are relative.
@@ -356,7 +325,7 @@ void RenderPlan::draw(Backend backend) {
         }
         if (!film) continue;
         patience.finishes(job.arguments.outputs.image);
-        say(film_report(job, rate, film->finish()));
+        say(film_report(job, film->finish()));
     }
     writing.finish();
 }

@@ -5,6 +5,7 @@
 #include <render/drawlist/draw_list.h>
 #include <render/image/film.h>
 #include <render/pictures/kept_paths.h>
+#include <render/pictures/played.h>
 
 #include <cstddef>
 #include <filesystem>
@@ -42,25 +43,19 @@ struct RenderPicture {
     std::optional<DrawList> list{};  ///< once it is made: of this view
 };
 
-/// The most pictures of one sequence.
-inline constexpr int kMostPictures = 100'000;
+/// Whether --follow says where the camera is: it does unless there is a target.
+bool is_near_followed(const ViewState& view, const RenderArguments& arguments);
 
-/// All pictures, not yet framed in common. Throws InputError if there are none such, or too many;
-/// std::invalid_argument if the scene lacks what the view names.
+/// All pictures, seen by one camera, but those near the followed. Throws InputError if there are none such, or too
+/// many; std::invalid_argument if the scene lacks what the view names.
 std::vector<RenderPicture> pictures_of(KeptPaths& kept, const ViewState& view, const RenderArguments& arguments);
-
-/// Pictures a second of a film of that view's pictures.
-double film_rate(const ViewState& view, const SequenceArguments& asked);
-
-/// How many more times such a film shows its last picture: of a query's steps that is the answer, to be read.
-std::size_t held_pictures(const ViewState& view, const SequenceArguments& asked);
 
 struct RenderJob {
     RenderArguments arguments;
     std::shared_ptr<KeptPaths> paths;
     std::vector<RenderPicture> pictures;
     std::optional<FilmMaker> film_maker{};  ///< of a film, once the outputs are checked
-    std::size_t held = 0;                   ///< of a film: how many more times its last picture is shown
+    FilmPace pace{};                        ///< of a film
 };
 
 /// Plans jobs, and remembers what their pictures have in common.

@@ -1,16 +1,21 @@
 #include <base/error.h>
 #include <base/text.h>
 #include <cli/render/render_job.h>
+#include <render/drawlist/draw_list.h>
+#include <render/drawlist/shown_points.h>
 #include <render/drawlist/view_projection.h>
-#include <render/layout/framing.h>
+#include <render/image/rect.h>
+#include <render/pictures/build_draw_list.h>
 #include <render/pictures/played.h>
-#include <scene/crowd_run.h>
 #include <scene/drawn_agent.h>
+
+#include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -46,8 +51,6 @@ Sequence steps(KeptPaths& kept, const ViewState& view) {
     const auto at = [view](int i) {
         ViewState out = view;
         out.step = {Step::Unit::event, static_cast<double>(i)};
-        // One camera has the boxes of all steps in it.
-        out.frame_boxes = out.frame_boxes || out.boxes;
         return out;
     };
     return {static_cast<double>(count),
@@ -55,43 +58,58 @@ Sequence steps(KeptPaths& kept, const ViewState& view) {
 }
 
 Sequence motion(const FittedScene& fitted, const ViewState& view, double rate) {
-    Bounds bounds;
-    bool ends_with_somebody = false;
-    if (fitted.scene().crowd) {
-        bounds.min.z = 0;
-        bounds.max.z = fitted.scene().crowd->seconds;
-    } else {
-        const std::vector<DrawnAgent> agents = drawn_agents(fitted, view);
-        bounds = bounds_of(agents);
-        ends_with_somebody = std::ranges::any_of(
-            agents, [&](const DrawnAgent& agent) { return sample_at(agent, bounds.max.z).has_value(); });
-    }
-    const double begin = bounds.min.z;
-    // Where all clips are held, a picture at the very end would show nobody.
-    const double length = (bounds.max.z - begin) * rate;
-    const double count = ends_with_somebody ? std::floor(length + 1e-6) + 1 : std::max(1.0, std::ceil(length - 1e-6));
-    const auto at = [view, begin, rate](int i) {
+    const PlayedMotion played = played_motion(fitted, view, rate);
+    const auto at = [view, begin = played.begin, rate](int i) {
         ViewState out = view;
         out.time = begin + i / rate;
         return out;
     };
-    return {count, "the motion has " + brief(count) + " pictures at " + brief(rate) + " per second", at};
+    return {played.pictures, "the motion has " + brief(played.pictures) + " pictures at " + brief(rate) + " per second",
+            at};
 }
 
-/// Whether its pictures are the steps of the view's query.
-bool shows_steps(const ViewState& view, const SequenceArguments& asked) {
-    return !asked.turntable && plays_steps(view);
+Sequence sequence_of(KeptPaths& kept, const ViewState& view, Played played, const SequenceArguments& asked) {
+    if (played == Played::turn) return turntable(view, *asked.turntable);
+    if (played == Played::steps) return steps(kept, view);
+    return motion(*kept.fitted(), view, film_pace(played, asked.rate.value_or(0)).rate);
+}
+
+bool lies_within(const DrawList& list, const DiskInstance& disk, const Rect& rect) {
+    const auto is_inside = [&](glm::vec3 point) {
+        const auto pixel = list.projection.project(point);
+        return pixel && rect.contains({*pixel, *pixel});
+    };
+    return std::ranges::any_of(rim_directions(), [&](glm::vec3 way) {
+        return is_inside(disk.base + disk.radius * way) || is_inside(disk.top + disk.top_radius * way);
+    });
+}
+
+/// Pixels from the top of the picture to below the caption, if that covers some of a path; at most half of all. Of some
+/// pictures of the whole sequence, so that it is the same whichever of them are asked for.
+int covering_caption(KeptPaths& kept, const Sequence& sequence, const PictureOptions& options) {
+    constexpr int kMostLookedAt = 16;
+    const int count = static_cast<int>(std::min<double>(sequence.count, std::numeric_limits<int>::max()));
+    const int looked_at = std::min(count, kMostLookedAt);
+    float height = 0;
+    bool covers = false;
+    for (int i = 0; i < looked_at; ++i) {
+        const double part = looked_at > 1 ? static_cast<double>(i) / (looked_at - 1) : 0;
+        const DrawList list = build_draw_list(kept, sequence.view(static_cast<int>(part * (count - 1))), options);
+        for (const Overlay& overlay : list.overlays) {
+            if (overlay.kind != Overlay::Kind::caption) continue;
+            height = std::max(height, overlay.rect.max.y);
+            covers = covers || std::ranges::any_of(list.disks, [&](const DiskInstance& disk) {
+                         return lies_within(list, disk, overlay.rect);
+                     });
+        }
+    }
+    return covers ? std::min(static_cast<int>(std::ceil(height)), options.size.height / 2) : 0;
 }
 
 }  // namespace
 
-double film_rate(const ViewState& view, const SequenceArguments& asked) {
-    return asked.rate.value_or(shows_steps(view, asked) ? kUsualRateOfSteps : kUsualRate);
-}
-
-std::size_t held_pictures(const ViewState& view, const SequenceArguments& asked) {
-    if (!shows_steps(view, asked)) return 0;
-    return static_cast<std::size_t>(std::lround(kLastStepHeld * film_rate(view, asked)));
+bool is_near_followed(const ViewState& view, const RenderArguments& arguments) {
+    return arguments.view.says("follow") && !view.follow.empty() && !view.camera.target && !view.projection;
 }
 
 std::vector<RenderPicture> pictures_of(KeptPaths& kept, const ViewState& view, const RenderArguments& arguments) {
@@ -101,22 +119,33 @@ std::vector<RenderPicture> pictures_of(KeptPaths& kept, const ViewState& view, c
     const auto contradict = [&](const char* other, const char* why) {
         throw InputError(option + " and " + other + " contradict each other: " + why + "; leave one out");
     };
-    const bool of_query = shows_steps(view, asked);
+    const Played played = played_of(view, asked.turntable.has_value());
+    const bool of_query = played == Played::steps;
     if (of_query && arguments.view.says("step")) contradict("--step", "the pictures are the query's steps");
     if (of_query && asked.rate && !arguments.is_film())
         contradict("--rate", "the pictures are a query's steps; only a film of them has a rate");
-    if (!asked.turntable && !of_query && arguments.view.says("time"))
+    if (played == Played::motion && arguments.view.says("time"))
         contradict("--time", "the pictures go through the time");
 
-    const Sequence sequence = asked.turntable ? turntable(view, *asked.turntable)
-                              : of_query      ? steps(kept, view)
-                                              : motion(*kept.fitted(), view, asked.rate.value_or(kUsualRate));
+    Sequence sequence = sequence_of(kept, view, played, asked);
     const auto [first, last] =
         asked.frames ? std::pair<double, double>(*asked.frames) : std::pair<double, double>(0, sequence.count - 1);
     if (last >= sequence.count) throw InputError(option + ": " + sequence.described + ", counted from 0");
     if (last - first >= kMostPictures) {
         throw InputError(option + ": these are " + brief(last - first + 1) + " pictures; at most " +
                          std::to_string(kMostPictures) + " are made at once");
+    }
+    // Where the camera counts from somebody who walks, each picture frames the scene by itself.
+    const bool walks = played == Played::motion && !view.follow.empty();
+    if (!view.camera.target && !walks && !is_near_followed(view, arguments)) {
+        const ViewState framed = sequence.view(0);
+        ViewState seen = view;
+        const auto see_below = [&](int top) {
+            seen.camera = film_camera(kept, framed, arguments.picture.size, played, top);
+            sequence = sequence_of(kept, seen, played, asked);
+        };
+        see_below(0);
+        if (const int top = covering_caption(kept, sequence, arguments.picture)) see_below(top);
     }
     const int digits = std::max(kLeastDigits, static_cast<int>(std::to_string(static_cast<int>(last)).size()));
     std::vector<RenderPicture> out;

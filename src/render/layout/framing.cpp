@@ -75,7 +75,7 @@ void add_floor_points(ShownPoints& points, const DrawnSpace& space, const FloorE
 }
 
 Camera framed_camera(const Camera& camera, const ShownPoints& points, const DrawnSpace& space, PictureSize size,
-                     double margin) {
+                     double margin, int free_top) {
     const Orientation seen = orientation(camera);
     Camera out = camera;
     out.preset = CameraPreset::free;
@@ -84,24 +84,29 @@ Camera framed_camera(const Camera& camera, const ShownPoints& points, const Draw
     out.perspective = seen.perspective;
     if (camera.target) return out;
 
-    // Half of what the picture's height shows is tangent * distance; the points fill it without the margin.
-    const double tangent = std::tan(camera.fov_deg * kDegree / 2);
+    // Half of what the height below the top shows is tangent * distance; the points fill it without the margin.
+    const PictureSize below{size.width, size.height - free_top};
+    const double part = static_cast<double>(below.height) / size.height;
+    const double tangent = std::tan(camera.fov_deg * kDegree / 2) * part;
     Camera within = out;
     within.fov_deg = 2 * std::atan(tangent / (1 + margin)) / kDegree;
-    const ViewProjection fitted = make_projection(within, points, nullptr, size);
+    const ViewProjection fitted = make_projection(within, points, nullptr, below);
     const glm::dvec3 back(fitted.back);
     const double depth = glm::dot(glm::dvec3(fitted.eye) - middle_of(points), back);
     out.target = space.to_target(glm::dvec3(fitted.eye) - back * depth);
     out.distance = seen.perspective ? depth : (1 + margin) / static_cast<double>(fitted.scale.y) / tangent;
+    if (free_top > 0) out.shift.y = -0.5 * free_top / size.height;
     return out;
 }
 
-Camera turning_camera(const Camera& camera, const ShownPoints& points, const DrawnSpace& space, PictureSize size) {
-    Camera out = framed_camera(camera, points, space, size);
+Camera turning_camera(const Camera& camera, const ShownPoints& points, const DrawnSpace& space, PictureSize size,
+                      int free_top) {
+    Camera out = framed_camera(camera, points, space, size, kFrameMargin, free_top);
     if (camera.target) return out;
     // Half of what the picture shows at the target without its margin, in distances to it.
-    const double half_y = std::tan(out.fov_deg * kDegree / 2) / (1 + kFrameMargin);
-    const double half_x = half_y * size.width / size.height;
+    const double half_of_all = std::tan(out.fov_deg * kDegree / 2) / (1 + kFrameMargin);
+    const double half_x = half_of_all * size.width / size.height;
+    const double half_y = half_of_all * (static_cast<double>(size.height - free_top) / size.height);
     const double cosine = std::cos(out.pitch_deg * kDegree);
     const double sine = std::sin(out.pitch_deg * kDegree);
     const double near = out.perspective ? 1 : 0;  // what comes nearer grows

@@ -39,11 +39,14 @@ inline constexpr double kFrameMargin = 0.1;
 /// space) in the picture, with a margin, as large as they fit. It depends on nothing else: neither words nor panels nor
 /// boxes move it. The target is seen in the middle of the picture, as deep as the middle of the points; it is in world
 /// metres with time drawn `space.time_height` high, which the view has to keep. A camera that has a target keeps it.
+/// `free_top`: so many pixels at the top of the picture, fewer than it is high, stay free; the target is in the middle
+/// of the rest.
 Camera framed_camera(const Camera& camera, const ShownPoints& points, const DrawnSpace& space, PictureSize size,
-                     double margin = kFrameMargin);
+                     double margin = kFrameMargin, int free_top = 0);
 
 /// Likewise, but it may be turned about its target: all points are in the picture from every side.
-Camera turning_camera(const Camera& camera, const ShownPoints& points, const DrawnSpace& space, PictureSize size);
+Camera turning_camera(const Camera& camera, const ShownPoints& points, const DrawnSpace& space, PictureSize size,
+                      int free_top = 0);
 
 /// Sets what is seen through the frame's camera. `points`: what is near and far.
 void project(PictureFrame& frame, const ShownPoints& points);

@@ -130,8 +130,9 @@ PictureFrame picture_frame(KeptPaths& kept, const ViewState& view, PictureSize s
                         [](Picture& picture) { return picture.aim(); });
 }
 
-Camera turning_camera(KeptPaths& kept, const ViewState& view, PictureSize size) {
-    return with_picture(kept, view, {.size = size}, nullptr, [](Picture& picture) { return picture.turning(); });
+Camera film_camera(KeptPaths& kept, const ViewState& view, PictureSize size, Played played, int free_top) {
+    return with_picture(kept, view, {.size = size}, nullptr,
+                        [&](Picture& picture) { return picture.film_camera(played, free_top); });
 }
 
 }  // namespace mobbscope

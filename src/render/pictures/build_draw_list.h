@@ -3,6 +3,7 @@
 
 #include <render/drawlist/draw_list.h>
 #include <render/drawlist/picture_options.h>
+#include <render/pictures/played.h>
 #include <scene/fitted_scene.h>
 #include <scene/view_state.h>
 
@@ -42,8 +43,9 @@ DrawList build_draw_list(KeptPaths& kept, const ViewState& view, const PictureOp
 PictureFrame picture_frame(const FittedScene& fitted, const ViewState& view, PictureSize size, double scale = 0);
 PictureFrame picture_frame(KeptPaths& kept, const ViewState& view, PictureSize size, double scale = 0);
 
-/// The camera of such a picture that has all of it in the picture from every side, to be turned about its target.
-Camera turning_camera(KeptPaths& kept, const ViewState& view, PictureSize size);
+/// The camera of a film that goes on from such a picture: it has in it what the picture frames, and all boxes that the
+/// film draws, below so many pixels that stay free. Of a turn about its target, from every side.
+Camera film_camera(KeptPaths& kept, const ViewState& view, PictureSize size, Played played, int free_top = 0);
 
 /// The last choice that a view of a run shows; none if it shows none. `moves`: of the run.
 std::optional<FollowedChoice> choice_in_view(const MoveSet& moves, const ViewState& view);

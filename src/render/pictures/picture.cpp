@@ -87,6 +87,12 @@ const PictureFrame& Picture::aim() {
     return list_;
 }
 
+Camera Picture::film_camera(Played played, int free_top) {
+    frame_boxes_of_film(played);
+    if (played == Played::turn) return turning_camera(view_.camera, framed_, list_.space, list_.size, free_top);
+    return framed_camera(view_.camera, framed_, list_.space, list_.size, margin_, free_top);
+}
+
 std::vector<LabelRequest> Picture::floor_labels() const {
     // Of a grid distances tell nothing but the size of what is in a cell.
     const bool floor = view_.floor && !is_in_grid(fitted_.scene(), view_);

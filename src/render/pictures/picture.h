@@ -8,6 +8,7 @@
 #include <render/layout/framing.h>
 #include <render/layout/overlays.h>
 #include <render/parts/floor_and_axes.h>
+#include <render/pictures/played.h>
 #include <render/text/labels.h>
 #include <scene/drawn_agent.h>
 #include <scene/fitted_scene.h>
@@ -34,13 +35,15 @@ class Picture {
     const PictureFrame& aim();
     /// Aims and draws the rest; once.
     DrawList draw();
-    /// The camera that may be turned about its target and always has all in the picture.
-    Camera turning() const { return turning_camera(view_.camera, framed_, list_.space, list_.size); }
+    /// As mobbscope::film_camera.
+    Camera film_camera(Played played, int free_top);
 
   protected:
     /// Throws std::invalid_argument if there is nobody to draw.
     Picture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options);
 
+    /// Adds the boxes that a film draws to what the camera frames.
+    virtual void frame_boxes_of_film(Played) {}
     /// What the picture says. Needs the projection.
     virtual OverlayContents words() = 0;
     /// Adds what is drawn; returns what is said beside it. Needs the projection.

@@ -1,4 +1,6 @@
 #include <explain/query_progress.h>
+#include <mobb/trace.h>
+#include <render/drawlist/cut.h>
 #include <render/layout/annotations.h>
 #include <render/layout/caption.h>
 #include <render/layout/follow.h>
@@ -195,6 +197,28 @@ class SpaceTimePicture final : public Picture {
         }
         for (const BoxInstance& box : list_.boxes) {
             if (box.state == BoxState::level) framed_.add(box_corners(box));
+        }
+    }
+
+    /// Of a query's steps the boxes of every test; of anything else the picture's own stay.
+    void frame_boxes_of_film(Played played) override {
+        if (!view_.boxes) return;
+        if (played != Played::steps) {
+            for (const BoxInstance& box : list_.boxes) {
+                if (box.state != BoxState::annotation && is_seen(list_.slab, box)) framed_.add(box_corners(box));
+            }
+            return;
+        }
+        for (const DrawnAgent& agent : agents_) {
+            if (agent.hidden) continue;
+            std::vector<bool> framed(agent.placed.tree().nodes().size());
+            for (int i = 0; i < recorded_->trace.size(); ++i) {
+                const mobb::Trace::Event event = recorded_->trace[i];
+                const int node = agent.index == 0 ? event.a : event.b;
+                if (framed[static_cast<std::size_t>(node)]) continue;
+                framed[static_cast<std::size_t>(node)] = true;
+                framed_.add(box_corners(node_box(agent, node, list_.space)));
+            }
         }
     }
 
