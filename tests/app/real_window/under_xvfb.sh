@@ -4,8 +4,8 @@
 set -euo pipefail
 command -v Xvfb >/dev/null || { echo "Xvfb is not installed" >&2; exit 77; }
 number=$(mktemp)
-# The server picks a number that is free.
-Xvfb -displayfd 3 -screen 0 1600x1000x24 -nolisten tcp 3>"$number" >/dev/null 2>&1 &
+# The server picks a number that is free. Where its last client leaves it would begin anew, and refuse clients meanwhile.
+Xvfb -displayfd 3 -screen 0 1600x1000x24 -nolisten tcp -noreset 3>"$number" >/dev/null 2>&1 &
 server=$!
 trap 'kill "$server" 2>/dev/null || true; rm -f "$number"' EXIT
 for _ in $(seq 200); do
