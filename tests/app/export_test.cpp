@@ -488,7 +488,7 @@ TEST_F(FilmExportTest, TheDialogSaysWhatTheFilmWillBe) {
     session.files.open({folder.write("slow.json", R"({"clips": {"c": {"dt": 1e4, "samples": [[0,0,1], [1,0,1]]}}})")});
     window->settle();
     run("run file.export_film");
-    EXPECT_EQ(says(), "These are 600000 pictures, and at most 100000 are made at once: lower the rate.");
+    EXPECT_EQ(says(), "The film would have 600000 pictures; at most 100000 are made at once. Lower the rate.");
     run("key Enter");
     EXPECT_EQ(session.dialogs.now, Dialog::export_picture);
     run("run picture.rate 2");

@@ -3,6 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <array>
+#include <cmath>
+#include <numbers>
+
 namespace mobbscope {
 namespace {
 
@@ -185,6 +189,26 @@ TEST(RenderSequence, AllStepsAreSeenFromOnePlace) {
     EXPECT_EQ(alone("0"), alone("20")) << "without a sequence too";
 }
 
+/// Whether a disk's rim reaches into a rectangle of a picture of 320x240. `list`: of a file.
+bool is_covered(const nlohmann::json& list, const nlohmann::json& disk, const nlohmann::json& rect) {
+    const auto to_clip = list.at("camera").at("clip_from_world").get<std::vector<double>>();
+    const auto base = disk.at("base").get<std::vector<double>>();
+    const double top = base[2] + disk.at("height").get<double>();
+    const auto radius = disk.at("radius").get<double>();
+    for (int i = 0; i < 32; ++i) {
+        const double turn = i / 16.0 * std::numbers::pi;
+        const std::array<double, 2> p{base[0] + radius * std::cos(turn), base[1] + radius * std::sin(turn)};
+        for (const double height : {base[2], top}) {
+            const auto clip = [&](std::size_t row) {
+                return to_clip[row] * p[0] + to_clip[4 + row] * p[1] + to_clip[8 + row] * height + to_clip[12 + row];
+            };
+            const double x = 160 * (1 + clip(0) / clip(3)), y = 120 * (1 - clip(1) / clip(3));
+            if (x <= rect.at("max")[0].get<double>() && y <= rect.at("max")[1].get<double>()) return true;
+        }
+    }
+    return false;
+}
+
 /// All is below it if it would cover some of a path; else the pictures are as large as without it.
 TEST(RenderSequence, TheCaptionCoversNoPath) {
     for (const std::vector<std::string>& kind :
@@ -194,22 +218,27 @@ TEST(RenderSequence, TheCaptionCoversNoPath) {
                                                {"--turntable", "6"}}) {
         SCOPED_TRACE(kind.front());
         const TempFolder folder;
-        ASSERT_EQ(render_small(with({kCrossing, "--draw-list", folder.path() / "w.json"}, kind)).status, 0);
-        for (const std::string& name : files_in(folder.path())) {
-            const nlohmann::json list = nlohmann::json::parse(slurp(folder.path() / name));
-            const nlohmann::json& caption = list["overlays"][0];
-            ASSERT_EQ(caption["name"].get<std::string>(), "caption");
-            const auto to_clip = list["camera"]["clip_from_world"].get<std::vector<double>>();
-            for (const nlohmann::json& disk : list["disks"]) {
-                const auto p = disk["base"].get<std::vector<double>>();
-                const auto clip = [&](std::size_t row) {
-                    return to_clip[row] * p[0] + to_clip[4 + row] * p[1] +
-                           to_clip[8 + row] * (p[2] + disk["height"].get<double>()) + to_clip[12 + row];
-                };
-                const double x = 160 * (1 + clip(0) / clip(3)), y = 120 * (1 - clip(1) / clip(3));
-                EXPECT_TRUE(x > caption["max"][0].get<double>() || y > caption["max"][1].get<double>()) << name;
-            }
+        const std::vector<std::string> all = with({kCrossing, "--draw-list", folder.path() / "w.json"}, kind);
+        ASSERT_EQ(render_small(all).status, 0);
+        const auto names = files_in(folder.path());
+        ASSERT_FALSE(names.empty());
+        const auto read = [&](const std::string& name) { return nlohmann::json::parse(slurp(folder.path() / name)); };
+        const nlohmann::json first = read(*names.begin());
+        for (const std::string& name : names) {
+            const nlohmann::json list = read(name);
+            const nlohmann::json& caption = list.at("overlays").at(0);
+            ASSERT_EQ(caption.at("name").get<std::string>(), "caption");
+            ASSERT_FALSE(list.at("disks").empty());
+            for (const nlohmann::json& disk : list.at("disks")) EXPECT_FALSE(is_covered(list, disk, caption)) << name;
         }
+        ASSERT_EQ(render_small(with(all, {"--no-caption"})).status, 0);
+        bool would_cover = false;
+        for (const std::string& name : names) {
+            const nlohmann::json list = read(name);
+            for (const nlohmann::json& disk : list.at("disks"))
+                would_cover = would_cover || is_covered(list, disk, first.at("overlays").at(0));
+        }
+        EXPECT_EQ(read(*names.begin()).at("camera").at("eye") != first.at("camera").at("eye"), would_cover);
     }
     const TempFolder folder;
     const auto eye = [&](const std::vector<std::string>& more) {

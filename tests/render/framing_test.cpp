@@ -3,6 +3,7 @@
 #include "scenes.h"
 
 #include <render/drawlist/camera.h>
+#include <render/drawlist/cut.h>
 #include <render/drawlist/draw_list.h>
 #include <render/pictures/build_draw_list.h>
 #include <render/pictures/kept_paths.h>
@@ -22,7 +23,8 @@ namespace {
 using testing::kGoldenSize;
 
 /// How much of the picture is left, at least, between the disks and its edges: of its width and of its height; below 0:
-/// something is cut off. `boxes`: also around these; `free_top`: pixels at the top that are no part of the picture.
+/// something is cut off. `boxes`: also around these, and what a plan shows of them; `free_top`: pixels at the top that
+/// are no part of the picture.
 glm::vec2 room_around(const DrawList& list, bool boxes = false, int free_top = 0) {
     const glm::vec2 first(0, free_top), size = glm::vec2(list.size.width, list.size.height) - first;
     glm::vec2 room(1e6f);
@@ -37,7 +39,12 @@ glm::vec2 room_around(const DrawList& list, bool boxes = false, int free_top = 0
         }
     }
     for (const BoxInstance& box : list.boxes) {
-        if (boxes && box.pickable) std::ranges::for_each(box_corners(box), see);
+        if (boxes && box.pickable && is_seen(list.slab, box)) std::ranges::for_each(box_corners(box), see);
+    }
+    for (const LineInstance& line : list.lines) {
+        if (!boxes || !list.moment || line.order.layer != DrawLayer::findings) continue;
+        see(line.from);
+        see(line.to);
     }
     return room;
 }
@@ -177,6 +184,39 @@ TEST(Framing, AFilmsCameraHoldsTheBoxesOfAllItsPictures) {
             const auto go_to = [](ViewState& of, int i) { of.step = {Step::Unit::event, static_cast<double>(i)}; };
             go_to(view, 0);
             EXPECT_NEAR(closest(view, Played::steps, steps, go_to), 0.05 / 1.1, 2e-3);
+            view.slab = ValueRange{50, 60};
+            EXPECT_EQ(film_camera(paths, view, kGoldenSize, Played::steps),
+                      picture_frame(fitted, view, kGoldenSize).camera)
+                << "no box is in the slab";
+        }
+    }
+}
+
+/// The box around a bend reaches out of the floor.
+TEST(Framing, AFilmOfAPlanHoldsTheSectionsOfAllItsPictures) {
+    std::vector<mobb::Disk> disks;
+    for (int i = 0; i < 20; ++i) disks.push_back({0.1 * i, 0, 0.2});
+    for (int i = 0; i <= 20; ++i) disks.push_back({2 + 0.05 * i, 0.0866 * i, 0.2});
+    Scene scene = testing::scene_of({{}});
+    scene.clips.front().clip = std::make_shared<const mobb::Clip>(1 / 10.0, std::move(disks));
+    mobb::FitOptions options;
+    options.tree = mobb::TreeKind::umobb;
+    const FittedScene fitted(std::move(scene), options);
+    KeptPaths paths(std::make_shared<const FittedScene>(fitted));
+    ViewState seen;
+    seen.show = Show::plan;
+    seen.levels = {0, 0, false};
+    seen.time = 0;
+    const glm::vec2 alone = room_around(build_draw_list(fitted, seen, kGoldenSize), true);
+    EXPECT_LT(std::min(alone.x, alone.y), 0.01) << "a picture alone has the box nearer its edge";
+    for (const Played played : {Played::motion, Played::turn}) {
+        ViewState view = seen;
+        view.camera = film_camera(paths, view, kGoldenSize, played);
+        for (int i = 0; i < 12; ++i) {
+            if (played == Played::turn) view.camera.yaw_deg += 30;
+            if (played == Played::motion) view.time = 0.3 * i;
+            const glm::vec2 room = room_around(build_draw_list(fitted, view, kGoldenSize), true);
+            EXPECT_GT(std::min(room.x, room.y), 0.04) << i;
         }
     }
 }

@@ -252,10 +252,11 @@ std::string film_text(const Workspace& workspace, const PictureOrder& order) {
     if (played == Played::steps) count = workspace.recorded()->trace.size();
     if (played == Played::motion) count = played_motion(*workspace.document().fitted, order.view, pace.rate).pictures;
     if (count > kMostPictures) {
-        throw std::invalid_argument(
-            "These are " + brief(count) + " pictures, and at most " + std::to_string(kMostPictures) +
-            " are made at once: " +
-            (played == Played::steps ? "give the command line --frames A:B for --play." : "lower the rate."));
+        throw std::invalid_argument("The film would have " + brief(count) + " pictures; at most " +
+                                    std::to_string(kMostPictures) + " are made at once. " +
+                                    (played == Played::steps
+                                         ? "Use the command line, with --frames A:B instead of --play."
+                                         : "Lower the rate."));
     }
     return mobbscope::film_text(static_cast<std::size_t>(count), pace, film_size(order.options));
 }

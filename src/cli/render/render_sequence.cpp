@@ -84,10 +84,12 @@ bool lies_within(const DrawList& list, const DiskInstance& disk, const Rect& rec
     });
 }
 
-/// Pixels from the top of the picture to below the caption, if that covers some of a path; at most half of all. Of some
-/// pictures of the whole sequence, so that it is the same whichever of them are asked for.
+/// Pixels from the top of the picture to below the caption, if that covers some of a path; at most half of all. Of 16
+/// pictures of the whole sequence, evenly spread, so that it is the same whichever of them are asked for.
 int covering_caption(KeptPaths& kept, const Sequence& sequence, const PictureOptions& options) {
     constexpr int kMostLookedAt = 16;
+    const ViewState begun = sequence.view(0);
+    if (!begun.labels || !begun.caption) return 0;
     const int count = static_cast<int>(std::min<double>(sequence.count, std::numeric_limits<int>::max()));
     const int looked_at = std::min(count, kMostLookedAt);
     float height = 0;

@@ -44,7 +44,8 @@ PictureFrame picture_frame(const FittedScene& fitted, const ViewState& view, Pic
 PictureFrame picture_frame(KeptPaths& kept, const ViewState& view, PictureSize size, double scale = 0);
 
 /// The camera of a film that goes on from such a picture: it has in it what the picture frames, and all boxes that the
-/// film draws, below so many pixels that stay free. Of a turn about its target, from every side.
+/// film draws (of a run the floor, which boxes may reach out of), below so many pixels that stay free. Of a turn about
+/// its target, from every side.
 Camera film_camera(KeptPaths& kept, const ViewState& view, PictureSize size, Played played, int free_top = 0);
 
 /// The last choice that a view of a run shows; none if it shows none. `moves`: of the run.

@@ -1,4 +1,5 @@
 #include <explain/query_progress.h>
+#include <render/drawlist/cut.h>
 #include <render/drawlist/pen.h>
 #include <render/layout/annotations.h>
 #include <render/layout/follow.h>
@@ -213,6 +214,14 @@ class MomentPicture final : public Picture {
             if (auto bar = kept.color_boxes(drawn, agents_, view_)) bars_.push_back(std::move(*bar));
         }
         sections_ = std::move(drawn.boxes);
+    }
+
+    void frame_boxes_of_film(Played played) override {
+        if (crowd_) return;
+        for (const BoxInstance& box : sections_) {
+            if (played == Played::turn && level_section(box, 0).empty()) continue;
+            for (const glm::vec3 corner : box_corners(box)) framed_.add({corner.x, corner.y, 0});
+        }
     }
 
     std::span<const DrawnAgent> persons() const { return std::span(agents_).first(count_); }

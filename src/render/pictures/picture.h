@@ -42,7 +42,7 @@ class Picture {
     /// Throws std::invalid_argument if there is nobody to draw.
     Picture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options);
 
-    /// Adds the boxes that a film draws to what the camera frames.
+    /// Adds the boxes that a film draws to what the camera frames; of a run, whose plays come and go, none.
     virtual void frame_boxes_of_film(Played) {}
     /// What the picture says. Needs the projection.
     virtual OverlayContents words() = 0;

@@ -217,7 +217,8 @@ class SpaceTimePicture final : public Picture {
                 const int node = agent.index == 0 ? event.a : event.b;
                 if (framed[static_cast<std::size_t>(node)]) continue;
                 framed[static_cast<std::size_t>(node)] = true;
-                framed_.add(box_corners(node_box(agent, node, list_.space)));
+                const BoxInstance box = node_box(agent, node, list_.space);
+                if (is_seen(list_.slab, box)) framed_.add(box_corners(box));
             }
         }
     }
