@@ -55,12 +55,18 @@ bool brings_case(const JsonPlace& result) {
     return brings;
 }
 
-/// The folder of the goldens of what is told at this place; nothing if the report does not say, or only that it is in
-/// there, as ".." is a folder wherever the report was copied to.
-std::optional<std::filesystem::path> told_folder(const JsonPlace& result, const std::filesystem::path& report) {
-    const auto told = result.find("folder");
-    if (!told || std::filesystem::path(told->string()).filename() == ".." || told->string() == ".") return std::nullopt;
-    return whole_path(whole_path(report).parent_path() / told->string());
+/// The folder of the goldens of a case that is told at this place; nothing if the report does not say, or only that it
+/// is in there, as "..", and was moved: then the case is not there.
+std::optional<std::filesystem::path> told_folder(const JsonPlace& place, const std::string& name,
+                                                 const std::filesystem::path& report) {
+    const auto told = place.find("folder");
+    if (!told) return std::nullopt;
+    std::filesystem::path folder = whole_path(whole_path(report).parent_path() / told->string());
+    const bool is_around = std::filesystem::path(told->string()).filename() == ".." || told->string() == ".";
+    std::error_code ignored;
+    if (is_around && !(is_case_name(name) && std::filesystem::exists(case_named(folder, name).file, ignored)))
+        return std::nullopt;
+    return folder;
 }
 
 /// Whether a report that tells of a folder means this one, wherever the report may have been copied to.
@@ -92,7 +98,7 @@ CaseReport read_report(const std::filesystem::path& report, const std::filesyste
     root.require("cases").each([&](const JsonPlace& result) {
         const JsonPlace named = result.require("name");
         const std::string& of = named.string();
-        const std::optional<std::filesystem::path> told = told_folder(result, out.file);
+        const std::optional<std::filesystem::path> told = told_folder(result, of, out.file);
         if (!seen.insert({told.value_or(folder), of}).second)
             named.fail("the case " + in_quotes(of) + " is given twice");
         if (told && !is_same_folder(*told, folder)) {
@@ -140,17 +146,23 @@ CaseReport read_case_report(const std::filesystem::path& report, const std::file
     return out;
 }
 
-void add_to_case_report(const std::filesystem::path& output, const std::filesystem::path& folder,
-                        std::span<const CaseResult> results, Cases cases) {
+std::string add_to_case_report(const std::filesystem::path& output, const std::filesystem::path& folder,
+                               std::span<const CaseResult> results, Cases cases) {
     constexpr std::chrono::seconds kPatience(60);
     const auto name_of = [](const CaseResult& one) -> const std::string& { return one.file.name; };
     std::vector<CaseResult> told;
     std::ranges::copy_if(results, std::back_inserter(told), is_told);
     const std::filesystem::path file = output / kReportFile;
     std::error_code ignored;
-    if (results.empty() || (told.empty() && !std::filesystem::exists(file, ignored))) return;
+    std::string replaced;
+    if (results.empty() || (told.empty() && !std::filesystem::exists(file, ignored))) return replaced;
     make_folder_of(file);
     const Descriptor lock = lock_folder(output, kPatience);
+    if (!lock.is_open()) {
+        throw MachineError(file.string() +
+                           ": cannot be written, as another process has locked its folder for a minute, or the folder "
+                           "cannot be locked; give another one");
+    }
     if (std::filesystem::exists(file, ignored)) {
         try {
             std::vector<CaseResult> others;
@@ -159,19 +171,20 @@ void add_to_case_report(const std::filesystem::path& output, const std::filesyst
                 return cases == Cases::all || std::ranges::find(results, one.file.name, name_of) != results.end();
             });
             for (std::vector<CaseResult>* kept : {&before, &others}) std::ranges::move(*kept, std::back_inserter(told));
-        } catch (const InputError&) {
-            // Of one that is damaged nothing can be kept.
+        } catch (const InputError& error) {
+            replaced = "the old report cannot be read and is replaced: " + std::string(error.what());
         }
     }
     std::ranges::sort(told, {}, name_of);
     check_stays_in_folder(file);
     if (told.empty()) {
         std::filesystem::remove(file, ignored);
-        return;
+        return replaced;
     }
     std::ostringstream report;
     write_case_report(report, told, output);
     write_file(file, std::move(report).str());
+    return replaced;
 }
 
 void check_bytes(std::span<const GoldenChange> changes, const std::filesystem::path& report) {

@@ -46,9 +46,10 @@ CaseReport read_case_report(const std::filesystem::path& report, const std::file
 enum class Cases { some, all };
 /// Makes the report in the folder `output` tell of these results, whatever it told of their cases, and leaves what it
 /// tells of others, also of cases in other folders; processes may do so at the same time. One that would tell of none
-/// is removed. Throws MachineError.
-void add_to_case_report(const std::filesystem::path& output, const std::filesystem::path& folder,
-                        std::span<const CaseResult> results, Cases cases);
+/// is removed. Returns a line for people if the old one could not be read, so that what it told is gone; else nothing.
+/// Throws MachineError.
+std::string add_to_case_report(const std::filesystem::path& output, const std::filesystem::path& folder,
+                               std::span<const CaseResult> results, Cases cases);
 
 /// Throws InputError if what a report would write is no picture, or no JSON: a damaged one must not become a golden.
 void check_bytes(std::span<const GoldenChange> changes, const std::filesystem::path& report);

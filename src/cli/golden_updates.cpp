@@ -134,7 +134,8 @@ void check_is_from_here(const std::filesystem::path& folder, const CaseResult& r
 
 void take_as_reference(std::vector<CaseResult>& results, std::ostream& say) {
     const picture_tests::Summary sum = picture_tests::summary(results);
-    if (sum[picture_tests::CaseOutcome::failed] > 0 || sum[picture_tests::CaseOutcome::skipped] > 0) {
+    if (sum[picture_tests::CaseOutcome::failed] > 0 || sum[picture_tests::CaseOutcome::skipped] > 0 ||
+        std::ranges::any_of(results, picture_tests::lacks_opengl)) {
         warn(
             "nothing is taken, as some of the cases cannot be drawn or are skipped: all goldens of a reference are "
             "from one place");

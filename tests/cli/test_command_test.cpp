@@ -252,6 +252,26 @@ TEST_F(AnswersTestCommandTest, BesideAPictureAnswersAreHeldWithoutOpenGL) {
     EXPECT_EQ(run().status, 3);
 }
 
+TEST_F(AnswersTestCommandTest, WithoutOpenGLWhatIsNotWrittenIsSaid) {
+    ASSERT_EQ(test({"--update", "answers"}).status, 0);
+    const std::string sheet = (output / "all.png").string();
+    cases.add("broken", R"("veiw": {})");
+    Result run = test({"broken", "--contact-sheet", sheet});
+    EXPECT_EQ(run.status, 1) << "a failure weighs more than a sheet: " << run.err;
+    EXPECT_PRED2(says, run.err, "warning: " + sheet + ": not written: no OpenGL 3.3");
+    std::filesystem::remove(cases.path() / "broken.case.json");
+
+    cases.write("both", R"({"mobbscope_case": 1, "scene": "scene.json", "size": "160x120",
+                            "hold": ["picture", "answers"]})");
+    run = test({"--contact-sheet", sheet});
+    EXPECT_EQ(run.status, 1) << run.err;
+    EXPECT_PRED2(says, run.err, "warning: " + sheet + ": not written: no OpenGL 3.3");
+    run = test({"--update", "all", "--new-reference"});
+    EXPECT_EQ(run.status, 1);
+    EXPECT_PRED2(says, run.err, "warning: nothing is taken");
+    EXPECT_FALSE(exists("both.answers.json"));
+}
+
 TEST_F(AnswersTestCommandTest, WhatTheSceneExpectsNoGoldenMends) {
     cases.folder().write("scene.json", std::string(testing::kSmallScene).insert(1, R"( "queries": [{"a": "A", "b": "B",
         "expect": {"tests": {"time": 1000}}}],)"));
@@ -1167,6 +1187,40 @@ TEST_F(AskedAnswersTest, FoldersOfGoldensMayShareAReport) {
     std::filesystem::create_directories(cases.path() / "far/away");
     std::filesystem::rename(output / "report.json", cases.path() / "far/away/report.json");
     EXPECT_EQ(run_program({"test", goldens.string(), "--accept", (cases.path() / "far/away").string()}).status, 0);
+}
+
+TEST_F(AskedAnswersTest, AReportInTheFolderOfItsCasesIsOfThatFolder) {
+    std::filesystem::create_directories(goldens);
+    cases.write("goldens/a", R"({"mobbscope_case": 1, "scene": "../scene.json", "hold": ["answers"]})");
+    const std::string others = (cases.path() / "others").string(), inside = (goldens / "out").string();
+    const auto run = [&](const std::string& folder, const std::vector<std::string>& more) {
+        std::vector<std::string> all{"test", folder};
+        all.insert(all.end(), more.begin(), more.end());
+        return run_program(all);
+    };
+    EXPECT_EQ(run(goldens.string(), {"--output", inside}).status, 1);
+    std::filesystem::create_directories(others);
+    std::filesystem::copy_file(goldens / "a.case.json", others + "/a.case.json");
+    expect_test_refused(run(others, {"--accept", inside}), "tells of the goldens in " + goldens.string());
+    EXPECT_EQ(run(others, {"--output", inside}).status, 1);
+    EXPECT_EQ(run(goldens.string(), {"--accept", inside}).status, 0) << "the other folder's run has left it";
+    EXPECT_TRUE(std::filesystem::exists(goldens / "a.answers.json"));
+    EXPECT_FALSE(std::filesystem::exists(others + "/a.answers.json"));
+    // Moved, it is of whatever folder is given.
+    std::filesystem::remove(goldens / "a.answers.json");
+    EXPECT_EQ(run(goldens.string(), {"--output", inside}).status, 1);
+    std::filesystem::create_directories(cases.path() / "far/away");
+    std::filesystem::rename(inside + "/report.json", cases.path() / "far/away/report.json");
+    EXPECT_EQ(run(others, {"--accept", (cases.path() / "far/away").string()}).status, 0);
+}
+
+TEST_F(AskedAnswersTest, AnOldReportThatCannotBeReadIsReplacedAndThatIsSaid) {
+    cases.folder().write("out/report.json", "{");
+    const Result run = ask({{"a", scene, answers}});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_TRUE(is_one_line(run.err)) << run.err;
+    EXPECT_PRED2(says, run.err, "the old report cannot be read and is replaced: " + (output / "report.json").string());
+    EXPECT_PRED2(says, slurp(output / "report.json"), R"("name": "a")");
 }
 
 TEST_F(AskedAnswersTest, ARunOfAllCasesDropsThoseThatAreNoFiles) {
