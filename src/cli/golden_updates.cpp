@@ -216,7 +216,8 @@ bool take_report(const std::filesystem::path& report, const std::filesystem::pat
     }
     const std::string of = cleaned(read.file.string());
     if (known > 0) say << counted(known, "case has", "cases have") << " the goldens of " << of << " already\n";
-    if (taken > 0 || known == 0) say << "accepted " << counted(taken, "case", "cases") << " of " << of << '\n';
+    if (taken > 0 || (known == 0 && changes.empty()))
+        say << "accepted " << counted(taken, "case", "cases") << " of " << of << '\n';
     return all;
 }
 

@@ -750,6 +750,7 @@ TEST_F(AcceptTest, AReferenceIsThatOfAllFoldersWithPictures) {
     const Result run = accept(page, {"--new-reference"});
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_TRUE(exists("reference.json") && exists("query/reference.json")) << "all passed: " << run.out;
+    EXPECT_FALSE(says(run.out, "accepted")) << run.out;
     EXPECT_EQ(test().status, 0) << "here is where they are from";
 }
 
