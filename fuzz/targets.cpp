@@ -231,7 +231,7 @@ std::vector<std::string> result_line_seeds() {
 std::vector<std::string> report_seeds() {
     const std::vector<picture_tests::CaseResult> results{a_result()};
     std::ostringstream report;
-    picture_tests::write_case_report(report, results, ".");
+    picture_tests::write_case_report(report, results, picture_tests::runs_of(results), ".");
     const std::string page = "<!DOCTYPE html>\n" + std::string(picture_tests::kReportBegins) + report.str() +
                              std::string(picture_tests::kReportEnds) + "\n";
     return {report.str(), page};

@@ -55,12 +55,18 @@ bool brings_case(const JsonPlace& result) {
     return brings;
 }
 
-/// The folder of the goldens of what is told at this place; nothing if the report does not say, or only that it is in
-/// there, as ".." is a folder wherever the report was copied to.
-std::optional<std::filesystem::path> told_folder(const JsonPlace& result, const std::filesystem::path& report) {
-    const auto told = result.find("folder");
-    if (!told || std::filesystem::path(told->string()).filename() == ".." || told->string() == ".") return std::nullopt;
-    return whole_path(whole_path(report).parent_path() / told->string());
+/// The folder of the goldens of a case that is told at this place; nothing if the report does not say, or only that it
+/// is in there, as "..", and was moved: then the case is not there.
+std::optional<std::filesystem::path> told_folder(const JsonPlace& place, const std::string& name,
+                                                 const std::filesystem::path& report) {
+    const auto told = place.find("folder");
+    if (!told) return std::nullopt;
+    std::filesystem::path folder = whole_path(whole_path(report).parent_path() / told->string());
+    const bool is_around = std::filesystem::path(told->string()).filename() == ".." || told->string() == ".";
+    std::error_code ignored;
+    if (is_around && !(is_case_name(name) && std::filesystem::exists(case_named(folder, name).file, ignored)))
+        return std::nullopt;
+    return folder;
 }
 
 /// Whether a report that tells of a folder means this one, wherever the report may have been copied to.
@@ -70,9 +76,29 @@ bool is_same_folder(const std::filesystem::path& told, const std::filesystem::pa
     return !std::filesystem::exists(told, ignored) && own_name(told) == own_name(folder);
 }
 
+/// What a report tells of other folders.
+struct Others {
+    std::vector<CaseResult> results;
+    std::vector<DrawnRun> runs;
+};
+
+void read_run(const JsonPlace& place, const std::filesystem::path& folder, CaseReport& to, Others& others) {
+    DrawnRun run{{}, {}, place.require("cases").strings()};
+    if (run.names.empty()) place.require("cases").fail("names no case");
+    const JsonPlace fonts = place.require("fonts");
+    run.reference = {read_fonts(fonts), place.require("imgui").string(), place.require("opengl").string()};
+    const std::optional<std::filesystem::path> told = told_folder(place, run.names.front(), to.file);
+    run.folder = told.value_or(folder);
+    if (told && !is_same_folder(*told, folder)) {
+        others.runs.push_back(std::move(run));
+    } else {
+        to.run = std::move(run);
+    }
+}
+
 /// `others`: takes what the report tells of other folders.
 CaseReport read_report(const std::filesystem::path& report, const std::filesystem::path& folder,
-                       const std::vector<CaseFile>& cases, std::vector<CaseResult>& others) {
+                       const std::vector<CaseFile>& cases, Others& others) {
     CaseReport out;
     std::error_code ignored;
     out.file = std::filesystem::is_directory(report, ignored) ? report / kReportFile : report;
@@ -88,15 +114,17 @@ CaseReport read_report(const std::filesystem::path& report, const std::filesyste
         version.fail("the report has version " + format_double(version.number()) + "; this program reads version " +
                      std::to_string(kReportVersion));
     }
+    if (const auto runs = root.find("runs"))
+        runs->each([&](const JsonPlace& run) { read_run(run, folder, out, others); });
     std::set<std::pair<std::filesystem::path, std::string>> seen;
     root.require("cases").each([&](const JsonPlace& result) {
         const JsonPlace named = result.require("name");
         const std::string& of = named.string();
-        const std::optional<std::filesystem::path> told = told_folder(result, out.file);
+        const std::optional<std::filesystem::path> told = told_folder(result, of, out.file);
         if (!seen.insert({told.value_or(folder), of}).second)
             named.fail("the case " + in_quotes(of) + " is given twice");
         if (told && !is_same_folder(*told, folder)) {
-            others.push_back(read_result(result, {case_named(*told, of)}));
+            others.results.push_back(read_result(result, {case_named(*told, of)}));
         } else if (std::ranges::find(cases, of, &CaseFile::name) != cases.end()) {
             out.results.push_back(read_result(result, cases));
         } else if (is_case_name(of) && brings_case(result)) {
@@ -110,17 +138,43 @@ CaseReport read_report(const std::filesystem::path& report, const std::filesyste
 
 }  // namespace
 
-void write_case_report(std::ostream& out, std::span<const CaseResult> results, const std::filesystem::path& where) {
+std::vector<DrawnRun> runs_of(std::span<const CaseResult> results) {
+    std::vector<DrawnRun> out;
+    for (const CaseResult& result : results) {
+        const Reference& reference = result.drawn_by.reference;
+        const bool is_run = result.outcome != CaseOutcome::failed && result.outcome != CaseOutcome::skipped;
+        if (!is_run || draws_nothing(result) || !result.other_here.empty() || reference.opengl.empty()) continue;
+        const std::filesystem::path folder = whole_path(result.file.folder());
+        auto run = std::ranges::find(out, folder, &DrawnRun::folder);
+        if (run == out.end()) run = out.insert(out.end(), {folder, reference, {}});
+        if (run->reference == reference) run->names.push_back(result.file.name);
+    }
+    return out;
+}
+
+void write_case_report(std::ostream& out, std::span<const CaseResult> results, std::span<const DrawnRun> runs,
+                       const std::filesystem::path& where) {
+    const auto told_as = [&](const std::filesystem::path& folder) {
+        return whole_path(folder).lexically_relative(whole_path(where)).generic_string();
+    };
     std::ostringstream text;
     JsonWriter json(text);
     json.begin_object();
     json.member("mobbscope_report", kReportVersion);
+    json.list("runs", runs, [&](const DrawnRun& run) {
+        json.begin_object();
+        json.member("folder", told_as(run.folder));
+        json.member("opengl", run.reference.opengl);
+        json.member("imgui", run.reference.imgui);
+        json.begin_object("fonts");
+        for (const auto& [name, hash] : run.reference.fonts) json.member(name, hash);
+        json.end_object();
+        json.values("cases", run.names);
+        json.end_object();
+    });
     json.begin_array("cases");
     for (const CaseResult& result : results) {
-        if (!is_told(result)) continue;
-        const std::filesystem::path folder = whole_path(result.file.folder());
-        write_result(json, result, Pictures::not_in_fresh,
-                     folder.lexically_relative(whole_path(where)).generic_string());
+        if (is_told(result)) write_result(json, result, Pictures::not_in_fresh, told_as(result.file.folder()));
     }
     json.end_array();
     json.end_object();
@@ -130,48 +184,58 @@ void write_case_report(std::ostream& out, std::span<const CaseResult> results, c
 
 CaseReport read_case_report(const std::filesystem::path& report, const std::filesystem::path& folder,
                             const std::vector<CaseFile>& cases) {
-    std::vector<CaseResult> others;
+    Others others;
     CaseReport out = read_report(report, folder, cases, others);
-    if (out.results.empty() && out.unknown.empty() && !others.empty()) {
+    if (out.results.empty() && out.unknown.empty() && !out.run && !others.results.empty()) {
         throw InputError(out.file.string(), "",
-                         "tells of the goldens in " + others.front().file.folder().string() + ", not of those in " +
-                             folder.string() + "; give that folder, or another report");
+                         "tells of the goldens in " + others.results.front().file.folder().string() +
+                             ", not of those in " + folder.string() + "; give that folder, or another report");
     }
     return out;
 }
 
-void add_to_case_report(const std::filesystem::path& output, const std::filesystem::path& folder,
-                        std::span<const CaseResult> results, Cases cases) {
+std::string add_to_case_report(const std::filesystem::path& output, const std::filesystem::path& folder,
+                               std::span<const CaseResult> results, Cases cases) {
     constexpr std::chrono::seconds kPatience(60);
     const auto name_of = [](const CaseResult& one) -> const std::string& { return one.file.name; };
     std::vector<CaseResult> told;
     std::ranges::copy_if(results, std::back_inserter(told), is_told);
     const std::filesystem::path file = output / kReportFile;
     std::error_code ignored;
-    if (results.empty() || (told.empty() && !std::filesystem::exists(file, ignored))) return;
+    std::vector<DrawnRun> runs = runs_of(results);
+    std::string replaced;
+    if (results.empty() || (told.empty() && !std::filesystem::exists(file, ignored))) return replaced;
     make_folder_of(file);
     const Descriptor lock = lock_folder(output, kPatience);
+    if (!lock.is_open()) {
+        throw MachineError(file.string() +
+                           ": cannot be written, as another process has locked its folder for a minute, or the folder "
+                           "cannot be locked; give another one");
+    }
     if (std::filesystem::exists(file, ignored)) {
         try {
-            std::vector<CaseResult> others;
+            Others others;
             std::vector<CaseResult> before = read_report(file, folder, cases_there(folder), others).results;
             std::erase_if(before, [&](const CaseResult& one) {
                 return cases == Cases::all || std::ranges::find(results, one.file.name, name_of) != results.end();
             });
-            for (std::vector<CaseResult>* kept : {&before, &others}) std::ranges::move(*kept, std::back_inserter(told));
-        } catch (const InputError&) {
-            // Of one that is damaged nothing can be kept.
+            for (std::vector<CaseResult>* kept : {&before, &others.results})
+                std::ranges::move(*kept, std::back_inserter(told));
+            std::ranges::move(others.runs, std::back_inserter(runs));
+        } catch (const InputError& error) {
+            replaced = "the old report cannot be read and is replaced: " + std::string(error.what());
         }
     }
     std::ranges::sort(told, {}, name_of);
     check_stays_in_folder(file);
     if (told.empty()) {
         std::filesystem::remove(file, ignored);
-        return;
+        return replaced;
     }
     std::ostringstream report;
-    write_case_report(report, told, output);
+    write_case_report(report, told, runs, output);
     write_file(file, std::move(report).str());
+    return replaced;
 }
 
 void check_bytes(std::span<const GoldenChange> changes, const std::filesystem::path& report) {

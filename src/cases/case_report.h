@@ -1,8 +1,12 @@
 /// What a run keeps of the cases that did not pass, with their goldens as they would be now: enough to look at them,
 /// and to take them, on any system and without drawing anything.
 ///
-///     {"mobbscope_report": 1, "cases": [{...}, ...]}      each as in result_line.h, and
+///     {"mobbscope_report": 1,
+///      "runs": [{"folder": "../goldens", "opengl", "imgui", "fonts", "cases": [NAME, ...]}],
+///      "cases": [{...}, ...]}                             each as in result_line.h, and
 ///      "folder": "../goldens"                             of its goldens, relative to the report
+///
+/// A run tells of its folder which cases' pictures it drew, also of those that passed, and with what.
 ///
 /// It is `report.json` in the folder of `mobbscope test --output`, and in the page of `--html`.
 #pragma once
@@ -13,6 +17,7 @@
 #include <cases/result_line.h>
 
 #include <filesystem>
+#include <optional>
 #include <ostream>
 #include <span>
 #include <string>
@@ -25,13 +30,24 @@ namespace mobbscope::picture_tests {
 inline constexpr std::string_view kReportBegins = "<script type=\"application/json\" id=\"mobbscope-report\">";
 inline constexpr std::string_view kReportEnds = "</script>";
 
-/// Without those that passed or were skipped. No '<' is in it, so that a page can hold it. `where`: the folder that the
-/// report goes to.
-void write_case_report(std::ostream& out, std::span<const CaseResult> results, const std::filesystem::path& where);
+/// What a run of a folder drew, where its goldens are from or there is no reference.
+struct DrawnRun {
+    std::filesystem::path folder;
+    Reference reference;             ///< what drew these pictures
+    std::vector<std::string> names;  ///< of the cases; at least one
+};
+/// By folder. Without what was drawn with something else than the first of its folder.
+std::vector<DrawnRun> runs_of(std::span<const CaseResult> results);
+
+/// Without the cases that passed or were skipped. No '<' is in it, so that a page can hold it. `where`: the folder that
+/// the report goes to.
+void write_case_report(std::ostream& out, std::span<const CaseResult> results, std::span<const DrawnRun> runs,
+                       const std::filesystem::path& where);
 
 struct CaseReport {
     std::filesystem::path file;  ///< that was read
     std::vector<CaseResult> results;
+    std::optional<DrawnRun> run;       ///< the last of the folder; none if it drew nothing, or the report does not say
     std::vector<std::string> unknown;  ///< cases that are none of those given, and whose files it does not bring
 };
 
@@ -46,9 +62,10 @@ CaseReport read_case_report(const std::filesystem::path& report, const std::file
 enum class Cases { some, all };
 /// Makes the report in the folder `output` tell of these results, whatever it told of their cases, and leaves what it
 /// tells of others, also of cases in other folders; processes may do so at the same time. One that would tell of none
-/// is removed. Throws MachineError.
-void add_to_case_report(const std::filesystem::path& output, const std::filesystem::path& folder,
-                        std::span<const CaseResult> results, Cases cases);
+/// is removed. Returns a line for people if the old one could not be read, so that what it told is gone; else nothing.
+/// Throws MachineError.
+std::string add_to_case_report(const std::filesystem::path& output, const std::filesystem::path& folder,
+                               std::span<const CaseResult> results, Cases cases);
 
 /// Throws InputError if what a report would write is no picture, or no JSON: a damaged one must not become a golden.
 void check_bytes(std::span<const GoldenChange> changes, const std::filesystem::path& report);

@@ -11,7 +11,7 @@
 ///      "fresh": [{"golden": ".png", "bytes": ... | null, "replaces": ... | null}]}   in base64; null: no such file
 ///
 /// Goldens are told by what follows the case's name; "" of a finding: the scene expects another answer. `tolerance` and
-/// `decided_by` are null where nothing was drawn. Where there is no OpenGL for its picture, "not_drawn" says why.
+/// `decided_by` are null for a case that holds no picture, or lacks OpenGL for it; "not_drawn" says why it lacks it.
 #pragma once
 
 #include <base/json.h>

@@ -7,6 +7,7 @@
 #include <cases/case_report.h>
 #include <cli/asked_cases.h>
 #include <cli/golden_updates.h>
+#include <cli/program.h>
 #include <picture_tests/run_cases.h>
 
 #include <algorithm>
@@ -155,7 +156,9 @@ std::string AskedCases::answer_to(const JsonPlace& request) {
 }
 
 void AskedCases::keep_report() {
-    add_to_case_report(options_.output, options_.folder, results_, picture_tests::Cases::some);
+    const std::string replaced =
+        add_to_case_report(options_.output, options_.folder, results_, picture_tests::Cases::some);
+    if (!replaced.empty()) warn(replaced);
 }
 
 }  // namespace mobbscope::cli

@@ -65,35 +65,42 @@ void check_patterns(const picture_tests::CaseReport& read, const std::vector<Cas
 /// By folder, what its goldens are drawn with.
 using References = std::map<std::filesystem::path, picture_tests::Reference>;
 
-/// What drew the pictures of a report. Throws InputError if it does not say, or if they are not all goldens that differ
-/// from what that draws.
-References references_of(const picture_tests::CaseReport& read) {
-    References out;
+/// What the goldens of all these cases are drawn with, if those of a report are taken, by folder. Throws InputError if
+/// the report does not say, or its job did not draw all of them.
+References references_of(const picture_tests::CaseReport& read, const std::vector<CaseFile>& cases) {
+    const auto refuse = [&](const std::string& name, const std::string& why) {
+        throw InputError(read.file.string(), cleaned(name), "--new-reference: " + why);
+    };
     for (const CaseResult& one : read.results) {
-        const auto refuse = [&](const std::string& why) {
-            throw InputError(read.file.string(), cleaned(one.file.name), "--new-reference: " + why);
-        };
-        const picture_tests::Reference& reference = one.drawn_by.reference;
-        if (lacks_opengl(one)) refuse("its picture was not drawn; take the report of a job with OpenGL");
-        if (draws_nothing(one)) continue;
-        if (reference.fonts.empty() || reference.opengl.empty())
-            refuse("the report does not say what drew it; run the job again with this Mobbscope and take its report");
+        if (lacks_opengl(one)) refuse(one.file.name, "its picture was not drawn; take the report of a job with OpenGL");
         if (!one.other_here.empty()) {
             const std::string file = picture_tests::reference_file(one.file.file.parent_path()).string();
-            refuse("the job compared it with goldens of another system (" + one.other_here +
-                   "), so the report may lack some that differ; remove " + file +
-                   ", run the job again and take its report");
-        }
-        const auto [known, is_new] = out.emplace(one.file.file.parent_path(), reference);
-        if (known->second != reference) {
-            refuse("the report is of several systems (" + what_is_other(reference, known->second) +
-                   "); take that of one job");
+            refuse(one.file.name, "the job compared it with goldens of another system (" + one.other_here +
+                                      "), so the report may lack some that differ; remove " + file +
+                                      ", run the job again and take its report");
         }
     }
-    if (out.empty()) {
-        throw InputError(read.file.string(), "",
-                         "--new-reference: the report tells of no picture, and so not what drew them; take that of a "
-                         "job in which one differs");
+    if (!read.run) {
+        refuse("",
+               "the report does not say what drew the pictures; run the job again with this Mobbscope, and take the "
+               "page of its --html");
+    }
+    std::vector<CaseFile> drawn;
+    std::ranges::copy_if(cases, std::back_inserter(drawn), [](const CaseFile& file) {
+        return picture_tests::read_terms(file).holds(picture_tests::Held::picture);
+    });
+    // A test may have asked for others, which are no files yet.
+    for (const CaseResult& one : read.results) {
+        if (!draws_nothing(one)) drawn.push_back(one.file);
+    }
+    References out;
+    for (const CaseFile& file : drawn) {
+        if (std::ranges::find(read.run->names, file.name) == read.run->names.end()) {
+            refuse(file.name,
+                   "the job did not draw it, or not as it drew the others; take the report of a job that draws all "
+                   "cases, without NAME and --shard, and without a reference.json of another system");
+        }
+        out.emplace(file.file.parent_path(), read.run->reference);
     }
     return out;
 }
@@ -134,7 +141,8 @@ void check_is_from_here(const std::filesystem::path& folder, const CaseResult& r
 
 void take_as_reference(std::vector<CaseResult>& results, std::ostream& say) {
     const picture_tests::Summary sum = picture_tests::summary(results);
-    if (sum[picture_tests::CaseOutcome::failed] > 0 || sum[picture_tests::CaseOutcome::skipped] > 0) {
+    if (sum[picture_tests::CaseOutcome::failed] > 0 || sum[picture_tests::CaseOutcome::skipped] > 0 ||
+        std::ranges::any_of(results, picture_tests::lacks_opengl)) {
         warn(
             "nothing is taken, as some of the cases cannot be drawn or are skipped: all goldens of a reference are "
             "from one place");
@@ -195,7 +203,7 @@ bool take_report(const std::filesystem::path& report, const std::filesystem::pat
         });
         ++(changes.size() > before ? taken : known);
     }
-    for (const auto& [of, reference] : new_reference ? references_of(read) : References()) {
+    for (const auto& [of, reference] : new_reference ? references_of(read, cases) : References()) {
         const std::filesystem::path file = picture_tests::reference_file(of);
         const std::optional<std::string> now = picture_tests::golden_bytes(file);
         const std::string text = picture_tests::reference_text(reference);
@@ -208,7 +216,8 @@ bool take_report(const std::filesystem::path& report, const std::filesystem::pat
     }
     const std::string of = cleaned(read.file.string());
     if (known > 0) say << counted(known, "case has", "cases have") << " the goldens of " << of << " already\n";
-    if (taken > 0 || known == 0) say << "accepted " << counted(taken, "case", "cases") << " of " << of << '\n';
+    if (taken > 0 || (known == 0 && changes.empty()))
+        say << "accepted " << counted(taken, "case", "cases") << " of " << of << '\n';
     return all;
 }
 

@@ -38,9 +38,9 @@ void take_as_reference(std::vector<picture_tests::CaseResult>& results, std::ost
 
 /// Makes the goldens of a report (case_report.h) those of its cases, byte by byte, all or none: of those that
 /// `patterns` name, without patterns of all. Whether none that was meant is left out; those are said, as are those that
-/// have these goldens already. `new_reference`: their folders say then that they are drawn with what the job drew with.
-/// Throws InputError if the report cannot be read, knows none of them, was not held against the goldens that are there
-/// now, or is not enough for a new reference; MachineError if they cannot be written.
+/// have these goldens already. `new_reference`: all folders of `cases` with pictures say then that they are drawn with
+/// what the job drew with. Throws InputError if the report cannot be read, knows none of them, was not held against the
+/// goldens that are there now, or is not enough for a new reference; MachineError if they cannot be written.
 bool take_report(const std::filesystem::path& report, const std::filesystem::path& folder,
                  const std::vector<picture_tests::CaseFile>& cases, const std::vector<std::string>& patterns,
                  bool new_reference, std::ostream& say);

@@ -262,7 +262,9 @@ std::string add_facts(RunFacts& facts, std::span<const CaseResult> results) {
 void keep_all(const TestCommandArguments& arguments, std::span<const CaseResult> results) {
     for (const CaseResult& result : results) keep_pictures(result, arguments.output);
     using picture_tests::Cases;
-    add_to_case_report(arguments.output, arguments.folder, results, is_part(arguments) ? Cases::some : Cases::all);
+    const std::string replaced =
+        add_to_case_report(arguments.output, arguments.folder, results, is_part(arguments) ? Cases::some : Cases::all);
+    if (!replaced.empty()) warn(replaced);
 }
 
 /// What goes to standard output when it is all done.
@@ -347,7 +349,7 @@ void take(const TestCommandArguments& arguments, std::vector<CaseResult>& result
     // Where standard output is a report, the rest goes beside it.
     std::ostream& say = arguments.json ? std::cerr : std::cout;
     if (arguments.new_reference) {
-        if (std::ranges::none_of(results, picture_tests::lacks_opengl)) take_as_reference(results, say);
+        take_as_reference(results, say);
     } else if (asks(arguments)) {
         take_asked(results, arguments.output, say);
     } else {
@@ -449,12 +451,16 @@ int draw_and_hold(const TestCommandArguments& arguments) {
         print_results(arguments, facts, results);
     }
     const bool ok = is_ok(facts, results) && complaints.empty();
-    if (no_opengl.empty()) {
-        write_contact_sheet(arguments, sheet, results);
-    } else if (ok) {
-        throw MachineError(no_opengl);
-    } else {
+    if (!no_opengl.empty()) {
+        if (ok) throw MachineError(no_opengl);
         warn(no_opengl);
+    }
+    try {
+        write_contact_sheet(arguments, sheet, results);
+    } catch (const MachineError& error) {
+        // What differs weighs more.
+        if (ok) throw;
+        warn(arguments.contact_sheet.string() + ": not written: " + error.what());
     }
     return ok ? kDone : kFailed;
 }

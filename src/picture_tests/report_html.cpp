@@ -485,7 +485,7 @@ void write_html(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
     }
     write_help(out);
     out << kReportBegins;
-    write_case_report(out, results, std::filesystem::path(facts.page).parent_path());
+    write_case_report(out, results, runs_of(results), std::filesystem::path(facts.page).parent_path());
     out << kReportEnds << "\n<script>\n" << report_assets::embedded("report.js") << "</script>\n</body>\n</html>\n";
 }
 

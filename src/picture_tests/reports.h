@@ -28,7 +28,7 @@ struct RunFacts {
 void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
 /// {"folder", "backend", "renderer", "shard": "2/3" of a shard, "summary": {...}, "orphans": [...], "cases": [{"name",
 /// "outcome", "message", "remarks": [...], "seconds", "tolerance", "decided_by", "diff": {...} or null}]}; `diff` as in
-/// `mobbscope diff --json`; `tolerance` and `decided_by` are null where nothing was drawn, and `backend` is "none" if
+/// `mobbscope diff --json`; `tolerance` and `decided_by` are null where draws_nothing, and `backend` is "none" if
 /// that is so of all. Where goldens are from elsewhere (reference.h), "other_system": how was decided, a sentence for
 /// each folder.
 void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
