@@ -250,7 +250,7 @@ std::string film_text(const Workspace& workspace, const PictureOrder& order) {
     const FilmPace pace = film_pace(played, order.film->rate);
     double count = order.film->turntable;
     if (played == Played::steps) count = workspace.recorded()->trace.size();
-    if (played == Played::motion) count = played_motion(*workspace.document().fitted, order.view, pace.rate).pictures;
+    if (played == Played::motion) count = motion_pictures(*workspace.document().fitted, order.view, pace.rate).pictures;
     if (count > kMostPictures) {
         throw std::invalid_argument("The film would have " + brief(count) + " pictures; at most " +
                                     std::to_string(kMostPictures) + " are made at once. " +

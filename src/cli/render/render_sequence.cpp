@@ -58,7 +58,7 @@ Sequence steps(KeptPaths& kept, const ViewState& view) {
 }
 
 Sequence motion(const FittedScene& fitted, const ViewState& view, double rate) {
-    const PlayedMotion played = played_motion(fitted, view, rate);
+    const MotionPictures played = motion_pictures(fitted, view, rate);
     const auto at = [view, begin = played.begin, rate](int i) {
         ViewState out = view;
         out.time = begin + i / rate;

@@ -23,7 +23,7 @@ Played played_of(const ViewState& view, bool turns) {
     return plays_steps(view) ? Played::steps : Played::motion;
 }
 
-PlayedMotion played_motion(const FittedScene& fitted, const ViewState& view, double rate) {
+MotionPictures motion_pictures(const FittedScene& fitted, const ViewState& view, double rate) {
     double begin = 0, end = 0;
     bool ends_with_somebody = false;
     if (fitted.scene().crowd) {

@@ -25,12 +25,12 @@ Played played_of(const ViewState& view, bool turns);
 inline constexpr int kMostPictures = 100'000;
 
 /// The pictures of the motion of who is in a view.
-struct PlayedMotion {
+struct MotionPictures {
     double begin = 0;     ///< global seconds, of the first
     double pictures = 0;  ///< a whole number, maybe beyond any int
 };
 /// `rate`: pictures a second. Throws std::invalid_argument if the scene has no such query.
-PlayedMotion played_motion(const FittedScene& fitted, const ViewState& view, double rate);
+MotionPictures motion_pictures(const FittedScene& fitted, const ViewState& view, double rate);
 
 /// How a film shows its pictures.
 struct FilmPace {
