@@ -85,8 +85,7 @@ struct Others {
 void read_run(const JsonPlace& place, const std::filesystem::path& folder, CaseReport& to, Others& others) {
     DrawnRun run{{}, {}, place.require("cases").strings()};
     if (run.names.empty()) place.require("cases").fail("names no case");
-    const JsonPlace fonts = place.require("fonts");
-    run.reference = {read_fonts(fonts), place.require("imgui").string(), place.require("opengl").string()};
+    run.reference = read_drawn_with(place);
     const std::optional<std::filesystem::path> told = told_folder(place, run.names.front(), to.file);
     run.folder = told.value_or(folder);
     if (told && !is_same_folder(*told, folder)) {
@@ -164,11 +163,7 @@ void write_case_report(std::ostream& out, std::span<const CaseResult> results, s
     json.list("runs", runs, [&](const DrawnRun& run) {
         json.begin_object();
         json.member("folder", told_as(run.folder));
-        json.member("opengl", run.reference.opengl);
-        json.member("imgui", run.reference.imgui);
-        json.begin_object("fonts");
-        for (const auto& [name, hash] : run.reference.fonts) json.member(name, hash);
-        json.end_object();
+        write_drawn_with(json, run.reference);
         json.values("cases", run.names);
         json.end_object();
     });

@@ -72,6 +72,15 @@ Value named(const JsonPlace& place, std::span<const std::string_view> names) {
     return *value;
 }
 
+std::map<std::string, std::string> read_fonts(const JsonPlace& place) {
+    std::map<std::string, std::string> out;
+    for (int i = 0; i < place.members(); ++i) {
+        const JsonPlace font = place.member(i);
+        out.emplace(font.key(), font.string());
+    }
+    return out;
+}
+
 PictureSize read_picture_size(const JsonPlace& place) {
     place.require_size(2, "the width and the height");
     return {place[0].integer(0, kMaxInt), place[1].integer(0, kMaxInt)};
@@ -134,12 +143,7 @@ void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures,
     json.member("other_here", result.other_here);
     json.member("backend", result.drawn_by.backend);
     json.member("renderer", result.drawn_by.renderer);
-    const Reference& reference = result.drawn_by.reference;
-    json.member("opengl", reference.opengl);
-    json.member("imgui", reference.imgui);
-    json.begin_object("fonts");
-    for (const auto& [font, hash] : reference.fonts) json.member(font, hash);
-    json.end_object();
+    write_drawn_with(json, result.drawn_by.reference);
     if (lacks_opengl(result)) json.member("not_drawn", result.not_drawn);
     json.key("diff");
     result.image ? write_diff(json, *result.image) : json.null();
@@ -165,13 +169,17 @@ void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures,
     json.end_object();
 }
 
-std::map<std::string, std::string> read_fonts(const JsonPlace& place) {
-    std::map<std::string, std::string> out;
-    for (int i = 0; i < place.members(); ++i) {
-        const JsonPlace font = place.member(i);
-        out.emplace(font.key(), font.string());
-    }
-    return out;
+void write_drawn_with(JsonWriter& json, const Reference& reference) {
+    json.begin_object("fonts");
+    for (const auto& [font, hash] : reference.fonts) json.member(font, hash);
+    json.end_object();
+    json.member("imgui", reference.imgui);
+    json.member("opengl", reference.opengl);
+}
+
+Reference read_drawn_with(const JsonPlace& place) {
+    const JsonPlace fonts = place.require("fonts");
+    return {read_fonts(fonts), place.require("imgui").string(), place.require("opengl").string()};
 }
 
 CaseResult read_result(const JsonPlace& root, const std::vector<CaseFile>& cases) {

@@ -19,7 +19,6 @@
 #include <cases/case_file.h>
 #include <cases/case_result.h>
 
-#include <map>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -32,8 +31,10 @@ enum class Pictures { all, not_in_fresh };
 /// With `all` comes how long it took; a report is the same every time. `folder`: what a report says of the folder of
 /// the goldens (case_report.h).
 void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures, std::string_view folder = {});
-/// "fonts", here and of a reference.
-std::map<std::string, std::string> read_fonts(const JsonPlace& place);
+/// The members "fonts", "imgui" and "opengl", here and of a reference.
+void write_drawn_with(JsonWriter& json, const Reference& reference);
+/// Throws InputError if one is missing.
+Reference read_drawn_with(const JsonPlace& place);
 /// `cases`: those that it may be of. Throws InputError if it is no result.
 CaseResult read_result(const JsonPlace& place, const std::vector<CaseFile>& cases);
 

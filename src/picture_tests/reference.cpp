@@ -67,8 +67,7 @@ std::optional<Reference> read_reference(const std::filesystem::path& folder) {
         version.fail("the reference has version " + format_double(version.number()) + "; this program reads version " +
                      std::to_string(kReferenceVersion));
     }
-    const JsonPlace fonts = root.require("fonts");
-    return Reference{read_fonts(fonts), root.require("imgui").string(), root.require("opengl").string()};
+    return read_drawn_with(root);
 }
 
 std::string reference_text(const Reference& reference) {
@@ -76,11 +75,7 @@ std::string reference_text(const Reference& reference) {
     JsonWriter json(text);
     json.begin_object();
     json.member("mobbscope_reference", kReferenceVersion);
-    json.begin_object("fonts");
-    for (const auto& [name, hash] : reference.fonts) json.member(name, hash);
-    json.end_object();
-    json.member("imgui", reference.imgui);
-    json.member("opengl", reference.opengl);
+    write_drawn_with(json, reference);
     json.end_object();
     return std::move(text).str();
 }
