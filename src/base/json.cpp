@@ -212,7 +212,8 @@ class JsonTextBuilder : public nlohmann::json_sax<nlohmann::json> {
 
 std::string pointer_token(std::string_view key) {
     std::string out = "/";
-    for (const char c : shortened(key, kLongestToken)) out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+    for (const char c : shortened(cleaned(key), kLongestToken))
+        out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
     return out;
 }
 

@@ -79,7 +79,7 @@ class JsonText {
     JsonValue root_;
 };
 
-/// "/key" as it stands in a JSON pointer (RFC 6901); a long key is shortened.
+/// "/key" as it stands in a JSON pointer (RFC 6901), fit for a message: cleaned, and a long key is shortened.
 std::string pointer_token(std::string_view key);
 
 /// Parses UTF-8 JSON (RFC 8259). `file` stands for the text in messages. Throws InputError with line and column where

@@ -75,6 +75,13 @@ TEST(Settings, AFolderHasItsNameWithOrWithoutASlashBehindIt) {
     const TempFolder folder;
     const auto old = folder.write("settings.json", R"({"recent": ["/a/b/", "/c", "/a/b", "/"]})");
     EXPECT_EQ(load_settings(old).recent, (std::vector<std::filesystem::path>{"/a/b", "/c", "/"}));
+    SettingsFile settings_file(old);
+    Settings again = settings_file.load();
+    again.remember("/a/b/");
+    again.remember("/c/d");
+    settings_file.save(again);
+    EXPECT_EQ(again.recent, (std::vector<std::filesystem::path>{"/c/d", "/a/b", "/c", "/"}));
+    EXPECT_EQ(load_settings(old), again);
 }
 
 TEST(Settings, JunkIsPassedOver) {

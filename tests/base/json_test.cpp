@@ -111,6 +111,14 @@ TEST(Json, AKeyThatStandsTwiceIsRefused) {
         << json_refusal("{\"x\": [0, {\"y/\": {\"b\": 1, \"b\": 2}}]}");
 }
 
+TEST(Json, AKeyDoesNotBreakTheLineOfARefusal) {
+    const std::string file = "f.json";
+    const JsonText value = parse_json(R"({"a\n\u001b[1m": 1})", file);
+    const JsonPlace root(value, file);
+    EXPECT_EQ(root.require("a\n\x1b[1m").description(), "line 1, /a\\u000a\\u001b[1m");
+    EXPECT_TRUE(json_refusal(R"({"\n": 1, "\n": 2})").starts_with("f.json: line 1, /\\u000a: the key '\\u000a'"));
+}
+
 TEST(Json, DeepNestingIsRefusedNotFatal) {
     EXPECT_NE(json_refusal(std::string(1'000'000, '[')).find("nested more than 64 deep"), std::string::npos);
     std::string objects;

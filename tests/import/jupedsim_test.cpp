@@ -191,5 +191,18 @@ TEST(Jupedsim, DamagedDatabasesAreReadOrRefusedSoon) {
         EXPECT_NE(input_error([&] { jupedsim_clips(good.substr(0, size)); }), "");
 }
 
+// SQLite says of it that memory ran out.
+TEST(Jupedsim, ALengthBeyondWhatSqliteAllocatesIsDamage) {
+    std::string bytes = database("PRAGMA page_size=512;" + kMetadata + kPoints);
+    constexpr std::size_t kCells = 108;  // where the places of the schema's rows begin
+    const auto byte = [&](std::size_t at) { return static_cast<std::size_t>(static_cast<unsigned char>(bytes[at])); };
+    for (std::size_t cell = 0; cell < 2; ++cell) {
+        const std::size_t place = byte(kCells + 2 * cell) * 256 + byte(kCells + 2 * cell + 1);
+        bytes.replace(place, 9, 9, '\xff');
+    }
+    EXPECT_EQ(input_error([&] { jupedsim_clips(bytes); }),
+              "f.sqlite: the SQLite database is damaged: a value is too long; get the file again");
+}
+
 }  // namespace
 }  // namespace mobbscope

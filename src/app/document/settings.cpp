@@ -105,6 +105,13 @@ std::vector<std::filesystem::path> paths_at(const Json& json, const char* key, s
     return out;
 }
 
+std::vector<std::filesystem::path> read_recent(const Json& json) {
+    Settings out;
+    const std::vector<std::filesystem::path> listed = paths_at(json, "recent", kMostRecent);
+    for (auto file = listed.rbegin(); file != listed.rend(); ++file) out.remember(*file);
+    return out.recent;
+}
+
 Json texts_of(const std::vector<std::filesystem::path>& paths) {
     Json out = Json::array();
     for (const std::filesystem::path& path : paths) out.push_back(path.native());
@@ -290,8 +297,7 @@ Settings load_settings(const std::filesystem::path& file) {
         const double read = at->get<double>();
         if (read >= number.least && read <= number.most) settings.*number.value = read;
     }
-    const std::vector<std::filesystem::path> recent = paths_at(json, "recent", kMostRecent);
-    for (auto opened = recent.rbegin(); opened != recent.rend(); ++opened) settings.remember(*opened);
+    settings.recent = read_recent(json);
     const std::filesystem::path folder = setting_text(json, "folder");
     if (folder.is_absolute()) settings.folder = folder;
     settings.theme = theme_from_name(setting_text(json, "theme"));
@@ -334,7 +340,7 @@ void SettingsFile::save(Settings& settings) {
     std::optional<Json> present = read_object(file_);
     if (!present || is_newer(*present)) return;
     Settings merged = settings;
-    merged.recent = paths_at(*present, "recent", kMostRecent);
+    merged.recent = read_recent(*present);
     const std::size_t opened = opened_since(known_.recent, settings.recent);
     for (std::size_t i = opened; i-- > 0;) merged.remember(settings.recent[i]);
     Json before = json_of(known_);

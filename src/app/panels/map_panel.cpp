@@ -53,9 +53,9 @@ std::string range_words(const MapRange& range) {
     return with_axis_unit(range.axis, range.from) + " to " + with_axis_unit(range.axis, range.to);
 }
 
-MapColors colors_of(const MapInspector& maps, const PlacementMap& map) {
+MapColors colors_of(const MapInspector& maps, const MapPicture& picture) {
     const auto& chosen = maps.choice.colors;
-    return chosen ? MapColors{chosen->first, chosen->second} : usual_colors(map);
+    return chosen ? MapColors{chosen->first, chosen->second} : picture.usual_colors();
 }
 
 /// The axes, and what is shown over them.
@@ -97,16 +97,24 @@ ImVec2 to_vec(glm::vec2 v) { return {v.x, v.y}; }
 
 }  // namespace
 
-void MapPicture::remake(const std::shared_ptr<const PlacementMap>& map, const MapColors& colors, const Style& style,
-                        const Rect& area) {
-    const Key key{map, colors, style.palette.dark, area.min, area.max};
-    if (key_ == key) return;
-    key_ = key;
-    image_ = std::make_shared<const Image>(map_image(*map, colors, style.palette));
-    hatch_ = hit_hatch(*map, area, kHatch * style.scale);
+void MapPicture::follow(const std::shared_ptr<const PlacementMap>& map) {
+    if (map_ == map) return;
+    map_ = map;
+    usual_colors_ = mobbscope::usual_colors(*map);
+    counts_ = value_counts(*map, usual_colors_, kBars);
+    key_.reset();
 }
 
-void MapPicture::draw(Ui& ui, const PlacementMap& map, const Rect& area) const {
+void MapPicture::remake(const MapColors& colors, const Style& style, const Rect& area) {
+    const Key key{colors, style.palette.dark, area.min, area.max};
+    if (key_ == key) return;
+    key_ = key;
+    image_ = std::make_shared<const Image>(map_image(*map_, colors, style.palette));
+    hatch_ = hit_hatch(*map_, area, kHatch * style.scale);
+}
+
+void MapPicture::draw(Ui& ui, const Rect& area) const {
+    const PlacementMap& map = *map_;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 min = to_vec(area.min), max = to_vec(area.max);
     list.AddRectFilled(min, max, ui.style.raised);
@@ -126,8 +134,8 @@ void MapPicture::draw(Ui& ui, const PlacementMap& map, const Rect& area) const {
 namespace {
 
 /// How many cells have which value, and the range of the colours.
-void histogram(Ui& ui, const MapInspector& maps, const PlacementMap& map, float width) {
-    const MapColors whole = usual_colors(map), colors = colors_of(maps, map);
+void histogram(Ui& ui, const MapInspector& maps, const PlacementMap& map, const MapPicture& picture, float width) {
+    const MapColors whole = picture.usual_colors(), colors = colors_of(maps, picture);
     const char* unit = map.order.show == MapShow::clearance ? " m" : " tests";
     const auto text = [unit](double value) { return brief(std::round(value * 100) / 100) + unit; };
     const auto value_at = [&](float place) {
@@ -139,7 +147,7 @@ void histogram(Ui& ui, const MapInspector& maps, const PlacementMap& map, float 
     const HistogramChange change = value_histogram(
         ui,
         {.mark = "map.range",
-         .counts = value_counts(map, whole, kBars),
+         .counts = picture.counts(),
          .color = [&](float place) { return value_color(map.order.show, value_at(place), colors, ui.style.palette); },
          .from = place_of(colors.from),
          .to = place_of(colors.to),
@@ -239,15 +247,16 @@ void map_panel(Ui& ui, MapInspector& maps, MapPicture& picture, const MapLayout&
     if (map) {
         const MapOrder& order = map->order;
         caption(ui, at, std::string(axis_title(order.up.axis)) + " \u2191  " + range_words(order.up), "", layout.side);
-        picture.remake(map, colors_of(maps, *map), ui.style, area);
-        picture.draw(ui, *map, area);
+        picture.follow(map);
+        picture.remake(colors_of(maps, picture), ui.style, area);
+        picture.draw(ui, area);
         ring(ui, *map, area, maps.place_of_b(*map));
         mouse(ui, maps, *map, area);
         caption(ui, {area.min.x, area.max.y + ui.px(2)}, range_words(order.across),
                 std::string(axis_title(order.across.axis)) + " \u2192", layout.side);
     }
     ImGui::SetCursorScreenPos({at.x, area.max.y + line + ui.px(8)});
-    if (map && map->order.show != MapShow::answer) histogram(ui, maps, *map, layout.side);
+    if (map && map->order.show != MapShow::answer) histogram(ui, maps, *map, picture, layout.side);
     const bool on_floor = ui.workspace.view().boundary;
     if (map && map->order.show == MapShow::answer && map->step == 1)
         fitted_line(ui, ui.style.quiet, map_words(*map, maps.query().a.name, maps.query().b.name), width);

@@ -75,19 +75,26 @@ struct DecisionCell {
 /// The map of placements, with what it was last drawn from.
 class MapPicture {
   public:
-    void remake(const std::shared_ptr<const PlacementMap>& map, const MapColors& colors, const Style& style,
-                const Rect& area);
-    void draw(Ui& ui, const PlacementMap& map, const Rect& area) const;
+    /// Looks at the cells of another map than before. The rest is about this map.
+    void follow(const std::shared_ptr<const PlacementMap>& map);
+    /// The colours as they are while nobody has chosen others.
+    const MapColors& usual_colors() const { return usual_colors_; }
+    /// How many cells have values in equal parts of their range.
+    const std::vector<std::size_t>& counts() const { return counts_; }
+    void remake(const MapColors& colors, const Style& style, const Rect& area);
+    void draw(Ui& ui, const Rect& area) const;
 
   private:
     struct Key {
-        std::shared_ptr<const PlacementMap> map;
         MapColors colors;
         bool dark = false;
         glm::vec2 min{0}, max{0};
         friend bool operator==(const Key&, const Key&) = default;
     };
-    std::optional<Key> key_;
+    std::shared_ptr<const PlacementMap> map_;
+    MapColors usual_colors_;
+    std::vector<std::size_t> counts_;
+    std::optional<Key> key_;  ///< what the image is of; none where it is of another map
     std::shared_ptr<const Image> image_;
     std::vector<PixelLine> hatch_;
 };

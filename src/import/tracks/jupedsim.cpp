@@ -27,6 +27,15 @@ constexpr std::size_t kLeastRow = 8;
 // Steps of SQLite's machine that a byte of the file is good for; a row of four columns takes some ten.
 constexpr std::int64_t kStepsPerByte = 16;
 constexpr int kStepsBetweenChecks = 10'000;
+constexpr int kLongestValue = 1 << 20;  // bytes
+// Bytes that SQLite needs beside the file's copy: some values, and its two MB of pages.
+constexpr sqlite3_uint64 kMostOfSqlite = 8 * kLongestValue;
+
+bool can_allocate(sqlite3_uint64 bytes) {
+    void* const space = sqlite3_malloc64(bytes);
+    sqlite3_free(space);
+    return space != nullptr;
+}
 
 class Database {
   public:
@@ -56,7 +65,6 @@ class Database {
         check(sqlite3_deserialize(opened, "main", copy, size, size,
                                   SQLITE_DESERIALIZE_FREEONCLOSE | SQLITE_DESERIALIZE_READONLY));
         // What the schema of a file says is data, not to be run.
-        constexpr int kLongestValue = 1 << 20;  // bytes
         sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, kLongestValue);
         sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
         sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
@@ -85,7 +93,9 @@ class Database {
   private:
     void check(int status) const {
         if (status == SQLITE_OK) return;
-        if (status == SQLITE_NOMEM) throw std::bad_alloc();
+        // SQLite says the same of a damaged length that is beyond what it ever allocates.
+        if (status == SQLITE_NOMEM && !can_allocate(kMostOfSqlite)) throw std::bad_alloc();
+        if (status == SQLITE_NOMEM) fail("the SQLite database is damaged: a value is too long; get the file again");
         if (status == SQLITE_INTERRUPT) fail("the SQLite database is damaged: it never ends; get the file again");
         fail("the SQLite database is damaged or cut off (" + cleaned(sqlite3_errmsg(database_.get())) +
              "); get the file again");
