@@ -9,7 +9,7 @@ function(mobbscope_room name)
     target_compile_options(mobbscope_${name} PRIVATE $<$<CONFIG:Release>:-O3>)
     mobbscope_precompile(mobbscope_${name} mobbscope_base)
   else()
-    mobbscope_precompile(mobbscope_${name} mobbscope_motion_files)
+    mobbscope_precompile(mobbscope_${name} mobbscope_scene)
   endif()
 endfunction()
 
