@@ -15,12 +15,12 @@ namespace {
 
 /// Walkers whose arms reach 0.7 m forward, side by side; one who is a disk alone.
 struct BodiesWindow {
-    mobbscope::testing::TempFolder folder;
+    TempFolder folder;
     Session session{false};
     HeadlessWindow window{GlContext::open(Backend::automatic), session, {1280, 900}, 1};
 
     explicit BodiesWindow(const std::string& b, int frames = 2) {
-        std::string walker = mobbscope::testing::kWalker;
+        std::string walker = kWalker;
         walker = walker.substr(0, walker.find("Frames:")) + "Frames: " + std::to_string(frames) + "\nFrame Time: 0.1\n";
         for (int i = 0; i < frames; ++i) walker += "10 95 30 0 0 0 0 0 0 0 0 0\n";
         folder.write("walker.bvh", walker);

@@ -16,7 +16,7 @@ namespace mobbscope::app {
 namespace {
 
 struct CompareWorld {
-    testing::CrossingFolder folder;
+    CrossingFolder folder;
     Session session{false};
     HeadlessWindow window;
 

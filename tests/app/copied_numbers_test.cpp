@@ -16,11 +16,9 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::CrossingFolder;
-
 struct CopyWindow {
     CrossingFolder folder;
-    testing::TestDesktop desktop;
+    TestDesktop desktop;
     Session session{false};
     HeadlessWindow window;
 

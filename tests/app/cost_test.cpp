@@ -17,8 +17,6 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::CrossingFolder;
-using testing::refusal;
 using Workload = QueryWorkload::Kind;
 
 struct CostWindow {

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <string>
 
-namespace mobbscope::app::testing {
+namespace mobbscope::app::inline testing {
 
 struct CrossingWindow {
     CrossingFolder folder;
@@ -30,4 +30,4 @@ struct CrossingWindow {
     bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
 };
 
-}  // namespace mobbscope::app::testing
+}  // namespace mobbscope::app::inline testing

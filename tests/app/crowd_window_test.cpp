@@ -33,13 +33,13 @@ namespace {
 constexpr PictureSize kTall{900, 1400};  // all panels unscrolled
 
 struct CrowdWindow {
-    mobbscope::testing::TempFolder folder;
+    TempFolder folder;
     Session session;
     HeadlessWindow window;
 
     explicit CrowdWindow(PictureSize size = kTall, bool attended = false)
         : session(attended), window(GlContext::open(Backend::automatic), session, size, 1) {
-        session.files.open({folder.write("run.json", testing::crowded_run())});
+        session.files.open({folder.write("run.json", crowded_run())});
         while (session.jobs.job()) session.poll();
         window.settle();
     }
@@ -401,7 +401,7 @@ TEST(CrowdWindow, ADoubleClickOnAConflictShowsTheForcedChoice) {
 }
 
 TEST(CrowdWindow, AChoiceOfAnEditedRunSaysSo) {
-    std::string text = testing::crowded_run();
+    std::string text = crowded_run();
     const std::size_t seed = text.find("\"seed\": 1");
     ASSERT_NE(seed, std::string::npos);
     text.replace(seed, 9, "\"seed\": 2");

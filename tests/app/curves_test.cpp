@@ -19,11 +19,9 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::CrossingFolder;
-
 struct CurvesWindow {
     CrossingFolder folder;
-    testing::TestDesktop desktop;
+    TestDesktop desktop;
     Session session{false};
     HeadlessWindow window;
 
@@ -104,7 +102,7 @@ TEST(Curves, SayWhatIsLeftOut) {
 }
 
 /// A walk of its own, which ends apart from the others.
-std::string own_walk(int i) { return testing::walk_csv() + "2,2," + std::to_string(0.01 * i) + ",0.4\n"; }
+std::string own_walk(int i) { return walk_csv() + "2,2," + std::to_string(0.01 * i) + ",0.4\n"; }
 std::string clip_json(const std::string& name) { return '"' + name + "\": {\"source\": \"" + name + ".csv\"}"; }
 std::string agent_json(const std::string& name) { return "{\"name\": \"" + name + "\", \"clip\": \"" + name + "\"}"; }
 
@@ -141,7 +139,7 @@ TEST(Curves, CostsAreFoundOnceAndOnlyOfTheActiveView) {
 TEST(Curves, NoCostIsGivenUpForThatOfAnotherClip) {
     constexpr int kClips = 4;
     const CrossingFolder folder;
-    testing::TestDesktop desktop;
+    TestDesktop desktop;
     Session session{true};
     session.desktop = &desktop;
     session.options.may_write = false;

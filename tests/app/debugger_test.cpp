@@ -16,9 +16,6 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::all_messages;
-using testing::CrossingFolder;
-
 /// A and B go beside each other, so near that most boxes of theirs overlap; C is elsewhere.
 constexpr const char* kNearlyTouching = R"({
     "clips": {"walk": {"source": "walk.csv"}},
@@ -30,7 +27,7 @@ struct DebuggerWindow {
     CrossingFolder folder;
     std::filesystem::path scene = folder.write("near.json", kNearlyTouching);
     Session session{false};
-    testing::TestDesktop desktop;
+    TestDesktop desktop;
     HeadlessWindow window;
 
     DebuggerWindow() : window(GlContext::open(Backend::automatic), session, {1440, 3400}, 1) {
@@ -185,10 +182,10 @@ TEST(Debugger, FiltersAreSavedWithTheScene) {
     DebuggerWindow w;
     run_command(w.session, "events.filter", "gap < 0.2");
     run_command(w.session, "events.save", "tight");
-    EXPECT_EQ(testing::refusal(w.session, "events.save", " "), "a filter needs a name");
+    EXPECT_EQ(refusal(w.session, "events.save", " "), "a filter needs a name");
     run_command(w.session, "events.filter", "outcome = hit");
     run_command(w.session, "events.save", "hits");
-    EXPECT_EQ(testing::refusal(w.session, "events.rename_saved", "tight"), "another filter is named 'tight'");
+    EXPECT_EQ(refusal(w.session, "events.rename_saved", "tight"), "another filter is named 'tight'");
     run_command(w.session, "events.rename_saved", "the hit");
     w.window.settle();
     w.click("events.more");

@@ -24,7 +24,7 @@ std::string walk_with_a_jump() {
 }
 
 struct NoticesWindow {
-    mobbscope::testing::TempFolder folder;
+    TempFolder folder;
     Session session{false};
     HeadlessWindow window{GlContext::open(Backend::automatic), session, {1280, 1100}, 1};
 
@@ -93,9 +93,8 @@ TEST(FitNotices, NothingIsShownWhereNothingStandsOut) {
 
 TEST(FitNotices, OneThatOnlyTheClipCouldMendSaysSo) {
     NoticesWindow w;
-    EXPECT_EQ(testing::refusal(w.session, "tree.see_finding", "1"), "the last finding is 0");
-    EXPECT_EQ(testing::refusal(w.session, "tree.mend"),
-              "no other fit mends that: the clip itself would have to change");
+    EXPECT_EQ(refusal(w.session, "tree.see_finding", "1"), "the last finding is 0");
+    EXPECT_EQ(refusal(w.session, "tree.mend"), "no other fit mends that: the clip itself would have to change");
 }
 
 }  // namespace

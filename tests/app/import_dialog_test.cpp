@@ -16,10 +16,6 @@
 namespace mobbscope::app {
 namespace {
 
-using mobbscope::testing::TempFolder;
-using testing::all_messages;
-using testing::refusal;
-
 /// A body 170 units tall that goes along X, 1 m a second if the unit is cm: two joints, 60 frames.
 std::string body_bvh(int frames = 60) {
     std::string text = R"(HIERARCHY

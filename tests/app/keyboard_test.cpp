@@ -18,9 +18,6 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::all_messages;
-using testing::CrossingFolder;
-
 struct KeyboardWindow {
     CrossingFolder folder;
     Session session{false};
@@ -592,7 +589,7 @@ TEST(Keyboard, NoPanelHasAnotherKindOfNumber) {
     for (const char* folder : {"panels", "viewport"}) {
         for (const auto& file :
              std::filesystem::directory_iterator(std::string(MOBBSCOPE_SOURCE_DIR "/src/app/") + folder)) {
-            const std::string text = mobbscope::testing::slurp(file.path());
+            const std::string text = slurp(file.path());
             for (const char* other : {"ImGui::Drag", "ImGui::Slider", "ImGui::VSlider", "ImGui::InputInt",
                                       "ImGui::InputFloat", "ImGui::InputDouble", "ImGui::InputScalar"}) {
                 EXPECT_EQ(text.find(other), std::string::npos) << file.path() << ": " << other;

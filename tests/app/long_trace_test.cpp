@@ -18,7 +18,7 @@ namespace mobbscope::app {
 namespace {
 
 struct LongTraceWindow {
-    testing::CrossingFolder folder;
+    CrossingFolder folder;
     Session session{false};
     HeadlessWindow window{GlContext::open(Backend::automatic), session, {1280, 1100}, 1};
 

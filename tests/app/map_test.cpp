@@ -14,9 +14,6 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::CrossingFolder;
-using testing::refusal;
-
 struct MapWindow {
     CrossingFolder folder;
     Session session{false};

@@ -19,12 +19,9 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::CrossingFolder;
-using testing::refusal;
-
 struct MeasureWindow {
     CrossingFolder folder;
-    testing::TestDesktop desktop;
+    TestDesktop desktop;
     Session session{false};
     HeadlessWindow window;
 

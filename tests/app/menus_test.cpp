@@ -23,10 +23,10 @@ namespace mobbscope::app {
 namespace {
 
 struct MenuWindow {
-    testing::CrossingFolder folder;
+    CrossingFolder folder;
     Session session;
     HeadlessWindow window;
-    testing::TestDesktop desktop;
+    TestDesktop desktop;
 
     explicit MenuWindow(PictureSize size = {1280, 900}, double scale = 1, bool attended = false)
         : session(attended), window(GlContext::open(Backend::automatic), session, size, scale) {

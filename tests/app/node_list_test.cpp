@@ -19,13 +19,10 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::all_messages;
-using testing::CrossingFolder;
-
 struct NodeWindow {
     CrossingFolder folder;
     Session session{false};
-    testing::TestDesktop desktop;
+    TestDesktop desktop;
     HeadlessWindow window{GlContext::open(Backend::automatic), session, {1600, 1000}, 1};
 
     NodeWindow() {

@@ -19,9 +19,6 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::all_messages;
-using testing::CrossingFolder;
-
 struct Window {
     CrossingFolder folder;
     Session session{false};
@@ -509,7 +506,7 @@ TEST(Panels, SeveralAreOpenedByTheDialogAlone) {
 TEST(Panels, TheDialogGoesUpAndIntoFolders) {
     Window w;
     std::filesystem::create_directory(w.folder.file("deep"));
-    w.folder.write("deep/other.csv", mobbscope::testing::slurp(w.folder.file("walk.csv")));
+    w.folder.write("deep/other.csv", slurp(w.folder.file("walk.csv")));
     w.key("Ctrl+O");
     w.type("deep");
     w.key("Enter");
@@ -560,7 +557,7 @@ TEST(Panels, AClickOnAFileNamesTheOneToBeWritten) {
     w.click("save.ok");
     EXPECT_TRUE(w.session.dialogs.input.confirming);
     w.key("Escape");
-    EXPECT_EQ(mobbscope::testing::slurp(w.folder.file("there.json")), "old");
+    EXPECT_EQ(slurp(w.folder.file("there.json")), "old");
 }
 
 TEST(Panels, WhatCannotBeOpenedIsSaidOverTheDialog) {
@@ -585,7 +582,7 @@ TEST(Panels, OverwritingAsks) {
     w.key("Enter");
     EXPECT_EQ(w.session.dialogs.now, Dialog::save_as);
     w.change_view("overwrite");
-    EXPECT_EQ(mobbscope::testing::slurp(w.folder.file("there.json")), "old");
+    EXPECT_EQ(slurp(w.folder.file("there.json")), "old");
     w.key("Enter");
     EXPECT_EQ(all_messages(w.session), "Saved " + w.folder.file("there.json").string() + "\n");
     EXPECT_EQ(w.session.dialogs.now, Dialog::none);
@@ -624,7 +621,7 @@ TEST(Panels, MessagesGoBehindTheBellWhereTheyAreRead) {
     EXPECT_EQ(w.session.dialogs.now, Dialog::messages);
     EXPECT_EQ(w.session.notifications.unread(), 0u);
     w.change_view("message_list");
-    testing::TestDesktop desktop;
+    TestDesktop desktop;
     w.session.desktop = &desktop;
     w.click("messages.0.copy");
     EXPECT_EQ(desktop.text, "This went wrong") << "the latest stands first";

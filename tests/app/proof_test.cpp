@@ -18,8 +18,6 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::CrossingFolder;
-
 /// A stands while B goes around it in 6 s, 2 m away: no single line proves that. C walks far off.
 std::string circling_scene() {
     std::string stand, circle;

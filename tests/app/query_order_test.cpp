@@ -25,7 +25,7 @@ std::string standing_row() {
 }
 
 struct QueryOrderWindow {
-    mobbscope::testing::TempFolder folder;
+    TempFolder folder;
     Session session{false};
     HeadlessWindow window;
 

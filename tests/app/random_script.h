@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace mobbscope::app::test {
+namespace mobbscope::app::inline testing {
 
 class RandomScript {
   public:
@@ -136,4 +136,4 @@ class RandomScript {
     std::vector<std::string> keys_;
 };
 
-}  // namespace mobbscope::app::test
+}  // namespace mobbscope::app::inline testing

@@ -24,7 +24,7 @@ namespace {
 
 /// A window over a query of A against C, who pass close by each other for two seconds.
 struct PassingWorld {
-    testing::CrossingFolder folder;
+    CrossingFolder folder;
     Session session{false};
     HeadlessWindow window;
 
@@ -192,7 +192,7 @@ TEST(ReasonsWindow, AllQueriesAreCountedAndTheWorstShown) {
 
 /// A session whose jobs are not waited for, over three agents of one clip; no job is under way.
 struct CountingWorld {
-    testing::CrossingFolder folder;
+    CrossingFolder folder;
     Session session{true};
 
     CountingWorld() {

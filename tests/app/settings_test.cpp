@@ -13,9 +13,6 @@
 namespace mobbscope::app {
 namespace {
 
-using mobbscope::testing::slurp;
-using mobbscope::testing::TempFolder;
-
 /// By a window that has not read what is there.
 void save_settings(const std::filesystem::path& file, Settings settings) { SettingsFile(file).save(settings); }
 

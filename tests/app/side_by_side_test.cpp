@@ -26,7 +26,7 @@ namespace mobbscope::app {
 namespace {
 
 struct SideBySide {
-    testing::CrossingFolder folder;
+    CrossingFolder folder;
     Session session{false};
     HeadlessWindow window;
 

@@ -18,7 +18,7 @@ namespace mobbscope::app {
 namespace {
 
 struct SlabWindow {
-    testing::CrossingFolder folder;
+    CrossingFolder folder;
     Session session{false};
     HeadlessWindow window{GlContext::open(Backend::automatic), session, PictureSize{1280, 800}, 1};
 

@@ -15,8 +15,6 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::CrossingFolder;
-
 struct SweepWindow {
     CrossingFolder folder;
     Session session{false};

@@ -26,9 +26,6 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::CrossingFolder;
-using testing::refusal;
-
 struct FigureWindow {
     CrossingFolder folder;
     Session session{false};

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-namespace mobbscope::testing {
+namespace mobbscope::inline testing {
 
 /// Whether a part stands in a message.
 inline bool says(const std::string& message, const std::string& part) {
@@ -45,4 +45,4 @@ class CaseFolder {
     TempFolder folder_;
 };
 
-}  // namespace mobbscope::testing
+}  // namespace mobbscope::inline testing

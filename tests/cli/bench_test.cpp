@@ -15,9 +15,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::Result;
-using testing::run_program;
-
 TEST(Bench, Table2OnBuiltInClips) {
     const Result run = run_program({"bench", "table2", "--queries", "2000", "--rounds", "1", "--json"});
     ASSERT_EQ(run.status, 0) << run.err;
@@ -60,7 +57,7 @@ TEST(Bench, TakesEverySeedThatStaysTheSameInJson) {
 
 TEST(Bench, AgentsWithoutQueriesAreAskedInPairs) {
     const std::string scene = MOBBSCOPE_SOURCE_DIR "/assets/scenes/crossing.json";
-    const testing::TempFolder folder;
+    const TempFolder folder;
     nlohmann::json agents_alone = nlohmann::json::parse(std::ifstream(scene));
     agents_alone.erase("queries");
     for (nlohmann::json& clip : agents_alone["clips"]) {

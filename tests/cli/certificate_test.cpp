@@ -19,12 +19,6 @@ namespace mobbscope {
 namespace {
 
 using nlohmann::json;
-using testing::is_one_line;
-using testing::keys;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
 
 /// A passes between B, whom it misses, and C, whom it meets.
 class Certificates : public ::testing::Test {

@@ -22,13 +22,11 @@ namespace mobbscope {
 namespace {
 
 using nlohmann::json;
-using testing::run_program;
-using testing::TempFolder;
 
 json data_conflicts(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "conflicts");
     arguments.emplace_back("--json");
-    const testing::Result run = run_program(arguments);
+    const Result run = run_program(arguments);
     EXPECT_EQ(run.status, 0) << run.err;
     return json::parse(run.out);
 }
@@ -146,7 +144,7 @@ TEST(ConflictsData, EveryTrajectoryFileIsAsAnExactSearchHasIt) {
         const TempFolder folder;
         const std::string csv = folder.path() / "crowd.csv";
         ASSERT_EQ(run_program({"convert", file, "--radius", radius, "-o", csv}).status, 0);
-        const ConvertedCrowd crowd = read_converted(testing::slurp(csv));
+        const ConvertedCrowd crowd = read_converted(slurp(csv));
         EXPECT_EQ(crowd.size(), crowd.empty() ? 0 : direct["agents"].get<std::size_t>());
         expect_exact(direct, crowd);
         found += direct["conflicts"].size();

@@ -15,11 +15,6 @@ namespace mobbscope {
 namespace {
 
 using nlohmann::json;
-using testing::is_one_line;
-using testing::keys;
-using testing::Result;
-using testing::run_program;
-using testing::TempFolder;
 
 // 1 goes along x, 2 comes towards it a second later; they pass 0.3 m apart at 4 m/s. 3 is elsewhere.
 const double kHalfOfContact = std::sqrt(0.4 * 0.4 - 0.3 * 0.3) / 4;  // seconds
@@ -279,7 +274,7 @@ TEST(Trajectories, ASceneOfThemHasAnAgentForEachTrack) {
     const std::string file = folder.write("crowd.txt", kTrajectories);
     const std::string scene = (folder.path() / "crowd.json").string();
     ASSERT_EQ(run_program({"convert", file, "-o", scene}).status, 0);
-    const json written = json::parse(testing::slurp(scene));
+    const json written = json::parse(slurp(scene));
     ASSERT_EQ(written["agents"].size(), 3u);
     EXPECT_EQ(written["agents"][1]["name"], "2");
     EXPECT_EQ(written["agents"][1]["start"], 1);
@@ -292,7 +287,7 @@ TEST(Trajectories, AsCsvTheyKeepTheirTimes) {
     const std::string file = folder.write("crowd.txt", kTrajectories);
     const std::string csv = (folder.path() / "crowd.csv").string();
     ASSERT_EQ(run_program({"convert", file, "-o", csv}).status, 0);
-    const std::string text = testing::slurp(csv);
+    const std::string text = slurp(csv);
     EXPECT_TRUE(text.starts_with("id,t,x,y,r\n1,0,0,0,0.2")) << text;
     EXPECT_NE(text.find("\n2,1.5,3,0.3,"), std::string::npos) << text;
     EXPECT_EQ(conflicts({csv})["conflicts"], conflicts({file})["conflicts"]);
@@ -310,7 +305,7 @@ TEST(Trajectories, WhatHoldsForAllIsSaidOnce) {
 /// A small run; `kind` in place of "forced".
 std::string small_run(const std::string& kind) {
     const std::string source = MOBBSCOPE_SOURCE_DIR;
-    std::string text = testing::slurp(source + "/tests/app/goldens/files/run.json");
+    std::string text = slurp(source + "/tests/app/goldens/files/run.json");
     const auto replace_all = [&](const std::string& part, const std::string& by) {
         for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + by.size()))
             text.replace(at, part.size(), by);

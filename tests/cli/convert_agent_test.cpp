@@ -18,12 +18,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
-
 const std::string kOwnClips = MOBBSCOPE_SOURCE_DIR "/assets/clips";
 
 /// A run of the project's own clips, made once.

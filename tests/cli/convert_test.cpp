@@ -9,12 +9,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
-
 const std::string kConvertScenes = MOBBSCOPE_SOURCE_DIR "/assets/scenes/";
 
 /// Every sample of both clips, and when it begins.

@@ -18,12 +18,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
-
 Image grey(int width, int height) {
     Image image(width, height);
     for (std::size_t i = 0; i < image.rgba.size(); ++i) image.rgba[i] = i % 4 == 3 ? 255 : 100;
@@ -161,7 +155,7 @@ TEST_F(DiffTest, JsonHasAllFigures) {
     EXPECT_EQ(run.status, 1);
     EXPECT_EQ(run.err, "");
     const auto report = nlohmann::json::parse(run.out);
-    EXPECT_EQ(testing::keys(report),
+    EXPECT_EQ(keys(report),
               (std::set<std::string>{"same", "passes", "same_size", "size_a", "size_b", "pixels", "unequal", "failing",
                                      "fraction", "maximum", "mean", "unequal_bounds", "bounds", "histogram",
                                      "threshold", "allowed", "least_pixels", "allowed_pixels", "shift"}));
@@ -236,7 +230,7 @@ TEST_F(DiffTest, WhatCannotBeWrittenIsStatusThreeAndLeavesNothing) {
 
 /// Neither the number of threads nor the order in which they finish shows.
 TEST_F(DiffTest, OneMoreCoreIsNoDifference) {
-    if (!testing::open_or_skip(Backend::automatic)) return;
+    if (!open_or_skip(Backend::automatic)) return;
     const auto render = [&](const char* threads, const char* name) {
         ::setenv("LP_NUM_THREADS", threads, 1);
         const std::string out = folder.path() / name;

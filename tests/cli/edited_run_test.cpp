@@ -11,11 +11,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::TempFolder;
-
 TEST(EditedRun, IsToldByThePictureOfAChoice) {
     const TempFolder folder;
     const std::filesystem::path walkers = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/clips";
@@ -24,7 +19,7 @@ TEST(EditedRun, IsToldByThePictureOfAChoice) {
                            "14", "--seed", "1", "--inline", "-o", run})
                   .status,
               0);
-    std::string text = testing::slurp(run);
+    std::string text = slurp(run);
     const std::size_t seed = text.find("\"seed\": 1");
     ASSERT_NE(seed, std::string::npos);
     const std::string edited = folder.write("edited.json", text.replace(seed, 9, "\"seed\": 7"));
@@ -44,7 +39,7 @@ TEST(EditedRun, IsToldByThePictureOfAChoice) {
         EXPECT_NE(result.err.find(": seed, grace, plays or clips were edited since, another version simulated it, or "
                                   "an answer was wrong"),
                   std::string::npos);
-        EXPECT_NE(testing::slurp(out).find("made again the choice is"), std::string::npos) << "in the caption";
+        EXPECT_NE(slurp(out).find("made again the choice is"), std::string::npos) << "in the caption";
     }
     EXPECT_GT(told, 0);
 }

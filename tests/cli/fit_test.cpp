@@ -24,9 +24,6 @@ namespace mobbscope {
 namespace {
 
 using nlohmann::json;
-using testing::keys;
-using testing::Result;
-using testing::run_program;
 
 const std::string kFitScenes = MOBBSCOPE_SOURCE_DIR "/assets/scenes/";
 
@@ -173,7 +170,7 @@ TEST(Fit, CsvHasARowForEachNode) {
 }
 
 TEST(Fit, CsvQuotesNamesAndIsNoJson) {
-    const testing::TempFolder folder;
+    const TempFolder folder;
     const auto file = folder.write("named.json", R"({"clips": {"a, \"b\"\nc": {"dt": 1, "samples": [[0, 0, 1]]}}})");
     const Result run = run_program({"fit", file.string(), "--csv"});
     ASSERT_EQ(run.status, 0) << run.err;
@@ -270,7 +267,7 @@ TEST(Fit, WhatIfIsATable) {
 }
 
 TEST(Fit, WhatIfIsRefusedWholeWhereAClipHasNoSuchNode) {
-    const testing::TempFolder folder;
+    const TempFolder folder;
     const auto file = folder.write("two.json", R"({"clips": {
         "long": {"dt": 1, "samples": [[0, 0, 1], [3, 1, 1], [4, 9, 1]]},
         "short": {"dt": 1, "samples": [[0, 0, 1]]}}, "fit": {"leaf": 1}})");
@@ -284,7 +281,7 @@ TEST(Fit, WhatIfIsRefusedWholeWhereAClipHasNoSuchNode) {
 }
 
 TEST(Fit, ColumnsStayApartWhereNumbersAreWiderThanHeadings) {
-    const testing::TempFolder folder;
+    const TempFolder folder;
     // Disks so thin that the tightness takes twelve characters.
     const auto file = folder.write(
         "thin.json", R"({"clips": {"thin": {"dt": 1, "samples": [[0, 0, 1e-60], [3, 1, 1e-60], [4, 9, 1e-60]]}}})");

@@ -17,12 +17,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
-
 const std::string kClips = MOBBSCOPE_SOURCE_DIR "/assets/clips";
 
 class GraphTest : public ::testing::Test {
@@ -301,7 +295,7 @@ TEST_F(GraphTest, WhatCannotBeDoneIsSaidInOneLine) {
 }
 
 TEST_F(GraphTest, IsDrawnWithoutADisplay) {
-    const auto renderer = testing::open_or_skip(Backend::automatic);
+    const auto renderer = open_or_skip(Backend::automatic);
     if (!renderer) return;
     for (const std::string size : {"640x360", "300x700", "64x64"}) {
         const Result run =

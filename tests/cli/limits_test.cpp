@@ -25,11 +25,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::TempFolder;
-
 /// "33,554,432".
 std::string with_commas(std::int64_t number) {
     std::string out = std::to_string(number);
@@ -122,7 +117,7 @@ TEST_F(LimitsTest, ConflictsAreWrittenAsTheyAreFound) {
 }
 
 std::string header_alone(int width, int height) {
-    return testing::png_header({.width = width, .height = height}) + testing::png_chunk("IDAT", "");
+    return png_header({.width = width, .height = height}) + png_chunk("IDAT", "");
 }
 
 TEST_F(LimitsTest, PicturesBeyondTheirPixelsAreRefusedByTheirHeader) {

@@ -18,11 +18,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::TempFolder;
-
 const std::string kCrossingScene = std::string(MOBBSCOPE_SOURCE_DIR) + "/assets/scenes/crossing.json";
 
 Result map_of(const std::vector<std::string>& more, const std::string& file = kCrossingScene) {

@@ -24,10 +24,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::Result;
-using testing::run_program;
-using testing::TempFolder;
-
 /// Every frame of a motion file, in the world.
 struct ReadMotion {
     double dt = 0;

@@ -16,12 +16,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
-
 const std::string kProgramScenes = MOBBSCOPE_SOURCE_DIR "/assets/scenes/";
 
 TEST(Program, HelpAndVersionAreResults) {

@@ -18,12 +18,6 @@ namespace mobbscope {
 namespace {
 
 using nlohmann::json;
-using testing::is_one_line;
-using testing::keys;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
 
 const std::string kQueryScenes = MOBBSCOPE_SOURCE_DIR "/assets/scenes/";
 
@@ -472,7 +466,7 @@ TEST(Query, PlacementsInAQueryAreUsed) {
 
 TEST(Query, BodiesAreOfClipsWithSkeletons) {
     const TempFolder folder;
-    folder.write("walker.bvh", testing::replaced(testing::kWalker, "0 0 90 0", "0 0 0 0"));
+    folder.write("walker.bvh", replaced(kWalker, "0 0 90 0", "0 0 0 0"));
     // Arms in parallel, 0.3 m apart; and one who is a disk alone.
     const std::string file = folder.write("s.json", R"({"clips": {"walk": {"source": "walker.bvh", "unit": "cm"},
         "disk": {"dt": 0.1, "samples": [[0,0,1]]}},

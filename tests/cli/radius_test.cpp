@@ -14,10 +14,6 @@ namespace mobbscope {
 namespace {
 
 using nlohmann::json;
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::TempFolder;
 
 const std::string kDrone =
     "0 10 20 30 60 5 0 0 0 \"Pedestrian\"\n0 12 20 32 60 6 0 0 1 \"Pedestrian\"\n7 0 0 10 10 5 0 1 0 \"Car\"\n";

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope::inline testing {
 
 inline const std::string kCrossing = MOBBSCOPE_SOURCE_DIR "/assets/scenes/crossing.json";
 
@@ -80,21 +80,4 @@ class DrawingTest : public ::testing::Test {
     }
 };
 
-}  // namespace mobbscope::testing
-
-namespace mobbscope {
-
-using testing::expect_refused;
-using testing::files_in;
-using testing::is_one_line;
-using testing::kCrossing;
-using testing::Names;
-using testing::render_small;
-using testing::Result;
-using testing::run_program;
-using testing::short_scene;
-using testing::slurp;
-using testing::TempFolder;
-using testing::with;
-
-}  // namespace mobbscope
+}  // namespace mobbscope::inline testing

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace mobbscope::testing {
+namespace mobbscope::inline testing {
 
 pid_t start_program(const std::vector<std::string>& arguments, const ProgramFiles& files,
                     const std::function<void()>& in_child) {
@@ -50,4 +50,4 @@ bool is_one_line(const std::string& err) {
     return err.starts_with("mobbscope: ") && err.ends_with('\n') && std::count(err.begin(), err.end(), '\n') == 1;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace mobbscope::inline testing

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope::inline testing {
 
 struct Result {
     int status = -1;  ///< exit status; 128 + the signal if one ended it
@@ -36,4 +36,4 @@ Result run_program(const std::vector<std::string>& arguments, const std::filesys
 /// True if `err` is one whole line: what a refusal must be.
 bool is_one_line(const std::string& err);
 
-}  // namespace mobbscope::testing
+}  // namespace mobbscope::inline testing

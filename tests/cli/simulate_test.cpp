@@ -21,11 +21,6 @@ namespace mobbscope {
 namespace {
 
 using nlohmann::json;
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
 
 /// A straight walk and one that turns, as tracks of a file in a folder of its own.
 class Simulate : public ::testing::Test {
@@ -119,7 +114,7 @@ TEST_F(Simulate, TheSummaryAsJson) {
     const Result result = simulate({"--json"});
     const json summary = json::parse(result.out);
     EXPECT_EQ(
-        testing::keys(summary),
+        keys(summary),
         (std::set<std::string>{"agents", "simulated_seconds", "plays", "choices", "candidates", "off_floor",
                                "colliding", "no_way_on", "in_the_way", "pivots", "forced", "queries", "most_held",
                                "wall_seconds", "queries_per_second", "turn_rate", "continuity", "continuity_forced"}));

@@ -15,13 +15,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::gzipped;
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
-
 const std::string kInputTable = "id,frame,x,y,note\na,0,0,0,n\na,1,1,0,\nb,0,1,0.1,\nb,1,0,0.1,\n";
 
 /// Runs the program with `input` as standard input.

@@ -13,11 +13,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::TempFolder;
-
 const std::string kLinkedScene = MOBBSCOPE_SOURCE_DIR "/assets/scenes/crossing.json";
 
 Result opened(const TempFolder& folder, const std::string& name, const std::string& expects) {
@@ -36,7 +31,7 @@ TEST(StepLink, IsDrawnByRender) {
     const std::string linked = folder.path() / "linked.json", said = folder.path() / "said.json";
     ASSERT_EQ(run_program({"render", kLinkedScene + "#q0@4", "--draw-list", linked}).status, 0);
     ASSERT_EQ(run_program({"render", kLinkedScene, "--query", "0", "--step", "4", "--draw-list", said}).status, 0);
-    EXPECT_EQ(testing::slurp(linked), testing::slurp(said));
+    EXPECT_EQ(slurp(linked), slurp(said));
 }
 
 TEST(StepLink, AFileOfThatNameWins) {

@@ -20,11 +20,6 @@ namespace mobbscope {
 namespace {
 
 using nlohmann::json;
-using testing::is_one_line;
-using testing::keys;
-using testing::Result;
-using testing::run_program;
-using testing::TempFolder;
 
 const std::string kSweepAssets = MOBBSCOPE_SOURCE_DIR "/assets/";
 const std::string kSweptScene = kSweepAssets + "scenes/crossing.json";

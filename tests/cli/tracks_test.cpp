@@ -20,11 +20,6 @@ namespace mobbscope {
 namespace {
 
 using nlohmann::json;
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
 
 // As lab/late_start.csv: 1 is there from 0 to 1 s, 2 from 10 to 11 s, in the same place.
 const std::string kLateStart =

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope::inline testing {
 
 /// A walk at `speed` m/s for `samples` samples of `dt` seconds that turns by `turn_deg` on the way.
 inline SceneClip walk(const std::string& name, double speed, double turn_deg, int samples, double dt, double radius) {
@@ -79,4 +79,4 @@ inline Choice choice_at(const MoveSet& moves, const ReservationTable& reservatio
     return choose(moves, reservations, run, point, search);
 }
 
-}  // namespace mobbscope::testing
+}  // namespace mobbscope::inline testing

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope::inline testing {
 
 inline constexpr double kBodyDt = 1.0 / 30;
 
@@ -62,4 +62,4 @@ inline Scene body_scene(std::vector<SceneClip> clips, const std::vector<std::pai
     return scene;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace mobbscope::inline testing

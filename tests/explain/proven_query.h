@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope::inline testing {
 
 struct ProvenQuery {
     FittedScene fitted;
@@ -130,4 +130,4 @@ inline int certificate_budget() {
     return text ? std::atoi(text) : 300;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace mobbscope::inline testing

@@ -392,7 +392,7 @@ TEST(BvhUp, PublishedFilesKeepYAndHaveZWhereTheyAreTurned) {
     const auto table = kFiles / "expected.csv";
     SKIP_WITHOUT(table);
     int upright = 0, turned = 0;
-    for (const testing::Row& row : testing::read_rows(table)) {
+    for (const Row& row : read_rows(table)) {
         const std::string& file = row.at("file");
         if (!file.ends_with(".bvh")) continue;
         const std::string text = read_file(kFiles / file);

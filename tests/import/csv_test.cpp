@@ -8,9 +8,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-using testing::TempFolder;
-
 std::vector<ImportedClip> clips(std::string_view text, const ImportOptions& options = {}) {
     return csv_clips(parse_csv(text, "f.csv", options), "f.csv", options);
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope::inline testing {
 
 /// Column name to field.
 using Row = std::map<std::string, std::string>;
@@ -43,4 +43,4 @@ inline std::vector<Row> read_rows(const std::filesystem::path& table) {
     return rows;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace mobbscope::inline testing

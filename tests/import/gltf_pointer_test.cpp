@@ -14,8 +14,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::GltfBytes;
-
 const std::string kPointedArm = R"([{"name":"hips","children":[1]},{"name":"hand","translation":[1,0.5,0.25]}])";
 
 std::vector<ImportedClip> pointed_clips(const std::string& bytes, const ImportOptions& options = {}) {
@@ -23,7 +21,7 @@ std::vector<ImportedClip> pointed_clips(const std::string& bytes, const ImportOp
 }
 
 std::string pointed_refusal(const std::string& bytes, const ImportOptions& options = {}) {
-    return testing::input_error([&] { pointed_clips(bytes, options); });
+    return input_error([&] { pointed_clips(bytes, options); });
 }
 
 std::vector<std::string> warnings_of(const ImportedClip& clip) {

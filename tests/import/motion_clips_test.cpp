@@ -12,10 +12,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-using testing::kWalker;
-using testing::replaced;
-
 ImportedClip clip_of(const std::string& text, const ImportOptions& options = {}) {
     return motion_clips(bvh_motion(parse_bvh(text, "walk.bvh")), "some/walk.bvh", options).at(0);
 }

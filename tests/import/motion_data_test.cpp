@@ -49,7 +49,7 @@ double max_radius(const mobb::Clip& clip) {
 }
 
 /// The clip that a row of expected.csv speaks of.
-ImportedClip data_clip(const testing::Row& row, Importer& importer) {
+ImportedClip data_clip(const Row& row, Importer& importer) {
     ImportOptions options;
     options.unit = row.at("unit_to_m");
     if (!row.at("clip").empty()) options.animation = row.at("clip");
@@ -61,7 +61,7 @@ TEST(MotionData, EveryFigureOfExpectedCsv) {
     SKIP_WITHOUT(table);
     Importer importer;
     std::map<std::string, int> checked;
-    for (const testing::Row& row : testing::read_rows(table)) {
+    for (const Row& row : read_rows(table)) {
         if (row.at("frames").empty()) continue;
         const std::string& file = row.at("file");
         SCOPED_TRACE(file + " " + row.at("clip"));
@@ -106,7 +106,7 @@ TEST(MotionData, OneWalkInFiveEncodingsIsOnePath) {
 TEST(MotionData, TheUnitOfBvhIsGuessed) {
     const auto table = kData / "expected.csv";
     SKIP_WITHOUT(table);
-    for (const testing::Row& row : testing::read_rows(table)) {
+    for (const Row& row : read_rows(table)) {
         const std::string& file = row.at("file");
         if (!file.ends_with(".bvh")) continue;
         const SourceFacts facts = import_clips(kData / file, {}).at(0).facts;
@@ -135,7 +135,7 @@ TEST(MotionData, TurnsGoTheWayThatTheirNamesSay) {
 TEST(MotionData, WarningsAreGivenWhereTheDataIsOddAndNowhereElse) {
     const auto table = kData / "expected.csv";
     SKIP_WITHOUT(table);
-    for (const testing::Row& row : testing::read_rows(table)) {
+    for (const Row& row : read_rows(table)) {
         const std::string& file = row.at("file");
         if (!file.ends_with(".bvh") || file.ends_with("rotation_first_root.bvh")) continue;
         const std::vector<ImportWarning> warnings = import_clips(kData / file, {}).at(0).facts.warnings;
@@ -159,10 +159,10 @@ TEST(MotionData, EveryBrokenFileEndsAsExpected) {
     const auto table = kData / "invalid/EXPECTED.csv";
     SKIP_WITHOUT(table);
     int checked = 0;
-    for (const testing::Row& row : testing::read_rows(table)) {
+    for (const Row& row : read_rows(table)) {
         const std::string& file = row.at("file");
         if (file.starts_with("csv/")) continue;
-        const std::uint64_t before = testing::bytes_read();
+        const std::uint64_t before = bytes_read();
         std::string message;
         int samples = 0;
         try {
@@ -174,7 +174,7 @@ TEST(MotionData, EveryBrokenFileEndsAsExpected) {
         }
         // Damage makes no more work than a sound file of its size.
         const std::uint64_t size = std::filesystem::file_size(kData / "invalid" / file);
-        EXPECT_LE(testing::bytes_read() - before, 2 * size + kAround) << file;
+        EXPECT_LE(bytes_read() - before, 2 * size + kAround) << file;
         EXPECT_LE(samples, static_cast<int>(size / 100)) << file;
         if (row.at("expected") == "accept") {
             EXPECT_EQ(message, "") << file;
@@ -189,7 +189,7 @@ TEST(MotionData, EveryBrokenFileEndsAsExpected) {
 TEST(MotionData, AFolderOfShortClipsIsReadOnce) {
     const auto folder = kData / "bvh/short";
     SKIP_WITHOUT(folder);
-    const std::uint64_t before = testing::bytes_read();
+    const std::uint64_t before = bytes_read();
     int count = 0;
     std::uint64_t bytes = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -197,7 +197,7 @@ TEST(MotionData, AFolderOfShortClipsIsReadOnce) {
         bytes += entry.file_size() + kAround;
     }
     EXPECT_EQ(count, 51);
-    EXPECT_LE(testing::bytes_read() - before, bytes);
+    EXPECT_LE(bytes_read() - before, bytes);
 }
 
 }  // namespace

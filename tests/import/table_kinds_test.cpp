@@ -15,9 +15,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-using testing::TempFolder;
-
 std::vector<ImportedClip> table_clips_of(const std::string& text, const ImportOptions& options = {}) {
     return csv_clips(parse_csv(text, "f.csv", options), "f.csv", options);
 }

@@ -15,8 +15,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-
 std::vector<ImportedClip> table_tracks(const std::string& text, const ImportOptions& options = {}) {
     return csv_clips(parse_csv(text, "f.csv"), "f.csv", options);
 }
@@ -238,7 +236,7 @@ TEST(TrackClips, OneTrackKeepsItsTimeAndStep) {
 }
 
 TEST(TrackClips, AskedForOneByOneTheyAreTheSame) {
-    const testing::TempFolder folder;
+    const TempFolder folder;
     const std::string file =
         folder.write("f.csv", kTracksHead + rows_of_track("a", 0, 0.5, {0, 1, 2, 4}, "%g") +
                                   rows_of_track("b", 3, 0.5, {0}, "%g") + rows_of_track("c", 9, 0.5, {0, 1}, "%g"));

@@ -45,7 +45,7 @@ TEST(TrajectoryData, EveryFileHasTheExpectedNumbers) {
     const auto table = kTrackData / "expected_trajectories.csv";
     if (!std::filesystem::exists(table)) GTEST_SKIP() << "no test data at " << table;
     int files = 0;
-    for (testing::Row& row : testing::read_rows(table)) {
+    for (Row& row : read_rows(table)) {
         const auto number = [&row](const char* column) { return std::stod(row[column]); };
         const std::filesystem::path file = kTrackData / row["file"];
         SCOPED_TRACE(file.filename());

@@ -13,8 +13,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-
 const std::string kObsmat =
     "   1.0e+00   1.0e+00   -2.5   0.0   18.5   0.0   0.0   -1.3\n"
     "   1.1e+01   1.0e+00   -2.5   0.0   18.0   0.0   0.0   -1.3\n"
@@ -194,7 +192,7 @@ TEST(TrajectoryText, ClassesHaveRadiiOfTheirOwnAndAreNamed) {
 }
 
 TEST(TrajectoryText, RadiiComeFromAFileOfIdsOrClasses) {
-    const testing::TempFolder folder;
+    const TempFolder folder;
     const auto with = [&](const std::string& radii) {
         ImportOptions options;
         options.radius = radius_from_text(folder.write("radii.csv", radii).string());

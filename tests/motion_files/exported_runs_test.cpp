@@ -19,8 +19,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::farthest_off;
-
 const std::filesystem::path kOwnClips = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/clips";
 const std::filesystem::path kShared = MOBBSCOPE_SHARED_DATA;
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope::inline testing {
 
 inline std::string name_of(Backend backend) {
     return backend == Backend::osmesa ? "osmesa" : backend == Backend::egl ? "egl" : "auto";
@@ -68,4 +68,4 @@ class OnEachBackend : public ::testing::TestWithParam<Backend> {
 
 inline std::string backend_name(const ::testing::TestParamInfo<Backend>& info) { return name_of(info.param); }
 
-}  // namespace mobbscope::testing
+}  // namespace mobbscope::inline testing

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-namespace mobbscope::testing {
+namespace mobbscope::inline testing {
 
 inline constexpr const char* kGraphicsCard = "NVIDIA GeForce RTX 4070/PCIe/SSE2";
 inline constexpr const char* kProcessor = "llvmpipe (LLVM 15.0.6, 256 bits)";
@@ -98,4 +98,4 @@ class CountingContext final : public GlContext {
     std::unique_ptr<GlContext> draws_;
 };
 
-}  // namespace mobbscope::testing
+}  // namespace mobbscope::inline testing

@@ -22,9 +22,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::kGoldenSize;
-using testing::who_has_a_disk;
-
 ViewState at(double time) {
     ViewState view;
     view.show = Show::moment;

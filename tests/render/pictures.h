@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string>
 
-namespace mobbscope::testing {
+namespace mobbscope::inline testing {
 
 inline constexpr PictureSize kGoldenSize{640, 360};
 inline constexpr PictureSize kSmallSize{320, 240};
@@ -33,4 +33,4 @@ inline std::string text_of(const DrawList& list, const IdImage* ids = nullptr) {
     return out.str();
 }
 
-}  // namespace mobbscope::testing
+}  // namespace mobbscope::inline testing

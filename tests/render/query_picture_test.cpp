@@ -25,8 +25,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::kGoldenSize;
-
 struct Query {
     explicit Query(FittedScene scene) : fitted(std::move(scene)), recorded(record(fitted, fitted.queries()[0])) {
         view.query = 0;

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope::inline testing {
 
 /// Three hubs that lead to each other and one by itself; moves are arcs of different speeds and turns.
 inline Scene small_graph() {
@@ -40,4 +40,4 @@ inline Scene small_graph() {
     return scene;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace mobbscope::inline testing

@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-namespace mobbscope::app::testing {
+namespace mobbscope::app::inline testing {
 
 /// Two who walk, the second shifted by so many metres.
 inline std::string walkers(const std::string& shift) {
@@ -56,4 +56,4 @@ class ThreeCases {
     std::filesystem::path folder_;
 };
 
-}  // namespace mobbscope::app::testing
+}  // namespace mobbscope::app::inline testing

@@ -29,7 +29,7 @@ std::string plays(const std::string& list) { return crowd("[{\"name\": \"1\", \"
 const std::string kFirst = R"({"move": 0, "translate": [3, 4], "rotate_deg": 90, "start": -0.5})";
 
 std::string crowd_refusal(const std::string& text) {
-    return testing::input_error([&] { parse_scene(text, "s.json", ""); });
+    return input_error([&] { parse_scene(text, "s.json", ""); });
 }
 
 TEST(CrowdJson, ARunIsReadWrittenAndReadAgain) {

@@ -62,12 +62,12 @@ TEST(DemoScenes, TheWalkIsHuman) {
 
 TEST(DemoScenes, TheGeneratorMakesTheFilesThatAreThere) {
     if (std::system("python3 --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no python3";
-    const testing::TempFolder folder;
+    const TempFolder folder;
     const std::string command =
         "python3 -B '" MOBBSCOPE_SOURCE_DIR "/scripts/make_scenes.py' '" + folder.path().string() + "'";
     ASSERT_EQ(std::system(command.c_str()), 0);
     for (const char* file : {"crossing.json", "collision.json", "circles.json", "walk.csv"}) {
-        EXPECT_EQ(testing::slurp(folder.path() / file), testing::slurp(kScenes / file)) << file;
+        EXPECT_EQ(slurp(folder.path() / file), slurp(kScenes / file)) << file;
     }
 }
 

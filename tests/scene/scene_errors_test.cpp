@@ -9,9 +9,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-using testing::TempFolder;
-
 std::string scene_refusal(const std::string& text) {
     return input_error([&] { parse_scene(text, "s.json", ""); });
 }

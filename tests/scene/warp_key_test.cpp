@@ -18,9 +18,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-using testing::TempFolder;
-
 const std::filesystem::path kAssets = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/clips";
 
 bool same_samples(const mobb::Clip& a, const mobb::Clip& b) {

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string>
 
-namespace mobbscope::testing {
+namespace mobbscope::inline testing {
 
 /// Bytes that this process has read so far, as the kernel counts them; 0 always where it does not.
 inline std::uint64_t bytes_read() {
@@ -16,4 +16,4 @@ inline std::uint64_t bytes_read() {
     return name == "rchar:" ? bytes : 0;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace mobbscope::inline testing

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope::inline testing {
 
 inline std::vector<PeopleConflict> all_of(const PeopleConflicts& conflicts) {
     std::vector<PeopleConflict> out;
@@ -14,4 +14,4 @@ inline std::vector<PeopleConflict> all_of(const PeopleConflicts& conflicts) {
     return out;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace mobbscope::inline testing

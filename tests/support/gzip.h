@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace mobbscope::testing {
+namespace mobbscope::inline testing {
 
 inline std::string gzipped(const std::string& bytes) {
     z_stream stream{};
@@ -23,4 +23,4 @@ inline std::string gzipped(const std::string& bytes) {
     return out;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace mobbscope::inline testing

@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace mobbscope::testing {
+namespace mobbscope::inline testing {
 
 /// The message of the InputError that `action` throws; fails the test if there is none, or if it is not one line.
 template <class Action>
@@ -23,4 +23,4 @@ std::string input_error(const Action& action) {
     return "";
 }
 
-}  // namespace mobbscope::testing
+}  // namespace mobbscope::inline testing

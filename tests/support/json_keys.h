@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-namespace mobbscope::testing {
+namespace mobbscope::inline testing {
 
 inline std::set<std::string> keys(const nlohmann::json& object) {
     std::set<std::string> out;
@@ -14,4 +14,4 @@ inline std::set<std::string> keys(const nlohmann::json& object) {
     return out;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace mobbscope::inline testing

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace mobbscope::testing {
+namespace mobbscope::inline testing {
 
 class TempFolder {
   public:
@@ -44,4 +44,4 @@ inline std::string slurp(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-}  // namespace mobbscope::testing
+}  // namespace mobbscope::inline testing
