@@ -5,6 +5,7 @@
 #include <app/panels/panels.h>
 #include <base/text.h>
 #include <review/review_screen.h>
+#include <support/folders.h>
 
 #include <gtest/gtest.h>
 
@@ -75,7 +76,7 @@ TEST(CommandTable, EveryChordIsReadAndCallsOneCommand) {
 }
 
 TEST(HelpSheet, SaysOfTheMouseWhatTheDocumentSays) {
-    const std::string document = slurp(MOBBSCOPE_SOURCE_DIR "/docs/window.md");
+    const std::string document = slurp(kSource / "docs/window.md");
     for (const auto& [keys, what] : mouse_help()) {
         std::string row = "| " + std::string(keys) + " | " + what;
         char& first = row[row.size() - std::string_view(what).size()];
@@ -85,7 +86,7 @@ TEST(HelpSheet, SaysOfTheMouseWhatTheDocumentSays) {
 }
 
 TEST(CommandTable, DocumentsNameMenuItemsThatThereAre) {
-    const std::string document = slurp(MOBBSCOPE_SOURCE_DIR "/docs/window.md");
+    const std::string document = slurp(kSource / "docs/window.md");
     std::set<std::string> items;
     for (const Command& command : commands_with_review()) {
         std::string_view title = command.title;

@@ -7,6 +7,7 @@
 #include <render/image/png.h>
 #include <scene/arrangement.h>
 #include <scene/motion_graph.h>
+#include <support/folders.h>
 
 #include "app/crossing_folder.h"
 #include "crowd/walker_moves.h"
@@ -26,7 +27,6 @@
 namespace mobbscope::app {
 namespace {
 
-const std::filesystem::path kClips = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/clips";
 constexpr const char* kSmallGraph = "candidates=60 hubs=2 moves=4";
 
 /// A session in a window, as a person has it or as a script does.

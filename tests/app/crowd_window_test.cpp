@@ -9,6 +9,7 @@
 #include <render/pictures/build_draw_list.h>
 #include <scene/crowd_scene.h>
 #include <scene/drawn_agent.h>
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include "app/crowded_run.h"
@@ -469,7 +470,7 @@ TEST(CrowdWindow, AnExcerptBeginsAtTheTopOfItsPanels) {
 
 TEST(CrowdWindow, TheTwoOfAnUnforcedConflictExpectNone) {
     Session session(false);
-    session.files.open({std::filesystem::path(MOBBSCOPE_SOURCE_DIR "/tests/app/goldens/files/run.json")});
+    session.files.open({kSource / "tests/app/goldens/files/run.json"});
     const auto open_first = [&] {
         run_command(session, "conflicts.find");
         while (session.jobs.job()) session.poll();

@@ -120,37 +120,37 @@ std::string clips_scene(const CrossingFolder& folder, int count) {
 }
 
 TEST(Curves, CostsAreFoundOnceAndOnlyOfTheActiveView) {
-    constexpr int kClips = 12;
+    constexpr int kCount = 12;
     CurvesWindow w;
-    w.run("file.open", w.folder.write("clips.json", clips_scene(w.folder, kClips)).string());
+    w.run("file.open", w.folder.write("clips.json", clips_scene(w.folder, kCount)).string());
     w.run("compare.fits", "mobb umobb moving aabb");
     const Workspace& workspace = w.session.workspace;
     ASSERT_EQ(w.session.views.count(), 4u);
     std::vector<std::shared_ptr<const TreeCost>> known;
-    for (int clip = 0; clip < kClips; ++clip) {
+    for (int clip = 0; clip < kCount; ++clip) {
         known.push_back(workspace.cost_of(clip));
         EXPECT_TRUE(known.back()) << clip;
         EXPECT_EQ(workspace.cost_of(*w.session.views.at(1).fitted, clip) != nullptr, clip == 0) << clip;
     }
     for (int frame = 0; frame < 3; ++frame) w.window.settle();
-    for (int clip = 0; clip < kClips; ++clip) EXPECT_EQ(workspace.cost_of(clip), known[static_cast<std::size_t>(clip)]);
+    for (int clip = 0; clip < kCount; ++clip) EXPECT_EQ(workspace.cost_of(clip), known[static_cast<std::size_t>(clip)]);
 }
 
 TEST(Curves, NoCostIsGivenUpForThatOfAnotherClip) {
-    constexpr int kClips = 4;
+    constexpr int kCount = 4;
     const CrossingFolder folder;
     TestDesktop desktop;
     Session session{true};
     session.desktop = &desktop;
     session.options.may_write = false;
-    session.files.open({folder.write("clips.json", clips_scene(folder, kClips))});
+    session.files.open({folder.write("clips.json", clips_scene(folder, kCount))});
     session.options.patience = {};
     while (session.jobs.job()) session.poll();
     const auto all_known = [&] {
         // As panels ask in each frame; none is waited for.
         session.fit_costs.update(0);
-        for (int clip = 1; clip < kClips; ++clip) session.fit_costs.find_when_idle(clip);
-        for (int clip = 0; clip < kClips; ++clip) {
+        for (int clip = 1; clip < kCount; ++clip) session.fit_costs.find_when_idle(clip);
+        for (int clip = 0; clip < kCount; ++clip) {
             if (!session.workspace.cost_of(clip)) return false;
         }
         return true;

@@ -7,6 +7,7 @@
 
 #include "app/crossing_folder.h"
 
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -587,8 +588,7 @@ TEST(Keyboard, TheStripOfStepsStandsStill) {
 
 TEST(Keyboard, NoPanelHasAnotherKindOfNumber) {
     for (const char* folder : {"panels", "viewport"}) {
-        for (const auto& file :
-             std::filesystem::directory_iterator(std::string(MOBBSCOPE_SOURCE_DIR "/src/app/") + folder)) {
+        for (const auto& file : std::filesystem::directory_iterator(std::string(kSource / "src/app/") + folder)) {
             const std::string text = slurp(file.path());
             for (const char* other : {"ImGui::Drag", "ImGui::Slider", "ImGui::VSlider", "ImGui::InputInt",
                                       "ImGui::InputFloat", "ImGui::InputDouble", "ImGui::InputScalar"}) {

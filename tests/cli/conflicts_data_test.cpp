@@ -1,6 +1,7 @@
 // Conflicts of the project's recordings and plans, held against a search of its own.
 #include "run_program.h"
 
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -20,16 +21,6 @@
 
 namespace mobbscope {
 namespace {
-
-using nlohmann::json;
-
-json data_conflicts(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "conflicts");
-    arguments.emplace_back("--json");
-    const Result run = run_program(arguments);
-    EXPECT_EQ(run.status, 0) << run.err;
-    return json::parse(run.out);
-}
 
 /// Somebody's rows of a converted crowd.
 struct ConvertedRow {
@@ -125,7 +116,7 @@ void expect_exact(const json& found, const ConvertedCrowd& crowd) {
 }
 
 TEST(ConflictsData, EveryTrajectoryFileIsAsAnExactSearchHasIt) {
-    const std::filesystem::path data = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "trajectories";
+    const std::filesystem::path data = kSharedData / "trajectories";
     if (!std::filesystem::exists(data)) GTEST_SKIP() << "no test data at " << data;
     std::size_t files = 0;
     std::size_t found = 0;
@@ -135,9 +126,9 @@ TEST(ConflictsData, EveryTrajectoryFileIsAsAnExactSearchHasIt) {
         SCOPED_TRACE(entry.path().filename());
         // Pixels and cells are wider than metres.
         const std::string radius = file.find("sdd_") != std::string::npos ? "10" : "0.3";
-        const json direct = data_conflicts({file, "--radius", radius, "--tree", "brute"});
+        const json direct = json_of({"conflicts", file, "--radius", radius, "--tree", "brute"});
         for (const std::string tree : {"mobb", "umobb"}) {
-            const json trees = data_conflicts({file, "--radius", radius, "--tree", tree});
+            const json trees = json_of({"conflicts", file, "--radius", radius, "--tree", tree});
             EXPECT_EQ(trees["conflicts"], direct["conflicts"]) << tree;
             EXPECT_LE(trees["pairs_tested"], direct["pairs_tested"]);
         }

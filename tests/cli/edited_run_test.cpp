@@ -1,6 +1,7 @@
 // A run whose seed was edited: pictures of its choices say that they do not come out as the file says.
 #include "run_program.h"
 
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@ namespace {
 
 TEST(EditedRun, IsToldByThePictureOfAChoice) {
     const TempFolder folder;
-    const std::filesystem::path walkers = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/clips";
+    const std::filesystem::path walkers = kClips;
     const std::string run = (folder.path() / "run.json").string();
     ASSERT_EQ(run_program({"simulate", walkers.string(), "--whole", "--agents", "6", "--area", "30x30", "--seconds",
                            "14", "--seed", "1", "--inline", "-o", run})

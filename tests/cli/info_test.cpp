@@ -1,6 +1,7 @@
 #include "run_program.h"
 
 #include <support/bvh_text.h>
+#include <support/folders.h>
 #include <support/json_keys.h>
 #include <support/temp_folder.h>
 
@@ -11,8 +12,6 @@
 
 namespace mobbscope {
 namespace {
-
-using nlohmann::json;
 
 TEST(Info, JsonTellsWhatIsInTheFiles) {
     const TempFolder folder;
@@ -150,7 +149,7 @@ TEST(Info, JsonTellsTheSkeletonThatWasFoundAndTheUnitThatWasGuessed) {
 }
 
 TEST(Info, OneBadFileAmongGoodOnesLeavesNoOutput) {
-    const std::string good = MOBBSCOPE_SOURCE_DIR "/assets/scenes/walk.csv";
+    const std::string good = kScenes / "walk.csv";
     const Result run = run_program({"info", good, "none.csv"});
     EXPECT_EQ(run.status, 2);
     EXPECT_EQ(run.out, "");

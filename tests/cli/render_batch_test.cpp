@@ -1,6 +1,8 @@
 // Many pictures in one process.
 #include "render_runs.h"
 
+#include <support/folders.h>
+
 namespace mobbscope {
 namespace {
 

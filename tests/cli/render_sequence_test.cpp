@@ -1,6 +1,8 @@
 // Numbered pictures: --frames, --play, --turntable.
 #include "render_runs.h"
 
+#include <support/folders.h>
+
 #include <nlohmann/json.hpp>
 
 #include <array>

@@ -1,5 +1,7 @@
 #include "render_runs.h"
 
+#include <support/folders.h>
+
 #include <sys/stat.h>
 
 #include <filesystem>

@@ -1,6 +1,8 @@
 // What `render` shows: views from files, exact cameras, toggles, backgrounds.
 #include "render_runs.h"
 
+#include <support/folders.h>
+
 #include <scene/view_options.h>
 
 namespace mobbscope {

@@ -4,6 +4,7 @@
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
+#include <support/folders.h>
 #include <support/json_keys.h>
 #include <support/temp_folder.h>
 
@@ -19,8 +20,6 @@
 
 namespace mobbscope {
 namespace {
-
-using nlohmann::json;
 
 /// A straight walk and one that turns, as tracks of a file in a folder of its own.
 class Simulate : public ::testing::Test {
@@ -147,7 +146,7 @@ TEST_F(Simulate, WhatIsSavedOfOtherAgentsDoesNotStay) {
 }
 
 TEST_F(Simulate, HowContinuousTheRunIsIsTold) {
-    const std::string clips = MOBBSCOPE_SOURCE_DIR "/assets/clips";
+    const std::string clips = kClips;
     const std::vector<std::string> whole{"simulate", clips, "--whole", "-o", run, "--agents", "10", "--seconds", "20"};
     const Result words = run_program(whole);
     ASSERT_EQ(words.status, 0) << words.err;

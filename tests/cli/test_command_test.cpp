@@ -3,6 +3,7 @@
 
 #include <base/base64.h>
 #include <render/image/png.h>
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include "cases/case_folder.h"
@@ -276,7 +277,7 @@ TEST_F(AnswersTestCommandTest, WhatTheSceneExpectsNoGoldenMends) {
 }
 
 TEST_F(AnswersTestCommandTest, TheGuardedFolderIsFound) {
-    const std::filesystem::path shared = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "guard/answers";
+    const std::filesystem::path shared = kSharedData / "guard/answers";
     if (!std::filesystem::exists(shared)) GTEST_SKIP() << "there is no " << shared;
     ::unsetenv("MESA_GL_VERSION_OVERRIDE");
     if (!open_or_skip(Backend::automatic)) return;

@@ -10,6 +10,7 @@
 #include <import/skeleton/warp.h>
 #include <scene/fitted_scene.h>
 #include <scene/motion_graph.h>
+#include <support/folders.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 
@@ -36,8 +37,6 @@
 
 namespace mobbscope {
 namespace {
-
-const std::filesystem::path kClips = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/clips";
 
 /// The project's own walkers, to be cut into a graph in `folder`.
 const Scene& own_recordings(const std::filesystem::path& folder) {
@@ -556,15 +555,14 @@ TEST(GraphBuild, OnlyPiecesThatDifferAreKept) {
 class RealRecordings : public ::testing::Test {
   protected:
     void SetUp() override {
-        if (!std::filesystem::exists(kData)) GTEST_SKIP() << "no data at " << kData;
+        if (!std::filesystem::exists(kSharedData)) GTEST_SKIP() << "no data at " << kSharedData;
     }
     Scene load(const std::vector<std::filesystem::path>& places) const {
         std::vector<std::filesystem::path> whole;
-        for (const std::filesystem::path& place : places) whole.push_back(kData / place);
+        for (const std::filesystem::path& place : places) whole.push_back(kSharedData / place);
         return load_recordings(clip_files(whole), folder_.path() / "graph.json", {}, false).scene;
     }
 
-    const std::filesystem::path kData = std::filesystem::path(MOBBSCOPE_SHARED_DATA);
     const TempFolder folder_;
 };
 

@@ -2,6 +2,7 @@
 #include <explain/query_sentence.h>
 #include <mobb/random_motion.h>
 #include <mobb/separation.h>
+#include <support/folders.h>
 
 #include "render/scenes.h"
 
@@ -73,8 +74,7 @@ TEST(AxisIntervals, SayWhatTheTestsOfTheDemoScenesSaid) {
     Counts all;
     for (const char* name : {"crossing", "collision"}) {
         for (const mobb::TreeKind kind : mobb::test::kFittedTrees) {
-            Scene scene = load_scene(std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/scenes" /
-                                     (std::string(name) + ".json"));
+            Scene scene = load_scene(kScenes / (std::string(name) + ".json"));
             mobb::FitOptions options = scene.fit;
             options.tree = kind;
             const Counts counts = check_all({std::move(scene), options});

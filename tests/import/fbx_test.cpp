@@ -4,6 +4,7 @@
 #include <base/error.h>
 #include <import/fbx/fbx.h>
 #include <import/import.h>
+#include <support/folders.h>
 #include <support/input_error.h>
 #include <support/mutate.h>
 #include <support/temp_folder.h>
@@ -196,7 +197,7 @@ TEST(FbxDocuments, WithoutAnimationThereIsNoClip) {
 // ---- files
 
 TEST(FbxFiles, ThePublicOnesGiveTheirValues) {
-    const std::filesystem::path folder = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "public";
+    const std::filesystem::path folder = kSharedData / "public";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no test data at " << folder;
     const auto clips = [&](const char* name) {
         return import_clips(folder / (std::string("fbx_") + name + ".fbx"), {});
@@ -247,7 +248,7 @@ TEST(FbxFiles, AreToldByTheirContent) {
 }
 
 TEST(FbxFiles, DamagedRealOnesAreReadOrRefused) {
-    const std::filesystem::path original = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "fbx/huesitos.fbx";
+    const std::filesystem::path original = kSharedData / "fbx/huesitos.fbx";
     if (!std::filesystem::exists(original)) GTEST_SKIP() << "no test data at " << original;
     const std::string bytes = slurp(original);
     std::mt19937 random(20250305);

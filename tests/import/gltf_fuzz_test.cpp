@@ -4,6 +4,7 @@
 #include <base/error.h>
 #include <import/nodes/gltf.h>
 #include <import/skeleton/motion_clips.h>
+#include <support/folders.h>
 #include <support/mutate.h>
 #include <support/temp_folder.h>
 
@@ -68,7 +69,7 @@ TEST(GltfFuzz, DamagedFilesAreReadOrRefused) {
     const GltfBytes bytes = everything_in_gltf();
     const std::string data = "data:application/octet-stream;base64,AAAAAAAAgD8AAAAAAAAAAAAAAAAAAABAAAAAAAAAAAA=";
     const std::array seeds{
-        slurp(std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/clips/stand.glb"),
+        slurp(kClips / "stand.glb"),
         bytes.glb(kEverythingNodes, kEverythingSkins),
         GltfBytes(bytes).json(kEverythingNodes, "", data),
     };

@@ -1,5 +1,6 @@
 // The walking skeletons in assets/clips are what they claim to be.
 #include <import/import.h>
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -10,7 +11,6 @@
 namespace mobbscope {
 namespace {
 
-const std::filesystem::path kClips = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/clips";
 constexpr const char* kNames[] = {"walk", "bend", "turn", "run", "stand", "circle"};
 
 ImportedClip read(const std::string& name) { return import_clips(kClips / (name + ".glb"), {}).at(0); }

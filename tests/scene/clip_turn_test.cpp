@@ -6,6 +6,7 @@
 #include <scene/clip_turn.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
+#include <support/folders.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 
@@ -17,8 +18,6 @@
 
 namespace mobbscope {
 namespace {
-
-const std::filesystem::path kClips = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/clips";
 
 /// A clip of two seconds along +x from a file, and one that turns.
 struct TurnFolder {

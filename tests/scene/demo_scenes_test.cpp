@@ -1,5 +1,6 @@
 // The demo scenes are what they claim to be.
 #include <scene/fitted_scene.h>
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -9,8 +10,6 @@
 
 namespace mobbscope {
 namespace {
-
-const std::filesystem::path kScenes = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/scenes";
 
 /// Metres between the nearest centres of two paths, whenever they are there.
 double nearest_on_floor(const FittedScene& fitted, const SceneQuery& query) {

@@ -1,6 +1,7 @@
 // Filters as text, of events and of nodes: every field and sign, words, errors with their place, completion.
 #include <scene/event_filter.h>
 #include <scene/node_field.h>
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -24,7 +25,7 @@ std::string filter_refusal(std::string_view text) {
 }
 
 TEST(EventFilter, TheDocumentListsEveryField) {
-    const std::string document = slurp(MOBBSCOPE_SOURCE_DIR "/docs/command_line.md");
+    const std::string document = slurp(kSource / "docs/command_line.md");
     for (const TableField& field : event_fields()) {
         const std::string name(field.name);
         const std::string row = field.of_side ? "| `" + name + "(a)`, `" + name + "(b)` |" : "| `" + name + "` |";
@@ -177,7 +178,7 @@ std::string node_refusal(std::string_view text) {
 }
 
 TEST(NodeFilter, TakesTheFieldsOfNodesAndNoOthers) {
-    const std::string document = slurp(MOBBSCOPE_SOURCE_DIR "/docs/command_line.md");
+    const std::string document = slurp(kSource / "docs/command_line.md");
     for (const NodeFieldInfo& field : node_fields()) {
         EXPECT_EQ(&info(field.field), &field);
         const std::string name(field.name);

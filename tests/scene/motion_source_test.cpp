@@ -3,6 +3,7 @@
 #include <import/skeleton/motion.h>
 #include <scene/scene.h>
 #include <support/bvh_text.h>
+#include <support/folders.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 
@@ -42,7 +43,7 @@ TEST(MotionSource, MessagesNameBothFilesAndThePlaceInEach) {
 }
 
 TEST(MotionSource, AClipFileIsASceneOfItsAnimations) {
-    const std::filesystem::path knight = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "gltf/KayKit_Knight.glb";
+    const std::filesystem::path knight = kSharedData / "gltf/KayKit_Knight.glb";
     if (!std::filesystem::exists(knight)) GTEST_SKIP() << "no test data at " << knight;
     const Scene scene = load_scene(knight);
     ASSERT_EQ(scene.clips.size(), 76u);

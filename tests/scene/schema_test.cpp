@@ -2,6 +2,7 @@
 #include <base/file.h>
 #include <scene/scene.h>
 #include <scene/view_options.h>
+#include <support/folders.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 
@@ -18,8 +19,7 @@ namespace mobbscope {
 namespace {
 
 const nlohmann::json& schema() {
-    static const nlohmann::json value =
-        nlohmann::json::parse(slurp(std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/scene.schema.json"));
+    static const nlohmann::json value = nlohmann::json::parse(slurp(kSource / "assets/scene.schema.json"));
     return value;
 }
 
@@ -94,7 +94,7 @@ TEST(Schema, EveryKeyOfTheSchemaIsKnownToTheReader) {
 /// Holds what stands between `begin`, the first behind `from`, and `end` against what a table makes of it, or writes
 /// it.
 void hold_part(const std::string& from, const std::string& begin, const std::string& end, const std::string& made) {
-    const std::filesystem::path file = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/scene.schema.json";
+    const std::filesystem::path file = kSource / "assets/scene.schema.json";
     std::string text = slurp(file);
     const std::size_t first = text.find(begin, text.find(from)) + begin.size();
     const std::size_t last = text.find(end, first);
