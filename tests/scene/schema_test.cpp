@@ -1,9 +1,10 @@
 // assets/scene.schema.json and the reader know the same keys.
+#include "scene_refusal.h"
+
 #include <base/file.h>
 #include <scene/scene.h>
 #include <scene/view_options.h>
 #include <support/folders.h>
-#include <support/input_error.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -81,12 +82,12 @@ TEST(Schema, EveryKeyOfTheSchemaIsKnownToTheReader) {
             // A value of no type: whatever is complained about, it is not the key.
             nlohmann::json object = {{key, nlohmann::json::array({nullptr})}};
             if (definition == "imported") object["source"] = "none.csv";
-            const std::string message = input_error([&] { parse_scene(scene_with(definition, object), "s.json", ""); });
+            const std::string message = scene_refusal(scene_with(definition, object));
             EXPECT_EQ(message.find("unknown key"), std::string::npos) << definition << ": " << message;
         }
         nlohmann::json object = {{"unheard_of", 1}};
         if (definition == "imported") object["source"] = "none.csv";
-        const std::string message = input_error([&] { parse_scene(scene_with(definition, object), "s.json", ""); });
+        const std::string message = scene_refusal(scene_with(definition, object));
         EXPECT_NE(message.find("unknown key 'unheard_of'"), std::string::npos) << definition << ": " << message;
     }
 }
