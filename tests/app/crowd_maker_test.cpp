@@ -9,7 +9,7 @@
 #include <scene/motion_graph.h>
 #include <support/folders.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 #include "crowd/walker_moves.h"
 
 #include <gtest/gtest.h>
@@ -30,13 +30,8 @@ namespace {
 constexpr const char* kSmallGraph = "candidates=60 hubs=2 moves=4";
 
 /// A session in a window, as a person has it or as a script does.
-struct MakerWindow {
-    TempFolder folder;
-    Session session;
-    HeadlessWindow window;
-
-    explicit MakerWindow(bool attended = false)
-        : session(attended), window(GlContext::open(Backend::automatic), session, {1280, 800}, 1) {}
+struct MakerWindow : FolderWindow<TempFolder> {
+    explicit MakerWindow(bool attended = false) : FolderWindow({1280, 800}, 1, attended) {}
 
     void open(const std::vector<std::filesystem::path>& files) {
         session.files.open(files);
@@ -56,11 +51,6 @@ struct MakerWindow {
     void wait_for_all() {
         while (Job::any_left()) window.frame();
     }
-    void run(const std::string& id, const std::string& argument = "") {
-        run_command(session, id, argument);
-        window.settle();
-    }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
     void click(const std::string& mark) {
         ASSERT_TRUE(has(mark)) << mark;
         window.shell().feed(MouseMove{window.shell().marks().all().at(mark).center()});

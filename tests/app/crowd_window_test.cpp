@@ -1,4 +1,6 @@
 // A run in the window, by keys and clicks: who is followed stays in the picture, and buttons do what they say.
+#include "app/folder_window.h"
+
 #include <app/commands/command.h>
 #include <app/document/agents.h>
 #include <app/document/shown_agents.h>
@@ -33,13 +35,8 @@ namespace {
 
 constexpr PictureSize kTall{900, 1400};  // all panels unscrolled
 
-struct CrowdWindow {
-    TempFolder folder;
-    Session session;
-    HeadlessWindow window;
-
-    explicit CrowdWindow(PictureSize size = kTall, bool attended = false)
-        : session(attended), window(GlContext::open(Backend::automatic), session, size, 1) {
+struct CrowdWindow : FolderWindow<TempFolder> {
+    explicit CrowdWindow(PictureSize size = kTall, bool attended = false) : FolderWindow(size, 1, attended) {
         session.files.open({folder.write("run.json", crowded_run())});
         while (session.jobs.job()) session.poll();
         window.settle();

@@ -4,7 +4,7 @@
 #include <explain/path_curves.h>
 #include <render/gl/gl_context.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <gtest/gtest.h>
 
@@ -19,23 +19,11 @@
 namespace mobbscope::app {
 namespace {
 
-struct CurvesWindow {
-    CrossingFolder folder;
-    TestDesktop desktop;
-    Session session{false};
-    HeadlessWindow window;
-
-    CurvesWindow() : window(GlContext::open(Backend::automatic), session, {1280, 1000}, 1) {
-        session.desktop = &desktop;
+struct CurvesWindow : FolderWindow<CrossingFolder> {
+    CurvesWindow() : FolderWindow({1280, 1000}) {
         session.files.open({folder.scene});
         run("bottom.show", "curves");
     }
-    void run(const std::string& command, const std::string& argument = "") {
-        run_command(session, command, argument);
-        window.settle();
-    }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
-    Rect rect(const std::string& mark) { return window.shell().marks().all().at(mark); }
     /// The mouse to a part of the plot's width and height, from the lower left.
     void move(const std::string& mark, double across, double up) {
         const Rect at = rect(mark);

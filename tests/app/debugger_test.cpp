@@ -2,7 +2,7 @@
 #include <app/window/headless_window.h>
 #include <render/gl/gl_context.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 #include "mobb/random_motion.h"
 
 #include <gtest/gtest.h>
@@ -23,37 +23,16 @@ constexpr const char* kNearlyTouching = R"({
                {"name": "C", "clip": "walk", "translate": [0, 9], "start": 0.5}],
     "fit": {"leaf": 2}})";
 
-struct DebuggerWindow {
-    CrossingFolder folder;
+struct DebuggerWindow : FolderWindow<CrossingFolder> {
     std::filesystem::path scene = folder.write("near.json", kNearlyTouching);
-    Session session{false};
-    TestDesktop desktop;
-    HeadlessWindow window;
 
-    DebuggerWindow() : window(GlContext::open(Backend::automatic), session, {1440, 3400}, 1) {
-        session.desktop = &desktop;
+    DebuggerWindow() : FolderWindow({1440, 3400}) {
         session.files.open({scene});
         run_command(session, "query.select", "0");
         run_command(session, "step.first");
         window.settle();
     }
 
-    void key(const std::string& name) {
-        const Chord chord = *chord_from_name(name);
-        const auto send = [&](Key key, bool down) { window.shell().feed(KeyPress{key, down}); };
-        if (chord.ctrl) send(Key::ctrl, true);
-        if (chord.shift) send(Key::shift, true);
-        send(chord.key, true);
-        send(chord.key, false);
-        if (chord.shift) send(Key::shift, false);
-        if (chord.ctrl) send(Key::ctrl, false);
-        window.settle();
-    }
-    void type(const std::string& text) {
-        for (const char c : text) window.shell().feed(TypedText{static_cast<char32_t>(c)});
-        window.settle();
-    }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
     Rect at(const std::string& mark) {
         const auto found = window.shell().marks().all().find(mark);
         if (found != window.shell().marks().all().end()) return found->second;

@@ -5,7 +5,7 @@
 #include <base/file.h>
 #include <render/gl/gl_context.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <support/folders.h>
 #include <support/temp_folder.h>
@@ -19,17 +19,9 @@
 namespace mobbscope::app {
 namespace {
 
-struct KeyboardWindow {
-    CrossingFolder folder;
-    Session session{false};
-    HeadlessWindow window{GlContext::open(Backend::automatic), session, PictureSize{1024, 700}, 1};
+struct KeyboardWindow : FolderWindow<CrossingFolder> {
+    KeyboardWindow() : FolderWindow({1024, 700}) { open(folder.scene); }
 
-    KeyboardWindow() { open(folder.scene); }
-
-    void open(const std::filesystem::path& file) {
-        session.files.open({file});
-        window.settle();
-    }
     void send(const InputEvent& event) {
         window.shell().feed(event);
         window.settle();

@@ -7,7 +7,7 @@
 #include <render/image/png.h>
 #include <render/pictures/build_draw_list.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <gtest/gtest.h>
 
@@ -19,34 +19,13 @@
 namespace mobbscope::app {
 namespace {
 
-struct Window {
-    CrossingFolder folder;
-    Session session{false};
-    HeadlessWindow window;
+struct Window : FolderWindow<CrossingFolder> {
     PictureSize size;
 
-    explicit Window(PictureSize of = {1024, 640}, double scale = 1)
-        : window(GlContext::open(Backend::automatic), session, of, scale), size(of) {
-        session.files.open({folder.scene});
-        window.settle();
+    explicit Window(PictureSize of = {1024, 640}, double scale = 1) : FolderWindow(of, scale), size(of) {
+        open(folder.scene);
     }
 
-    void key(const std::string& name) {
-        const Chord chord = *chord_from_name(name);
-        const auto send = [&](Key key, bool down) { window.shell().feed(KeyPress{key, down}); };
-        if (chord.ctrl) send(Key::ctrl, true);
-        if (chord.shift) send(Key::shift, true);
-        send(chord.key, true);
-        send(chord.key, false);
-        if (chord.shift) send(Key::shift, false);
-        if (chord.ctrl) send(Key::ctrl, false);
-        window.settle();
-    }
-    void type(const std::string& text) {
-        for (const char c : text) window.shell().feed(TypedText{static_cast<char32_t>(c)});
-        window.settle();
-    }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
     void click(const std::string& mark, int button = 0) {
         const auto at = window.shell().marks().all().find(mark);
         ASSERT_NE(at, window.shell().marks().all().end()) << mark;
