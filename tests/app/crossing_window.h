@@ -11,7 +11,8 @@
 #include <sstream>
 #include <string>
 
-namespace mobbscope::app::inline testing {
+namespace mobbscope::app {
+inline namespace testing {
 
 struct CrossingWindow : FolderWindow<CrossingFolder> {
     CrossingWindow() : FolderWindow({1600, 1000}) { open(folder.scene); }
@@ -22,4 +23,5 @@ struct CrossingWindow : FolderWindow<CrossingFolder> {
     }
 };
 
-}  // namespace mobbscope::app::inline testing
+}  // namespace testing
+}  // namespace mobbscope::app

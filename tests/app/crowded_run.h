@@ -5,7 +5,8 @@
 
 #include <string>
 
-namespace mobbscope::app::inline testing {
+namespace mobbscope::app {
+inline namespace testing {
 
 /// The file of a run with so many on a small floor that some are forced to collide.
 inline const std::string& crowded_run() {
@@ -13,4 +14,5 @@ inline const std::string& crowded_run() {
     return text;
 }
 
-}  // namespace mobbscope::app::inline testing
+}  // namespace testing
+}  // namespace mobbscope::app

@@ -11,7 +11,8 @@
 #include <filesystem>
 #include <string>
 
-namespace mobbscope::app::inline testing {
+namespace mobbscope::app {
+inline namespace testing {
 
 /// `Folder`: CrossingFolder or TempFolder.
 template <class Folder>
@@ -55,4 +56,5 @@ struct FolderWindow {
     const Rect& rect(const std::string& mark) { return window.shell().marks().all().at(mark); }
 };
 
-}  // namespace mobbscope::app::inline testing
+}  // namespace testing
+}  // namespace mobbscope::app

@@ -15,7 +15,8 @@
 #include <string>
 #include <vector>
 
-namespace mobbscope::inline testing {
+namespace mobbscope {
+inline namespace testing {
 
 /// Two who walk for 1.5 seconds, one of them a second later.
 inline std::string short_scene(const TempFolder& folder) {
@@ -65,4 +66,5 @@ class DrawingTest : public ::testing::Test {
     }
 };
 
-}  // namespace mobbscope::inline testing
+}  // namespace testing
+}  // namespace mobbscope

@@ -11,7 +11,8 @@
 
 #include <algorithm>
 
-namespace mobbscope::inline testing {
+namespace mobbscope {
+inline namespace testing {
 
 pid_t start_program(const std::vector<std::string>& arguments, const ProgramFiles& files,
                     const std::function<void()>& in_child) {
@@ -70,4 +71,5 @@ void expect_refused(const Result& run, int status, const std::string& why) {
     EXPECT_EQ(run.out, "");
 }
 
-}  // namespace mobbscope::inline testing
+}  // namespace testing
+}  // namespace mobbscope

@@ -11,7 +11,8 @@
 #include <string>
 #include <vector>
 
-namespace mobbscope::inline testing {
+namespace mobbscope {
+inline namespace testing {
 
 using nlohmann::json;
 
@@ -49,4 +50,5 @@ bool is_one_line(const std::string& err);
 /// Fails the test unless the program ended with `status`, printed no results, and one line that holds `why`.
 void expect_refused(const Result& run, int status, const std::string& why);
 
-}  // namespace mobbscope::inline testing
+}  // namespace testing
+}  // namespace mobbscope

@@ -14,7 +14,8 @@
 #include <utility>
 #include <vector>
 
-namespace mobbscope::inline testing {
+namespace mobbscope {
+inline namespace testing {
 
 struct ProvenQuery {
     FittedScene fitted;
@@ -131,4 +132,5 @@ inline int certificate_budget() {
     return text ? std::atoi(text) : 300;
 }
 
-}  // namespace mobbscope::inline testing
+}  // namespace testing
+}  // namespace mobbscope

@@ -9,7 +9,8 @@
 #include <string_view>
 #include <vector>
 
-namespace mobbscope::inline testing {
+namespace mobbscope {
+inline namespace testing {
 
 inline std::vector<ImportedClip> csv_clips(std::string_view text, const ImportOptions& options = {}) {
     return csv_clips(parse_csv(text, "f.csv", options), "f.csv", options);
@@ -26,4 +27,5 @@ inline bool warns(const ImportedClip& clip, const std::string& words) {
     });
 }
 
-}  // namespace mobbscope::inline testing
+}  // namespace testing
+}  // namespace mobbscope

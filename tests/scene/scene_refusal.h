@@ -6,10 +6,12 @@
 
 #include <string>
 
-namespace mobbscope::inline testing {
+namespace mobbscope {
+inline namespace testing {
 
 inline std::string scene_refusal(const std::string& text) {
     return input_error([&] { parse_scene(text, "s.json", ""); });
 }
 
-}  // namespace mobbscope::inline testing
+}  // namespace testing
+}  // namespace mobbscope

@@ -6,7 +6,8 @@
 #include <cstddef>
 #include <vector>
 
-namespace mobbscope::inline testing {
+namespace mobbscope {
+inline namespace testing {
 
 inline std::vector<PeopleConflict> all_of(const PeopleConflicts& conflicts) {
     std::vector<PeopleConflict> out;
@@ -14,4 +15,5 @@ inline std::vector<PeopleConflict> all_of(const PeopleConflicts& conflicts) {
     return out;
 }
 
-}  // namespace mobbscope::inline testing
+}  // namespace testing
+}  // namespace mobbscope

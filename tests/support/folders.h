@@ -4,7 +4,8 @@
 #include <filesystem>
 #include <string>
 
-namespace mobbscope::inline testing {
+namespace mobbscope {
+inline namespace testing {
 
 inline const std::filesystem::path kSource = MOBBSCOPE_SOURCE_DIR;
 inline const std::filesystem::path kClips = kSource / "assets/clips";
@@ -14,4 +15,5 @@ inline const std::string kCrossing = kScenes / "crossing.json";
 /// Data that the repository does not have: tests that need it are skipped where it is absent.
 inline const std::filesystem::path kSharedData = MOBBSCOPE_SHARED_DATA;
 
-}  // namespace mobbscope::inline testing
+}  // namespace testing
+}  // namespace mobbscope
