@@ -212,8 +212,8 @@ TEST_F(AnswersTest, WhereNobodyLooksEveryPictureIsFine) {
 TEST(Answers, OnAGraphicsCardEveryPictureIsFineAtOnce) {
     double measured = 0, now = 0;
     Session session(true);
-    Shell shell(std::make_unique<testing::CountingContext>(GlContext::open(Backend::automatic), testing::kGraphicsCard),
-                session, 1, [&] { return measured += 0.05; });
+    Shell shell(std::make_unique<CountingContext>(GlContext::open(Backend::automatic), kGraphicsCard), session, 1,
+                [&] { return measured += 0.05; });
     const auto frame = [&] {
         const double wanted = shell.frame(kWindow, now += 0.01);
         shell.read_back();
@@ -226,7 +226,7 @@ TEST(Answers, OnAGraphicsCardEveryPictureIsFineAtOnce) {
     while (frame() == 0) {
     }
     const Shell::Painted before = shell.painted();
-    testing::CountingContext::counts = {};
+    CountingContext::counts = {};
     for (int i = 0; i < 5; ++i) {
         for (const bool down : {true, false}) shell.feed(KeyPress{Key::left, down});
         frame();
@@ -244,7 +244,7 @@ TEST(Answers, OnAGraphicsCardEveryPictureIsFineAtOnce) {
     EXPECT_GE(shell.painted().fine, before.fine + 6);
     EXPECT_EQ(shell.painted().coarse, 0);
     EXPECT_FALSE(shell.marks().all().contains("viewport.working"));
-    EXPECT_EQ(testing::CountingContext::counts.finishes, 0u);
+    EXPECT_EQ(CountingContext::counts.finishes, 0u);
 }
 
 TEST(AdaptiveQuality, ADragBecomesCoarserIfItMustButNotFinerAgain) {

@@ -1,4 +1,6 @@
 // Which bones touch, in the panel of a query, on its clearance and in the picture of the moment.
+#include "app/folder_window.h"
+
 #include <app/commands/command.h>
 #include <app/window/headless_window.h>
 #include <render/gl/gl_context.h>
@@ -14,13 +16,9 @@ namespace mobbscope::app {
 namespace {
 
 /// Walkers whose arms reach 0.7 m forward, side by side; one who is a disk alone.
-struct BodiesWindow {
-    mobbscope::testing::TempFolder folder;
-    Session session{false};
-    HeadlessWindow window{GlContext::open(Backend::automatic), session, {1280, 900}, 1};
-
-    explicit BodiesWindow(const std::string& b, int frames = 2) {
-        std::string walker = mobbscope::testing::kWalker;
+struct BodiesWindow : FolderWindow<TempFolder> {
+    explicit BodiesWindow(const std::string& b, int frames = 2) : FolderWindow({1280, 900}) {
+        std::string walker = kWalker;
         walker = walker.substr(0, walker.find("Frames:")) + "Frames: " + std::to_string(frames) + "\nFrame Time: 0.1\n";
         for (int i = 0; i < frames; ++i) walker += "10 95 30 0 0 0 0 0 0 0 0 0\n";
         folder.write("walker.bvh", walker);
@@ -32,7 +30,6 @@ struct BodiesWindow {
         run_command(session, "query.select", "0");
         window.settle();
     }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
     void click(const std::string& mark) {
         const glm::vec2 at = window.shell().marks().all().at(mark).center();
         for (const auto& input :

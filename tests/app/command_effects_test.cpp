@@ -22,14 +22,11 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::all_messages;
-using testing::CrossingFolder;
-
 /// A session over the scene of a folder, with everything that a window would bring.
 struct CommandWorld {
     CrossingFolder folder;
     Session session{false};
-    testing::TestDesktop desktop;
+    TestDesktop desktop;
     struct Maker : PictureMaker {
         std::optional<DrawList> drawn;  ///< the last picture that was asked for
         int samples = 0;
@@ -71,7 +68,7 @@ struct CommandWorld {
 };
 
 /// One use of a command.
-struct Case {
+struct CommandCase {
     std::string id;
     std::string argument;  ///< "@name" stands for that file in the folder
     std::vector<std::pair<std::string, std::string>> before;
@@ -92,9 +89,9 @@ void expect_node(const CommandWorld& world, int node) {
     EXPECT_EQ(world.session.workspace.selection, (Selection{Selection::Kind::node, {1, -1, 0}, node}));
 }
 
-std::vector<Case> cases() {
-    std::vector<Case> out;
-    const auto add = [&](Case c) { out.push_back(std::move(c)); };
+std::vector<CommandCase> cases() {
+    std::vector<CommandCase> out;
+    const auto add = [&](CommandCase c) { out.push_back(std::move(c)); };
     const auto look = [&](std::string id, std::string argument, std::function<void(CommandWorld&)> check) {
         add({std::move(id), std::move(argument), {}, std::move(check)});
     };
@@ -281,7 +278,7 @@ std::vector<Case> cases() {
              EXPECT_EQ(w.agent(1).placement.rotate_deg, 90);
              run_command(w.session, "edit.go_to", "3");
              EXPECT_EQ(w.agent(1).placement.rotate_deg, 8) << "and on again";
-             EXPECT_NE(testing::refusal(w.session, "edit.go_to", "4"), "");
+             EXPECT_NE(refusal(w.session, "edit.go_to", "4"), "");
          }});
     add({"edit.copy_figures", "", {{"go.node", "B 1"}}, [](CommandWorld& w) {
              EXPECT_TRUE(w.desktop.text.starts_with("B 1.0\n")) << w.desktop.text;
@@ -508,8 +505,8 @@ std::vector<Case> cases() {
         EXPECT_EQ(w.session.views.at(0).fitted->options().leaf, 10);
         EXPECT_EQ(w.session.views.at(1).fitted->options().leaf, 4) << "as in the active view";
         EXPECT_EQ(w.session.views.at(2).fitted->options().levels, 2);
-        EXPECT_NE(testing::refusal(w.session, "compare.fits", "mobb"), "");
-        EXPECT_NE(testing::refusal(w.session, "compare.fits", "mobb oak"), "");
+        EXPECT_NE(refusal(w.session, "compare.fits", "mobb"), "");
+        EXPECT_NE(refusal(w.session, "compare.fits", "mobb oak"), "");
     });
     look("compare.add", "moving", [](CommandWorld& w) {
         ASSERT_EQ(w.session.views.count(), 2u);
@@ -861,7 +858,7 @@ std::vector<Case> cases() {
                  EXPECT_EQ(trace[w.session.workspace.step()].a, 0);
              }
              w.session.workspace.select({});
-             EXPECT_NE(testing::refusal(w.session, "step.next_of_node"), "");
+             EXPECT_NE(refusal(w.session, "step.next_of_node"), "");
          }});
     add({"step.first", "", {kFirstQuery}, [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.step(), 0); }});
     look("step.first", "", [](CommandWorld& w) {
@@ -1151,8 +1148,8 @@ std::vector<Case> cases() {
              [](CommandWorld& w) { EXPECT_EQ(w.session.queries.reasons()->of, "0.50 s by 0.70 s"); });
     in_query("reasons.of_sample", "b 3", [](CommandWorld& w) {
         EXPECT_EQ(w.session.queries.reasons()->of, "sample 3 of B");
-        EXPECT_NE(testing::refusal(w.session, "reasons.of_sample", "c 3"), "");
-        EXPECT_NE(testing::refusal(w.session, "reasons.of_sample", "a 60"), "");
+        EXPECT_NE(refusal(w.session, "reasons.of_sample", "c 3"), "");
+        EXPECT_NE(refusal(w.session, "reasons.of_sample", "a 60"), "");
     });
     add({"reasons.of_selection", "", {kFirstQuery, {"go.sample", "B 5"}}, [](CommandWorld& w) {
              EXPECT_EQ(w.session.queries.reasons()->of, "sample 5 of B");
@@ -1162,8 +1159,8 @@ std::vector<Case> cases() {
          }});
     in_query("compare.with", "umobb,leaf=3", [](CommandWorld& w) {
         EXPECT_EQ(w.session.queries.comparison()->trees[0]->options().leaf, 3);
-        EXPECT_NE(testing::refusal(w.session, "compare.with", "oak"), "");
-        EXPECT_NE(testing::refusal(w.session, "compare.with", "stored"), "") << "no trace is stored";
+        EXPECT_NE(refusal(w.session, "compare.with", "oak"), "");
+        EXPECT_NE(refusal(w.session, "compare.with", "stored"), "") << "no trace is stored";
     });
     const std::pair<std::string, std::string> umobb{"compare.with", "umobb"};
     add({"compare.leaf", "7", {kFirstQuery, umobb}, [](CommandWorld& w) {
@@ -1187,7 +1184,7 @@ std::vector<Case> cases() {
     in_query("focus.branch", "", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.look.focus.branch, 0); });
     in_query("focus.time", "0.1:0.2", [](CommandWorld& w) {
         EXPECT_EQ(w.session.workspace.look.focus.time->t1, 0.2);
-        EXPECT_NE(testing::refusal(w.session, "focus.time", "2:1"), "");
+        EXPECT_NE(refusal(w.session, "focus.time", "2:1"), "");
     });
     add({"focus.none", "", {kFirstQuery, {"focus.branch", "3"}}, [](CommandWorld& w) {
              EXPECT_TRUE(w.session.workspace.look.focus.is_all());
@@ -1265,7 +1262,7 @@ std::string argument_in(const CommandWorld& world, const std::string& argument) 
 
 TEST(CommandEffects, EveryCommandIsTried) {
     std::set<std::string> tried, known;
-    for (const Case& c : cases()) tried.insert(c.id);
+    for (const CommandCase& c : cases()) tried.insert(c.id);
     for (const Command& command : commands_with_review()) {
         // crowd_test.cpp has a crowd to try them on; what makes one is tried here.
         const bool of_crowd = command.id.starts_with("crowd.") || command.id.starts_with("conflicts.");
@@ -1281,7 +1278,7 @@ TEST(CommandEffects, EveryCommandIsTried) {
 }
 
 TEST(CommandEffects, AreWhatTheyAreSaidToBe) {
-    for (const Case& c : cases()) {
+    for (const CommandCase& c : cases()) {
         SCOPED_TRACE(c.id + ' ' + c.argument);
         CommandWorld world;
         Session& session = world.session;
@@ -1352,7 +1349,7 @@ TEST(CommandEffects, ThePresentValueOfAPromptChangesNothing) {
 
 // A command that only looks leaves the scene as it is.
 TEST(CommandEffects, LookingIsNoEdit) {
-    for (const Case& c : cases()) {
+    for (const CommandCase& c : cases()) {
         const bool looks = c.id.starts_with("view.") || c.id.starts_with("time.") || c.id.starts_with("step.");
         if (!looks || c.edits) continue;
         SCOPED_TRACE(c.id);

@@ -5,6 +5,7 @@
 #include <app/panels/panels.h>
 #include <base/text.h>
 #include <review/review_screen.h>
+#include <support/folders.h>
 
 #include <gtest/gtest.h>
 
@@ -20,10 +21,6 @@
 
 namespace mobbscope::app {
 namespace {
-
-using testing::all_messages;
-using testing::CrossingFolder;
-using testing::refusal;
 
 std::vector<std::string> words_in(std::string_view text) {
     std::istringstream in{std::string(text)};
@@ -79,7 +76,7 @@ TEST(CommandTable, EveryChordIsReadAndCallsOneCommand) {
 }
 
 TEST(HelpSheet, SaysOfTheMouseWhatTheDocumentSays) {
-    const std::string document = mobbscope::testing::slurp(MOBBSCOPE_SOURCE_DIR "/docs/window.md");
+    const std::string document = slurp(kSource / "docs/window.md");
     for (const auto& [keys, what] : mouse_help()) {
         std::string row = "| " + std::string(keys) + " | " + what;
         char& first = row[row.size() - std::string_view(what).size()];
@@ -89,7 +86,7 @@ TEST(HelpSheet, SaysOfTheMouseWhatTheDocumentSays) {
 }
 
 TEST(CommandTable, DocumentsNameMenuItemsThatThereAre) {
-    const std::string document = mobbscope::testing::slurp(MOBBSCOPE_SOURCE_DIR "/docs/window.md");
+    const std::string document = slurp(kSource / "docs/window.md");
     std::set<std::string> items;
     for (const Command& command : commands_with_review()) {
         std::string_view title = command.title;
@@ -307,11 +304,11 @@ TEST(CommandTable, TimeStepsStayWithinTheSpan) {
 
 TEST(CommandTable, TheLineToCopyTellsThePicture) {
     CrossingFolder folder;
-    testing::TestDesktop desktop;
+    TestDesktop desktop;
     const std::string& copied = desktop.text;
     Session session(false);
     session.desktop = &desktop;
-    const std::filesystem::path odd = folder.write("o'dd name.json", mobbscope::testing::slurp(folder.scene));
+    const std::filesystem::path odd = folder.write("o'dd name.json", slurp(folder.scene));
     session.files.open({odd});
     const auto options = [&] {
         run_command(session, "file.copy_command");

@@ -4,7 +4,7 @@
 #include <render/gl/gl_context.h>
 #include <scene/scene_json.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <gtest/gtest.h>
 
@@ -15,12 +15,8 @@
 namespace mobbscope::app {
 namespace {
 
-struct CompareWorld {
-    testing::CrossingFolder folder;
-    Session session{false};
-    HeadlessWindow window;
-
-    CompareWorld() : window(GlContext::open(Backend::automatic), session, {1280, 2800}, 1) {
+struct CompareWorld : FolderWindow<CrossingFolder> {
+    CompareWorld() : FolderWindow({1280, 2800}) {
         open(R"({"clips": {"walk": {"source": "walk.csv"}},
             "agents": [{"name": "A", "clip": "walk"},
                        {"name": "B", "clip": "walk", "translate": [2, 0.82], "rotate_deg": 180}],
@@ -35,7 +31,6 @@ struct CompareWorld {
         std::ostringstream out;
         Script::parse(script, "test").run(session, window, out);
     }
-    bool has(const std::string& name) { return window.shell().marks().all().contains(name); }
     const Rect& mark(const std::string& name) { return window.shell().marks().all().at(name); }
     const FitComparison& other() const { return *session.queries.comparison(); }
 };

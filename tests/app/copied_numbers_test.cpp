@@ -6,7 +6,7 @@
 #include <render/gl/gl_context.h>
 #include <scene/drawn_agent.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <gtest/gtest.h>
 
@@ -16,23 +16,8 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::CrossingFolder;
-
-struct CopyWindow {
-    CrossingFolder folder;
-    testing::TestDesktop desktop;
-    Session session{false};
-    HeadlessWindow window;
-
-    CopyWindow() : window(GlContext::open(Backend::automatic), session, {1280, 1400}, 1) {
-        session.desktop = &desktop;
-        session.files.open({folder.scene});
-        window.settle();
-    }
-    void run(const std::string& command, const std::string& argument = "") {
-        run_command(session, command, argument);
-        window.settle();
-    }
+struct CopyWindow : FolderWindow<CrossingFolder> {
+    CopyWindow() : FolderWindow({1280, 1400}) { open(folder.scene); }
     /// Clicks so many pixels right of a mark's left edge, or left of its right one.
     std::string click(const std::string& mark, float right, bool ctrl = false) {
         const auto& marks = window.shell().marks().all();

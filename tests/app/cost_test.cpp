@@ -5,7 +5,7 @@
 #include <explain/tree_cost.h>
 #include <render/gl/gl_context.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <gtest/gtest.h>
 
@@ -17,30 +17,15 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::CrossingFolder;
-using testing::refusal;
 using Workload = QueryWorkload::Kind;
 
-struct CostWindow {
-    CrossingFolder folder;
-    Session session;
-    HeadlessWindow window;
-
-    explicit CostWindow(bool attended = false)
-        : session(attended), window(GlContext::open(Backend::automatic), session, {1280, 1100}, 1) {
-        session.files.open({folder.scene});
-        window.settle();
-    }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
+struct CostWindow : FolderWindow<CrossingFolder> {
+    explicit CostWindow(bool attended = false) : FolderWindow({1280, 1100}, 1, attended) { open(folder.scene); }
     void click(const std::string& mark) {
         ASSERT_TRUE(has(mark)) << mark;
         window.shell().feed(MouseMove{window.shell().marks().all().at(mark).center()});
         window.shell().feed(MouseButton{0, true});
         window.shell().feed(MouseButton{0, false});
-        window.settle();
-    }
-    void run(const std::string& command, const std::string& argument = "") {
-        run_command(session, command, argument);
         window.settle();
     }
     const mobb::Tree& tree() const { return session.workspace.fitted().tree(0); }

@@ -12,7 +12,8 @@
 #include <filesystem>
 #include <string>
 
-namespace mobbscope::app::testing {
+namespace mobbscope::app {
+inline namespace testing {
 
 /// 60 samples, 30 a second, at 1 m/s along x.
 inline std::string walk_csv() {
@@ -46,7 +47,7 @@ class CrossingFolder {
     std::filesystem::path scene;
 
   private:
-    mobbscope::testing::TempFolder folder_;
+    TempFolder folder_;
 };
 
 /// A desktop that keeps what is copied.
@@ -82,4 +83,5 @@ inline std::string refusal(Session& session, std::string_view id, const std::str
     return "";
 }
 
-}  // namespace mobbscope::app::testing
+}  // namespace testing
+}  // namespace mobbscope::app

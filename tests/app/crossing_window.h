@@ -1,7 +1,7 @@
 /// The window with the scene of a CrossingFolder, worked by lines of a script.
 #pragma once
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <app/script/script.h>
 #include <app/session/session.h>
@@ -11,23 +11,17 @@
 #include <sstream>
 #include <string>
 
-namespace mobbscope::app::testing {
+namespace mobbscope::app {
+inline namespace testing {
 
-struct CrossingWindow {
-    CrossingFolder folder;
-    Session session{false};
-    HeadlessWindow window{GlContext::open(Backend::automatic), session, {1600, 1000}, 1};
-
-    CrossingWindow() {
-        session.files.open({folder.scene});
-        window.settle();
-    }
+struct CrossingWindow : FolderWindow<CrossingFolder> {
+    CrossingWindow() : FolderWindow({1600, 1000}) { open(folder.scene); }
     void run(const std::string& script) {
         std::ostringstream out;
         Script::parse(script, "test").run(session, window, out);
         window.settle();
     }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
 };
 
-}  // namespace mobbscope::app::testing
+}  // namespace testing
+}  // namespace mobbscope::app

@@ -7,8 +7,9 @@
 #include <render/image/png.h>
 #include <scene/arrangement.h>
 #include <scene/motion_graph.h>
+#include <support/folders.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 #include "crowd/walker_moves.h"
 
 #include <gtest/gtest.h>
@@ -26,27 +27,18 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::all_messages;
-using testing::refusal;
-
-const std::filesystem::path kClips = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/clips";
 constexpr const char* kSmallGraph = "candidates=60 hubs=2 moves=4";
 
 /// A session in a window, as a person has it or as a script does.
-struct MakerWindow {
-    mobbscope::testing::TempFolder folder;
-    Session session;
-    HeadlessWindow window;
-
-    explicit MakerWindow(bool attended = false)
-        : session(attended), window(GlContext::open(Backend::automatic), session, {1280, 800}, 1) {}
+struct MakerWindow : FolderWindow<TempFolder> {
+    explicit MakerWindow(bool attended = false) : FolderWindow({1280, 800}, 1, attended) {}
 
     void open(const std::vector<std::filesystem::path>& files) {
         session.files.open(files);
         wait();
     }
     /// The walkers of the crowd tests, with their graph.
-    void open_walkers() { open({folder.write("walkers.json", to_json(mobbscope::testing::walker_scene(), true))}); }
+    void open_walkers() { open({folder.write("walkers.json", to_json(walker_scene(), true))}); }
     void wait() {
         const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
         while (session.jobs.job() && std::chrono::steady_clock::now() < end) {
@@ -59,11 +51,6 @@ struct MakerWindow {
     void wait_for_all() {
         while (Job::any_left()) window.frame();
     }
-    void run(const std::string& id, const std::string& argument = "") {
-        run_command(session, id, argument);
-        window.settle();
-    }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
     void click(const std::string& mark) {
         ASSERT_TRUE(has(mark)) << mark;
         window.shell().feed(MouseMove{window.shell().marks().all().at(mark).center()});
@@ -175,7 +162,7 @@ TEST(BuildGraph, SavedItIsReadAgain) {
 }
 
 TEST(BuildGraph, WhatCannotBeBuiltIsALineAndLosesNothing) {
-    testing::CrossingFolder folder;
+    CrossingFolder folder;
     MakerWindow w;
     w.open({folder.scene});
     const auto before = w.session.workspace.document().fitted;
@@ -233,7 +220,7 @@ TEST(BuildGraph, IsCancelledAndLosesNothing) {
 }
 
 TEST(BuildGraph, AsksAboutUnsavedChangesFirst) {
-    testing::CrossingFolder folder;
+    CrossingFolder folder;
     MakerWindow w;
     w.open({folder.scene});
     w.run("go.agent", "A");
@@ -251,8 +238,7 @@ TEST(SimulateCrowd, OpensTheRunOfTheOpenGraph) {
     w.run("crowd.simulate", "agents=5 area=20x20 seconds=20 plan=0");
     ASSERT_TRUE(w.session.workspace.crowd()) << all_messages(w.session);
     EXPECT_EQ(w.session.workspace.crowd()->agents.size(), 5u);
-    EXPECT_EQ(*w.session.workspace.crowd(),
-              *mobbscope::testing::with_run(mobbscope::testing::walker_scene(), 5, {20, 20}).crowd);
+    EXPECT_EQ(*w.session.workspace.crowd(), *with_run(walker_scene(), 5, {20, 20}).crowd);
     EXPECT_EQ(w.session.workspace.title(), "run");
     EXPECT_TRUE(w.session.workspace.modified());
     const std::string said = all_messages(w.session);
@@ -270,7 +256,7 @@ TEST(SimulateCrowd, OfARunBeginsAnew) {
 }
 
 TEST(SimulateCrowd, NeedsAGraphAndRoom) {
-    testing::CrossingFolder folder;
+    CrossingFolder folder;
     MakerWindow w;
     w.open({folder.scene});
     EXPECT_EQ(why_not(w.session, *find_command("crowd.simulate")), "there is no motion graph: build one first");
@@ -284,7 +270,7 @@ TEST(SimulateCrowd, NeedsAGraphAndRoom) {
 
 /// What a run holds is not lost with it, so nobody is asked; what else there is, is.
 TEST(SimulateCrowd, OfAGraphThatIsNotSavedAsksNothing) {
-    testing::CrossingFolder folder;
+    CrossingFolder folder;
     MakerWindow w;
     w.open({folder.file("walk.csv"), folder.file("stand.csv")});
     w.run("crowd.build_graph", "whole");

@@ -33,7 +33,7 @@ namespace {
 class CrowdTest : public ::testing::Test {
   protected:
     void SetUp() override {
-        file = folder.write("run.json", testing::crowded_run());
+        file = folder.write("run.json", crowded_run());
         session.files.open({file});
         ASSERT_TRUE(session.workspace.crowd())
             << (session.notifications.all().empty() ? "" : session.notifications.all().front().text);
@@ -56,7 +56,7 @@ class CrowdTest : public ::testing::Test {
         throw std::logic_error("nobody was ever ruled out");
     }
 
-    mobbscope::testing::TempFolder folder;
+    TempFolder folder;
     std::filesystem::path file;
     Session session{false};
 };
@@ -189,7 +189,7 @@ TEST_F(CrowdTest, WhoIsOpenedAsASceneKeepsNameAndColour) {
     const Scene saved = load_scene(file_of_two);
     for (const Agent& agent : saved.agents) {
         ASSERT_TRUE(agent.color) << agent.name;
-        EXPECT_EQ(hex(static_cast<std::uint32_t>(agent.color->r) << 16 | agent.color->g << 8 | agent.color->b),
+        EXPECT_EQ(hex(static_cast<std::uint32_t>(agent.color->r << 16 | agent.color->g << 8 | agent.color->b)),
                   all.at(agent.name));
     }
     run("crowd.back");
@@ -303,8 +303,7 @@ TEST_F(CrowdTest, ConflictsAreCountedAsTheCommandCountsThem) {
         crowd.push_back(people.placed(who));
         person_of.push_back(people.scene().agents[static_cast<std::size_t>(who.agent)].run_agent);
     }
-    const std::vector<PeopleConflict> other =
-        mobbscope::testing::all_of(PeopleConflicts(crowd, person_of, Search::direct));
+    const std::vector<PeopleConflict> other = all_of(PeopleConflicts(crowd, person_of, Search::direct));
     ASSERT_EQ(session.crowds.conflicts()->size(), other.size());
     std::set<std::pair<int, int>> pairs;
     for (std::size_t i = 0; i < other.size(); ++i) {

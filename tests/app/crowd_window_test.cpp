@@ -1,4 +1,6 @@
 // A run in the window, by keys and clicks: who is followed stays in the picture, and buttons do what they say.
+#include "app/folder_window.h"
+
 #include <app/commands/command.h>
 #include <app/document/agents.h>
 #include <app/document/shown_agents.h>
@@ -9,6 +11,7 @@
 #include <render/pictures/build_draw_list.h>
 #include <scene/crowd_scene.h>
 #include <scene/drawn_agent.h>
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include "app/crowded_run.h"
@@ -32,14 +35,9 @@ namespace {
 
 constexpr PictureSize kTall{900, 1400};  // all panels unscrolled
 
-struct CrowdWindow {
-    mobbscope::testing::TempFolder folder;
-    Session session;
-    HeadlessWindow window;
-
-    explicit CrowdWindow(PictureSize size = kTall, bool attended = false)
-        : session(attended), window(GlContext::open(Backend::automatic), session, size, 1) {
-        session.files.open({folder.write("run.json", testing::crowded_run())});
+struct CrowdWindow : FolderWindow<TempFolder> {
+    explicit CrowdWindow(PictureSize size = kTall, bool attended = false) : FolderWindow(size, 1, attended) {
+        session.files.open({folder.write("run.json", crowded_run())});
         while (session.jobs.job()) session.poll();
         window.settle();
     }
@@ -401,7 +399,7 @@ TEST(CrowdWindow, ADoubleClickOnAConflictShowsTheForcedChoice) {
 }
 
 TEST(CrowdWindow, AChoiceOfAnEditedRunSaysSo) {
-    std::string text = testing::crowded_run();
+    std::string text = crowded_run();
     const std::size_t seed = text.find("\"seed\": 1");
     ASSERT_NE(seed, std::string::npos);
     text.replace(seed, 9, "\"seed\": 2");
@@ -469,7 +467,7 @@ TEST(CrowdWindow, AnExcerptBeginsAtTheTopOfItsPanels) {
 
 TEST(CrowdWindow, TheTwoOfAnUnforcedConflictExpectNone) {
     Session session(false);
-    session.files.open({std::filesystem::path(MOBBSCOPE_SOURCE_DIR "/tests/app/goldens/files/run.json")});
+    session.files.open({kSource / "tests/app/goldens/files/run.json"});
     const auto open_first = [&] {
         run_command(session, "conflicts.find");
         while (session.jobs.job()) session.poll();

@@ -5,13 +5,14 @@
 
 #include <string>
 
-namespace mobbscope::app::testing {
+namespace mobbscope::app {
+inline namespace testing {
 
 /// The file of a run with so many on a small floor that some are forced to collide.
 inline const std::string& crowded_run() {
-    using namespace mobbscope::testing;
     static const std::string text = to_json(with_run(walker_scene(), 22, {9, 9}), true);
     return text;
 }
 
-}  // namespace mobbscope::app::testing
+}  // namespace testing
+}  // namespace mobbscope::app

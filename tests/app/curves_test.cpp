@@ -4,7 +4,7 @@
 #include <explain/path_curves.h>
 #include <render/gl/gl_context.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <gtest/gtest.h>
 
@@ -19,25 +19,11 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::CrossingFolder;
-
-struct CurvesWindow {
-    CrossingFolder folder;
-    testing::TestDesktop desktop;
-    Session session{false};
-    HeadlessWindow window;
-
-    CurvesWindow() : window(GlContext::open(Backend::automatic), session, {1280, 1000}, 1) {
-        session.desktop = &desktop;
+struct CurvesWindow : FolderWindow<CrossingFolder> {
+    CurvesWindow() : FolderWindow({1280, 1000}) {
         session.files.open({folder.scene});
         run("bottom.show", "curves");
     }
-    void run(const std::string& command, const std::string& argument = "") {
-        run_command(session, command, argument);
-        window.settle();
-    }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
-    Rect rect(const std::string& mark) { return window.shell().marks().all().at(mark); }
     /// The mouse to a part of the plot's width and height, from the lower left.
     void move(const std::string& mark, double across, double up) {
         const Rect at = rect(mark);
@@ -104,7 +90,7 @@ TEST(Curves, SayWhatIsLeftOut) {
 }
 
 /// A walk of its own, which ends apart from the others.
-std::string own_walk(int i) { return testing::walk_csv() + "2,2," + std::to_string(0.01 * i) + ",0.4\n"; }
+std::string own_walk(int i) { return walk_csv() + "2,2," + std::to_string(0.01 * i) + ",0.4\n"; }
 std::string clip_json(const std::string& name) { return '"' + name + "\": {\"source\": \"" + name + ".csv\"}"; }
 std::string agent_json(const std::string& name) { return "{\"name\": \"" + name + "\", \"clip\": \"" + name + "\"}"; }
 
@@ -122,37 +108,37 @@ std::string clips_scene(const CrossingFolder& folder, int count) {
 }
 
 TEST(Curves, CostsAreFoundOnceAndOnlyOfTheActiveView) {
-    constexpr int kClips = 12;
+    constexpr int kCount = 12;
     CurvesWindow w;
-    w.run("file.open", w.folder.write("clips.json", clips_scene(w.folder, kClips)).string());
+    w.run("file.open", w.folder.write("clips.json", clips_scene(w.folder, kCount)).string());
     w.run("compare.fits", "mobb umobb moving aabb");
     const Workspace& workspace = w.session.workspace;
     ASSERT_EQ(w.session.views.count(), 4u);
     std::vector<std::shared_ptr<const TreeCost>> known;
-    for (int clip = 0; clip < kClips; ++clip) {
+    for (int clip = 0; clip < kCount; ++clip) {
         known.push_back(workspace.cost_of(clip));
         EXPECT_TRUE(known.back()) << clip;
         EXPECT_EQ(workspace.cost_of(*w.session.views.at(1).fitted, clip) != nullptr, clip == 0) << clip;
     }
     for (int frame = 0; frame < 3; ++frame) w.window.settle();
-    for (int clip = 0; clip < kClips; ++clip) EXPECT_EQ(workspace.cost_of(clip), known[static_cast<std::size_t>(clip)]);
+    for (int clip = 0; clip < kCount; ++clip) EXPECT_EQ(workspace.cost_of(clip), known[static_cast<std::size_t>(clip)]);
 }
 
 TEST(Curves, NoCostIsGivenUpForThatOfAnotherClip) {
-    constexpr int kClips = 4;
+    constexpr int kCount = 4;
     const CrossingFolder folder;
-    testing::TestDesktop desktop;
+    TestDesktop desktop;
     Session session{true};
     session.desktop = &desktop;
     session.options.may_write = false;
-    session.files.open({folder.write("clips.json", clips_scene(folder, kClips))});
+    session.files.open({folder.write("clips.json", clips_scene(folder, kCount))});
     session.options.patience = {};
     while (session.jobs.job()) session.poll();
     const auto all_known = [&] {
         // As panels ask in each frame; none is waited for.
         session.fit_costs.update(0);
-        for (int clip = 1; clip < kClips; ++clip) session.fit_costs.find_when_idle(clip);
-        for (int clip = 0; clip < kClips; ++clip) {
+        for (int clip = 1; clip < kCount; ++clip) session.fit_costs.find_when_idle(clip);
+        for (int clip = 0; clip < kCount; ++clip) {
             if (!session.workspace.cost_of(clip)) return false;
         }
         return true;

@@ -2,7 +2,7 @@
 #include <app/window/headless_window.h>
 #include <render/gl/gl_context.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 #include "mobb/random_motion.h"
 
 #include <gtest/gtest.h>
@@ -16,9 +16,6 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::all_messages;
-using testing::CrossingFolder;
-
 /// A and B go beside each other, so near that most boxes of theirs overlap; C is elsewhere.
 constexpr const char* kNearlyTouching = R"({
     "clips": {"walk": {"source": "walk.csv"}},
@@ -26,37 +23,16 @@ constexpr const char* kNearlyTouching = R"({
                {"name": "C", "clip": "walk", "translate": [0, 9], "start": 0.5}],
     "fit": {"leaf": 2}})";
 
-struct DebuggerWindow {
-    CrossingFolder folder;
+struct DebuggerWindow : FolderWindow<CrossingFolder> {
     std::filesystem::path scene = folder.write("near.json", kNearlyTouching);
-    Session session{false};
-    testing::TestDesktop desktop;
-    HeadlessWindow window;
 
-    DebuggerWindow() : window(GlContext::open(Backend::automatic), session, {1440, 3400}, 1) {
-        session.desktop = &desktop;
+    DebuggerWindow() : FolderWindow({1440, 3400}) {
         session.files.open({scene});
         run_command(session, "query.select", "0");
         run_command(session, "step.first");
         window.settle();
     }
 
-    void key(const std::string& name) {
-        const Chord chord = *chord_from_name(name);
-        const auto send = [&](Key key, bool down) { window.shell().feed(KeyPress{key, down}); };
-        if (chord.ctrl) send(Key::ctrl, true);
-        if (chord.shift) send(Key::shift, true);
-        send(chord.key, true);
-        send(chord.key, false);
-        if (chord.shift) send(Key::shift, false);
-        if (chord.ctrl) send(Key::ctrl, false);
-        window.settle();
-    }
-    void type(const std::string& text) {
-        for (const char c : text) window.shell().feed(TypedText{static_cast<char32_t>(c)});
-        window.settle();
-    }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
     Rect at(const std::string& mark) {
         const auto found = window.shell().marks().all().find(mark);
         if (found != window.shell().marks().all().end()) return found->second;
@@ -185,10 +161,10 @@ TEST(Debugger, FiltersAreSavedWithTheScene) {
     DebuggerWindow w;
     run_command(w.session, "events.filter", "gap < 0.2");
     run_command(w.session, "events.save", "tight");
-    EXPECT_EQ(testing::refusal(w.session, "events.save", " "), "a filter needs a name");
+    EXPECT_EQ(refusal(w.session, "events.save", " "), "a filter needs a name");
     run_command(w.session, "events.filter", "outcome = hit");
     run_command(w.session, "events.save", "hits");
-    EXPECT_EQ(testing::refusal(w.session, "events.rename_saved", "tight"), "another filter is named 'tight'");
+    EXPECT_EQ(refusal(w.session, "events.rename_saved", "tight"), "another filter is named 'tight'");
     run_command(w.session, "events.rename_saved", "the hit");
     w.window.settle();
     w.click("events.more");

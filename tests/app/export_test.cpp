@@ -33,12 +33,6 @@
 namespace mobbscope::app {
 namespace {
 
-using mobbscope::testing::slurp;
-using mobbscope::testing::TempFolder;
-using testing::all_messages;
-using testing::CrossingFolder;
-using testing::refusal;
-
 class ExportTest : public ::testing::Test {
   protected:
     void SetUp() override {
@@ -83,7 +77,7 @@ class ExportTest : public ::testing::Test {
     std::filesystem::path file = folder.file("a picture's.png");
     Session session{false};
     std::unique_ptr<HeadlessWindow> window;
-    testing::TestDesktop desktop;
+    TestDesktop desktop;
     const std::string& copied = desktop.text;
 };
 

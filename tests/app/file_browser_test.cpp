@@ -19,12 +19,12 @@ namespace {
 using Choose = FileBrowser::Choose;
 using Names = std::vector<std::string>;
 
-struct Files {
-    mobbscope::testing::TempFolder folder;
+struct FolderOfFiles {
+    TempFolder folder;
     std::string at;
     FileBrowser browser;
 
-    Files() : at(folder.path().string() + "/") {
+    FolderOfFiles() : at(folder.path().string() + "/") {
         for (const char* name :
              {"walk.csv", "Walk2.csv", "walk10.json", "walk.png", ".hidden.csv", "w\xc3\xa4.csv", "w\xc3\xb6.csv"}) {
             folder.write(name, "12345");
@@ -49,14 +49,14 @@ struct Files {
 };
 
 TEST(FileBrowser, ListsFoldersThenWhatCanBeOpened) {
-    const Files files;
+    const FolderOfFiles files;
     EXPECT_EQ(files.names(),
               (Names{"deep", "walks", "walk.csv", "Walk2.csv", "walk10.json", "w\xc3\xa4.csv", "w\xc3\xb6.csv"}));
     EXPECT_EQ(files.browser.entries()[2].size, 5u);
 }
 
 TEST(FileBrowser, ListsWhatHoldsTheTypedPart) {
-    Files files;
+    FolderOfFiles files;
     files.browser.follow("ALK", true);
     EXPECT_EQ(files.names(), (Names{"walks", "walk.csv", "Walk2.csv", "walk10.json"}));
     files.browser.follow("2", true);
@@ -72,7 +72,7 @@ TEST(FileBrowser, ListsWhatHoldsTheTypedPart) {
 }
 
 TEST(FileBrowser, OrdersByEachColumnBothWays) {
-    Files files;
+    FolderOfFiles files;
     files.folder.write("walk.csv", "1");
     const auto now = std::filesystem::file_time_type::clock::now();
     std::filesystem::last_write_time(files.folder.path() / "w\xc3\xa4.csv", now - std::chrono::hours(48));
@@ -91,7 +91,7 @@ TEST(FileBrowser, OrdersByEachColumnBothWays) {
 }
 
 TEST(FileBrowser, ChoosesSeveral) {
-    Files files;
+    FolderOfFiles files;
     files.browser.choose(3, Choose::only);
     files.browser.choose(5, Choose::range);
     EXPECT_EQ(files.chosen(), (Names{"Walk2.csv", "walk10.json", "w\xc3\xa4.csv"}));
@@ -108,7 +108,7 @@ TEST(FileBrowser, ChoosesSeveral) {
 }
 
 TEST(FileBrowser, GoesUpAndIsWhereItCameFrom) {
-    Files files;
+    FolderOfFiles files;
     files.browser.go(files.folder.path() / "walks");
     EXPECT_TRUE(files.names().empty());
     files.browser.go_up();
@@ -120,7 +120,7 @@ TEST(FileBrowser, GoesUpAndIsWhereItCameFrom) {
 }
 
 TEST(FileBrowser, FollowsWhatIsTypedIntoOtherFolders) {
-    Files files;
+    FolderOfFiles files;
     files.folder.write("deep/one.csv", "x");
     files.browser.follow("deep/", true);
     EXPECT_EQ(files.names(), Names{"one.csv"});
@@ -136,7 +136,7 @@ TEST(FileBrowser, FollowsWhatIsTypedIntoOtherFolders) {
 }
 
 TEST(FileBrowser, SeesWhatOthersWrite) {
-    Files files;
+    FolderOfFiles files;
     files.folder.write("new.csv", "x");
     std::filesystem::last_write_time(files.folder.path(),
                                      std::filesystem::file_time_type::clock::now() + std::chrono::seconds(5));
@@ -146,7 +146,7 @@ TEST(FileBrowser, SeesWhatOthersWrite) {
 }
 
 TEST(PathCompletion, CompletesAsFarAsAllAgree) {
-    const Files files;
+    const FolderOfFiles files;
     EXPECT_EQ(files.completed("wal"), "walk");
     EXPECT_EQ(files.completed(files.at + "walk.c"), files.at + "walk.csv");
     EXPECT_EQ(files.completed("d"), "deep/");
@@ -156,7 +156,7 @@ TEST(PathCompletion, CompletesAsFarAsAllAgree) {
 }
 
 TEST(PathCompletion, KnowsTheHome) {
-    const Files files;
+    const FolderOfFiles files;
     const char* const home = std::getenv("HOME");
     const std::string before = home ? home : "";
     ::setenv("HOME", files.folder.path().c_str(), 1);
@@ -178,7 +178,7 @@ TEST(PathCompletion, APathMayBeginAnewBehindAnother) {
 // --- what a file holds
 
 TEST(FilePreview, SaysWhatAFileHolds) {
-    const mobbscope::testing::TempFolder folder;
+    const TempFolder folder;
     const auto title = [&](const char* name, const char* text) { return summary_of(folder.write(name, text)).title; };
     const char* const clips = R"({"clips": {"a": {"dt": 1, "samples": [[0, 0, 0.3], [1, 0, 0.3]]}, "b": {"dt": 1,
         "samples": [[0, 0, 0.3]]}})";
@@ -203,7 +203,7 @@ TEST(FilePreview, SaysWhatAFileHolds) {
 }
 
 TEST(FilePreview, IsMadeBesideTheWindowAndKeptUntilTheFileChanges) {
-    const mobbscope::testing::TempFolder folder;
+    const TempFolder folder;
     const std::filesystem::path file = folder.write("walk.csv", "t,x,y,r\n0,0,0,0.3\n0.5,1,0,0.3\n");
     FilePreview preview;
     EXPECT_FALSE(preview.ask(file, 10, false, {}));

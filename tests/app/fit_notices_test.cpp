@@ -3,7 +3,7 @@
 #include <base/text.h>
 #include <render/gl/gl_context.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <gtest/gtest.h>
 
@@ -23,21 +23,12 @@ std::string walk_with_a_jump() {
     return R"({"clips": {"walk": {"dt": 0.03333333333333333, "samples": [)" + samples + "]}}}";
 }
 
-struct NoticesWindow {
-    mobbscope::testing::TempFolder folder;
-    Session session{false};
-    HeadlessWindow window{GlContext::open(Backend::automatic), session, {1280, 1100}, 1};
-
-    NoticesWindow() { open(walk_with_a_jump()); }
+struct NoticesWindow : FolderWindow<TempFolder> {
+    NoticesWindow() : FolderWindow({1280, 1100}) { open(walk_with_a_jump()); }
     void open(const std::string& scene) {
         session.files.open({folder.write("scene.json", scene)});
         window.settle();
     }
-    void run(const std::string& id, const std::string& argument) {
-        run_command(session, id, argument);
-        window.settle();
-    }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
     void click(const std::string& mark) {
         ASSERT_TRUE(has(mark)) << mark;
         window.shell().feed(MouseMove{window.shell().marks().all().at(mark).center()});
@@ -93,9 +84,8 @@ TEST(FitNotices, NothingIsShownWhereNothingStandsOut) {
 
 TEST(FitNotices, OneThatOnlyTheClipCouldMendSaysSo) {
     NoticesWindow w;
-    EXPECT_EQ(testing::refusal(w.session, "tree.see_finding", "1"), "the last finding is 0");
-    EXPECT_EQ(testing::refusal(w.session, "tree.mend"),
-              "no other fit mends that: the clip itself would have to change");
+    EXPECT_EQ(refusal(w.session, "tree.see_finding", "1"), "the last finding is 0");
+    EXPECT_EQ(refusal(w.session, "tree.mend"), "no other fit mends that: the clip itself would have to change");
 }
 
 }  // namespace

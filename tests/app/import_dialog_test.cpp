@@ -3,7 +3,7 @@
 #include <render/gl/gl_context.h>
 #include <support/temp_folder.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <gtest/gtest.h>
 
@@ -15,10 +15,6 @@
 
 namespace mobbscope::app {
 namespace {
-
-using mobbscope::testing::TempFolder;
-using testing::all_messages;
-using testing::refusal;
 
 /// A body 170 units tall that goes along X, 1 m a second if the unit is cm: two joints, 60 frames.
 std::string body_bvh(int frames = 60) {
@@ -63,12 +59,8 @@ MOTION
 /// Three people of whom nobody knows the unit nor the frame rate; the second comes a frame later.
 constexpr const char* kTracks = "0 1 0 0\n1 1 100 0\n2 1 200 0\n1 2 0 50\n2 2 100 50\n3 2 200 50\n0 3 0 90\n1 3 9 90\n";
 
-struct ImportWindow {
-    TempFolder folder;
-    Session session{false};
-    HeadlessWindow window{GlContext::open(Backend::automatic), session, {1280, 800}, 1};
-
-    ImportWindow() {
+struct ImportWindow : FolderWindow<TempFolder> {
+    ImportWindow() : FolderWindow({1280, 800}) {
         folder.write("body.bvh", body_bvh());
         folder.write("people.txt", kTracks);
         folder.write("scene.json", R"({"clips": {"walk": {"source": "body.bvh", "unit": "m"},
@@ -81,7 +73,6 @@ struct ImportWindow {
         window.settle();
     }
     const SceneClip& clip(std::size_t index = 0) const { return session.workspace.scene().clips[index]; }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
     glm::vec2 place(const std::string& mark) {
         const auto at = window.shell().marks().all().find(mark);
         EXPECT_NE(at, window.shell().marks().all().end()) << mark;

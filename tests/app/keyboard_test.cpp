@@ -5,8 +5,9 @@
 #include <base/file.h>
 #include <render/gl/gl_context.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -18,20 +19,9 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::all_messages;
-using testing::CrossingFolder;
+struct KeyboardWindow : FolderWindow<CrossingFolder> {
+    KeyboardWindow() : FolderWindow({1024, 700}) { open(folder.scene); }
 
-struct KeyboardWindow {
-    CrossingFolder folder;
-    Session session{false};
-    HeadlessWindow window{GlContext::open(Backend::automatic), session, PictureSize{1024, 700}, 1};
-
-    KeyboardWindow() { open(folder.scene); }
-
-    void open(const std::filesystem::path& file) {
-        session.files.open({file});
-        window.settle();
-    }
     void send(const InputEvent& event) {
         window.shell().feed(event);
         window.settle();
@@ -590,9 +580,8 @@ TEST(Keyboard, TheStripOfStepsStandsStill) {
 
 TEST(Keyboard, NoPanelHasAnotherKindOfNumber) {
     for (const char* folder : {"panels", "viewport"}) {
-        for (const auto& file :
-             std::filesystem::directory_iterator(std::string(MOBBSCOPE_SOURCE_DIR "/src/app/") + folder)) {
-            const std::string text = mobbscope::testing::slurp(file.path());
+        for (const auto& file : std::filesystem::directory_iterator(std::string(kSource / "src/app/") + folder)) {
+            const std::string text = slurp(file.path());
             for (const char* other : {"ImGui::Drag", "ImGui::Slider", "ImGui::VSlider", "ImGui::InputInt",
                                       "ImGui::InputFloat", "ImGui::InputDouble", "ImGui::InputScalar"}) {
                 EXPECT_EQ(text.find(other), std::string::npos) << file.path() << ": " << other;

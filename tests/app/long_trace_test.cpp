@@ -5,7 +5,7 @@
 #include <explain/query_sentence.h>
 #include <render/gl/gl_context.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <gtest/gtest.h>
 
@@ -17,17 +17,12 @@
 namespace mobbscope::app {
 namespace {
 
-struct LongTraceWindow {
-    testing::CrossingFolder folder;
-    Session session{false};
-    HeadlessWindow window{GlContext::open(Backend::automatic), session, {1280, 1100}, 1};
-
-    LongTraceWindow() {
+struct LongTraceWindow : FolderWindow<CrossingFolder> {
+    LongTraceWindow() : FolderWindow({1280, 1100}) {
         session.files.open({folder.scene});
         session.workspace.change_view([](ViewState& view) { view.query = 0; });
         window.settle();
     }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
 };
 
 constexpr std::array kNotes{"query.stopped.steps",    "query.stopped.reasons", "query.stopped.branches",

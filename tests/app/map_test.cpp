@@ -4,7 +4,7 @@
 #include <render/gl/gl_context.h>
 #include <render/pictures/build_draw_list.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -14,15 +14,8 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::CrossingFolder;
-using testing::refusal;
-
-struct MapWindow {
-    CrossingFolder folder;
-    Session session{false};
-    HeadlessWindow window{GlContext::open(Backend::automatic), session, {1600, 1000}, 1};
-
-    MapWindow() {
+struct MapWindow : FolderWindow<CrossingFolder> {
+    MapWindow() : FolderWindow({1600, 1000}) {
         session.files.open({folder.scene});
         run_command(session, "query.select", "0");
         window.settle();
@@ -30,7 +23,6 @@ struct MapWindow {
     Rect rect(const std::string& mark) const {
         return const_cast<HeadlessWindow&>(window).shell().marks().all().at(mark);
     }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
     glm::vec2 in_map(float right, float up) const {
         const Rect map = rect("query.map");
         return {map.min.x + right * map.size().x, map.max.y - up * map.size().y};

@@ -6,7 +6,7 @@
 #include <render/parts/measured_line.h>
 #include <scene/drawn_agent.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -19,20 +19,8 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::CrossingFolder;
-using testing::refusal;
-
-struct MeasureWindow {
-    CrossingFolder folder;
-    testing::TestDesktop desktop;
-    Session session{false};
-    HeadlessWindow window;
-
-    MeasureWindow() : window(GlContext::open(Backend::automatic), session, {1280, 900}, 1) {
-        session.desktop = &desktop;
-        session.files.open({folder.scene});
-        window.settle();
-    }
+struct MeasureWindow : FolderWindow<CrossingFolder> {
+    MeasureWindow() : FolderWindow({1280, 900}) { open(folder.scene); }
     const DrawList& list() { return *window.shell().shown(); }
     Measuring& measuring() { return session.workspace.measuring; }
     glm::vec2 seen(glm::dvec3 place) {
@@ -50,11 +38,6 @@ struct MeasureWindow {
         window.shell().feed(MouseButton{0, false});
         window.settle();
     }
-    void run(const std::string& command, const std::string& argument = "") {
-        run_command(session, command, argument);
-        window.settle();
-    }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
     glm::vec2 mark(const std::string& name) { return window.shell().marks().all().at(name).center(); }
     DrawnAgent agent(std::size_t index) {
         return drawn_agents(session.workspace.fitted(), session.workspace.view()).at(index);

@@ -6,7 +6,7 @@
 #include <render/drawlist/pick.h>
 #include <render/gl/gl_context.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -22,15 +22,9 @@
 namespace mobbscope::app {
 namespace {
 
-struct MenuWindow {
-    testing::CrossingFolder folder;
-    Session session;
-    HeadlessWindow window;
-    testing::TestDesktop desktop;
-
+struct MenuWindow : FolderWindow<CrossingFolder> {
     explicit MenuWindow(PictureSize size = {1280, 900}, double scale = 1, bool attended = false)
-        : session(attended), window(GlContext::open(Backend::automatic), session, size, scale) {
-        session.desktop = &desktop;
+        : FolderWindow(size, scale, attended) {
         session.files.open({folder.scene});
         while (session.jobs.job()) session.poll();
         window.settle();

@@ -15,7 +15,7 @@
 namespace mobbscope::app {
 namespace {
 
-struct ViewsWindow : testing::CrossingWindow {
+struct ViewsWindow : CrossingWindow {
     const ViewState& view() const { return session.workspace.view(); }
     std::string names() const {
         std::string out;

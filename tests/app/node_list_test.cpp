@@ -3,7 +3,7 @@
 #include <app/window/headless_window.h>
 #include <render/gl/gl_context.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <gtest/gtest.h>
 
@@ -19,26 +19,13 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::all_messages;
-using testing::CrossingFolder;
-
-struct NodeWindow {
-    CrossingFolder folder;
-    Session session{false};
-    testing::TestDesktop desktop;
-    HeadlessWindow window{GlContext::open(Backend::automatic), session, {1600, 1000}, 1};
-
-    NodeWindow() {
-        session.desktop = &desktop;
-        session.files.open({folder.scene});
-        window.settle();
-    }
+struct NodeWindow : FolderWindow<CrossingFolder> {
+    NodeWindow() : FolderWindow({1600, 1000}) { open(folder.scene); }
     void run(const std::string& script) {
         std::ostringstream out;
         Script::parse(script, "test").run(session, window, out);
         window.settle();
     }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
     const std::vector<int>& rows() { return *session.nodes.listed(); }
     int selected() { return session.nodes.selected(); }
     static std::string row(int node) { return "nodes.row." + std::to_string(node); }

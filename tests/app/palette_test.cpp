@@ -15,8 +15,6 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::CrossingFolder;
-
 struct PaletteWindow {
     CrossingFolder folder;
     Session session{false};

@@ -7,7 +7,7 @@
 #include <render/image/png.h>
 #include <render/pictures/build_draw_list.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <gtest/gtest.h>
 
@@ -19,37 +19,13 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::all_messages;
-using testing::CrossingFolder;
-
-struct Window {
-    CrossingFolder folder;
-    Session session{false};
-    HeadlessWindow window;
+struct Window : FolderWindow<CrossingFolder> {
     PictureSize size;
 
-    explicit Window(PictureSize of = {1024, 640}, double scale = 1)
-        : window(GlContext::open(Backend::automatic), session, of, scale), size(of) {
-        session.files.open({folder.scene});
-        window.settle();
+    explicit Window(PictureSize of = {1024, 640}, double scale = 1) : FolderWindow(of, scale), size(of) {
+        open(folder.scene);
     }
 
-    void key(const std::string& name) {
-        const Chord chord = *chord_from_name(name);
-        const auto send = [&](Key key, bool down) { window.shell().feed(KeyPress{key, down}); };
-        if (chord.ctrl) send(Key::ctrl, true);
-        if (chord.shift) send(Key::shift, true);
-        send(chord.key, true);
-        send(chord.key, false);
-        if (chord.shift) send(Key::shift, false);
-        if (chord.ctrl) send(Key::ctrl, false);
-        window.settle();
-    }
-    void type(const std::string& text) {
-        for (const char c : text) window.shell().feed(TypedText{static_cast<char32_t>(c)});
-        window.settle();
-    }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
     void click(const std::string& mark, int button = 0) {
         const auto at = window.shell().marks().all().find(mark);
         ASSERT_NE(at, window.shell().marks().all().end()) << mark;
@@ -509,7 +485,7 @@ TEST(Panels, SeveralAreOpenedByTheDialogAlone) {
 TEST(Panels, TheDialogGoesUpAndIntoFolders) {
     Window w;
     std::filesystem::create_directory(w.folder.file("deep"));
-    w.folder.write("deep/other.csv", mobbscope::testing::slurp(w.folder.file("walk.csv")));
+    w.folder.write("deep/other.csv", slurp(w.folder.file("walk.csv")));
     w.key("Ctrl+O");
     w.type("deep");
     w.key("Enter");
@@ -560,7 +536,7 @@ TEST(Panels, AClickOnAFileNamesTheOneToBeWritten) {
     w.click("save.ok");
     EXPECT_TRUE(w.session.dialogs.input.confirming);
     w.key("Escape");
-    EXPECT_EQ(mobbscope::testing::slurp(w.folder.file("there.json")), "old");
+    EXPECT_EQ(slurp(w.folder.file("there.json")), "old");
 }
 
 TEST(Panels, WhatCannotBeOpenedIsSaidOverTheDialog) {
@@ -585,7 +561,7 @@ TEST(Panels, OverwritingAsks) {
     w.key("Enter");
     EXPECT_EQ(w.session.dialogs.now, Dialog::save_as);
     w.change_view("overwrite");
-    EXPECT_EQ(mobbscope::testing::slurp(w.folder.file("there.json")), "old");
+    EXPECT_EQ(slurp(w.folder.file("there.json")), "old");
     w.key("Enter");
     EXPECT_EQ(all_messages(w.session), "Saved " + w.folder.file("there.json").string() + "\n");
     EXPECT_EQ(w.session.dialogs.now, Dialog::none);
@@ -624,7 +600,7 @@ TEST(Panels, MessagesGoBehindTheBellWhereTheyAreRead) {
     EXPECT_EQ(w.session.dialogs.now, Dialog::messages);
     EXPECT_EQ(w.session.notifications.unread(), 0u);
     w.change_view("message_list");
-    testing::TestDesktop desktop;
+    TestDesktop desktop;
     w.session.desktop = &desktop;
     w.click("messages.0.copy");
     EXPECT_EQ(desktop.text, "This went wrong") << "the latest stands first";

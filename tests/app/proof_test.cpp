@@ -5,7 +5,7 @@
 #include <explain/certificate_file.h>
 #include <render/gl/gl_context.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -17,8 +17,6 @@
 
 namespace mobbscope::app {
 namespace {
-
-using testing::CrossingFolder;
 
 /// A stands while B goes around it in 6 s, 2 m away: no single line proves that. C walks far off.
 std::string circling_scene() {
@@ -34,14 +32,9 @@ std::string circling_scene() {
            circle + R"(]}}, "agents": [{"name": "A", "clip": "stand"}, {"name": "B", "clip": "circle"}]})";
 }
 
-struct ProofWindow {
-    CrossingFolder folder;
-    Session session{false};
-    HeadlessWindow window;
-
-    ProofWindow() : window(GlContext::open(Backend::automatic), session, {1280, 900}, 1) {
-        session.files.open({folder.write("circling.json", circling_scene())});
-        window.settle();
+struct ProofWindow : FolderWindow<CrossingFolder> {
+    ProofWindow() : FolderWindow({1280, 900}) {
+        open(folder.write("circling.json", circling_scene()));
         run("query.select", "0");
     }
     void run(const std::string& command, const std::string& argument = "") {
@@ -51,7 +44,6 @@ struct ProofWindow {
     }
     const QueryProof& proof() const { return findings_of()->proof; }
     std::shared_ptr<const QueryFindings> findings_of() const { return session.queries.findings(); }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
     glm::vec2 at(const std::string& mark) { return window.shell().marks().all().at(mark).center(); }
     void move(glm::vec2 to) {
         window.shell().feed(MouseMove{to});

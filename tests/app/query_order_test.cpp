@@ -1,4 +1,6 @@
 // Of many queries those that hit are listed first; their numbers stay.
+#include "app/folder_window.h"
+
 #include <app/commands/command.h>
 #include <app/window/headless_window.h>
 #include <render/gl/gl_context.h>
@@ -24,15 +26,8 @@ std::string standing_row() {
     return text + "]}";
 }
 
-struct QueryOrderWindow {
-    mobbscope::testing::TempFolder folder;
-    Session session{false};
-    HeadlessWindow window;
-
-    QueryOrderWindow() : window(GlContext::open(Backend::automatic), session, {900, 1400}, 1) {
-        session.files.open({folder.write("row.json", standing_row())});
-        window.settle();
-    }
+struct QueryOrderWindow : FolderWindow<TempFolder> {
+    QueryOrderWindow() : FolderWindow({900, 1400}) { open(folder.write("row.json", standing_row())); }
     float height_of(int query) { return window.shell().marks().all().at("query." + std::to_string(query)).min.y; }
     void click(const std::string& mark) {
         window.shell().feed(MouseMove{window.shell().marks().all().at(mark).center()});

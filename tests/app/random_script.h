@@ -13,7 +13,8 @@
 #include <string_view>
 #include <vector>
 
-namespace mobbscope::app::test {
+namespace mobbscope::app {
+inline namespace testing {
 
 class RandomScript {
   public:
@@ -136,4 +137,5 @@ class RandomScript {
     std::vector<std::string> keys_;
 };
 
-}  // namespace mobbscope::app::test
+}  // namespace testing
+}  // namespace mobbscope::app

@@ -6,7 +6,7 @@
 #include <explain/reasons.h>
 #include <render/gl/gl_context.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <gtest/gtest.h>
 
@@ -23,21 +23,15 @@ namespace mobbscope::app {
 namespace {
 
 /// A window over a query of A against C, who pass close by each other for two seconds.
-struct PassingWorld {
-    testing::CrossingFolder folder;
-    Session session{false};
-    HeadlessWindow window;
-
-    explicit PassingWorld(PictureSize size = {1280, 2800})
-        : window(GlContext::open(Backend::automatic), session, size, 1) {
+struct PassingWorld : FolderWindow<CrossingFolder> {
+    explicit PassingWorld(PictureSize size = {1280, 2800}) : FolderWindow(size) {
         folder.write("scene.json", R"({
             "clips": {"walk": {"source": "walk.csv"}},
             "agents": [{"name": "A", "clip": "walk"},
                        {"name": "B", "clip": "walk", "translate": [2, 0.82], "rotate_deg": 180},
                        {"name": "C", "clip": "walk", "translate": [1, -1], "rotate_deg": 90}],
             "fit": {"leaf": 4}})");
-        session.files.open({folder.scene});
-        window.settle();
+        open(folder.scene);
         run("run query.select 0\nrun step.first\nframes 3");
     }
     void run(const std::string& script) {
@@ -45,7 +39,6 @@ struct PassingWorld {
         Script::parse(script, "test").run(session, window, out);
     }
     const Rect& mark(const std::string& name) { return window.shell().marks().all().at(name); }
-    bool has(const std::string& name) { return window.shell().marks().all().contains(name); }
     const mobb::Trace& trace() const { return session.workspace.recorded()->trace; }
     const Recursion& recursion() const { return session.queries.findings()->recursion; }
     int step() const { return session.workspace.step(); }
@@ -192,7 +185,7 @@ TEST(ReasonsWindow, AllQueriesAreCountedAndTheWorstShown) {
 
 /// A session whose jobs are not waited for, over three agents of one clip; no job is under way.
 struct CountingWorld {
-    testing::CrossingFolder folder;
+    CrossingFolder folder;
     Session session{true};
 
     CountingWorld() {

@@ -19,12 +19,6 @@
 namespace mobbscope::app {
 namespace {
 
-using mobbscope::testing::comes;
-using mobbscope::testing::slurp;
-using testing::all_messages;
-using testing::CrossingFolder;
-using testing::refusal;
-
 /// The files below a folder.
 std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> out;

@@ -17,7 +17,7 @@ TEST(RecursionPicture, AStripHoldsEveryEventOnce) {
     Random random(11);
     int merged = 0, avoidable_in_all = 0;
     for (int round = 0; round < 200; ++round) {
-        const mobbscope::testing::RandomQuery asked = mobbscope::testing::random_query(random);
+        const RandomQuery asked = random_query(random);
         const Recursion recursion = recursion_of(asked.trace, asked.a(), asked.b());
         const int width = random.integer(1, random.chance(0.5) ? 12 : 300);
         const auto cells = strip_cells(asked.trace, recursion, {{0, asked.trace.size()}}, width);
@@ -57,7 +57,7 @@ TEST(RecursionPicture, ASquareShowsEveryPairThatWasDecided) {
     Random random(12);
     int merged = 0;
     for (int round = 0; round < 200; ++round) {
-        const mobbscope::testing::RandomQuery asked = mobbscope::testing::random_query(random);
+        const RandomQuery asked = random_query(random);
         const Recursion recursion = recursion_of(asked.trace, asked.a(), asked.b());
         const int size = random.integer(1, random.chance(0.5) ? 8 : 200);
         const auto& root = recursion.pairs.front();
@@ -94,7 +94,7 @@ TEST(RecursionPicture, AnIcicleHoldsEveryPairOnceAndLosesNoHit) {
     int merged = 0;
     int hits = 0;
     for (int round = 0; round < 200; ++round) {
-        const mobbscope::testing::RandomQuery asked = mobbscope::testing::random_query(random);
+        const RandomQuery asked = random_query(random);
         const Recursion recursion = recursion_of(asked.trace, asked.a(), asked.b());
         const int width = random.integer(1, random.chance(0.5) ? 12 : 300);
         const auto cells = icicle_cells(recursion, {{0, asked.trace.size()}}, width, 10);
@@ -122,7 +122,7 @@ TEST(RecursionPicture, AZoomShowsItsEventsAloneAndAFocusItsOwn) {
     Random random(14);
     int left_out = 0;
     for (int round = 0; round < 200; ++round) {
-        const mobbscope::testing::RandomQuery asked = mobbscope::testing::random_query(random);
+        const RandomQuery asked = random_query(random);
         const Recursion recursion = recursion_of(asked.trace, asked.a(), asked.b());
         const int first = random.integer(0, asked.trace.size() - 1);
         const EventRange range{first, random.integer(first + 1, asked.trace.size())};

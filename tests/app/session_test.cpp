@@ -12,10 +12,6 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::all_messages;
-using testing::CrossingFolder;
-using testing::refusal;
-
 /// A session that has the scene open, with agent A moved.
 struct Edited {
     CrossingFolder folder;

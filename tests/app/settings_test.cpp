@@ -1,6 +1,7 @@
 #include <app/document/settings.h>
 #include <base/lock.h>
 
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -12,9 +13,6 @@
 
 namespace mobbscope::app {
 namespace {
-
-using mobbscope::testing::slurp;
-using mobbscope::testing::TempFolder;
 
 /// By a window that has not read what is there.
 void save_settings(const std::filesystem::path& file, Settings settings) { SettingsFile(file).save(settings); }
@@ -194,8 +192,7 @@ TEST(Settings, ThatAreNestedDeepOrLargeCountAsUnreadable) {
     const std::filesystem::path file = folder.write("settings.json", nested(SettingsFile::kDeepest));
     EXPECT_EQ(keep_unreadable_settings(file), "");
     static_assert(SettingsFile::kMostBytes == 1'048'576 && SettingsFile::kDeepest == 64);
-    EXPECT_NE(slurp(MOBBSCOPE_SOURCE_DIR "/docs/limits.md").find("settings, nested 64 deep | 1,048,576 |"),
-              std::string::npos);
+    EXPECT_NE(slurp(kSource / "docs/limits.md").find("settings, nested 64 deep | 1,048,576 |"), std::string::npos);
 }
 
 TEST(Settings, AreNeverWrittenLargerThanTheyAreRead) {

@@ -25,14 +25,12 @@
 namespace mobbscope::app {
 namespace {
 
-using mobbscope::testing::TempFolder;
-
 constexpr PictureSize kSize{800, 500};
 
 class ShellTest : public ::testing::TestWithParam<Backend> {
   protected:
     void SetUp() override {
-        if (!mobbscope::testing::open_or_skip(GetParam())) return;
+        if (!open_or_skip(GetParam())) return;
         window = std::make_unique<HeadlessWindow>(GlContext::open(GetParam()), session, kSize, 1);
         session.files.open_demo();
         window->settle();
@@ -65,7 +63,7 @@ TEST_P(ShellTest, AFrameIsDrawn) {
         for (int x = 0; x < image.width; ++x) {
             const std::uint8_t* pixel = image.at(x, y);
             ASSERT_EQ(pixel[3], 255) << x << ' ' << y;
-            colors.insert((pixel[0] << 16) | (pixel[1] << 8) | pixel[2]);
+            colors.insert(static_cast<std::uint32_t>(pixel[0] << 16 | pixel[1] << 8 | pixel[2]));
         }
     }
     EXPECT_GE(colors.size(), 2u);
@@ -121,7 +119,7 @@ TEST_P(ShellTest, MarksGoToAFile) {
     const TempFolder folder;
     const std::string file = folder.path() / "marks.txt";
     EXPECT_EQ(run("marks " + file), "");
-    EXPECT_EQ(mobbscope::testing::slurp(file), run("marks"));
+    EXPECT_EQ(slurp(file), run("marks"));
 }
 
 TEST_P(ShellTest, ADragOfAWidgetByNameMovesIt) {
@@ -342,13 +340,12 @@ TEST_P(ShellTest, APressMakesAViewTheActiveOneAndLinkedCamerasMoveTogether) {
     EXPECT_GT(window->shell().viewport_picture().width, 2 * static_cast<int>(width) - 10);
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, ShellTest, ::testing::Values(Backend::osmesa, Backend::egl),
-                         mobbscope::testing::backend_name);
+INSTANTIATE_TEST_SUITE_P(Backends, ShellTest, ::testing::Values(Backend::osmesa, Backend::egl), backend_name);
 
 class UiPassTest : public ::testing::TestWithParam<Backend> {};
 
 TEST_P(UiPassTest, ClipsInPixelsOfTheFramebuffer) {
-    const std::unique_ptr<Renderer> renderer = mobbscope::testing::open_or_skip(GetParam());
+    const std::unique_ptr<Renderer> renderer = open_or_skip(GetParam());
     if (!renderer) return;
     ImGuiContext* imgui = ImGui::CreateContext();
     ImGui::SetCurrentContext(imgui);
@@ -382,8 +379,7 @@ TEST_P(UiPassTest, ClipsInPixelsOfTheFramebuffer) {
     ImGui::DestroyContext(imgui);
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, UiPassTest, ::testing::Values(Backend::osmesa, Backend::egl),
-                         mobbscope::testing::backend_name);
+INSTANTIATE_TEST_SUITE_P(Backends, UiPassTest, ::testing::Values(Backend::osmesa, Backend::egl), backend_name);
 
 }  // namespace
 }  // namespace mobbscope::app

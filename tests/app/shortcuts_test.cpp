@@ -20,8 +20,6 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::CrossingFolder;
-
 using Json = nlohmann::ordered_json;
 using Steps = std::vector<std::pair<std::string, std::string>>;
 

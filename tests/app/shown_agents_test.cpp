@@ -10,10 +10,6 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::all_messages;
-using testing::CrossingFolder;
-using testing::refusal;
-
 class ShownAgentsTest : public ::testing::Test {
   protected:
     ShownAgentsTest() {

@@ -7,7 +7,7 @@
 #include <explain/trace_comparison.h>
 #include <render/gl/gl_context.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <gtest/gtest.h>
 
@@ -25,12 +25,8 @@
 namespace mobbscope::app {
 namespace {
 
-struct SideBySide {
-    testing::CrossingFolder folder;
-    Session session{false};
-    HeadlessWindow window;
-
-    SideBySide() : window(GlContext::open(Backend::automatic), session, {1400, 1400}, 1) {
+struct SideBySide : FolderWindow<CrossingFolder> {
+    SideBySide() : FolderWindow({1400, 1400}) {
         session.files.open({folder.write("compared.json", R"({"clips": {"walk": {"source": "walk.csv"}},
             "agents": [{"name": "A", "clip": "walk"},
                        {"name": "B", "clip": "walk", "translate": [2, 0.82], "rotate_deg": 180}],
@@ -42,7 +38,6 @@ struct SideBySide {
         Script::parse(script, "test").run(session, window, out);
         window.settle();
     }
-    bool has(const std::string& name) { return window.shell().marks().all().contains(name); }
     const ViewState& here() const { return session.workspace.view(); }
     SceneView at(std::size_t place) const { return session.views.at(place); }
 };

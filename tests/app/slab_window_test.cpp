@@ -5,7 +5,7 @@
 #include <render/gl/gl_context.h>
 #include <render/parts/highlights.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <gtest/gtest.h>
 
@@ -17,12 +17,8 @@
 namespace mobbscope::app {
 namespace {
 
-struct SlabWindow {
-    testing::CrossingFolder folder;
-    Session session{false};
-    HeadlessWindow window{GlContext::open(Backend::automatic), session, PictureSize{1280, 800}, 1};
-
-    SlabWindow() {
+struct SlabWindow : FolderWindow<CrossingFolder> {
+    SlabWindow() : FolderWindow({1280, 800}) {
         session.files.open({folder.scene});
         while (session.jobs.job()) session.poll();
         window.settle();

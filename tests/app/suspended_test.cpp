@@ -17,8 +17,6 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::all_messages;
-using testing::CrossingFolder;
 namespace fs = std::filesystem;
 
 /// The crossing scene in a window, and a picture test of it that an earlier run has drawn nothing of.
@@ -326,11 +324,11 @@ TEST(Suspended, ARenamedAgentLeavesNoStepsUnderItsOldName) {
 TEST(Saving, AsksOnceMoreWhereAnotherProgramHasWrittenTheFile) {
     SuspendedWorld w;
     w.nudge();
-    const std::string theirs = mobbscope::testing::slurp(w.folder.scene) + "\n";
+    const std::string theirs = slurp(w.folder.scene) + "\n";
     w.folder.write("scene.json", theirs);
     fs::last_write_time(w.folder.scene, fs::last_write_time(w.folder.scene) + std::chrono::seconds(2));
     EXPECT_THROW(w.session.files.save(), InputError);
-    EXPECT_EQ(mobbscope::testing::slurp(w.folder.scene), theirs);
+    EXPECT_EQ(slurp(w.folder.scene), theirs);
     EXPECT_TRUE(w.session.workspace.modified());
     w.session.files.save();
     EXPECT_FALSE(w.session.workspace.modified());

@@ -3,7 +3,7 @@
 #include <render/gl/gl_context.h>
 #include <scene/scene_edits.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <gtest/gtest.h>
 
@@ -15,19 +15,8 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::CrossingFolder;
-
-struct SweepWindow {
-    CrossingFolder folder;
-    Session session{false};
-    HeadlessWindow window{GlContext::open(Backend::automatic), session, {1600, 1400}, 1};
-
-    SweepWindow() {
-        session.files.open({folder.scene});
-        window.settle();
-    }
-    Rect rect(const std::string& mark) { return window.shell().marks().all().at(mark); }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
+struct SweepWindow : FolderWindow<CrossingFolder> {
+    SweepWindow() : FolderWindow({1600, 1400}) { open(folder.scene); }
     void click(const std::string& mark) {
         window.shell().feed(MouseMove{0.5f * (rect(mark).min + rect(mark).max)});
         window.settle();

@@ -15,9 +15,7 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::all_messages;
-
-struct TreeWindow : testing::CrossingWindow {
+struct TreeWindow : CrossingWindow {
     const DrawList& shown() { return *window.shell().shown(); }
     const mobb::Tree& tree() const { return session.workspace.fitted().tree(0); }
     /// "1.1"

@@ -124,18 +124,17 @@ class Worked {
         } while (session.jobs.job());
     }
 
-    test::RandomScript script_;
+    RandomScript script_;
     std::string begun_;
     int opening_ = -1;
 };
 
 TEST(UndoScripts, AnyScriptUndoneIsTheSceneOfTheBeginAndRedoneAsItWas) {
-    if (!mobbscope::testing::open_or_skip(Backend::osmesa)) return;
-    const mobbscope::testing::TempFolder folder;
+    if (!open_or_skip(Backend::osmesa)) return;
+    const TempFolder folder;
     const std::filesystem::path demos = demo_scene_file().parent_path();
     const std::vector<std::filesystem::path> files{demos / "crossing.json", demos / "collision.json",
-                                                   demos / "circles.json",
-                                                   folder.write("run.json", testing::crowded_run())};
+                                                   demos / "circles.json", folder.write("run.json", crowded_run())};
     std::size_t undone = 0;
     int looked = 0;
     for (int seed = 0; seed < script_budget(); ++seed) {

@@ -8,7 +8,7 @@
 #include <render/gl/gl_context.h>
 #include <scene/view_options.h>
 
-#include "app/crossing_folder.h"
+#include "app/folder_window.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -26,24 +26,8 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::CrossingFolder;
-using testing::refusal;
-
-struct FigureWindow {
-    CrossingFolder folder;
-    Session session{false};
-    HeadlessWindow window{GlContext::open(Backend::automatic), session, {1600, 1000}, 1};
-
-    FigureWindow() {
-        session.files.open({folder.scene});
-        window.settle();
-    }
-    Rect rect(const std::string& mark) { return window.shell().marks().all().at(mark); }
-    bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
-    void run(const std::string& command, const std::string& argument = "") {
-        run_command(session, command, argument);
-        window.settle();
-    }
+struct FigureWindow : FolderWindow<CrossingFolder> {
+    FigureWindow() : FolderWindow({1600, 1000}) { open(folder.scene); }
     void move(glm::vec2 to) {
         window.shell().feed(MouseMove{to});
         window.settle();

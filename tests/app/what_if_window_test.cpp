@@ -14,7 +14,7 @@
 namespace mobbscope::app {
 namespace {
 
-struct WhatIfWindow : testing::CrossingWindow {
+struct WhatIfWindow : CrossingWindow {
     void unfold() {
         window.shell().feed(MouseMove{window.shell().marks().all().at("section.what if").center()});
         for (const bool down : {true, false}) {

@@ -26,10 +26,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-using testing::slurp;
-using testing::TempFolder;
-
 std::size_t files_in(const std::filesystem::path& folder) {
     return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
 }
@@ -174,7 +170,7 @@ TEST(File, IsWrittenWhereFilesNeedNames) {
     const TempFolder folder;
     const pid_t child = ::fork();
     if (child == 0) {
-        if (!testing::refuse_nameless_files()) ::_exit(77);
+        if (!refuse_nameless_files()) ::_exit(77);
         const std::array<FileBytes, 2> files{{{folder.path() / "x.csv", "x"}, {folder.path() / "y.csv", "y"}}};
         write_files(files);
         try {
@@ -219,7 +215,7 @@ TEST(File, ADiskThatFailsLeavesWhatWasThere) {
     const auto file = folder.write("x.csv", "old");
     const pid_t child = ::fork();
     if (child == 0) {
-        if (!mobbscope::testing::refuse_to_sync()) ::_exit(0);
+        if (!refuse_to_sync()) ::_exit(0);
         const auto fails = [](const auto& write) {
             try {
                 write();

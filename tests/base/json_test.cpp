@@ -11,8 +11,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-
 std::string json_refusal(std::string_view text) {
     return input_error([&] { parse_json(text, "f.json"); });
 }

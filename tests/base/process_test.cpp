@@ -16,11 +16,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::comes;
-using testing::is_alive;
-using testing::slurp;
-using testing::TempFolder;
-
 pid_t pid_in(const std::filesystem::path& file) {
     EXPECT_TRUE(comes([&] { return std::filesystem::exists(file) && slurp(file).ends_with('\n'); }));
     return static_cast<pid_t>(std::stol(slurp(file)));

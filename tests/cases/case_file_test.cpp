@@ -13,10 +13,6 @@
 namespace mobbscope::picture_tests {
 namespace {
 
-using mobbscope::testing::CaseFolder;
-using mobbscope::testing::input_error;
-using mobbscope::testing::says;
-
 TEST(FindCases, AreAllOfTheFolderAndThoseInItByName) {
     const CaseFolder cases;
     cases.add("b");

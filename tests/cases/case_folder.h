@@ -7,7 +7,8 @@
 #include <filesystem>
 #include <string>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 /// Whether a part stands in a message.
 inline bool says(const std::string& message, const std::string& part) {
@@ -45,4 +46,5 @@ class CaseFolder {
     TempFolder folder_;
 };
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

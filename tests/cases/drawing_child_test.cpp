@@ -22,11 +22,6 @@
 namespace mobbscope::picture_tests {
 namespace {
 
-using mobbscope::testing::CaseFolder;
-using mobbscope::testing::is_alive;
-using mobbscope::testing::slurp;
-using mobbscope::testing::TempFolder;
-
 /// Draws cases a, b, ... with a script that says of each what it has in a file, but for those that are told otherwise.
 class DrawCasesTest : public ::testing::Test {
   protected:

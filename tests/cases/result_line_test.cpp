@@ -16,11 +16,6 @@
 namespace mobbscope::picture_tests {
 namespace {
 
-using mobbscope::testing::CaseFolder;
-using mobbscope::testing::input_error;
-using mobbscope::testing::slurp;
-using mobbscope::testing::TempFolder;
-
 TEST(ResultLine, IsReadAsItIsWritten) {
     const CaseFolder cases;
     const CaseFile file = cases.add("a");

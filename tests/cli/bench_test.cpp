@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <mobb/kinds.h>
+#include <support/folders.h>
 #include <support/temp_folder.h>
 #include <nlohmann/json.hpp>
 
@@ -14,9 +15,6 @@
 
 namespace mobbscope {
 namespace {
-
-using testing::Result;
-using testing::run_program;
 
 TEST(Bench, Table2OnBuiltInClips) {
     const Result run = run_program({"bench", "table2", "--queries", "2000", "--rounds", "1", "--json"});
@@ -59,8 +57,8 @@ TEST(Bench, TakesEverySeedThatStaysTheSameInJson) {
 }
 
 TEST(Bench, AgentsWithoutQueriesAreAskedInPairs) {
-    const std::string scene = MOBBSCOPE_SOURCE_DIR "/assets/scenes/crossing.json";
-    const testing::TempFolder folder;
+    const std::string scene = kCrossing;
+    const TempFolder folder;
     nlohmann::json agents_alone = nlohmann::json::parse(std::ifstream(scene));
     agents_alone.erase("queries");
     for (nlohmann::json& clip : agents_alone["clips"]) {
@@ -77,7 +75,7 @@ TEST(Bench, AgentsWithoutQueriesAreAskedInPairs) {
 }
 
 TEST(Bench, Table2OnAFolder) {
-    const std::string folder = MOBBSCOPE_SHARED_DATA "/bvh/long";
+    const std::string folder = kSharedData / "bvh/long";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "needs " << folder;
     const Result run = run_program({"bench", "table2", folder, "--queries", "3000", "--rounds", "1", "--json"});
     ASSERT_EQ(run.status, 0) << run.err;
@@ -134,7 +132,7 @@ TEST(Bench, SaysHowQueriesWereDrawn) {
 }
 
 TEST(Bench, BadUsageIsSaidInOneLine) {
-    const std::string crossing = MOBBSCOPE_SOURCE_DIR "/assets/scenes/crossing.json";
+    const std::string crossing = kCrossing;
     for (const std::vector<std::string>& arguments : {std::vector<std::string>{"bench"},
                                                       {"bench", "table3"},
                                                       {"bench", "table2", "--queries", "0"},

@@ -1,6 +1,7 @@
 // Proofs of answers: what query writes and says, and what verify takes and refuses.
 #include "run_program.h"
 
+#include <support/folders.h>
 #include <support/json_keys.h>
 #include <support/temp_folder.h>
 
@@ -17,14 +18,6 @@
 
 namespace mobbscope {
 namespace {
-
-using nlohmann::json;
-using testing::is_one_line;
-using testing::keys;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
 
 /// A passes between B, whom it misses, and C, whom it meets.
 class Certificates : public ::testing::Test {
@@ -178,8 +171,7 @@ TEST_F(Certificates, ThatAreNoneAreRefusedWithStatusTwo) {
 TEST_F(Certificates, AreOfOneSceneAlone) {
     EXPECT_EQ(run_program({"verify", path("scene.json"), path("none.json")}).status, 2);
     EXPECT_EQ(run_program({"verify", path("scene.json")}).status, 2);
-    const Result wrong =
-        run_program({"verify", MOBBSCOPE_SOURCE_DIR "/assets/scenes/circles.json", path("proof.json")});
+    const Result wrong = run_program({"verify", kScenes / "circles.json", path("proof.json")});
     EXPECT_EQ(wrong.status, 2);
     EXPECT_TRUE(is_one_line(wrong.err)) << wrong.err;
 }

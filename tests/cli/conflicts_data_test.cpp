@@ -1,6 +1,7 @@
 // Conflicts of the project's recordings and plans, held against a search of its own.
 #include "run_program.h"
 
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -20,18 +21,6 @@
 
 namespace mobbscope {
 namespace {
-
-using nlohmann::json;
-using testing::run_program;
-using testing::TempFolder;
-
-json data_conflicts(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "conflicts");
-    arguments.emplace_back("--json");
-    const testing::Result run = run_program(arguments);
-    EXPECT_EQ(run.status, 0) << run.err;
-    return json::parse(run.out);
-}
 
 /// Somebody's rows of a converted crowd.
 struct ConvertedRow {
@@ -127,7 +116,7 @@ void expect_exact(const json& found, const ConvertedCrowd& crowd) {
 }
 
 TEST(ConflictsData, EveryTrajectoryFileIsAsAnExactSearchHasIt) {
-    const std::filesystem::path data = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "trajectories";
+    const std::filesystem::path data = kSharedData / "trajectories";
     if (!std::filesystem::exists(data)) GTEST_SKIP() << "no test data at " << data;
     std::size_t files = 0;
     std::size_t found = 0;
@@ -137,16 +126,16 @@ TEST(ConflictsData, EveryTrajectoryFileIsAsAnExactSearchHasIt) {
         SCOPED_TRACE(entry.path().filename());
         // Pixels and cells are wider than metres.
         const std::string radius = file.find("sdd_") != std::string::npos ? "10" : "0.3";
-        const json direct = data_conflicts({file, "--radius", radius, "--tree", "brute"});
+        const json direct = json_of({"conflicts", file, "--radius", radius, "--tree", "brute"});
         for (const std::string tree : {"mobb", "umobb"}) {
-            const json trees = data_conflicts({file, "--radius", radius, "--tree", tree});
+            const json trees = json_of({"conflicts", file, "--radius", radius, "--tree", tree});
             EXPECT_EQ(trees["conflicts"], direct["conflicts"]) << tree;
             EXPECT_LE(trees["pairs_tested"], direct["pairs_tested"]);
         }
         const TempFolder folder;
         const std::string csv = folder.path() / "crowd.csv";
         ASSERT_EQ(run_program({"convert", file, "--radius", radius, "-o", csv}).status, 0);
-        const ConvertedCrowd crowd = read_converted(testing::slurp(csv));
+        const ConvertedCrowd crowd = read_converted(slurp(csv));
         EXPECT_EQ(crowd.size(), crowd.empty() ? 0 : direct["agents"].get<std::size_t>());
         expect_exact(direct, crowd);
         found += direct["conflicts"].size();

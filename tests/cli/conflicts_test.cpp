@@ -1,6 +1,7 @@
 #include "run_program.h"
 
 #include <base/text.h>
+#include <support/folders.h>
 #include <support/json_keys.h>
 #include <support/temp_folder.h>
 
@@ -14,13 +15,6 @@
 namespace mobbscope {
 namespace {
 
-using nlohmann::json;
-using testing::is_one_line;
-using testing::keys;
-using testing::Result;
-using testing::run_program;
-using testing::TempFolder;
-
 // 1 goes along x, 2 comes towards it a second later; they pass 0.3 m apart at 4 m/s. 3 is elsewhere.
 const double kHalfOfContact = std::sqrt(0.4 * 0.4 - 0.3 * 0.3) / 4;  // seconds
 const std::string kTrajectories =
@@ -28,18 +22,10 @@ const std::string kTrajectories =
     "2 14 2 0.3\n3 10 20 20\n3 11 21 20\n";
 const std::string kCsv = "id,t,x,y,r\n1,5,0,0,0.2\n1,5.5,1,0,0.2\n1,6,2,0,0.2\n2,5.5,2,0.3,0.2\n2,6,1,0.3,0.2\n";
 
-json conflicts(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "conflicts");
-    arguments.emplace_back("--json");
-    const Result run = run_program(arguments);
-    EXPECT_EQ(run.status, 0) << run.err;
-    return json::parse(run.out);
-}
-
 TEST(Conflicts, JsonHasThePairs) {
     const TempFolder folder;
     const std::string file = folder.write("crowd.txt", kTrajectories);
-    const json found = conflicts({file});
+    const json found = json_of({"conflicts", file});
     EXPECT_EQ(keys(found), (std::set<std::string>{"file", "t0", "agents", "radius", "pairs", "pairs_tested", "seconds",
                                                   "conflicts"}));
     EXPECT_EQ(found["file"], file);
@@ -93,18 +79,20 @@ TEST(Conflicts, CheckIsStatusOneForAConflict) {
 
 TEST(Conflicts, TracksOfACsvKeepTheirTimes) {
     const TempFolder folder;
-    const json found = conflicts({folder.write("tracks.csv", kCsv)});
+    const json found = json_of({"conflicts", folder.write("tracks.csv", kCsv)});
     ASSERT_EQ(found["conflicts"].size(), 1u);
     // They walk towards each other at 2 m/s each, and pass at 0.75 s.
     ASSERT_EQ(found["conflicts"][0]["intervals"].size(), 1u);
     EXPECT_NEAR(found["conflicts"][0]["intervals"][0][0].get<double>(), 0.75 - kHalfOfContact, 1e-12);
     EXPECT_NEAR(found["conflicts"][0]["intervals"][0][1].get<double>(), 0.75 + kHalfOfContact, 1e-12);
     // Nobody collides with somebody who has left: 2 comes to where 1 was, when 1 is gone.
-    EXPECT_EQ(conflicts({folder.write(
-                  "gone.csv", "id,t,x,y,r\n1,5,0,0,0.2\n1,6,2,0,0.2\n2,6,2,0.3,0.2\n2,7,1,0.3,0.2\n")})["conflicts"]
-                  .size(),
-              0u);
-    EXPECT_EQ(conflicts({folder.write("one.csv", "t,x,y,r\n0,0,0,1\n1,0,0,1\n")})["pairs"], 0);
+    EXPECT_EQ(
+        json_of({"conflicts",
+                 folder.write("gone.csv",
+                              "id,t,x,y,r\n1,5,0,0,0.2\n1,6,2,0,0.2\n2,6,2,0.3,0.2\n2,7,1,0.3,0.2\n")})["conflicts"]
+            .size(),
+        0u);
+    EXPECT_EQ(json_of({"conflicts", folder.write("one.csv", "t,x,y,r\n0,0,0,1\n1,0,0,1\n")})["pairs"], 0);
 }
 
 TEST(Conflicts, ARadiusIsForEveryClip) {
@@ -112,7 +100,7 @@ TEST(Conflicts, ARadiusIsForEveryClip) {
     const std::string file = folder.write("s.json", R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1],[1,0,1]]},
         "d": {"dt": 1, "samples": [[0,0,2]]}}, "agents": [{"name": "A", "clip": "c"},
         {"name": "B", "clip": "d", "translate": [0, 2.5]}]})");
-    const json found = conflicts({file});
+    const json found = json_of({"conflicts", file});
     EXPECT_TRUE(found["radius"].is_null());
     EXPECT_EQ(found["conflicts"].size(), 1u);
     const Result run = run_program({"conflicts", file, "--radius", "1", "--json"});
@@ -129,11 +117,11 @@ const std::string kOneCell =
 TEST(Conflicts, OfAPlanNamesWhoIsInOneCell) {
     const TempFolder folder;
     const std::string file = folder.write("plan.yaml", kOneCell);
-    const json found = conflicts({file})["conflicts"];
+    const json found = json_of({"conflicts", file})["conflicts"];
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0]["plan"], json::parse(R"([{"kind": "vertex", "t0": 1, "t1": 1, "a": [1, 0], "b": [1, 0]}])"));
     EXPECT_NE(run_program({"conflicts", file}).out.find("; vertex conflict at 1 s in (1, 0)\n"), std::string::npos);
-    EXPECT_FALSE(conflicts({folder.write("crowd.txt", kTrajectories)})["conflicts"][0].contains("plan"))
+    EXPECT_FALSE(json_of({"conflicts", folder.write("crowd.txt", kTrajectories)})["conflicts"][0].contains("plan"))
         << "people are in no cells";
 }
 
@@ -142,7 +130,7 @@ TEST(Conflicts, OfAPlanNamesWhoSwapCells) {
     const std::string file = folder.write("plan.yaml",
                                           "schedule:\n  a:\n  - {t: 0, x: 0, y: 0}\n  - {t: 1, x: 1, y: 0}\n"
                                           "  b:\n  - {t: 0, x: 1, y: 0}\n  - {t: 1, x: 0, y: 0}\n");
-    const json found = conflicts({file})["conflicts"];
+    const json found = json_of({"conflicts", file})["conflicts"];
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0]["plan"], json::parse(R"([{"kind": "swap", "t0": 0, "t1": 1, "a": [0, 0], "b": [1, 0]}])"));
     EXPECT_NE(
@@ -153,9 +141,7 @@ TEST(Conflicts, OfAPlanNamesWhoSwapCells) {
 
 /// The conflicts of a plan in the words of path finding, "vertex 4 (2,0); ", as conflicts --json has them.
 std::string named_conflicts(const std::string& file, const std::vector<std::string>& options = {}) {
-    std::vector<std::string> arguments{file};
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    const json all = conflicts(arguments);
+    const json all = json_of(with({"conflicts", file}, options));
     std::string out;
     for (const json& pair : all["conflicts"]) {
         for (const json& found : pair["plan"]) {
@@ -201,10 +187,10 @@ TEST(Conflicts, AgentsOfAPlanStayAtTheirGoals) {
         const std::string file = folder.write("plan.yaml", "schedule: {" + plan.agents + "}\n");
         EXPECT_EQ(named_conflicts(file), plan.conflicts) << plan.what;
         EXPECT_EQ(run_program({"conflicts", file, "--check"}).status, plan.conflicts.empty() ? 0 : 1) << plan.what;
-        const json direct = conflicts({file, "--tree", "brute"})["conflicts"];
-        EXPECT_EQ(conflicts({file})["conflicts"], direct) << plan.what;
+        const json direct = json_of({"conflicts", file, "--tree", "brute"})["conflicts"];
+        EXPECT_EQ(json_of({"conflicts", file})["conflicts"], direct) << plan.what;
         for (const std::string tree : {"mobb", "umobb"})
-            EXPECT_EQ(conflicts({file, "--tree", tree})["conflicts"], direct) << plan.what << tree;
+            EXPECT_EQ(json_of({"conflicts", file, "--tree", tree})["conflicts"], direct) << plan.what << tree;
     }
 }
 
@@ -213,7 +199,7 @@ TEST(Conflicts, OfAPlanAreTheSameWhereverItGoes) {
     const std::string file = folder.write("plan.yaml",
                                           "schedule: {a: [{t: 0, x: 0, y: 0}, {t: 1, x: 1, y: 0}], b: [{t: 0, x: 1, y: "
                                           "3}, {t: 3, x: 1, y: 0}, {t: 5, x: 1, y: 2}]}");
-    const json whole = conflicts({file})["conflicts"];
+    const json whole = json_of({"conflicts", file})["conflicts"];
     ASSERT_EQ(whole.size(), 1u);
     EXPECT_EQ(named_conflicts(file), "vertex 3 (1,0); ");
     EXPECT_EQ(named_conflicts(file, {"--trim", "2:5"}), "vertex 3 (1,0); ");
@@ -222,7 +208,7 @@ TEST(Conflicts, OfAPlanAreTheSameWhereverItGoes) {
     for (const char* name : {"plan.csv", "plan.json"}) {
         const std::string copy = (folder.path() / name).string();
         ASSERT_EQ(run_program({"convert", file, "-o", copy}).status, 0);
-        const json found = conflicts({copy})["conflicts"];
+        const json found = json_of({"conflicts", copy})["conflicts"];
         ASSERT_EQ(found.size(), 1u) << name;
         for (const char* key : {"a", "b", "intervals", "time", "position"})
             EXPECT_EQ(found[0][key], whole[0][key]) << name << key;
@@ -240,7 +226,7 @@ TEST(Conflicts, OfTextPlansAreNamedToo) {
 }
 
 TEST(Conflicts, OfThePublicPlansAreWhatIsExpected) {
-    const std::filesystem::path data = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "public";
+    const std::filesystem::path data = kSharedData / "public";
     if (!std::filesystem::exists(data)) GTEST_SKIP() << "no test data at " << data;
     const std::pair<const char*, const char*> expected[] = {{"mapf_passes_over_reached_goal.yaml", "vertex 4 (2,0); "},
                                                             {"mapf_starts_at_goal.yaml", "vertex 3 (1,0); "}};
@@ -279,11 +265,11 @@ TEST(Trajectories, ASceneOfThemHasAnAgentForEachTrack) {
     const std::string file = folder.write("crowd.txt", kTrajectories);
     const std::string scene = (folder.path() / "crowd.json").string();
     ASSERT_EQ(run_program({"convert", file, "-o", scene}).status, 0);
-    const json written = json::parse(testing::slurp(scene));
+    const json written = json::parse(slurp(scene));
     ASSERT_EQ(written["agents"].size(), 3u);
     EXPECT_EQ(written["agents"][1]["name"], "2");
     EXPECT_EQ(written["agents"][1]["start"], 1);
-    EXPECT_EQ(conflicts({scene})["conflicts"], conflicts({file})["conflicts"]);
+    EXPECT_EQ(json_of({"conflicts", scene})["conflicts"], json_of({"conflicts", file})["conflicts"]);
     EXPECT_EQ(json::parse(run_program({"query", file, "--json"}).out)["results"].size(), 3u);
 }
 
@@ -292,10 +278,10 @@ TEST(Trajectories, AsCsvTheyKeepTheirTimes) {
     const std::string file = folder.write("crowd.txt", kTrajectories);
     const std::string csv = (folder.path() / "crowd.csv").string();
     ASSERT_EQ(run_program({"convert", file, "-o", csv}).status, 0);
-    const std::string text = testing::slurp(csv);
+    const std::string text = slurp(csv);
     EXPECT_TRUE(text.starts_with("id,t,x,y,r\n1,0,0,0,0.2")) << text;
     EXPECT_NE(text.find("\n2,1.5,3,0.3,"), std::string::npos) << text;
-    EXPECT_EQ(conflicts({csv})["conflicts"], conflicts({file})["conflicts"]);
+    EXPECT_EQ(json_of({"conflicts", csv})["conflicts"], json_of({"conflicts", file})["conflicts"]);
 }
 
 TEST(Trajectories, WhatHoldsForAllIsSaidOnce) {
@@ -309,8 +295,8 @@ TEST(Trajectories, WhatHoldsForAllIsSaidOnce) {
 
 /// A small run; `kind` in place of "forced".
 std::string small_run(const std::string& kind) {
-    const std::string source = MOBBSCOPE_SOURCE_DIR;
-    std::string text = testing::slurp(source + "/tests/app/goldens/files/run.json");
+    const std::string source = kSource;
+    std::string text = slurp(source + "/tests/app/goldens/files/run.json");
     const auto replace_all = [&](const std::string& part, const std::string& by) {
         for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + by.size()))
             text.replace(at, part.size(), by);
@@ -324,8 +310,8 @@ TEST(ConflictsOfARun, ThoseWithoutAForcedPlayAreCounted) {
     const TempFolder folder;
     const std::string run = folder.write("run.json", small_run("forced"));
     const std::string edited = folder.write("edited.json", small_run("pivoted"));
-    EXPECT_EQ(conflicts({run})["unforced"], 0);
-    EXPECT_GT(conflicts({edited})["unforced"], 0);
+    EXPECT_EQ(json_of({"conflicts", run})["unforced"], 0);
+    EXPECT_GT(json_of({"conflicts", edited})["unforced"], 0);
     EXPECT_EQ(run_program({"conflicts", run}).out.find("without a forced play"), std::string::npos);
     EXPECT_NE(run_program({"conflicts", edited}).out.find("without a forced play: an answer was wrong"),
               std::string::npos);

@@ -5,6 +5,7 @@
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -18,20 +19,12 @@
 namespace mobbscope {
 namespace {
 
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
-
-const std::string kOwnClips = MOBBSCOPE_SOURCE_DIR "/assets/clips";
-
 /// A run of the project's own clips, made once.
 class ConvertAgent : public ::testing::Test {
   protected:
     static void SetUpTestSuite() {
         runs_ = std::make_unique<TempFolder>();
-        ASSERT_EQ(run_program({"graph", "build", kOwnClips, "-o", path("graph.json")}).status, 0);
+        ASSERT_EQ(run_program({"graph", "build", kClips, "-o", path("graph.json")}).status, 0);
         ASSERT_EQ(
             run_program({"simulate", path("graph.json"), "--agents", "17", "--seconds", "10", "-o", run()}).status, 0);
     }
@@ -46,10 +39,7 @@ class ConvertAgent : public ::testing::Test {
         arguments.insert(arguments.begin(), "convert");
         arguments.insert(arguments.end(), {"-o", file});
         const Result result = run_program(arguments);
-        EXPECT_EQ(result.status, 2);
-        EXPECT_EQ(result.out, "");
-        EXPECT_TRUE(is_one_line(result.err)) << result.err;
-        EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+        testing::expect_refused(result, 2, words);
         EXPECT_EQ(slurp(file), "precious");
     }
 
@@ -95,7 +85,8 @@ TEST_F(ConvertAgent, WritesWhatItPlayedAndSaysWhenItBegins) {
 }
 
 TEST_F(ConvertAgent, AnAgentOfASceneAndAClipAlone) {
-    const std::string scene = folder.write("s.json", R"({"clips": {"w": {"source": ")" + kOwnClips + R"(/walk.glb"}},
+    const std::string scene =
+        folder.write("s.json", R"({"clips": {"w": {"source": ")" + kClips.string() + R"(/walk.glb"}},
         "agents": [{"name": "A", "clip": "w"},
                    {"name": "B", "clip": "w", "translate": [5, -2], "rotate_deg": 90, "start": 3}]})");
     const std::string out = folder.path() / "b.bvh";
@@ -108,7 +99,7 @@ TEST_F(ConvertAgent, AnAgentOfASceneAndAClipAlone) {
     EXPECT_NEAR(again.clips[0].clip->samples()[40].y, placed.disk(40).y, 1e-3);
 
     const std::string clip = folder.path() / "walk.BVH";
-    const Result alone = run_program({"convert", kOwnClips + "/walk.glb", "-o", clip});
+    const Result alone = run_program({"convert", kClips / "walk.glb", "-o", clip});
     EXPECT_EQ(alone.status, 0) << alone.err;
     EXPECT_EQ(load_scene(clip).clips[0].clip->count(), there.clips[0].clip->count());
 }
@@ -138,7 +129,7 @@ TEST_F(ConvertAgent, WhatCannotBeWrittenIsStatusThree) {
 
 TEST_F(ConvertAgent, ARadiusThatWasGivenIsSaidToBeLost) {
     const std::string out = folder.path() / "walk.glb";
-    const Result result = run_program({"convert", kOwnClips + "/walk.glb", "--radius", "0.9", "-o", out});
+    const Result result = run_program({"convert", kClips / "walk.glb", "--radius", "0.9", "-o", out});
     EXPECT_EQ(result.status, 0);
     EXPECT_TRUE(is_one_line(result.err)) << result.err;
     EXPECT_NE(result.err.find("radii differ by up to"), std::string::npos) << result.err;

@@ -2,20 +2,13 @@
 
 #include <import/tracks/csv.h>
 #include <scene/scene.h>
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
 
 namespace mobbscope {
 namespace {
-
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
-
-const std::string kConvertScenes = MOBBSCOPE_SOURCE_DIR "/assets/scenes/";
 
 /// Every sample of both clips, and when it begins.
 void expect_same(const mobb::Clip& a, const mobb::Clip& b) {
@@ -31,11 +24,11 @@ void expect_same(const mobb::Clip& a, const mobb::Clip& b) {
 TEST(Convert, OneClipToCsvAndBack) {
     const TempFolder folder;
     const std::string out = folder.path() / "out.csv";
-    const Result run = run_program({"convert", kConvertScenes + "circles.json", "-o", out});
+    const Result run = run_program({"convert", kScenes / "circles.json", "-o", out});
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(run.out + run.err, "");
     EXPECT_TRUE(slurp(out).starts_with("t,x,y,r\n0,"));
-    expect_same(*load_scene(out).clips.at(0).clip, *load_scene(kConvertScenes + "circles.json").clips.at(0).clip);
+    expect_same(*load_scene(out).clips.at(0).clip, *load_scene(kScenes / "circles.json").clips.at(0).clip);
 }
 
 TEST(Convert, SeveralClipsToCsvHaveIds) {
@@ -60,7 +53,7 @@ TEST(Convert, SeveralClipsToCsvHaveIds) {
 
 TEST(Convert, ToJsonKeepsTheSceneAndNeedsNoOtherFile) {
     const TempFolder folder;
-    folder.write("walk.csv", slurp(kConvertScenes + "walk.csv"));
+    folder.write("walk.csv", slurp(kScenes / "walk.csv"));
     const std::string scene = folder.write("s.json", R"({"clips": {"w": {"source": "walk.csv", "trim": [1, 2]}},
         "agents": [{"name": "A", "clip": "w"}, {"name": "B", "clip": "w", "start": 5}], "fit": {"leaf": 4},
         "queries": [{"a": "A", "b": "B"}], "view": {"theme": "light"}})");
@@ -86,7 +79,7 @@ TEST(Convert, ARefusalLeavesWhatWasThere) {
 }
 
 TEST(Convert, WhatCannotBeWrittenIsStatusThree) {
-    const Result run = run_program({"convert", kConvertScenes + "walk.csv", "-o", "/nonexistent/folder/out.csv"});
+    const Result run = run_program({"convert", kScenes / "walk.csv", "-o", "/nonexistent/folder/out.csv"});
     EXPECT_EQ(run.status, 3);
     EXPECT_TRUE(is_one_line(run.err)) << run.err;
 }

@@ -1,6 +1,7 @@
 #include "run_program.h"
 
 #include <render/image/png.h>
+#include <support/folders.h>
 #include <support/json_keys.h>
 #include <support/temp_folder.h>
 
@@ -17,12 +18,6 @@
 
 namespace mobbscope {
 namespace {
-
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
 
 Image grey(int width, int height) {
     Image image(width, height);
@@ -48,13 +43,6 @@ class DiffTest : public ::testing::Test {
         arguments.insert(arguments.end(), more.begin(), more.end());
         return run_program(arguments);
     }
-    void expect_refused(const Result& run, int status, const std::string& why) const {
-        EXPECT_EQ(run.status, status) << run.err;
-        EXPECT_TRUE(is_one_line(run.err)) << run.err;
-        EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
-        EXPECT_EQ(run.out, "");
-    }
-
     const TempFolder folder;
     const std::string heat = folder.path() / "heat.png";
     const std::string strip = folder.path() / "strip.png";
@@ -161,7 +149,7 @@ TEST_F(DiffTest, JsonHasAllFigures) {
     EXPECT_EQ(run.status, 1);
     EXPECT_EQ(run.err, "");
     const auto report = nlohmann::json::parse(run.out);
-    EXPECT_EQ(testing::keys(report),
+    EXPECT_EQ(keys(report),
               (std::set<std::string>{"same", "passes", "same_size", "size_a", "size_b", "pixels", "unequal", "failing",
                                      "fraction", "maximum", "mean", "unequal_bounds", "bounds", "histogram",
                                      "threshold", "allowed", "least_pixels", "allowed_pixels", "shift"}));
@@ -236,12 +224,11 @@ TEST_F(DiffTest, WhatCannotBeWrittenIsStatusThreeAndLeavesNothing) {
 
 /// Neither the number of threads nor the order in which they finish shows.
 TEST_F(DiffTest, OneMoreCoreIsNoDifference) {
-    if (!testing::open_or_skip(Backend::automatic)) return;
+    if (!open_or_skip(Backend::automatic)) return;
     const auto render = [&](const char* threads, const char* name) {
         ::setenv("LP_NUM_THREADS", threads, 1);
         const std::string out = folder.path() / name;
-        const Result run = run_program({"render", MOBBSCOPE_SOURCE_DIR "/assets/scenes/crossing.json", "-o", out,
-                                        "--size", "640x360", "--level", "0:3"});
+        const Result run = run_program({"render", kCrossing, "-o", out, "--size", "640x360", "--level", "0:3"});
         ::unsetenv("LP_NUM_THREADS");
         EXPECT_EQ(run.status, 0) << run.err;
         return out;

@@ -26,9 +26,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::Result;
-using testing::run_program;
-
 /// What puts the libraries that crash before the real ones.
 std::function<void()> with_drivers(const std::vector<std::string>& libraries, const std::string& fault) {
     std::string folders;
@@ -44,7 +41,7 @@ const std::vector<std::string> kBothDrivers{"libOSMesa.so.8", "libEGL.so.1"};
 class DriverCrash : public ::testing::Test {
   protected:
     void SetUp() override {
-        folder_.write("scene.json", testing::kStandingScene);
+        folder_.write("scene.json", kStandingScene);
         folder_.write("s.script", "picture " + picture() + "\n");
     }
     std::string scene() const { return (folder_.path() / "scene.json").string(); }
@@ -54,7 +51,7 @@ class DriverCrash : public ::testing::Test {
         return run_program(arguments, {}, "/dev/null", in_child);
     }
 
-    testing::TempFolder folder_;
+    TempFolder folder_;
 };
 
 TEST_F(DriverCrash, EveryCommandThatDrawsEndsWithALine) {
@@ -69,7 +66,7 @@ TEST_F(DriverCrash, EveryCommandThatDrawsEndsWithALine) {
         for (const std::vector<std::string>& command : commands) {
             const Result result = run(command, with_drivers(kBothDrivers, fault));
             EXPECT_EQ(result.status, 3) << fault << ": " << result.err;
-            EXPECT_TRUE(testing::is_one_line(result.err)) << result.err;
+            EXPECT_TRUE(is_one_line(result.err)) << result.err;
             EXPECT_NE(result.err.find("crashed ("), std::string::npos) << result.err;
             EXPECT_FALSE(std::filesystem::exists(picture()));
         }
@@ -86,11 +83,11 @@ TEST_F(DriverCrash, ListBackendsTellsOfIt) {
 }
 
 TEST_F(DriverCrash, TheNextOneDraws) {
-    if (!testing::open_or_skip(Backend::egl)) return;
+    if (!open_or_skip(Backend::egl)) return;
     const Result result =
         run({"render", scene(), "-o", picture()}, with_drivers({"libOSMesa.so.8"}, "writes to nothing"));
     EXPECT_EQ(result.status, 0) << result.err;
-    EXPECT_TRUE(testing::is_one_line(result.err)) << result.err;
+    EXPECT_TRUE(is_one_line(result.err)) << result.err;
     EXPECT_NE(result.err.find("egl draws"), std::string::npos) << result.err;
     EXPECT_NE(result.err.find("crashed (Segmentation fault in libOSMesa.so.8)"), std::string::npos) << result.err;
     EXPECT_TRUE(std::filesystem::exists(picture()));
@@ -119,7 +116,7 @@ TEST_F(DriverCrash, MesaDrawsOrIsTold) {
 }
 
 TEST_F(DriverCrash, ResultsComeOnce) {
-    if (!testing::open_or_skip(Backend::automatic)) return;
+    if (!open_or_skip(Backend::automatic)) return;
     const std::string says = folder_.write("says.script", "state\n").string();
     const Result watched = run({scene(), "--headless", "--script", says}, [] {});
     const Result alone = run({scene(), "--headless", "--script", says}, [] { ::setenv("MOBBSCOPE_NO_WATCH", "1", 1); });
@@ -151,8 +148,7 @@ class WatchedProgram : public DriverCrash {
   protected:
     void SetUp() override {
         DriverCrash::SetUp();
-        program_ =
-            testing::start_program({"render", scene(), "-o", picture()}, {}, with_drivers(kBothDrivers, "hangs"));
+        program_ = start_program({"render", scene(), "-o", picture()}, {}, with_drivers(kBothDrivers, "hangs"));
         const std::string id = std::to_string(program_);
         ASSERT_TRUE(soon([&] {
             std::ifstream children("/proc/" + id + "/task/" + id + "/children");
@@ -199,9 +195,9 @@ class WatchedProgram : public DriverCrash {
 };
 
 TEST(WatchedStatus, IsTheChildsWhereTheParentsParentIgnoresChildren) {
-    if (!testing::open_or_skip(Backend::automatic)) return;
-    const testing::TempFolder folder;
-    const std::string scene = folder.write("scene.json", testing::kStandingScene);
+    if (!open_or_skip(Backend::automatic)) return;
+    const TempFolder folder;
+    const std::string scene = folder.write("scene.json", kStandingScene);
     const std::string script = folder.write("s.script", "expect /none 1\n");
     const Result run =
         run_program({scene, "--headless", "--script", script}, {}, "/dev/null", [] { ::signal(SIGCHLD, SIG_IGN); });

@@ -1,6 +1,7 @@
 // A run whose seed was edited: pictures of its choices say that they do not come out as the file says.
 #include "run_program.h"
 
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -11,20 +12,15 @@
 namespace mobbscope {
 namespace {
 
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::TempFolder;
-
 TEST(EditedRun, IsToldByThePictureOfAChoice) {
     const TempFolder folder;
-    const std::filesystem::path walkers = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/clips";
+    const std::filesystem::path walkers = kClips;
     const std::string run = (folder.path() / "run.json").string();
     ASSERT_EQ(run_program({"simulate", walkers.string(), "--whole", "--agents", "6", "--area", "30x30", "--seconds",
                            "14", "--seed", "1", "--inline", "-o", run})
                   .status,
               0);
-    std::string text = testing::slurp(run);
+    std::string text = slurp(run);
     const std::size_t seed = text.find("\"seed\": 1");
     ASSERT_NE(seed, std::string::npos);
     const std::string edited = folder.write("edited.json", text.replace(seed, 9, "\"seed\": 7"));
@@ -44,7 +40,7 @@ TEST(EditedRun, IsToldByThePictureOfAChoice) {
         EXPECT_NE(result.err.find(": seed, grace, plays or clips were edited since, another version simulated it, or "
                                   "an answer was wrong"),
                   std::string::npos);
-        EXPECT_NE(testing::slurp(out).find("made again the choice is"), std::string::npos) << "in the caption";
+        EXPECT_NE(slurp(out).find("made again the choice is"), std::string::npos) << "in the caption";
     }
     EXPECT_GT(told, 0);
 }

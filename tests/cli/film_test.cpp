@@ -19,7 +19,7 @@ constexpr std::size_t kPictureBytes = 320 * 240 * 4;
 constexpr const char* kBothEncoders = "libx264 libvpx-vp9";
 constexpr const char* kTakesAll = "cat >\"$HERE/pictures\"\nprintf film\n";
 
-class FilmTest : public testing::DrawingTest {
+class FilmTest : public DrawingTest {
   protected:
     FilmTest() { stand_in(kTakesAll); }
 
@@ -200,9 +200,8 @@ TEST_F(FilmTest, ADeviceHoldsNone) {
 TEST_F(FilmTest, ASignalEndsAll) {
     stand_in("echo $$ >\"$HERE/number\"\nln \"$HERE/number\" \"$HERE/started\"\nexec sleep 600\n");
     const std::string path = programs.path().string() + ':' + std::getenv("PATH");
-    const pid_t child =
-        testing::start_program({"render", scene, "--play", "--rate", "200", "--size", "320x240", "-o", film}, {},
-                               [&] { ::setenv("PATH", path.c_str(), 1); });
+    const pid_t child = start_program({"render", scene, "--play", "--rate", "200", "--size", "320x240", "-o", film}, {},
+                                      [&] { ::setenv("PATH", path.c_str(), 1); });
     const auto wait_for = [](const std::function<bool()>& what) {
         for (int i = 0; i < 6000 && !what(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
         return what();

@@ -5,6 +5,7 @@
 #include <explain/level_columns.h>
 #include <explain/what_if.h>
 #include <scene/fitted_scene.h>
+#include <support/folders.h>
 #include <support/json_keys.h>
 #include <support/temp_folder.h>
 
@@ -23,22 +24,14 @@
 namespace mobbscope {
 namespace {
 
-using nlohmann::json;
-using testing::keys;
-using testing::Result;
-using testing::run_program;
-
-const std::string kFitScenes = MOBBSCOPE_SOURCE_DIR "/assets/scenes/";
-
 TEST(Fit, JsonIsTheTree) {
-    const Result run = run_program({"fit", kFitScenes + "crossing.json", "--json", "--tree", "umobb", "--leaf", "7",
-                                    "--axes", "covariance", "--time-scale", "1.5", "--levels", "4"});
+    const Result run = run_program({"fit", kCrossing, "--json", "--tree", "umobb", "--leaf", "7", "--axes",
+                                    "covariance", "--time-scale", "1.5", "--levels", "4"});
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(run.err, "");
     const json trees = json::parse(run.out)["trees"];
     ASSERT_EQ(trees.size(), 2u);
-    const FittedScene fitted(load_scene(kFitScenes + "crossing.json"),
-                             {mobb::TreeKind::umobb, 7, 4, mobb::Axes::covariance, 1.5});
+    const FittedScene fitted(load_scene(kCrossing), {mobb::TreeKind::umobb, 7, 4, mobb::Axes::covariance, 1.5});
     const mobb::Tree& tree = fitted.tree(1);
     const json& printed = trees[1];
     EXPECT_EQ(keys(printed), (std::set<std::string>{"clip", "tree", "axes", "leaf", "time_scale", "expected", "levels",
@@ -120,7 +113,7 @@ std::vector<std::vector<std::string>> csv_rows(const std::string& text) {
 
 /// Every number of --csv is that of --json, and figures of levels follow from its rows.
 TEST(Fit, CsvHasARowForEachNode) {
-    const std::string scene = kFitScenes + "crossing.json";
+    const std::string scene = kCrossing;
     for (const char* kind : {"mobb", "umobb", "moving", "blocks"}) {
         const Result run = run_program({"fit", scene, "--csv", "--tree", kind, "--leaf", "7"});
         ASSERT_EQ(run.status, 0) << run.err;
@@ -173,7 +166,7 @@ TEST(Fit, CsvHasARowForEachNode) {
 }
 
 TEST(Fit, CsvQuotesNamesAndIsNoJson) {
-    const testing::TempFolder folder;
+    const TempFolder folder;
     const auto file = folder.write("named.json", R"({"clips": {"a, \"b\"\nc": {"dt": 1, "samples": [[0, 0, 1]]}}})");
     const Result run = run_program({"fit", file.string(), "--csv"});
     ASSERT_EQ(run.status, 0) << run.err;
@@ -186,20 +179,19 @@ TEST(Fit, CsvQuotesNamesAndIsNoJson) {
 
 /// What is expected is by a formula, which blocks have none of: they are counted.
 TEST(Fit, NothingIsExpectedOfBlocks) {
-    const Result run = run_program({"fit", kFitScenes + "crossing.json", "--json", "--tree", "blocks"});
+    const Result run = run_program({"fit", kCrossing, "--json", "--tree", "blocks"});
     ASSERT_EQ(run.status, 0) << run.err;
     const json tree = json::parse(run.out)["trees"][0];
     EXPECT_TRUE(tree["expected"].is_null());
     EXPECT_TRUE(tree["nodes"][0]["share"].is_null());
-    EXPECT_EQ(run_program({"fit", kFitScenes + "crossing.json", "--tree", "blocks"}).out.find("expected"),
-              std::string::npos);
+    EXPECT_EQ(run_program({"fit", kCrossing, "--tree", "blocks"}).out.find("expected"), std::string::npos);
 }
 
 TEST(Fit, TheTableHasTheColumnsOfALevel) {
-    const Result run = run_program({"fit", kFitScenes + "crossing.json"});
+    const Result run = run_program({"fit", kCrossing});
     const std::string headings = "  level   nodes   volume m^2*s   tightness %   box tests   cost %";
     EXPECT_NE(run.out.find("\n" + headings + "\n"), std::string::npos) << run.out;
-    const FittedScene fitted(load_scene(kFitScenes + "crossing.json"), {});
+    const FittedScene fitted(load_scene(kCrossing), {});
     const ExpectedCost expected = expected_cost(fitted.tree(0), fitted.tree(0)).value();
     std::istringstream lines(run.out);
     std::string line;
@@ -220,10 +212,10 @@ TEST(Fit, TheTableHasTheColumnsOfALevel) {
 }
 
 TEST(Fit, WhatIfANodeWereOther) {
-    const Result run = run_program({"fit", kFitScenes + "crossing.json", "--what-if", "1.0", "--json"});
+    const Result run = run_program({"fit", kCrossing, "--what-if", "1.0", "--json"});
     ASSERT_EQ(run.status, 0) << run.err;
     const json clips = json::parse(run.out)["what_if"];
-    const FittedScene fitted(load_scene(kFitScenes + "crossing.json"), {});
+    const FittedScene fitted(load_scene(kCrossing), {});
     ASSERT_EQ(clips.size(), fitted.scene().clips.size());
     for (std::size_t i = 0; i < clips.size(); ++i) {
         const json& of = clips[i];
@@ -254,23 +246,23 @@ TEST(Fit, WhatIfANodeWereOther) {
 }
 
 TEST(Fit, WhatIfIsATable) {
-    const Result run = run_program({"fit", kFitScenes + "crossing.json", "--what-if", "1"});
+    const Result run = run_program({"fit", kCrossing, "--what-if", "1"});
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_NE(run.out.find(", node 1 (level 1): samples 0.."), std::string::npos) << run.out;
     EXPECT_NE(run.out.find("volume m^2*s   children m^2*s   box tests   sample pairs   cost ns"), std::string::npos);
     for (const char* what : {"as it is ", "axes covariance ", "axes minarea ", "3D box ", "split "}) {
         EXPECT_NE(run.out.find(what), std::string::npos) << what;
     }
-    const Result none = run_program({"fit", kFitScenes + "crossing.json", "--what-if", "9999"});
+    const Result none = run_program({"fit", kCrossing, "--what-if", "9999"});
     EXPECT_NE(none.status, 0);
     EXPECT_NE(none.err.find("the node"), std::string::npos) << none.err;
-    const Result blocks = run_program({"fit", kFitScenes + "crossing.json", "--what-if", "0", "--tree", "blocks"});
+    const Result blocks = run_program({"fit", kCrossing, "--what-if", "0", "--tree", "blocks"});
     EXPECT_NE(blocks.status, 0);
     EXPECT_NE(blocks.err.find("no node of them can be other"), std::string::npos) << blocks.err;
 }
 
 TEST(Fit, WhatIfIsRefusedWholeWhereAClipHasNoSuchNode) {
-    const testing::TempFolder folder;
+    const TempFolder folder;
     const auto file = folder.write("two.json", R"({"clips": {
         "long": {"dt": 1, "samples": [[0, 0, 1], [3, 1, 1], [4, 9, 1]]},
         "short": {"dt": 1, "samples": [[0, 0, 1]]}}, "fit": {"leaf": 1}})");
@@ -284,7 +276,7 @@ TEST(Fit, WhatIfIsRefusedWholeWhereAClipHasNoSuchNode) {
 }
 
 TEST(Fit, ColumnsStayApartWhereNumbersAreWiderThanHeadings) {
-    const testing::TempFolder folder;
+    const TempFolder folder;
     // Disks so thin that the tightness takes twelve characters.
     const auto file = folder.write(
         "thin.json", R"({"clips": {"thin": {"dt": 1, "samples": [[0, 0, 1e-60], [3, 1, 1e-60], [4, 9, 1e-60]]}}})");
@@ -297,11 +289,11 @@ TEST(Fit, ColumnsStayApartWhereNumbersAreWiderThanHeadings) {
 }
 
 TEST(Fit, AMovingBoxIsGivenAtT0WithItsVelocity) {
-    const Result run = run_program({"fit", kFitScenes + "crossing.json", "--json", "--tree", "moving"});
+    const Result run = run_program({"fit", kCrossing, "--json", "--tree", "moving"});
     ASSERT_EQ(run.status, 0) << run.err;
     const json printed = json::parse(run.out)["trees"][1];
     EXPECT_EQ(printed["tree"], "moving");
-    const Scene scene = load_scene(kFitScenes + "crossing.json");
+    const Scene scene = load_scene(kCrossing);
     const std::span<const mobb::Disk> samples = scene.clips[1].clip->samples();
     for (const json& node : printed["nodes"]) {
         EXPECT_EQ(keys(node), (std::set<std::string>{"index", "parent", "level", "first", "count", "leaf", "kind",
@@ -335,8 +327,7 @@ TEST(Fit, AMovingBoxIsGivenAtT0WithItsVelocity) {
 }
 
 TEST(Fit, AnAabbIsAFlatBoxAlongXAndY) {
-    const Result run =
-        run_program({"fit", kFitScenes + "crossing.json", "--json", "--tree", "aabb", "--axes", "minarea"});
+    const Result run = run_program({"fit", kCrossing, "--json", "--tree", "aabb", "--axes", "minarea"});
     ASSERT_EQ(run.status, 0) << run.err;
     const json result = json::parse(run.out);
     ASSERT_FALSE(result["trees"][1]["nodes"].empty());
@@ -349,7 +340,7 @@ TEST(Fit, AnAabbIsAFlatBoxAlongXAndY) {
 }
 
 TEST(Fit, SaysWhatStandsOut) {
-    const std::vector<std::string> fit{"fit", kFitScenes + "circles.json", "--tree", "umobb", "--leaf", "7"};
+    const std::vector<std::string> fit{"fit", kScenes / "circles.json", "--tree", "umobb", "--leaf", "7"};
     const Result text = run_program(fit);
     std::vector<std::string> in_json = fit;
     in_json.emplace_back("--json");
@@ -365,11 +356,11 @@ TEST(Fit, SaysWhatStandsOut) {
     EXPECT_EQ(loose["mend"]["leaf"], 7);
     const std::string notice = "\n  notice: " + loose["text"].get<std::string>() + '\n';
     EXPECT_NE(text.out.find(notice), std::string::npos) << text.out;
-    EXPECT_EQ(run_program({"fit", kFitScenes + "circles.json"}).out.find("notice:"), std::string::npos);
+    EXPECT_EQ(run_program({"fit", kScenes / "circles.json"}).out.find("notice:"), std::string::npos);
 }
 
 TEST(Fit, TextHasALineForEachLevel) {
-    const Result run = run_program({"fit", kFitScenes + "circles.json", "--levels", "3"});
+    const Result run = run_program({"fit", kScenes / "circles.json", "--levels", "3"});
     ASSERT_EQ(run.status, 0) << run.err;
     // One of what stands out, too.
     EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 7);
@@ -377,12 +368,11 @@ TEST(Fit, TextHasALineForEachLevel) {
 }
 
 TEST(Fit, FitsAreCompared) {
-    const Result run =
-        run_program({"fit", kFitScenes + "crossing.json", "--compare", "mobb", "umobb,leaf=40", "--json"});
+    const Result run = run_program({"fit", kCrossing, "--compare", "mobb", "umobb,leaf=40", "--json"});
     ASSERT_EQ(run.status, 0) << run.err;
     const json clips = json::parse(run.out)["compared"];
     ASSERT_EQ(clips.size(), 2u);
-    const FittedScene fitted(load_scene(kFitScenes + "crossing.json"), {.tree = mobb::TreeKind::umobb, .leaf = 40});
+    const FittedScene fitted(load_scene(kCrossing), {.tree = mobb::TreeKind::umobb, .leaf = 40});
     for (int clip = 0; clip < 2; ++clip) {
         const json& found = clips[static_cast<std::size_t>(clip)];
         EXPECT_EQ(found["fits"][1]["fit"]["leaf"], 40);
@@ -401,12 +391,12 @@ TEST(Fit, FitsAreCompared) {
         EXPECT_GT(found["cost"]["values"][0], 0);
         EXPECT_NE(found["verdict"].get<std::string>().find("UMOBB"), std::string::npos);
     }
-    const Result words = run_program({"fit", kFitScenes + "crossing.json", "--compare", "mobb", "umobb"});
+    const Result words = run_program({"fit", kCrossing, "--compare", "mobb", "umobb"});
     EXPECT_EQ(words.status, 0);
     for (const char* told : {"straight: UMOBB is tighter", "MOBB m^2*s", "* "})
         EXPECT_NE(words.out.find(told), std::string::npos) << words.out;
     for (const std::vector<std::string>& wrong : {std::vector<std::string>{"mobb"}, {"mobb", "x"}}) {
-        std::vector<std::string> line{"fit", kFitScenes + "crossing.json", "--compare"};
+        std::vector<std::string> line{"fit", kCrossing, "--compare"};
         line.insert(line.end(), wrong.begin(), wrong.end());
         EXPECT_EQ(run_program(line).status, 2);
     }

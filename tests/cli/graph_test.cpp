@@ -2,6 +2,7 @@
 #include "run_program.h"
 
 #include <render/image/png.h>
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include "render/backends.h"
@@ -17,14 +18,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
-
-const std::string kClips = MOBBSCOPE_SOURCE_DIR "/assets/clips";
-
 class GraphTest : public ::testing::Test {
   protected:
     static void SetUpTestSuite() {
@@ -38,10 +31,7 @@ class GraphTest : public ::testing::Test {
     static nlohmann::json json() { return nlohmann::json::parse(slurp(graph())); }
 
     static void expect_refused(const std::vector<std::string>& arguments, const std::string& why, int status = 2) {
-        const Result run = run_program(arguments);
-        EXPECT_EQ(run.status, status) << run.err;
-        EXPECT_TRUE(is_one_line(run.err)) << run.err;
-        EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
+        testing::expect_refused(run_program(arguments), status, why);
     }
 
     static std::unique_ptr<TempFolder> folder_;
@@ -120,11 +110,11 @@ TEST_F(GraphTest, TheOrderAndSpellingOfPathsDoNotMatter) {
         EXPECT_EQ(run.status, 0) << run.err;
         return slurp(path("ordered.json"));
     };
-    const std::string first = built_from({kClips + "/wander.glb", kClips + "/run.glb", kClips + "/turn.glb"});
+    const std::string first = built_from({kClips / "wander.glb", kClips / "run.glb", kClips / "turn.glb"});
     EXPECT_NE(first, "");
     const std::string relative = std::filesystem::relative(kClips).string();
-    EXPECT_TRUE(built_from({kClips + "/turn.glb", relative + "/./run.glb", kClips + "/../clips/wander.glb",
-                            kClips + "/run.glb"}) == first);
+    EXPECT_TRUE(built_from({kClips / "turn.glb", relative + "/./run.glb", kClips / "../clips/wander.glb",
+                            kClips / "run.glb"}) == first);
     const auto rigs = nlohmann::json::parse(first)["graph"]["rigs"];
     ASSERT_EQ(rigs.size(), 1u);
     EXPECT_GT(rigs[0]["joints"].size(), 5u);
@@ -132,7 +122,7 @@ TEST_F(GraphTest, TheOrderAndSpellingOfPathsDoNotMatter) {
 
 TEST_F(GraphTest, ABadFileInAFolderIsLeftOutNamedAndCounted) {
     std::filesystem::create_directory(path("mixed"));
-    std::filesystem::copy_file(kClips + "/wander.glb", path("mixed/wander.glb"));
+    std::filesystem::copy_file(kClips / "wander.glb", path("mixed/wander.glb"));
     folder_->write("mixed/broken.bvh", "HIERARCHY");
     folder_->write("mixed/empty.glb", "");
     const std::vector<std::string> build{"graph", "build", path("mixed"), "-o", path("mixed.json")};
@@ -269,7 +259,7 @@ TEST_F(GraphTest, WholeClipsHaveOneHubAndNoBounds) {
 
 TEST_F(GraphTest, ClipsLeadToTheirFilesFromWhereverTheGraphIs) {
     std::filesystem::create_directories(path("a/b"));
-    ASSERT_EQ(run_program({"graph", "build", kClips + "/wander.glb", "-o", path("a/b/g.json")}).status, 0);
+    ASSERT_EQ(run_program({"graph", "build", kClips / "wander.glb", "-o", path("a/b/g.json")}).status, 0);
     EXPECT_EQ(run_program({"graph", "info", path("a/b/g.json")}).status, 0);
 }
 
@@ -301,7 +291,7 @@ TEST_F(GraphTest, WhatCannotBeDoneIsSaidInOneLine) {
 }
 
 TEST_F(GraphTest, IsDrawnWithoutADisplay) {
-    const auto renderer = testing::open_or_skip(Backend::automatic);
+    const auto renderer = open_or_skip(Backend::automatic);
     if (!renderer) return;
     for (const std::string size : {"640x360", "300x700", "64x64"}) {
         const Result run =

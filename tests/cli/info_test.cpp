@@ -1,6 +1,7 @@
 #include "run_program.h"
 
 #include <support/bvh_text.h>
+#include <support/folders.h>
 #include <support/json_keys.h>
 #include <support/temp_folder.h>
 
@@ -12,11 +13,6 @@
 namespace mobbscope {
 namespace {
 
-using nlohmann::json;
-using testing::Result;
-using testing::run_program;
-using testing::TempFolder;
-
 TEST(Info, JsonTellsWhatIsInTheFiles) {
     const TempFolder folder;
     const std::string csv = folder.write("a.csv", "t,x,y,r\n5,0,0,20\n5.5,300,0,40\n6,300,400,60\n");
@@ -26,33 +22,33 @@ TEST(Info, JsonTellsWhatIsInTheFiles) {
     const json clips = json::parse(run.out)["clips"];
     ASSERT_EQ(clips.size(), 2u);
     const json& a = clips[0];
-    EXPECT_EQ(testing::keys(a), (std::set<std::string>{"file",
-                                                       "name",
-                                                       "format",
-                                                       "animation",
-                                                       "root",
-                                                       "joints",
-                                                       "unit",
-                                                       "root_why",
-                                                       "guessed_from_height",
-                                                       "class",
-                                                       "t0",
-                                                       "start",
-                                                       "motion",
-                                                       "file_frames",
-                                                       "file_dt",
-                                                       "file_duration",
-                                                       "samples",
-                                                       "dt",
-                                                       "duration",
-                                                       "path_length",
-                                                       "mean_speed",
-                                                       "min_radius",
-                                                       "mean_radius",
-                                                       "max_radius",
-                                                       "up",
-                                                       "up_why",
-                                                       "warnings"}));
+    EXPECT_EQ(keys(a), (std::set<std::string>{"file",
+                                              "name",
+                                              "format",
+                                              "animation",
+                                              "root",
+                                              "joints",
+                                              "unit",
+                                              "root_why",
+                                              "guessed_from_height",
+                                              "class",
+                                              "t0",
+                                              "start",
+                                              "motion",
+                                              "file_frames",
+                                              "file_dt",
+                                              "file_duration",
+                                              "samples",
+                                              "dt",
+                                              "duration",
+                                              "path_length",
+                                              "mean_speed",
+                                              "min_radius",
+                                              "mean_radius",
+                                              "max_radius",
+                                              "up",
+                                              "up_why",
+                                              "warnings"}));
     EXPECT_EQ(a["motion"], "held");
     EXPECT_EQ(a["file"], csv);
     EXPECT_EQ(a["name"], "a");
@@ -127,7 +123,7 @@ TEST(Info, NamesDoNotSteerTheTerminal) {
 
 TEST(Info, JsonTellsTheSkeletonThatWasFoundAndTheUnitThatWasGuessed) {
     const TempFolder folder;
-    const std::string walk = folder.write("walk.bvh", testing::kWalker);
+    const std::string walk = folder.write("walk.bvh", kWalker);
     const json a = json::parse(run_program({"info", walk, "--json"}).out)["clips"][0];
     EXPECT_EQ(a["format"], "bvh");
     EXPECT_EQ(a["animation"], "#0");
@@ -153,11 +149,11 @@ TEST(Info, JsonTellsTheSkeletonThatWasFoundAndTheUnitThatWasGuessed) {
 }
 
 TEST(Info, OneBadFileAmongGoodOnesLeavesNoOutput) {
-    const std::string good = MOBBSCOPE_SOURCE_DIR "/assets/scenes/walk.csv";
+    const std::string good = kScenes / "walk.csv";
     const Result run = run_program({"info", good, "none.csv"});
     EXPECT_EQ(run.status, 2);
     EXPECT_EQ(run.out, "");
-    EXPECT_TRUE(testing::is_one_line(run.err)) << run.err;
+    EXPECT_TRUE(is_one_line(run.err)) << run.err;
     EXPECT_NE(run_program({"info", good}).out.find("120 samples"), std::string::npos);
 }
 

@@ -11,6 +11,7 @@
 #include <render/image/image.h>
 #include <render/image/png.h>
 #include <render/pictures/build_draw_list.h>
+#include <support/folders.h>
 #include <support/png_file.h>
 #include <support/temp_folder.h>
 
@@ -25,11 +26,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::TempFolder;
-
 /// "33,554,432".
 std::string with_commas(std::int64_t number) {
     std::string out = std::to_string(number);
@@ -38,7 +34,7 @@ std::string with_commas(std::int64_t number) {
 }
 
 TEST(Limits, AreThoseOfTheTable) {
-    const std::string table = read_file(std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "docs/limits.md");
+    const std::string table = read_file(kSource / "docs/limits.md");
     const auto expect_row = [&table](std::string_view what, std::int64_t limit) {
         const std::size_t row = table.find("| " + std::string(what) + " |");
         ASSERT_NE(row, std::string::npos) << what;
@@ -68,12 +64,7 @@ class LimitsTest : public ::testing::Test {
         write_file(folder.path() / name, text);
         return folder.path() / name;
     }
-    static void expect_refused(const Result& run, const std::string& why) {
-        EXPECT_EQ(run.status, 2) << run.err;
-        EXPECT_TRUE(is_one_line(run.err)) << run.err;
-        EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
-        EXPECT_EQ(run.out, "");
-    }
+    static void expect_refused(const Result& run, const std::string& why) { testing::expect_refused(run, 2, why); }
 
     const TempFolder folder;
 };
@@ -122,7 +113,7 @@ TEST_F(LimitsTest, ConflictsAreWrittenAsTheyAreFound) {
 }
 
 std::string header_alone(int width, int height) {
-    return testing::png_header({.width = width, .height = height}) + testing::png_chunk("IDAT", "");
+    return png_header({.width = width, .height = height}) + png_chunk("IDAT", "");
 }
 
 TEST_F(LimitsTest, PicturesBeyondTheirPixelsAreRefusedByTheirHeader) {

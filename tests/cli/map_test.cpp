@@ -2,6 +2,7 @@
 #include "run_program.h"
 
 #include <render/image/png.h>
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include "render/backends.h"
@@ -18,17 +19,8 @@
 namespace mobbscope {
 namespace {
 
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::TempFolder;
-
-const std::string kCrossingScene = std::string(MOBBSCOPE_SOURCE_DIR) + "/assets/scenes/crossing.json";
-
-Result map_of(const std::vector<std::string>& more, const std::string& file = kCrossingScene) {
-    std::vector<std::string> arguments{"map", file};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_program(arguments);
+Result map_of(const std::vector<std::string>& more, const std::string& file = kCrossing) {
+    return run_program(with({"map", file}, more));
 }
 
 TEST(MapCommand, JsonSaysWhatQueryDoes) {
@@ -43,14 +35,13 @@ TEST(MapCommand, JsonSaysWhatQueryDoes) {
     EXPECT_EQ(map["over"], (nlohmann::json{{"dstart", {-3, 3}}, {"dx", {-2, 6}}}));
     ASSERT_EQ(map["values"].size(), 5U);
     ASSERT_EQ(map["values"][0].size(), 7U);
-    std::ifstream file(kCrossingScene);
+    std::ifstream file(kCrossing);
     const auto scene = nlohmann::json::parse(file);
     for (const auto& [x, y] : {std::pair(0, 0), std::pair(6, 1), std::pair(3, 4), std::pair(2, 2)}) {
         auto there = scene;
         for (auto& [name, clip] : there["clips"].items()) {
             if (clip.contains("source"))
-                clip["source"] =
-                    (std::filesystem::path(kCrossingScene).parent_path() / clip["source"].get<std::string>());
+                clip["source"] = (std::filesystem::path(kCrossing).parent_path() / clip["source"].get<std::string>());
         }
         auto& b = there["agents"][1];
         b["start"] = b.value("start", 0.0) + -3 + (x + 0.5) / 7 * 6;

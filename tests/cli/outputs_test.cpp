@@ -48,7 +48,7 @@ class Outputs : public ::testing::Test {
         folder.write("track.csv", "id,t,x,y\n1,0,0,0\n1,0.5,0.1,0\n2,0,1,1\n2,0.5,1,1.2\n");
         folder.write("radii.csv", "id,r\n1,0.3\n2,0.4\n");
         folder.write("clip.csv", "t,x,y,r\n0,0,0,0.4\n0.5,0.1,0,0.4\n");
-        folder.write("walker.bvh", testing::kWalker);
+        folder.write("walker.bvh", kWalker);
         folder.write("scene.json", R"({"clips": {"c": {"source": "clip.csv"}}})");
         folder.write("motion.json",
                      R"({"clips": {"c": {"source": "walker.bvh"}}, "agents": [{"name": "A", "clip": "c"}]})");
@@ -269,8 +269,8 @@ class WaitingWriter {
         const std::string pipe = folder.path() / "pipe.png";
         ::mkfifo(pipe.c_str(), 0600);
         reader_ = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-        child_ = testing::start_program({"diff", a, b, "-o", folder.path() / "heat.png", "--strip", pipe}, {}, [&] {
-            if (!nameless && !testing::refuse_nameless_files()) ::_exit(77);
+        child_ = start_program({"diff", a, b, "-o", folder.path() / "heat.png", "--strip", pipe}, {}, [&] {
+            if (!nameless && !refuse_nameless_files()) ::_exit(77);
         });
     }
     ~WaitingWriter() {

@@ -7,6 +7,7 @@
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -23,10 +24,6 @@
 
 namespace mobbscope {
 namespace {
-
-using testing::Result;
-using testing::run_program;
-using testing::TempFolder;
 
 /// Every frame of a motion file, in the world.
 struct ReadMotion {
@@ -129,9 +126,7 @@ std::vector<PlayedFrames> frames_of(const Scene& scene, const CrowdAgent& agent)
 
 class PlayedJoins : public ::testing::Test {
   protected:
-    void SetUp() override {
-        ASSERT_EQ(run_program({"graph", "build", MOBBSCOPE_SOURCE_DIR "/assets/clips", "-o", graph}).status, 0);
-    }
+    void SetUp() override { ASSERT_EQ(run_program({"graph", "build", kClips, "-o", graph}).status, 0); }
 
     /// Lets a crowd play; gives the summary.
     nlohmann::json simulate(const std::vector<std::string>& more) const {

@@ -1,6 +1,7 @@
 // Exit statuses, streams and messages that hold for every command.
 #include "run_program.h"
 
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -15,14 +16,6 @@
 
 namespace mobbscope {
 namespace {
-
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
-
-const std::string kProgramScenes = MOBBSCOPE_SOURCE_DIR "/assets/scenes/";
 
 TEST(Program, HelpAndVersionAreResults) {
     for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
@@ -40,7 +33,7 @@ TEST(Program, HelpAndVersionAreResults) {
 }
 
 TEST(Program, BadUsageIsOneLineAndStatusTwo) {
-    const std::string scene = kProgramScenes + "crossing.json";
+    const std::string scene = kCrossing;
     for (const std::vector<std::string>& arguments : {std::vector<std::string>{"querry", scene},
                                                       {"fit"},
                                                       {"fit", scene, "more"},
@@ -71,7 +64,7 @@ TEST(Program, BadUsageIsOneLineAndStatusTwo) {
 }
 
 TEST(Program, AnOldNameOfAKindOfTreesIsRefusedWithTheNewOne) {
-    const std::string scene = kProgramScenes + "crossing.json";
+    const std::string scene = kCrossing;
     const TempFolder folder;
     const std::string old =
         folder.write("old.json", R"({"mobbscope": 1, "clips": {"c": {"dt": 1, "samples": [[0, 0, 1]]}},
@@ -86,10 +79,7 @@ TEST(Program, AnOldNameOfAKindOfTreesIsRefusedWithTheNewOne) {
              {{"--script", script, scene}, "line 2: "},
              {{"--script", expecting, scene}, "line 2: "}}) {
         const Result run = run_program(arguments);
-        EXPECT_EQ(run.status, 2) << run.err;
-        EXPECT_TRUE(is_one_line(run.err)) << run.err;
-        EXPECT_NE(run.err.find(place + "`production` is called `blocks`"), std::string::npos) << run.err;
-        EXPECT_EQ(run.out, "");
+        expect_refused(run, 2, place + "`production` is called `blocks`");
     }
 }
 
@@ -100,7 +90,7 @@ TEST(Program, BadUsageNamesTheHelpThatListsTheOption) {
 }
 
 TEST(Program, NumbersAreReadAsTheFilesHaveThem) {
-    const std::string csv = kProgramScenes + "walk.csv";
+    const std::string csv = kScenes / "walk.csv";
     for (const char* option : {"--leaf", "--levels", "--time-scale", "--fps", "--dt", "--radius", "--unit", "--trim"}) {
         for (const char* bad : {"", "0x10", " 5", "5 ", "nan", "inf", "1e999", "1,5", "5m"}) {
             const Result run = run_program({"fit", csv, option, bad});
@@ -115,7 +105,7 @@ TEST(Program, NumbersAreReadAsTheFilesHaveThem) {
 }
 
 TEST(Program, RangesAreToldWithBothTheirBounds) {
-    const std::string csv = kProgramScenes + "walk.csv";
+    const std::string csv = kScenes / "walk.csv";
     const auto complaint = [&](const std::vector<std::string>& option) {
         std::vector<std::string> arguments{"fit", csv};
         arguments.insert(arguments.end(), option.begin(), option.end());
@@ -130,20 +120,15 @@ TEST(Program, RangesAreToldWithBothTheirBounds) {
 }
 
 TEST(Program, FilesBeforeACommandAreNotDropped) {
-    for (const std::string& file : {std::string("nofile.json"), kProgramScenes + "crossing.json"}) {
-        const Result run = run_program({file, "query", kProgramScenes + "crossing.json"});
-        EXPECT_EQ(run.status, 2);
-        EXPECT_EQ(run.out, "");
-        EXPECT_TRUE(is_one_line(run.err)) << run.err;
-        EXPECT_NE(run.err.find("stands before the command query"), std::string::npos) << run.err;
+    for (const std::string& file : {std::string("nofile.json"), kCrossing}) {
+        const Result run = run_program({file, "query", kCrossing});
+        expect_refused(run, 2, "stands before the command query");
     }
 }
 
 TEST(Program, AnEmptyNameIsSaidToBeEmpty) {
-    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"fit", ""},
-                                                      {"info", ""},
-                                                      {"convert", kProgramScenes + "walk.csv", "-o", ""},
-                                                      {""}}) {
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"fit", ""}, {"info", ""}, {"convert", kScenes / "walk.csv", "-o", ""}, {""}}) {
         const Result run = run_program(arguments);
         EXPECT_EQ(run.status, 2);
         EXPECT_NE(run.err.find("the name of a file is empty"), std::string::npos) << run.err;
@@ -183,7 +168,7 @@ TEST(Program, BadInputIsOneLineAndStatusTwoForEveryCommand) {
 
 TEST(Program, LongNamesAreCutInTheMiddle) {
     const TempFolder folder;
-    const std::string scene = kProgramScenes + "crossing.json";
+    const std::string scene = kCrossing;
     const std::string png = folder.path() / "o.png";
     std::string blanks;
     while (blanks.size() < 5000) blanks += "a ";
@@ -205,7 +190,7 @@ TEST(Program, LongNamesAreCutInTheMiddle) {
             {"bench", "--" + name},
             {"graph", name},
             {"graph", "build", "--" + name},
-            {"graph", "build", kProgramScenes, "-o", "x.json", "--seconds", name},
+            {"graph", "build", kScenes, "-o", "x.json", "--seconds", name},
             {"simulate", scene, "-o", "x.json", "--area", name},
             {"test", "--" + name},
             {"diff", scene, scene, "--threshold", name},
@@ -309,7 +294,7 @@ TEST(Program, NamesThatMisleadTheEyeAreShownAsTheyAre) {
 
 TEST(Program, ResultsThatCannotBeWrittenAreStatusThree) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
-    const std::string scene = kProgramScenes + "crossing.json";
+    const std::string scene = kCrossing;
     for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
                                                       {"fit", scene},
                                                       {"fit", scene, "--json"},
@@ -346,11 +331,9 @@ class NoDisplay {
 TEST(Program, WithoutADisplayTheWindowSaysWhatWorks) {
     const NoDisplay no_display;
     for (const std::vector<std::string>& arguments :
-         {std::vector<std::string>{}, {kProgramScenes + "crossing.json"}, {"--size", "800x600", "--ui-scale", "2"}}) {
+         {std::vector<std::string>{}, {kCrossing}, {"--size", "800x600", "--ui-scale", "2"}}) {
         const Result run = run_program(arguments);
-        EXPECT_EQ(run.status, 3);
-        EXPECT_TRUE(is_one_line(run.err)) << run.err;
-        EXPECT_NE(run.err.find("no display"), std::string::npos) << run.err;
+        expect_refused(run, 3, "no display");
         EXPECT_NE(run.err.find("mobbscope render"), std::string::npos) << run.err;
         EXPECT_NE(run.err.find("--headless"), std::string::npos) << run.err;
     }
@@ -358,18 +341,17 @@ TEST(Program, WithoutADisplayTheWindowSaysWhatWorks) {
 }
 
 TEST(Program, OptionsOfTheWindowAreChecked) {
-    for (const std::vector<std::string>& arguments :
-         {std::vector<std::string>{"--ui-scale", "0.4"},
-          {"--ui-scale", "4.1"},
-          {"--ui-scale", "big"},
-          {"--ui-scale", "0"},
-          {"--ui-scale", "nan"},
-          {"--size", "0x0"},
-          {"--size", "-1x100"},
-          {"--size", "999999x999999"},
-          {"--size", "10x10"},
-          {"--size", "1280"},
-          {"--size", "800x600", "query", kProgramScenes + "crossing.json"}}) {
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--ui-scale", "0.4"},
+                                                      {"--ui-scale", "4.1"},
+                                                      {"--ui-scale", "big"},
+                                                      {"--ui-scale", "0"},
+                                                      {"--ui-scale", "nan"},
+                                                      {"--size", "0x0"},
+                                                      {"--size", "-1x100"},
+                                                      {"--size", "999999x999999"},
+                                                      {"--size", "10x10"},
+                                                      {"--size", "1280"},
+                                                      {"--size", "800x600", "query", kCrossing}}) {
         const Result run = run_program(arguments);
         EXPECT_EQ(run.status, 2) << arguments[1];
         EXPECT_TRUE(is_one_line(run.err)) << run.err;

@@ -3,6 +3,7 @@
 #include <explain/avoidable.h>
 #include <scene/fitted_scene.h>
 #include <support/bvh_text.h>
+#include <support/folders.h>
 #include <support/json_keys.h>
 #include <support/temp_folder.h>
 
@@ -17,16 +18,6 @@
 namespace mobbscope {
 namespace {
 
-using nlohmann::json;
-using testing::is_one_line;
-using testing::keys;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
-
-const std::string kQueryScenes = MOBBSCOPE_SOURCE_DIR "/assets/scenes/";
-
 json results(const std::vector<std::string>& arguments) {
     const Result run = run_program(arguments);
     EXPECT_EQ(run.status, 0) << run.err;
@@ -35,7 +26,7 @@ json results(const std::vector<std::string>& arguments) {
 }
 
 TEST(Query, JsonIsTheAnswer) {
-    const std::string file = kQueryScenes + "collision.json";
+    const std::string file = kScenes / "collision.json";
     const json found = results({"query", file, "--json"});
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(keys(found[0]), (std::set<std::string>{"query", "a", "b", "collides", "contact", "tests"}));
@@ -56,14 +47,14 @@ TEST(Query, JsonIsTheAnswer) {
 }
 
 TEST(Query, NoCollisionHasNoContact) {
-    const json found = results({"query", kQueryScenes + "crossing.json", "--json", "--all-contacts"});
+    const json found = results({"query", kCrossing, "--json", "--all-contacts"});
     EXPECT_EQ(found[0]["collides"], false);
     EXPECT_TRUE(found[0]["contact"].is_null());
     EXPECT_EQ(found[0]["contacts"], json::array());
 }
 
 TEST(Query, WhereTellsOnlyWhatPasses) {
-    const std::string file = kQueryScenes + "crossing.json";
+    const std::string file = kCrossing;
     const json whole = results({"query", file, "--json", "--trace"})[0]["trace"];
     const json passing = results({"query", file, "--json", "--where", "outcome = separated and gap < 0.5"})[0]["trace"];
     std::size_t wanted = 0;
@@ -88,7 +79,7 @@ TEST(Query, WhereTellsOnlyWhatPasses) {
 }
 
 TEST(Query, EveryTreeAndTheDirectSearchGiveTheSameContacts) {
-    const std::string file = kQueryScenes + "collision.json";
+    const std::string file = kScenes / "collision.json";
     const json brute = results({"query", file, "--json", "--all-contacts", "--tree", "brute"});
     EXPECT_EQ(brute[0]["tests"]["time"], 0);
     EXPECT_GT(brute[0]["tests"]["samples"], 0);
@@ -107,7 +98,7 @@ TEST(Query, EveryTreeAndTheDirectSearchGiveTheSameContacts) {
 }
 
 TEST(Query, TheTraceIsTheRecord) {
-    const std::string file = kQueryScenes + "collision.json";
+    const std::string file = kScenes / "collision.json";
     const json found = results({"query", file, "--json", "--trace", "--tree", "umobb"});
     const Scene scene = load_scene(file);
     mobb::FitOptions options = scene.fit;
@@ -149,7 +140,7 @@ TEST(Query, TheTraceIsTheRecord) {
 }
 
 TEST(Query, TheTraceOfTheDirectSearchIsOneTestOfSamples) {
-    const json found = results({"query", kQueryScenes + "collision.json", "--json", "--trace", "--tree", "brute"});
+    const json found = results({"query", kScenes / "collision.json", "--json", "--trace", "--tree", "brute"});
     const json& trace = found[0]["trace"];
     ASSERT_EQ(trace.size(), 1u);
     EXPECT_EQ(trace[0]["test"], "samples");
@@ -161,7 +152,7 @@ TEST(Query, TheTraceOfTheDirectSearchIsOneTestOfSamples) {
 }
 
 TEST(Query, LevelsCutTheTreeButNotTheAnswer) {
-    const std::string file = kQueryScenes + "collision.json";
+    const std::string file = kScenes / "collision.json";
     const json whole = results({"query", file, "--json", "--all-contacts"});
     const json cut = results({"query", file, "--json", "--all-contacts", "--levels", "1"});
     EXPECT_EQ(cut[0]["contact"], whole[0]["contact"]);
@@ -206,7 +197,7 @@ TEST(Query, ACrowdsPairsAreAskedInOrder) {
 
 TEST(Query, SaysWhichOverlapsWereAvoidableAndWhoIsToBlame) {
     for (const char* tree : {"moving", "umobb", "aabb"}) {
-        const std::vector<std::string> asked{"query", kQueryScenes + "crossing.json", "--tree", tree};
+        const std::vector<std::string> asked{"query", kCrossing, "--tree", tree};
         std::vector<std::string> as_json = asked, as_text = asked;
         as_json.insert(as_json.end(), {"--json", "--trace"});
         as_text.emplace_back("--trace");
@@ -226,7 +217,7 @@ TEST(Query, SaysWhichOverlapsWereAvoidableAndWhoIsToBlame) {
              ++at)
             ++told;
         EXPECT_EQ(told, marked) << text;
-        const Scene scene = load_scene(kQueryScenes + "crossing.json");
+        const Scene scene = load_scene(kCrossing);
         mobb::FitOptions options = scene.fit;
         options.tree = *mobb::tree_kind_from_name(tree);
         const FittedScene fitted(scene, options);
@@ -243,23 +234,22 @@ TEST(Query, SaysWhichOverlapsWereAvoidableAndWhoIsToBlame) {
         for (const BlameByNode& nodes : blame.of_clip) in_all = std::accumulate(nodes.begin(), nodes.end(), in_all);
         EXPECT_EQ(listed, in_all);
     }
-    const json brute = results({"query", kQueryScenes + "crossing.json", "--json", "--trace", "--tree", "brute"});
+    const json brute = results({"query", kCrossing, "--json", "--trace", "--tree", "brute"});
     EXPECT_FALSE(brute[0].contains("avoidable")) << "the direct search has no boxes";
 }
 
 TEST(Query, TextIsASentence) {
-    const Result run = run_program({"query", kQueryScenes + "collision.json", "--trace", "--all-contacts"});
+    const Result run = run_program({"query", kScenes / "collision.json", "--trace", "--all-contacts"});
     EXPECT_EQ(run.status, 0);
     EXPECT_TRUE(run.out.starts_with("0: A and B collide at 2.433 s: sample 73 of A and sample 67 of B")) << run.out;
     EXPECT_NE(run.out.find("In contact: 2.43333 to "), std::string::npos);
     EXPECT_NE(run.out.find("samples: hit"), std::string::npos);
-    EXPECT_NE(run_program({"query", kQueryScenes + "crossing.json"}).out.find("A and B never collide."),
-              std::string::npos);
+    EXPECT_NE(run_program({"query", kCrossing}).out.find("A and B never collide."), std::string::npos);
 }
 
 TEST(Query, WithNothingToAskItIsRefused) {
     for (const char* file : {"circles.json", "walk.csv"}) {
-        const Result run = run_program({"query", kQueryScenes + file});
+        const Result run = run_program({"query", kScenes / file});
         EXPECT_EQ(run.status, 2) << file;
         EXPECT_TRUE(is_one_line(run.err)) << run.err;
         EXPECT_EQ(run.out, "");
@@ -268,9 +258,9 @@ TEST(Query, WithNothingToAskItIsRefused) {
 
 /// collision.json with another expectation.
 std::string expecting(const TempFolder& folder, const std::string& expectation) {
-    json scene = json::parse(slurp(kQueryScenes + "collision.json"));
+    json scene = json::parse(slurp(kScenes / "collision.json"));
     scene["queries"][0]["expect"] = json::parse(expectation);
-    for (json& clip : scene["clips"]) clip["source"] = kQueryScenes + clip["source"].get<std::string>();
+    for (json& clip : scene["clips"]) clip["source"] = kScenes / clip["source"].get<std::string>();
     return folder.write("s.json", scene.dump());
 }
 
@@ -281,7 +271,7 @@ TEST(Query, AnAnswerThatIsNotTheExpectedOneIsStatusOne) {
     EXPECT_EQ(json::parse(denied.out)["results"][0]["collides"], true) << "the answer is told all the same";
     EXPECT_NE(denied.err.find("query 0: expected no collision, but A and B collide at 2.433 s"), std::string::npos);
 
-    const json contact = results({"query", kQueryScenes + "collision.json", "--json"})[0]["contact"];
+    const json contact = results({"query", kScenes / "collision.json", "--json"})[0]["contact"];
     json expectation = {{"collides", true}, {"contact", contact}};
     EXPECT_EQ(run_program({"query", expecting(folder, expectation.dump())}).status, 0);
     expectation["contact"]["b_sample"] = 66;
@@ -293,7 +283,7 @@ TEST(Query, AnAnswerThatIsNotTheExpectedOneIsStatusOne) {
 
 TEST(Query, TestsThatAreNotTheExpectedOnesAreStatusOne) {
     const TempFolder folder;
-    const json found = results({"query", kQueryScenes + "collision.json", "--json"})[0]["tests"];
+    const json found = results({"query", kScenes / "collision.json", "--json"})[0]["tests"];
     const std::string same = expecting(folder, json{{"tests", found}}.dump());
     EXPECT_EQ(run_program({"query", same}).status, 0);
     EXPECT_EQ(run_program({"query", same, "--check"}).status, 0);
@@ -318,13 +308,13 @@ TEST(Query, TestsThatAreNotTheExpectedOnesAreStatusOne) {
 
 /// collision.json with its answer and its trace, after a change of the query: a capture.
 std::string capture(const TempFolder& folder, const std::function<void(json&)>& change) {
-    const json found = results({"query", kQueryScenes + "collision.json", "--json", "--trace"})[0];
-    json scene = json::parse(slurp(kQueryScenes + "collision.json"));
+    const json found = results({"query", kScenes / "collision.json", "--json", "--trace"})[0];
+    json scene = json::parse(slurp(kScenes / "collision.json"));
     json& query = scene["queries"][0];
     query["expect"] = {{"collides", true}, {"contact", found["contact"]}};
     query["trace"] = found["trace"];
     change(query);
-    for (json& clip : scene["clips"]) clip["source"] = kQueryScenes + clip["source"].get<std::string>();
+    for (json& clip : scene["clips"]) clip["source"] = kScenes / clip["source"].get<std::string>();
     return folder.write("capture.json", scene.dump());
 }
 
@@ -422,7 +412,7 @@ TEST(QueryCheck, ARecordingThatStoppedIsComparedUpToThere) {
 }
 
 TEST(QueryCompare, LaysTwoFitsSideBySide) {
-    const std::string file = kQueryScenes + "crossing.json";
+    const std::string file = kCrossing;
     const Result run = run_program({"query", file, "--compare", "umobb,leaf=3"});
     EXPECT_EQ(run.status, 0) << run.err;
     for (const char* words : {"A and B never collide.", "difference", "decided earlier for", "step "})
@@ -472,7 +462,7 @@ TEST(Query, PlacementsInAQueryAreUsed) {
 
 TEST(Query, BodiesAreOfClipsWithSkeletons) {
     const TempFolder folder;
-    folder.write("walker.bvh", testing::replaced(testing::kWalker, "0 0 90 0", "0 0 0 0"));
+    folder.write("walker.bvh", replaced(kWalker, "0 0 90 0", "0 0 0 0"));
     // Arms in parallel, 0.3 m apart; and one who is a disk alone.
     const std::string file = folder.write("s.json", R"({"clips": {"walk": {"source": "walker.bvh", "unit": "cm"},
         "disk": {"dt": 0.1, "samples": [[0,0,1]]}},
@@ -512,15 +502,13 @@ TEST(Query, BodiesNeedASkeleton) {
     const std::string file = folder.write("s.json", R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1]]}},
         "queries": [{"a": {"clip": "c"}, "b": {"clip": "c"}}]})");
     const Result refused = run_program({"query", file, "--bodies"});
-    EXPECT_EQ(refused.status, 2);
-    EXPECT_TRUE(is_one_line(refused.err));
-    EXPECT_NE(refused.err.find("no query is of two bodies: the clip 'c' has no skeleton"), std::string::npos);
+    expect_refused(refused, 2, "no query is of two bodies: the clip 'c' has no skeleton");
     EXPECT_EQ(run_program({"query", file, "--bone-radius", "0.1"}).status, 2);
     EXPECT_EQ(run_program({"query", file, "--bodies", "--bone-radius", "-1"}).status, 2);
 }
 
 TEST(Query, RealPathsGiveTheDirectSearchsAnswer) {
-    const std::filesystem::path data = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "trajectories/xytr";
+    const std::filesystem::path data = kSharedData / "trajectories/xytr";
     if (!std::filesystem::exists(data)) GTEST_SKIP() << "no test data at " << data;
     const TempFolder folder;
     const std::string file =

@@ -13,12 +13,6 @@
 namespace mobbscope {
 namespace {
 
-using nlohmann::json;
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::TempFolder;
-
 const std::string kDrone =
     "0 10 20 30 60 5 0 0 0 \"Pedestrian\"\n0 12 20 32 60 6 0 0 1 \"Pedestrian\"\n7 0 0 10 10 5 0 1 0 \"Car\"\n";
 
@@ -59,9 +53,7 @@ TEST(Radius, IsANumberAColumnOrAFile) {
     const std::string csv = folder.write("a.csv", "id,t,x,y,width\na,0,0,0,1\na,1,0,0,2\nb,0,9,9,3\nb,1,9,9,3\n");
     EXPECT_EQ(radii_of({csv, "--radius", "width"}), (std::vector<double>{2, 3}));
     const Result bad = run_program({"info", csv, "--radius", "length"});
-    EXPECT_EQ(bad.status, 2);
-    EXPECT_TRUE(is_one_line(bad.err)) << bad.err;
-    EXPECT_NE(bad.err.find("names no column 'length' of radii"), std::string::npos) << bad.err;
+    expect_refused(bad, 2, "names no column 'length' of radii");
 }
 
 TEST(Radius, OfAFileGoesIntoTheScene) {

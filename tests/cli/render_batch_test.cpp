@@ -1,10 +1,12 @@
 // Many pictures in one process.
 #include "render_runs.h"
 
+#include <support/folders.h>
+
 namespace mobbscope {
 namespace {
 
-class RenderBatchTest : public testing::DrawingTest {};
+class RenderBatchTest : public DrawingTest {};
 
 TEST_F(RenderBatchTest, EachLineIsAPictureAsItWouldBeAlone) {
     const TempFolder pictures;
@@ -14,7 +16,7 @@ TEST_F(RenderBatchTest, EachLineIsAPictureAsItWouldBeAlone) {
                     " --query 0 --step 3 --background \"#102030\" -o \"" + path + "/a query.png\"  # why\n" +
                     kCrossing + " --ui --size 400x300 -o " + path + "/window.png\n" + kCrossing +
                     " --tree umobb --turntable 2 --draw-list " + path + "/t.json");
-    const testing::Result run = render_small({"--batch", list, "--theme", "light"});
+    const Result run = render_small({"--batch", list, "--theme", "light"});
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(run.out + run.err, "");
     EXPECT_EQ(files_in(pictures.path()), (Names{"top.png", "a query.png", "window.png", "t_0000.json", "t_0001.json"}));
@@ -28,11 +30,11 @@ TEST_F(RenderBatchTest, EachLineIsAPictureAsItWouldBeAlone) {
 /// Also where the window's picture, which works in the scene's folder, follows a sequence that is still being written.
 TEST_F(RenderBatchTest, NamesAreRelativeToTheWorkingFolder) {
     const TempFolder pictures, scenes;
-    const std::string scene = scenes.write("s.json", testing::kStandingScene);
+    const std::string scene = scenes.write("s.json", kStandingScene);
     const std::string list = folder.write(
         "list", scene + " --turntable 3 --size 1280x720 -o p.png\n" + scene + " --ui --size 400x300 -o window.png\n");
-    const testing::Result run = testing::run_program({"render", "--batch", list}, {}, "/dev/null",
-                                                     [&] { std::filesystem::current_path(pictures.path()); });
+    const Result run = run_program({"render", "--batch", list}, {}, "/dev/null",
+                                   [&] { std::filesystem::current_path(pictures.path()); });
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(files_in(pictures.path()), (Names{"p_0000.png", "p_0001.png", "p_0002.png", "window.png"}));
     EXPECT_EQ(files_in(scenes.path()), Names{"s.json"});
@@ -48,8 +50,7 @@ TEST_F(RenderBatchTest, WhatALineSaysTakesThePlaceOfWhatContradictsIt) {
     const std::string path = folder.path();
     const std::string list = folder.write("list", "--level 1 -o " + path + "/level.png\n--yaw 10 -o " + path +
                                                       "/yaw.png\n--turntable 1 -o " + path + "/turn.png\n");
-    const testing::Result run =
-        render_small({kCrossing, "--batch", list, "--query", "0", "--step", "3", "--view", "top"});
+    const Result run = render_small({kCrossing, "--batch", list, "--query", "0", "--step", "3", "--view", "top"});
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(read_png(folder.path() / "level.png").rgba, picture({kCrossing, "--view", "top", "--level", "1"}).rgba);
     EXPECT_EQ(read_png(folder.path() / "yaw.png").rgba,
@@ -90,7 +91,7 @@ TEST(RenderBatch, WhatOneLineReadsNoOtherReplaces) {
     const std::string list = folder.write("list", kCrossing + " --draw-list " + scene + "\n" + scene + " --draw-list " +
                                                       std::string(folder.path() / "b.json") + "\n");
     expect_refused(render_small({"--batch", list}), 2, "list:1: ");
-    EXPECT_EQ(testing::slurp(scene), text);
+    EXPECT_EQ(slurp(scene), text);
     EXPECT_EQ(files_in(folder.path()), (Names{"list", "scene.json"}));
 }
 
@@ -100,7 +101,7 @@ TEST(RenderBatch, TheListIsNotReplaced) {
     const std::string text = kCrossing + " --draw-list " + list;
     folder.write("list.json", text);
     expect_refused(render_small({"--batch", list}), 2, "would replace");
-    EXPECT_EQ(testing::slurp(list), text);
+    EXPECT_EQ(slurp(list), text);
 }
 
 TEST(RenderBatch, ListsThatAreNoneAreRefused) {

@@ -15,9 +15,8 @@
 #include <string>
 #include <vector>
 
-namespace mobbscope::testing {
-
-inline const std::string kCrossing = MOBBSCOPE_SOURCE_DIR "/assets/scenes/crossing.json";
+namespace mobbscope {
+inline namespace testing {
 
 /// Two who walk for 1.5 seconds, one of them a second later.
 inline std::string short_scene(const TempFolder& folder) {
@@ -30,19 +29,6 @@ inline std::string short_scene(const TempFolder& folder) {
 /// A person who stands for a moment: the least that everything is drawn of.
 inline constexpr const char* kStandingScene =
     R"({"mobbscope": 1, "clips": {"p": {"dt": 1, "samples": [[0, 0, 0.4], [0.1, 0, 0.4]]}}, "agents": [{"name": "A", "clip": "p"}]})";
-
-inline void expect_refused(const Result& run, int status, const std::string& why) {
-    EXPECT_EQ(run.status, status) << run.err;
-    EXPECT_TRUE(is_one_line(run.err)) << run.err;
-    EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
-    EXPECT_EQ(run.out, "");
-}
-
-/// Some arguments, and more.
-inline std::vector<std::string> with(std::vector<std::string> all, const std::vector<std::string>& more) {
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
-}
 
 /// The arguments of small pictures: "render", then those given.
 inline Result render_small(std::vector<std::string> arguments) {
@@ -80,21 +66,5 @@ class DrawingTest : public ::testing::Test {
     }
 };
 
-}  // namespace mobbscope::testing
-
-namespace mobbscope {
-
-using testing::expect_refused;
-using testing::files_in;
-using testing::is_one_line;
-using testing::kCrossing;
-using testing::Names;
-using testing::render_small;
-using testing::Result;
-using testing::run_program;
-using testing::short_scene;
-using testing::slurp;
-using testing::TempFolder;
-using testing::with;
-
+}  // namespace testing
 }  // namespace mobbscope

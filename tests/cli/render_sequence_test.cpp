@@ -1,6 +1,8 @@
 // Numbered pictures: --frames, --play, --turntable.
 #include "render_runs.h"
 
+#include <support/folders.h>
+
 #include <nlohmann/json.hpp>
 
 #include <array>
@@ -10,7 +12,7 @@
 namespace mobbscope {
 namespace {
 
-class RenderSequenceTest : public testing::DrawingTest {
+class RenderSequenceTest : public DrawingTest {
   protected:
     const TempFolder pictures;
     const std::string scene = short_scene(folder);
@@ -18,7 +20,7 @@ class RenderSequenceTest : public testing::DrawingTest {
 
     void draw(std::vector<std::string> arguments) {
         arguments.insert(arguments.begin(), {scene, "-o", out});
-        const testing::Result run = render_small(arguments);
+        const Result run = render_small(arguments);
         EXPECT_EQ(run.status, 0) << run.err;
         EXPECT_EQ(run.out + run.err, "");
     }
@@ -39,7 +41,7 @@ TEST_F(RenderSequenceTest, PlayIsFromBeginningToEnd) {
 }
 
 TEST_F(RenderSequenceTest, StepsOfAQueryArePlayed) {
-    const testing::Result answer = testing::run_program({"query", scene, "--json", "--trace"});
+    const Result answer = run_program({"query", scene, "--json", "--trace"});
     const std::size_t steps = nlohmann::json::parse(answer.out)["results"][0]["trace"].size();
     draw({"--query", "0", "--play"});
     EXPECT_EQ(files_in(pictures.path()).size(), steps);
@@ -162,8 +164,7 @@ TEST(RenderSequence, WhatIsNoSequenceIsRefusedBeforeAnythingIsWritten) {
 TEST(RenderSequence, DrawListsAreNumberedAlike) {
     const TempFolder folder;
     ::setenv("MESA_GL_VERSION_OVERRIDE", "2.1", 1);
-    const testing::Result run =
-        render_small({short_scene(folder), "--draw-list", folder.path() / "w.json", "--turntable", "2"});
+    const Result run = render_small({short_scene(folder), "--draw-list", folder.path() / "w.json", "--turntable", "2"});
     ::unsetenv("MESA_GL_VERSION_OVERRIDE");
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(files_in(folder.path()), (Names{"s.json", "w_0000.json", "w_0001.json"}));

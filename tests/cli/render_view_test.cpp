@@ -1,12 +1,14 @@
 // What `render` shows: views from files, exact cameras, toggles, backgrounds.
 #include "render_runs.h"
 
+#include <support/folders.h>
+
 #include <scene/view_options.h>
 
 namespace mobbscope {
 namespace {
 
-class RenderViewTest : public testing::DrawingTest {};
+class RenderViewTest : public DrawingTest {};
 
 TEST_F(RenderViewTest, AViewStateGoesOverTheScenesAndOptionsOverBoth) {
     const std::string state = folder.write("view.json", R"({"theme": "light", "levels": "1", "legend": false})");
@@ -61,8 +63,7 @@ TEST(RenderView, ABadViewStateNamesItsPlace) {
     // What is read must not be replaced, whatever it is called.
     const std::string state = folder.write("state.png", "{}");
     expect_refused(render_small({kCrossing, "--view-state", state, "-o", state}), 2, "would replace");
-    EXPECT_EQ(testing::files_in(folder.path()),
-              (std::set<std::string>{"scene.json", "state.png", "theme.json", "view.json"}));
+    EXPECT_EQ(files_in(folder.path()), (std::set<std::string>{"scene.json", "state.png", "theme.json", "view.json"}));
 }
 
 TEST_F(RenderViewTest, CamerasAreExact) {
@@ -121,7 +122,7 @@ TEST(RenderView, CamerasThatAreNoneAreRefused) {
         all.insert(all.end(), options.begin(), options.end());
         expect_refused(render_small(all), 2, why);
     }
-    EXPECT_TRUE(testing::files_in(folder.path()).empty());
+    EXPECT_TRUE(files_in(folder.path()).empty());
     expect_refused(render_small({kCrossing}), 2, "--output");
     expect_refused(render_small({"-o", folder.path() / "o.png"}), 2, "FILE is required");
     expect_refused(render_small({kCrossing, "--ui", "--draw-list", folder.path() / "o.json"}), 2, "--output");
@@ -164,9 +165,9 @@ TEST(RenderView, APartOfATreeGoesBeforeTheScenesQuery) {
     const std::string list = folder.path() / "list.json";
     const auto drawn = [&](std::vector<std::string> options) {
         options.insert(options.end(), {"--draw-list", list});
-        const testing::Result run = render_small(options);
+        const Result run = render_small(options);
         EXPECT_EQ(run.status, 0) << run.err;
-        return testing::slurp(list);
+        return slurp(list);
     };
     const std::string query = folder.write("query.json", R"({"query": 0})");
     const std::string part = drawn({kCrossing, "--subtree", "A:1"});
@@ -196,9 +197,9 @@ TEST_F(RenderViewTest, AnAgentCalledNoneCanBeHidden) {
         "agents": [{"name": "none", "clip": "c"}, {"name": "B", "clip": "c"}]})");
     const std::string list = folder.path() / "none.draw.json";
     const auto drawn = [&](const std::string& whom) {
-        const testing::Result run = render_small({scene, "--draw-list", list, "--hide", whom});
+        const Result run = render_small({scene, "--draw-list", list, "--hide", whom});
         EXPECT_EQ(run.status, 0) << run.err;
-        return testing::slurp(list);
+        return slurp(list);
     };
     EXPECT_NE(drawn("none").find("none is hidden"), std::string::npos);
     EXPECT_EQ(drawn("").find("is hidden"), std::string::npos) << "an empty name is nobody's";
@@ -209,9 +210,9 @@ TEST_F(RenderViewTest, WhoIsHiddenIsNotDrawnAndAGridIs) {
     const auto list = [&](const std::vector<std::string>& options) {
         std::vector<std::string> all{kCrossing, "--draw-list", lists};
         all.insert(all.end(), options.begin(), options.end());
-        const testing::Result run = render_small(all);
+        const Result run = render_small(all);
         EXPECT_EQ(run.status, 0) << run.err;
-        return testing::slurp(lists);
+        return slurp(lists);
     };
     const std::string one = list({"--hide", "B", "--no-boxes"});
     EXPECT_NE(one.find("B is hidden"), std::string::npos);
@@ -231,9 +232,9 @@ TEST_F(RenderViewTest, WhatIsMeasuredIsDrawn) {
     const auto list = [&](const std::vector<std::string>& options) {
         std::vector<std::string> all{kCrossing, "--draw-list", lists};
         all.insert(all.end(), options.begin(), options.end());
-        const testing::Result run = render_small(all);
+        const Result run = render_small(all);
         EXPECT_EQ(run.status, 0) << run.err;
-        return testing::slurp(lists);
+        return slurp(lists);
     };
     const std::string measured = list({"--measure", "-1,0,0:2,4,2.5"});
     EXPECT_NE(measured.find("\"role\": \"measure\""), std::string::npos);
@@ -249,9 +250,9 @@ TEST_F(RenderViewTest, WhatIsSelectedIsHighlighted) {
     const auto highlighted = [&](const std::vector<std::string>& options) {
         std::vector<std::string> all{kCrossing, "--draw-list", lists};
         all.insert(all.end(), options.begin(), options.end());
-        const testing::Result run = render_small(all);
+        const Result run = render_small(all);
         EXPECT_EQ(run.status, 0) << run.err;
-        return testing::slurp(lists).find("\"role\": \"selection\"") != std::string::npos;
+        return slurp(lists).find("\"role\": \"selection\"") != std::string::npos;
     };
     EXPECT_FALSE(highlighted({}));
     EXPECT_TRUE(highlighted({"--select", "A"}));
@@ -263,8 +264,8 @@ TEST_F(RenderViewTest, WhatIsSelectedIsHighlighted) {
     EXPECT_NE(picture({named, "--select", "a:b:sample:1"}).rgba, picture({named, "--select", "a:b"}).rgba);
     EXPECT_NE(picture({named, "--select", "a:sample:0:path"}).rgba, picture({named}).rgba);
     // Of several pictures one is enough that shows it.
-    const testing::Result run = render_small({kCrossing, "--show", "moment", "--play", "--rate", "1", "--select", "B",
-                                              "--draw-list", folder.path() / "all.json"});
+    const Result run = render_small({kCrossing, "--show", "moment", "--play", "--rate", "1", "--select", "B",
+                                     "--draw-list", folder.path() / "all.json"});
     EXPECT_EQ(run.status, 0) << run.err;
 }
 
@@ -288,7 +289,7 @@ TEST(RenderView, ASelectionThatIsNoneIsRefused) {
         all.insert(all.end(), options.begin(), options.end());
         expect_refused(render_small(all), 2, why);
     }
-    EXPECT_TRUE(testing::files_in(folder.path()).empty());
+    EXPECT_TRUE(files_in(folder.path()).empty());
 }
 
 TEST_F(RenderViewTest, BackgroundsAndSamplesAreTaken) {
@@ -302,21 +303,21 @@ TEST_F(RenderViewTest, BackgroundsAndSamplesAreTaken) {
 }
 
 TEST_F(RenderViewTest, BackendsAreListed) {
-    const testing::Result words = testing::run_program({"render", "--list-backends"});
+    const Result words = run_program({"render", "--list-backends"});
     EXPECT_EQ(words.status, 0) << words.err;
     EXPECT_EQ(words.err, "");
     EXPECT_NE(words.out.find("osmesa: "), std::string::npos);
     EXPECT_NE(words.out.find("egl: "), std::string::npos);
     EXPECT_NE(words.out.find("OpenGL "), std::string::npos);
-    const testing::Result report = testing::run_program({"render", "--list-backends", "--json"});
+    const Result report = run_program({"render", "--list-backends", "--json"});
     EXPECT_EQ(report.status, 0);
     EXPECT_NE(report.out.find("\"works\": true"), std::string::npos) << report.out;
     ::setenv("MESA_GL_VERSION_OVERRIDE", "2.1", 1);
-    const testing::Result none = testing::run_program({"render", "--list-backends"});
+    const Result none = run_program({"render", "--list-backends"});
     ::unsetenv("MESA_GL_VERSION_OVERRIDE");
     EXPECT_EQ(none.status, 3);
     EXPECT_NE(none.out.find("osmesa: not here: "), std::string::npos) << none.out;
-    EXPECT_TRUE(testing::is_one_line(none.err)) << none.err;
+    EXPECT_TRUE(is_one_line(none.err)) << none.err;
 }
 
 TEST_F(RenderViewTest, ACaseIsDrawnAsItSays) {
@@ -325,7 +326,7 @@ TEST_F(RenderViewTest, ACaseIsDrawnAsItSays) {
         R"(", "size": "320x240", "samples": 1, "background": "transparent", "view": {"levels": 1}})";
     const std::string file = folder.write("a.case.json", text);
     const std::string out = folder.path() / "a.png";
-    const testing::Result run = testing::run_program({"render", file, "-o", out});
+    const Result run = run_program({"render", file, "-o", out});
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(read_png(out).rgba,
               picture({kCrossing, "--level", "1", "--samples", "1", "--background", "transparent"}).rgba);
@@ -337,12 +338,12 @@ TEST_F(RenderViewTest, ACaseIsDrawnAsItSays) {
                                                  {"--ids", "i.png"}}) {
         std::vector<std::string> all{"render", file, "-o", out};
         all.insert(all.end(), more.begin(), more.end());
-        expect_refused(testing::run_program(all), 2, "a case says by itself");
+        expect_refused(run_program(all), 2, "a case says by itself");
     }
-    expect_refused(testing::run_program({"render", file}), 2, "--output");
+    expect_refused(run_program({"render", file}), 2, "--output");
     expect_refused(render_small({"--batch", folder.write("list", file + " -o " + out)}), 2, "list:1: ");
     const std::string skipped = folder.write("b.case.json", R"({"mobbscope_case": 1, "skip": "later"})");
-    expect_refused(testing::run_program({"render", skipped, "-o", out}), 2, "later");
+    expect_refused(run_program({"render", skipped, "-o", out}), 2, "later");
     EXPECT_FALSE(std::filesystem::exists(out));
 }
 

@@ -2,6 +2,8 @@
 
 #include <support/temp_folder.h>
 
+#include <gtest/gtest.h>
+
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -9,7 +11,8 @@
 
 #include <algorithm>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 pid_t start_program(const std::vector<std::string>& arguments, const ProgramFiles& files,
                     const std::function<void()>& in_child) {
@@ -46,8 +49,27 @@ Result run_program(const std::vector<std::string>& arguments, const std::filesys
     return run;
 }
 
+std::vector<std::string> with(std::vector<std::string> all, const std::vector<std::string>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
+json json_of(const std::vector<std::string>& arguments) {
+    const Result run = run_program(with(arguments, {"--json"}));
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run.status == 0 ? json::parse(run.out) : json();
+}
+
 bool is_one_line(const std::string& err) {
     return err.starts_with("mobbscope: ") && err.ends_with('\n') && std::count(err.begin(), err.end(), '\n') == 1;
 }
 
-}  // namespace mobbscope::testing
+void expect_refused(const Result& run, int status, const std::string& why) {
+    EXPECT_EQ(run.status, status) << run.err;
+    EXPECT_TRUE(is_one_line(run.err)) << run.err;
+    EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
+    EXPECT_EQ(run.out, "");
+}
+
+}  // namespace testing
+}  // namespace mobbscope

@@ -1,6 +1,8 @@
 /// Runs mobbscope as a user does.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include <sys/types.h>
 
 #include <cstdint>
@@ -9,7 +11,10 @@
 #include <string>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
+
+using nlohmann::json;
 
 struct Result {
     int status = -1;  ///< exit status; 128 + the signal if one ended it
@@ -33,7 +38,17 @@ pid_t start_program(const std::vector<std::string>& arguments, const ProgramFile
 Result run_program(const std::vector<std::string>& arguments, const std::filesystem::path& stdout_to = {},
                    const std::filesystem::path& stdin_from = "/dev/null", const std::function<void()>& in_child = {});
 
+/// Some arguments, and more.
+std::vector<std::string> with(std::vector<std::string> all, const std::vector<std::string>& more);
+
+/// What the program prints when it is asked for JSON; null, and a failure of the test, if it is not done.
+json json_of(const std::vector<std::string>& arguments);
+
 /// True if `err` is one whole line: what a refusal must be.
 bool is_one_line(const std::string& err);
 
-}  // namespace mobbscope::testing
+/// Fails the test unless the program ended with `status`, printed no results, and one line that holds `why`.
+void expect_refused(const Result& run, int status, const std::string& why);
+
+}  // namespace testing
+}  // namespace mobbscope

@@ -1,5 +1,6 @@
 // Where the system gives little, a command does with it or says what is missing.
 #include <base/threads.h>
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include "cli/render_runs.h"
@@ -18,9 +19,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::Result;
-using testing::run_program;
-
 /// The system starts no more threads and processes. Limits do not bind root, so somebody else does it then.
 void start_nothing_more() {
     constexpr unsigned kNobodyElse = 61'973;
@@ -34,7 +32,7 @@ void start_nothing_more() {
 class FewThreads : public ::testing::Test {
   protected:
     void SetUp() override {
-        folder_.write("scene.json", testing::kStandingScene);
+        folder_.write("scene.json", kStandingScene);
         folder_.write("s.script", "state\n");
         std::filesystem::permissions(folder_.path(), std::filesystem::perms::all);
     }
@@ -45,23 +43,22 @@ class FewThreads : public ::testing::Test {
         EXPECT_EQ(result.status, 0) << arguments.front() << ": " << result.err;
     }
 
-    testing::TempFolder folder_;
+    TempFolder folder_;
 };
 
 TEST_F(FewThreads, ACrowdIsSimulated) {
-    expect_done({"simulate", "--whole", MOBBSCOPE_SOURCE_DIR "/assets/clips", "-o", file("run.json"), "--agents", "3",
-                 "--seconds", "2"});
+    expect_done({"simulate", "--whole", kClips, "-o", file("run.json"), "--agents", "3", "--seconds", "2"});
 }
 
 TEST_F(FewThreads, APictureIsDrawn) {
-    if (!testing::open_or_skip(Backend::automatic)) return;
+    if (!open_or_skip(Backend::automatic)) return;
     // Shaders are compiled anew, as whoever draws has no cache: few of them.
     expect_done({"render", file("scene.json"), "-o", file("p.png"), "--size", "64x64", "--samples", "1", "--no-disks",
                  "--no-labels", "--no-floor", "--no-legend", "--no-inset"});
 }
 
 TEST_F(FewThreads, AScriptIsRun) {
-    if (!testing::open_or_skip(Backend::automatic)) return;
+    if (!open_or_skip(Backend::automatic)) return;
     expect_done({file("scene.json"), "--headless", "--script", file("s.script")});
 }
 
@@ -74,7 +71,7 @@ TEST(Threads, ThoseThatWereStartedAreGone) {
 
 /// In a folder that is removed.
 Result run_nowhere(const std::vector<std::string>& arguments) {
-    const testing::TempFolder folder;
+    const TempFolder folder;
     const std::filesystem::path gone = folder.path() / "gone";
     std::filesystem::create_directory(gone);
     return run_program(arguments, {}, "/dev/null", [&] {
@@ -83,10 +80,9 @@ Result run_nowhere(const std::vector<std::string>& arguments) {
 }
 
 TEST(DeletedFolder, WholeNamesWork) {
-    const testing::TempFolder folder;
+    const TempFolder folder;
     const std::string run = (folder.path() / "run.json").string();
-    const Result simulated = run_nowhere(
-        {"simulate", "--whole", MOBBSCOPE_SOURCE_DIR "/assets/clips", "-o", run, "--agents", "2", "--seconds", "1"});
+    const Result simulated = run_nowhere({"simulate", "--whole", kClips, "-o", run, "--agents", "2", "--seconds", "1"});
     EXPECT_EQ(simulated.status, 0) << simulated.err;
     const Result drawn = run_nowhere({"render", run, "--draw-list", (folder.path() / "list.json").string()});
     EXPECT_EQ(drawn.status, 0) << drawn.err;
@@ -95,19 +91,17 @@ TEST(DeletedFolder, WholeNamesWork) {
 }
 
 TEST(DeletedFolder, OthersAreRefusedInALine) {
-    const testing::TempFolder folder;
-    folder.write("scene.json", testing::kStandingScene);
+    const TempFolder folder;
+    folder.write("scene.json", kStandingScene);
     const std::string scene = (folder.path() / "scene.json").string();
     const std::vector<std::vector<std::string>> commands{
         {"render", scene, "-o", "x.png"},
         {"convert", scene, "-o", "x.csv"},
-        {"simulate", "--whole", MOBBSCOPE_SOURCE_DIR "/assets/clips", "-o", "x.json"},
+        {"simulate", "--whole", kClips, "-o", "x.json"},
     };
     for (const std::vector<std::string>& command : commands) {
         const Result result = run_nowhere(command);
-        EXPECT_EQ(result.status, 3) << result.err;
-        EXPECT_TRUE(testing::is_one_line(result.err)) << result.err;
-        EXPECT_NE(result.err.find("cannot be written"), std::string::npos) << result.err;
+        expect_refused(result, 3, "cannot be written");
     }
 }
 

@@ -4,6 +4,7 @@
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
+#include <support/folders.h>
 #include <support/json_keys.h>
 #include <support/temp_folder.h>
 
@@ -19,13 +20,6 @@
 
 namespace mobbscope {
 namespace {
-
-using nlohmann::json;
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
 
 /// A straight walk and one that turns, as tracks of a file in a folder of its own.
 class Simulate : public ::testing::Test {
@@ -119,7 +113,7 @@ TEST_F(Simulate, TheSummaryAsJson) {
     const Result result = simulate({"--json"});
     const json summary = json::parse(result.out);
     EXPECT_EQ(
-        testing::keys(summary),
+        keys(summary),
         (std::set<std::string>{"agents", "simulated_seconds", "plays", "choices", "candidates", "off_floor",
                                "colliding", "no_way_on", "in_the_way", "pivots", "forced", "queries", "most_held",
                                "wall_seconds", "queries_per_second", "turn_rate", "continuity", "continuity_forced"}));
@@ -152,7 +146,7 @@ TEST_F(Simulate, WhatIsSavedOfOtherAgentsDoesNotStay) {
 }
 
 TEST_F(Simulate, HowContinuousTheRunIsIsTold) {
-    const std::string clips = MOBBSCOPE_SOURCE_DIR "/assets/clips";
+    const std::string clips = kClips;
     const std::vector<std::string> whole{"simulate", clips, "--whole", "-o", run, "--agents", "10", "--seconds", "20"};
     const Result words = run_program(whole);
     ASSERT_EQ(words.status, 0) << words.err;

@@ -1,6 +1,7 @@
 // "-" is standard input wherever a command takes a scene or a clip, packed or not; and the inputs of the shared data.
 #include "run_program.h"
 
+#include <support/folders.h>
 #include <support/gzip.h>
 #include <support/temp_folder.h>
 
@@ -14,13 +15,6 @@
 
 namespace mobbscope {
 namespace {
-
-using testing::gzipped;
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
 
 const std::string kInputTable = "id,frame,x,y,note\na,0,0,0,n\na,1,1,0,\nb,0,1,0.1,\nb,1,0,0.1,\n";
 
@@ -103,15 +97,13 @@ TEST(Tables, ColumnsAreAnOptionOfCommandsAndScenes) {
     EXPECT_NE(bvh.err.find("columns are for tables with a header"), std::string::npos) << bvh.err;
 }
 
-const std::filesystem::path kTableData = MOBBSCOPE_SHARED_DATA;
-
 #define SKIP_WITHOUT_DATA(path) \
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "no test data at " << (path)
 
 TEST(TablesData, PublicAndLabTablesGiveTheirRightValues) {
-    SKIP_WITHOUT_DATA(kTableData / "public");
+    SKIP_WITHOUT_DATA(kSharedData / "public");
     const auto conflicts = [](const char* file, std::vector<std::string> more = {}) {
-        std::vector<std::string> arguments{"conflicts", (kTableData / file).string()};
+        std::vector<std::string> arguments{"conflicts", (kSharedData / file).string()};
         arguments.insert(arguments.end(), more.begin(), more.end());
         return run_program(arguments);
     };
@@ -126,11 +118,11 @@ TEST(TablesData, PublicAndLabTablesGiveTheirRightValues) {
               std::string::npos);
 
     const Result prose =
-        run_program({"info", (kTableData / "public/petrack_frame_rate_in_prose.txt").string(), "--json"});
+        run_program({"info", (kSharedData / "public/petrack_frame_rate_in_prose.txt").string(), "--json"});
     ASSERT_EQ(prose.status, 0) << prose.err;
     EXPECT_EQ(nlohmann::json::parse(prose.out)["clips"][0]["dt"], 0.04);
 
-    const Result extra = run_program({"info", (kTableData / "public/csv_extra_columns.csv").string(), "--json"});
+    const Result extra = run_program({"info", (kSharedData / "public/csv_extra_columns.csv").string(), "--json"});
     ASSERT_EQ(extra.status, 0) << extra.err;
     const auto clip = nlohmann::json::parse(extra.out)["clips"][0];
     EXPECT_EQ(clip["samples"], 2);

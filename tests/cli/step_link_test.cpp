@@ -1,6 +1,7 @@
 // FILE#qK@S: the step of a query as it is quoted.
 #include "run_program.h"
 
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -13,13 +14,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::TempFolder;
-
-const std::string kLinkedScene = MOBBSCOPE_SOURCE_DIR "/assets/scenes/crossing.json";
-
 Result opened(const TempFolder& folder, const std::string& name, const std::string& expects) {
     return run_program({name, "--headless", "--script", folder.write("look.script", expects)});
 }
@@ -27,16 +21,16 @@ Result opened(const TempFolder& folder, const std::string& name, const std::stri
 TEST(StepLink, OpensTheWindowThere) {
     const TempFolder folder;
     const Result run =
-        opened(folder, kLinkedScene + "#q0@4", "expect /query/index 0\nexpect /query/step 4\nexpect /modified false");
+        opened(folder, kCrossing + "#q0@4", "expect /query/index 0\nexpect /query/step 4\nexpect /modified false");
     EXPECT_EQ(run.status, 0) << run.err;
 }
 
 TEST(StepLink, IsDrawnByRender) {
     const TempFolder folder;
     const std::string linked = folder.path() / "linked.json", said = folder.path() / "said.json";
-    ASSERT_EQ(run_program({"render", kLinkedScene + "#q0@4", "--draw-list", linked}).status, 0);
-    ASSERT_EQ(run_program({"render", kLinkedScene, "--query", "0", "--step", "4", "--draw-list", said}).status, 0);
-    EXPECT_EQ(testing::slurp(linked), testing::slurp(said));
+    ASSERT_EQ(run_program({"render", kCrossing + "#q0@4", "--draw-list", linked}).status, 0);
+    ASSERT_EQ(run_program({"render", kCrossing, "--query", "0", "--step", "4", "--draw-list", said}).status, 0);
+    EXPECT_EQ(slurp(linked), slurp(said));
 }
 
 TEST(StepLink, AFileOfThatNameWins) {
@@ -64,7 +58,7 @@ TEST(StepLink, IsForTheWindowAndRenderAlone) {
     const TempFolder folder;
     for (const std::string command : {"query", "fit"}) {
         for (const std::string link : {"#q0@4", "#q0"}) {
-            const Result run = run_program({command, kLinkedScene + link});
+            const Result run = run_program({command, kCrossing + link});
             EXPECT_EQ(run.status, 2) << command;
             EXPECT_TRUE(is_one_line(run.err)) << run.err;
             EXPECT_NE(run.err.find("no such file; only the window and render take a step behind a file's name"),
@@ -72,7 +66,7 @@ TEST(StepLink, IsForTheWindowAndRenderAlone) {
                 << run.err;
         }
     }
-    const Result info = run_program({"info", kLinkedScene + "#q0@4"});
+    const Result info = run_program({"info", kCrossing + "#q0@4"});
     EXPECT_EQ(info.status, 2);
     EXPECT_NE(info.err.find("#q0@4: no such file"), std::string::npos) << info.err;
 }
@@ -102,16 +96,16 @@ TEST(StepLink, BadNumbersAreRefusedInOneLine) {
                                                           {"#q0@4294967296", "write it like #q3@412"},
                                                           {"#q7@0", "there is no query 7: they go from 0 to 0"},
                                                           {"#q0@99999", "there is no step 99999"}}) {
-        const Result window = opened(folder, kLinkedScene + link, "expect /modified false");
+        const Result window = opened(folder, kCrossing + link, "expect /modified false");
         EXPECT_EQ(window.status, 2) << link;
         EXPECT_TRUE(is_one_line(window.err)) << window.err;
         EXPECT_NE(window.err.find(why), std::string::npos) << window.err;
-        const Result render = run_program({"render", kLinkedScene + link, "-o", folder.path() / "x.png"});
+        const Result render = run_program({"render", kCrossing + link, "-o", folder.path() / "x.png"});
         EXPECT_EQ(render.status, 2) << link;
         EXPECT_TRUE(is_one_line(render.err)) << render.err;
         EXPECT_FALSE(std::filesystem::exists(folder.path() / "x.png"));
     }
-    const Result two = run_program({kLinkedScene + "#q0@4", kLinkedScene, "--headless", "--script", "none"});
+    const Result two = run_program({kCrossing + "#q0@4", kCrossing, "--headless", "--script", "none"});
     EXPECT_EQ(two.status, 2);
     EXPECT_NE(two.err.find("name no other file"), std::string::npos) << two.err;
     EXPECT_EQ(run_program({"render", "none.json#q0@4", "-o", folder.path() / "x.png"}).status, 2);

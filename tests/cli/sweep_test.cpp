@@ -1,6 +1,7 @@
 // mobbscope sweep: rows that say what fits cost, one recommendation, and one line for what is no order.
 #include "run_program.h"
 
+#include <support/folders.h>
 #include <support/json_keys.h>
 #include <support/temp_folder.h>
 
@@ -19,25 +20,13 @@
 namespace mobbscope {
 namespace {
 
-using nlohmann::json;
-using testing::is_one_line;
-using testing::keys;
-using testing::Result;
-using testing::run_program;
-using testing::TempFolder;
-
-const std::string kSweepAssets = MOBBSCOPE_SOURCE_DIR "/assets/";
-const std::string kSweptScene = kSweepAssets + "scenes/crossing.json";
-
 Result sweep_of(const std::string& file, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{"sweep", file};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_program(arguments);
+    return run_program(with({"sweep", file}, more));
 }
 
 TEST(Sweep, JsonHasEveryRow) {
-    const Result run = sweep_of(kSweptScene, {"--over", "leaf=5,10,20", "--over", "tree=mobb,umobb,blocks", "--queries",
-                                              "500", "--seed", "3", "--json"});
+    const Result run = sweep_of(kCrossing, {"--over", "leaf=5,10,20", "--over", "tree=mobb,umobb,blocks", "--queries",
+                                            "500", "--seed", "3", "--json"});
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(run.err, "");
     const json sweep = json::parse(run.out);
@@ -87,9 +76,9 @@ TEST(Sweep, CsvHasTheRowsOfJson) {
         const bool same = std::string(cost) == "price";
         std::vector<std::string> order{"--over", same ? "leaf=1:50" : "leaf=5,50", "--queries", "300", "--cost", cost};
         order.emplace_back("--json");
-        const json rows = json::parse(sweep_of(kSweptScene, order).out)["rows"];
+        const json rows = json::parse(sweep_of(kCrossing, order).out)["rows"];
         order.back() = "--csv";
-        std::istringstream csv(sweep_of(kSweptScene, order).out);
+        std::istringstream csv(sweep_of(kCrossing, order).out);
         std::string line;
         std::getline(csv, line);
         const std::vector<std::string> names = cells_of(line);
@@ -117,7 +106,7 @@ TEST(Sweep, CsvHasTheRowsOfJson) {
 
 TEST(Sweep, LevelsOfThePresentFitAreKept) {
     const std::vector<std::string> order{"--leaf", "200", "--levels", "4", "--over", "leaf=2,4", "--queries", "300"};
-    const Result run = sweep_of(kSweptScene, order);
+    const Result run = sweep_of(kCrossing, order);
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_NE(run.out.find("leaf 200, levels 4 (now)"), std::string::npos) << run.out;
     EXPECT_NE(run.out.find("\nto use it: --tree mobb --leaf "), std::string::npos) << run.out;
@@ -125,13 +114,13 @@ TEST(Sweep, LevelsOfThePresentFitAreKept) {
     EXPECT_NE(run.out.find("\"levels\": 4"), std::string::npos) << run.out;
     std::vector<std::string> as_json = order;
     as_json.emplace_back("--json");
-    const json sweep = json::parse(sweep_of(kSweptScene, as_json).out);
+    const json sweep = json::parse(sweep_of(kCrossing, as_json).out);
     EXPECT_EQ(sweep["recommended"]["levels"], 4);
     for (const json& row : sweep["rows"]) EXPECT_EQ(row["levels"], 4);
 }
 
 TEST(Sweep, TextSaysWhichToTakeAndHow) {
-    const Result run = sweep_of(kSweepAssets + "clips", {});
+    const Result run = sweep_of(kClips, {});
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_NE(run.out.find("7 clips, "), std::string::npos) << run.out;
     EXPECT_NE(run.out.find(" standard placements of each against each and itself (shift over "), std::string::npos);
@@ -140,12 +129,12 @@ TEST(Sweep, TextSaysWhichToTakeAndHow) {
     EXPECT_NE(run.out.find(" less than MOBB, leaf 10 (now), over "), std::string::npos);
     EXPECT_NE(run.out.find("\nto use it: --tree "), std::string::npos);
     EXPECT_LT(std::ranges::count(run.out, '\n'), 30);
-    EXPECT_EQ(run.out, sweep_of(kSweepAssets + "clips", {}).out) << "the same again";
+    EXPECT_EQ(run.out, sweep_of(kClips, {}).out) << "the same again";
 }
 
 TEST(Sweep, TheAdviceHoldsWhenItIsTaken) {
     const std::vector<std::string> over{"--over", "leaf=1:100", "--json"};
-    const std::string file = kSweepAssets + "clips/wander.glb";
+    const std::string file = kClips / "wander.glb";
     const json first = json::parse(sweep_of(file, over).out)["recommended"];
     std::vector<std::string> taken = over;
     taken.insert(taken.end(), {"--leaf", first["leaf"].dump(), "--tree", first["tree"].get<std::string>()});
@@ -157,7 +146,7 @@ TEST(Sweep, TheAdviceHoldsWhenItIsTaken) {
 }
 
 TEST(Sweep, OfTheScenesQueriesAllAreAsked) {
-    const Result run = sweep_of(kSweptScene, {"--queries", "scene", "--json"});
+    const Result run = sweep_of(kCrossing, {"--queries", "scene", "--json"});
     ASSERT_EQ(run.status, 0) << run.err;
     const json swept = json::parse(run.out), &workload = swept["workload"];
     EXPECT_EQ(workload["kind"], "queries");
@@ -166,8 +155,8 @@ TEST(Sweep, OfTheScenesQueriesAllAreAsked) {
     EXPECT_TRUE(workload["seed"].is_null());
     // One query says nothing of its error.
     for (const json& row : swept["rows"]) EXPECT_TRUE(row["standard_error"].is_null());
-    EXPECT_EQ(sweep_of(kSweptScene, {"--queries", "scene"}).out.find("nan"), std::string::npos);
-    EXPECT_EQ(sweep_of(kSweptScene, {"--queries", "scene", "--csv"}).out.find("nan"), std::string::npos);
+    EXPECT_EQ(sweep_of(kCrossing, {"--queries", "scene"}).out.find("nan"), std::string::npos);
+    EXPECT_EQ(sweep_of(kCrossing, {"--queries", "scene", "--csv"}).out.find("nan"), std::string::npos);
 }
 
 TEST(Sweep, OfACrowdSomeQueriesAreAskedAndIdleClipsHaveNoRow) {
@@ -191,8 +180,8 @@ TEST(Sweep, OfACrowdSomeQueriesAreAskedAndIdleClipsHaveNoRow) {
 }
 
 TEST(Sweep, TimeScalesComeWithTheirLevels) {
-    const Result run = sweep_of(kSweepAssets + "clips/wander.glb", {"--over", "time_scale=0.5,2", "--over",
-                                                                    "tree=mobb,umobb", "--queries", "200", "--json"});
+    const Result run = sweep_of(kClips / "wander.glb", {"--over", "time_scale=0.5,2", "--over", "tree=mobb,umobb",
+                                                        "--queries", "200", "--json"});
     ASSERT_EQ(run.status, 0) << run.err;
     const json levels = json::parse(run.out)["levels"];
     ASSERT_EQ(levels.size(), 4u) << "two kinds without, and two time scales";
@@ -205,7 +194,7 @@ TEST(Sweep, TimeScalesComeWithTheirLevels) {
 }
 
 TEST(Sweep, TimeIsMeasured) {
-    const Result run = sweep_of(kSweptScene, {"--cost", "time", "--over", "leaf=5,20", "--queries", "300", "--json"});
+    const Result run = sweep_of(kCrossing, {"--cost", "time", "--over", "leaf=5,20", "--queries", "300", "--json"});
     ASSERT_EQ(run.status, 0) << run.err;
     const json sweep = json::parse(run.out);
     EXPECT_EQ(sweep["unit"], "ns, measured");
@@ -238,7 +227,7 @@ TEST(Sweep, WhatIsNoOrderIsOneLine) {
                                                {"--cost", "money"},
                                                {"--json", "--csv"},
                                                {"--leaf", "0"}}) {
-        const Result run = sweep_of(kSweptScene, bad);
+        const Result run = sweep_of(kCrossing, bad);
         EXPECT_EQ(run.status, 2) << bad.back();
         EXPECT_TRUE(is_one_line(run.err)) << run.err;
         EXPECT_EQ(run.out, "");
@@ -251,7 +240,7 @@ TEST(Sweep, WhatIsNoOrderIsOneLine) {
     const std::string far = folder.path() / "far.json";
     std::ofstream(far)
         << R"({"mobbscope": 1, "clips": {"far": {"dt": 0.5, "samples": [[9e8, 9e8, 0.4], [9e8, 9e8, 0.4]]}}})";
-    for (const auto& [file, over] : {std::pair(kSweptScene, many), std::pair(far, std::string("leaf=1:20"))}) {
+    for (const auto& [file, over] : {std::pair(kCrossing, many), std::pair(far, std::string("leaf=1:20"))}) {
         for (const char* cost : {"price", "time"}) {
             const Result run = sweep_of(file, {"--over", over, "--cost", cost});
             EXPECT_EQ(run.status, 2) << file;
@@ -260,7 +249,7 @@ TEST(Sweep, WhatIsNoOrderIsOneLine) {
             EXPECT_EQ(run.out, "");
         }
     }
-    const std::string alone = kSweepAssets + "clips/wander.glb", empty = folder.path() / "empty";
+    const std::string alone = kClips / "wander.glb", empty = folder.path() / "empty";
     std::filesystem::create_directory(empty);
     const std::string mixed = folder.path() / "mixed";
     std::filesystem::create_directory(mixed);

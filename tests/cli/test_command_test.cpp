@@ -3,6 +3,7 @@
 
 #include <base/base64.h>
 #include <render/image/png.h>
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include "cases/case_folder.h"
@@ -26,13 +27,6 @@
 
 namespace mobbscope {
 namespace {
-
-using testing::CaseFolder;
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::says;
-using testing::slurp;
 
 void expect_test_refused(const Result& run, const std::string& why) {
     EXPECT_EQ(run.status, 2) << run.err;
@@ -66,7 +60,7 @@ class TestCommandTest : public ::testing::Test {
 class DrawnTestCommandTest : public TestCommandTest {
   protected:
     void SetUp() override {
-        if (!testing::open_or_skip(Backend::automatic)) return;
+        if (!open_or_skip(Backend::automatic)) return;
     }
     void take_all() const { ASSERT_EQ(test({"--update", "all"}).status, 0); }
 };
@@ -273,7 +267,7 @@ TEST_F(AnswersTestCommandTest, WithoutOpenGLWhatIsNotWrittenIsSaid) {
 }
 
 TEST_F(AnswersTestCommandTest, WhatTheSceneExpectsNoGoldenMends) {
-    cases.folder().write("scene.json", std::string(testing::kSmallScene).insert(1, R"( "queries": [{"a": "A", "b": "B",
+    cases.folder().write("scene.json", std::string(kSmallScene).insert(1, R"( "queries": [{"a": "A", "b": "B",
         "expect": {"tests": {"time": 1000}}}],)"));
     const Result run = test({"--update", "answers"});
     EXPECT_EQ(run.status, 1);
@@ -283,11 +277,11 @@ TEST_F(AnswersTestCommandTest, WhatTheSceneExpectsNoGoldenMends) {
 }
 
 TEST_F(AnswersTestCommandTest, TheGuardedFolderIsFound) {
-    const std::filesystem::path shared = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "guard/answers";
+    const std::filesystem::path shared = kSharedData / "guard/answers";
     if (!std::filesystem::exists(shared)) GTEST_SKIP() << "there is no " << shared;
     ::unsetenv("MESA_GL_VERSION_OVERRIDE");
-    if (!testing::open_or_skip(Backend::automatic)) return;
-    const testing::TempFolder folder;
+    if (!open_or_skip(Backend::automatic)) return;
+    const TempFolder folder;
     std::filesystem::copy(shared, folder.path() / "answers");
     const std::string cases_of = (folder.path() / "answers").string();
     const Result run = run_program({"test", cases_of, "--output", output.string()});
@@ -639,7 +633,7 @@ TEST_F(AcceptTest, AReportTellsOfTheCasesThatThereAre) {
     // Folders may share a report.
     const CaseFolder others;
     others.write("far", R"({"mobbscope_case": 1, "scene": "scene.json", "hold": ["answers"]})");
-    const testing::TempFolder shared;
+    const TempFolder shared;
     const auto run = [&](const CaseFolder& of) {
         return run_program({"test", of.path().string(), "--output", shared.path().string()}).status;
     };
@@ -1088,7 +1082,7 @@ class AskedTest : public DrawnTestCommandTest {
     Result accept() const { return run_program({"test", goldens.string(), "--accept", output.string()}); }
 
     const std::filesystem::path goldens = cases.path() / "goldens";
-    const std::string scene = testing::kSmallScene;
+    const std::string scene = kSmallScene;
     const std::string file = (cases.path() / "scene.json").string();
 };
 
@@ -1311,12 +1305,12 @@ TEST_F(AskedAnswersTest, GoldensAndPicturesGoToTwoFolders) {
 TEST_F(DrawnTestCommandTest, NoGoldenReplacesWhatTheCaseReads) {
     for (const char* ending : {".draw.json", ".answers.json"}) {
         const std::string scene = "c" + std::string(ending);
-        const std::filesystem::path file = cases.folder().write(scene, testing::kSmallScene);
+        const std::filesystem::path file = cases.folder().write(scene, kSmallScene);
         cases.write("c", R"({"mobbscope_case": 1, "hold": ["picture", "answers"], "scene": ")" + scene + "\"}");
         const Result run = test({"c", "--update", "c"});
         EXPECT_PRED2(says, run.out,
                      "failed: c: " + (cases.path() / "c.case.json").string() + ": the case reads " + scene);
-        EXPECT_EQ(slurp(file), testing::kSmallScene);
+        EXPECT_EQ(slurp(file), kSmallScene);
         std::filesystem::remove(file);
     }
 }
@@ -1326,7 +1320,7 @@ TEST_F(AnswersTestCommandTest, UpdateOfAllLeavesGoldensThatPass) {
     const std::filesystem::path golden = cases.path() / "answers.answers.json";
     const std::string before = slurp(golden) + '\n';
     cases.folder().write("answers.answers.json", before);
-    cases.folder().write("scene.json", std::string(testing::kSmallScene).insert(1, R"( "queries": [{"a": "A", "b": "B",
+    cases.folder().write("scene.json", std::string(kSmallScene).insert(1, R"( "queries": [{"a": "A", "b": "B",
         "expect": {"tests": {"time": 1000}}}],)"));
     const Result run = test({"answers", "--update", "all"});
     EXPECT_EQ(run.status, 1);
@@ -1337,7 +1331,7 @@ TEST_F(AnswersTestCommandTest, UpdateOfAllLeavesGoldensThatPass) {
 }
 
 TEST_F(DrawnTestCommandTest, BothBackendsDrawTheSamePicture) {
-    if (!testing::open_or_skip(Backend::osmesa) || !testing::open_or_skip(Backend::egl)) return;
+    if (!open_or_skip(Backend::osmesa) || !open_or_skip(Backend::egl)) return;
     EXPECT_EQ(test({"--backend", "osmesa", "--update", "all"}).status, 0);
     EXPECT_EQ(test({"--backend", "egl"}).status, 0);
 }

@@ -1,6 +1,7 @@
 // Tracks in every command: each starts when its first row does, and is where nobody looks for it after its last.
 #include "run_program.h"
 
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -19,23 +20,9 @@
 namespace mobbscope {
 namespace {
 
-using nlohmann::json;
-using testing::is_one_line;
-using testing::Result;
-using testing::run_program;
-using testing::slurp;
-using testing::TempFolder;
-
 // As lab/late_start.csv: 1 is there from 0 to 1 s, 2 from 10 to 11 s, in the same place.
 const std::string kLateStart =
     "id,t,x,y,r\n1,0,0,0,0.2\n1,0.5,0,0,0.2\n1,1,0,0,0.2\n2,10,0,0,0.2\n2,10.5,0,0,0.2\n2,11,0,0,0.2\n";
-
-json of_command(std::vector<std::string> arguments) {
-    arguments.emplace_back("--json");
-    const Result run = run_program(arguments);
-    EXPECT_EQ(run.status, 0) << run.err;
-    return run.status == 0 ? json::parse(run.out) : json();
-}
 
 /// The same two, as different kinds of files say it. All of their clocks begin at 0 of late_start.csv.
 const std::pair<std::string, std::string> kLateStarts[] = {
@@ -61,15 +48,15 @@ TEST(Tracks, NobodyMeetsWhoIsThereAtAnotherTimeWhateverTheFile) {
         SCOPED_TRACE(name);
         const TempFolder folder;
         const std::string file = folder.write(name, text);
-        EXPECT_EQ(of_command({"conflicts", file})["conflicts"].size(), 0u);
-        EXPECT_EQ(of_command({"query", file})["results"][0]["collides"], false);
+        EXPECT_EQ(json_of({"conflicts", file})["conflicts"].size(), 0u);
+        EXPECT_EQ(json_of({"query", file})["results"][0]["collides"], false);
         const std::string csv = folder.path() / "out.csv";
         const std::string scene = folder.path() / "out.json";
         ASSERT_EQ(run_program({"convert", file, "-o", csv}).status, 0);
         ASSERT_EQ(run_program({"convert", file, "-o", scene}).status, 0);
         for (const std::string& converted : {csv, scene}) {
-            EXPECT_EQ(of_command({"conflicts", converted})["conflicts"].size(), 0u) << converted;
-            EXPECT_EQ(of_command({"conflicts", converted})["agents"], 2);
+            EXPECT_EQ(json_of({"conflicts", converted})["conflicts"].size(), 0u) << converted;
+            EXPECT_EQ(json_of({"conflicts", converted})["agents"], 2);
         }
         std::map<std::string, double> starts;
         const json agents = json::parse(slurp(scene))["agents"];
@@ -101,9 +88,9 @@ TEST(Tracks, TrimIsOfTheFilesTime) {
     for (const auto& [name, text] : kLateStarts) {
         SCOPED_TRACE(name);
         const std::string file = folder.write(name, text);
-        const json found = of_command({"conflicts", file, "--trim", "10:11"});
+        const json found = json_of({"conflicts", file, "--trim", "10:11"});
         EXPECT_EQ(found["agents"], 1);
-        const json info = of_command({"info", file, "--trim", "10.5:11"})["clips"];
+        const json info = json_of({"info", file, "--trim", "10.5:11"})["clips"];
         ASSERT_EQ(info.size(), 1u);
         EXPECT_EQ(info[0]["start"], 10.5);
         EXPECT_EQ(info[0]["samples"], 2);
@@ -117,12 +104,12 @@ TEST(Tracks, JsonSaysWhatTimeZeroIsInTheFile) {
         if (!t0.contains(name)) continue;
         SCOPED_TRACE(name);
         const std::string file = folder.write(name, text);
-        EXPECT_EQ(of_command({"conflicts", file})["t0"], t0.at(name));
-        const json clips = of_command({"info", file})["clips"];
+        EXPECT_EQ(json_of({"conflicts", file})["t0"], t0.at(name));
+        const json clips = json_of({"info", file})["clips"];
         for (const json& clip : clips) EXPECT_EQ(clip["t0"], t0.at(name));
-        EXPECT_EQ(of_command({"conflicts", file, "--trim", "0:1"})["t0"], t0.at(name)) << "trim does not change it";
+        EXPECT_EQ(json_of({"conflicts", file, "--trim", "0:1"})["t0"], t0.at(name)) << "trim does not change it";
     }
-    const json motion = of_command({"info", folder.write("m.csv", "t,x,y,r\n5,0,0,1\n6,0,0,1\n")})["clips"][0];
+    const json motion = json_of({"info", folder.write("m.csv", "t,x,y,r\n5,0,0,1\n6,0,0,1\n")})["clips"][0];
     EXPECT_TRUE(motion["t0"].is_null());
     EXPECT_TRUE(motion["start"].is_null());
 }
@@ -132,8 +119,8 @@ TEST(Tracks, ASceneThatNamesOneTrackPlacesItItself) {
     folder.write("late.csv", kLateStart);
     const std::string scene = folder.write("s.json", R"({"clips": {"one": {"source": "late.csv", "id": "1"},
         "two": {"source": "late.csv", "id": 2}}, "agents": [{"name": "A", "clip": "one"}, {"name": "B", "clip": "two"}]})");
-    EXPECT_EQ(of_command({"conflicts", scene})["conflicts"].size(), 1u) << "both start at 0 there";
-    EXPECT_TRUE(of_command({"conflicts", scene})["t0"].is_null());
+    EXPECT_EQ(json_of({"conflicts", scene})["conflicts"].size(), 1u) << "both start at 0 there";
+    EXPECT_TRUE(json_of({"conflicts", scene})["t0"].is_null());
 }
 
 TEST(Tracks, WarningsAreCountedNotALineATrack) {
@@ -156,7 +143,7 @@ TEST(Tracks, WarningsAreCountedNotALineATrack) {
                   head +
                   "of 40 clips 4, such as '3': the times are not uniform; the path is resampled at 30 fps (line "
                   "35)\n");
-    EXPECT_EQ(of_command({"info", file})["clips"][0]["warnings"],
+    EXPECT_EQ(json_of({"info", file})["clips"][0]["warnings"],
               json::parse(R"x(["there are gaps, which are filled linearly (2 samples, line 6)"])x"));
 }
 
@@ -201,7 +188,7 @@ TEST(Tracks, AChosenColumnKeepsTheUnitThatItsNameSays) {
     const TempFolder folder;
     const std::string mixed = folder.write("u.csv", "id,t_ms,X_m,y_cm\n1,0,0,0\n1,1000,1,0\n2,0,1,0\n2,1000,0,0\n");
     for (const char* const columns : {"x=X_m", "t=t_ms", "y=y_cm,x=X_m"}) {
-        const json found = of_command({"conflicts", mixed, "--columns", columns});
+        const json found = json_of({"conflicts", mixed, "--columns", columns});
         ASSERT_EQ(found["conflicts"].size(), 1u) << columns;
         EXPECT_NEAR(found["conflicts"][0]["intervals"][0][0].get<double>(), 0.3, 1e-9) << columns;
     }
@@ -230,13 +217,13 @@ class Lab : public ::testing::Test {
     }
     static std::string file(const std::string& name) { return (kFolder / name).string(); }
 
-    inline static const std::filesystem::path kFolder = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "lab";
+    inline static const std::filesystem::path kFolder = kSharedData / "lab";
 };
 
 TEST_F(Lab, LateStartIsAnsweredAsTheOneHere) {
     EXPECT_EQ(slurp(file("late_start.csv")).size(), 122u);
-    EXPECT_EQ(of_command({"conflicts", file("late_start.csv")})["conflicts"].size(), 0u);
-    EXPECT_EQ(of_command({"conflicts", file("late_start.csv"), "--trim", "10:11"})["agents"], 1);
+    EXPECT_EQ(json_of({"conflicts", file("late_start.csv")})["conflicts"].size(), 0u);
+    EXPECT_EQ(json_of({"conflicts", file("late_start.csv"), "--trim", "10:11"})["agents"], 1);
 }
 
 TEST_F(Lab, RowsWithoutTimesAreRefusedOrSaidToStartTogether) {
@@ -250,7 +237,7 @@ TEST_F(Lab, RowsWithoutTimesAreRefusedOrSaidToStartTogether) {
 }
 
 TEST_F(Lab, ATrackOfOneRowTakesTheFilesStep) {
-    const json found = of_command({"conflicts", file("one_row_track.csv")});
+    const json found = json_of({"conflicts", file("one_row_track.csv")});
     ASSERT_EQ(found["conflicts"].size(), 1u);
     // 1 goes on at 2.5 m/s from where 2 stands for 0.4 s.
     const json& interval = found["conflicts"][0]["intervals"][0];
@@ -264,7 +251,7 @@ TEST_F(Lab, PlacesInUtmAreToldToTheCentimetre) {
 }
 
 TEST_F(Lab, TheLeaderIsNotRunIntoAfterItHasLeft) {
-    EXPECT_EQ(of_command({"conflicts", file("leader_leaves.csv")})["conflicts"].size(), 0u);
+    EXPECT_EQ(json_of({"conflicts", file("leader_leaves.csv")})["conflicts"].size(), 0u);
 }
 
 /// Who is there, and from when, and whom they meet.
@@ -277,7 +264,7 @@ CrowdAnswer answer_of(const std::string& file, const std::vector<std::string>& o
     const auto with = [&](const std::string& command) {
         std::vector<std::string> arguments{command, file};
         arguments.insert(arguments.end(), options.begin(), options.end());
-        return of_command(arguments);
+        return json_of(arguments);
     };
     CrowdAnswer out;
     if (file.ends_with(".json")) {
@@ -312,7 +299,7 @@ void expect_same_crowd(const CrowdAnswer& a, const CrowdAnswer& b) {
 }
 
 TEST(Tracks, EveryTrajectoryFileIsTheSameThroughConvert) {
-    const std::filesystem::path data = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "trajectories";
+    const std::filesystem::path data = kSharedData / "trajectories";
     if (!std::filesystem::exists(data)) GTEST_SKIP() << "no test data at " << data;
     const TempFolder folder;
     int files = 0;

@@ -2,6 +2,7 @@
 // segments between the points of each track, of which nobody is there before the first and after the last.
 #include <conflicts/conflicts.h>
 #include <scene/scene.h>
+#include <support/folders.h>
 
 #include <gtest/gtest.h>
 
@@ -93,7 +94,7 @@ std::vector<SeenTrack> tracks_of(const Scene& scene) {
 }
 
 TEST(ConflictsData, AreThoseOfAnExactSearchOfSegments) {
-    const auto folder = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "trajectories";
+    const auto folder = kSharedData / "trajectories";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no test data at " << folder;
     std::size_t conflicts = 0;
     std::vector<std::pair<std::filesystem::path, double>> crowds;

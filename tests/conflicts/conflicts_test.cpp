@@ -47,7 +47,7 @@ Conflicts find_conflicts(std::span<const mobb::PlacedTree> crowd, Search search,
     std::vector<int> person_of(crowd.size());
     std::iota(person_of.begin(), person_of.end(), 0);
     const PeopleConflicts people(crowd, person_of, search, progress);
-    std::vector<PeopleConflict> all = testing::all_of(people);
+    std::vector<PeopleConflict> all = all_of(people);
     std::ranges::sort(all, {}, [](const PeopleConflict& found) { return std::pair(found.a, found.b); });
     Conflicts out{{}, static_cast<std::int64_t>(people.pairs_tested())};
     for (const PeopleConflict& found : all) {
@@ -246,7 +246,7 @@ TEST(PeopleConflicts, AreTheSameHoweverManyThereAre) {
     std::iota(person_of.begin(), person_of.end(), 0);
     const PeopleConflicts conflicts(crowd.placed(), person_of, Search::trees);
     ASSERT_EQ(conflicts.size(), std::size_t{kPeople} * (kPeople - 1) / 2);
-    for (const PeopleConflict& found : testing::all_of(conflicts)) {
+    for (const PeopleConflict& found : all_of(conflicts)) {
         ASSERT_NEAR(found.deepest.least_clearance, kApart * (found.b - found.a) - 1, 1e-9) << found.a << ' ' << found.b;
         ASSERT_EQ(found.intervals, found.deepest.intervals);
     }

@@ -16,7 +16,7 @@ namespace {
 
 class ChoiceTest : public ::testing::Test {
   protected:
-    explicit ChoiceTest(Scene scene = testing::walker_scene()) : fitted(std::move(scene), {}) {}
+    explicit ChoiceTest(Scene scene = walker_scene()) : fitted(std::move(scene), {}) {}
 
     const FittedScene fitted;
     const MoveSet moves{fitted};
@@ -98,7 +98,7 @@ TEST_F(ChoiceTest, ChoicesOfAnEditedRunDoNotComeOut) {
     edited.agents[3].plays[1].kind = PlayKind::forced;
     EXPECT_EQ(others(moves, edited), 1u) << "another kind";
     // Other disks in the same places: what a changed source is.
-    Scene wider = testing::walker_scene();
+    Scene wider = walker_scene();
     for (SceneClip& clip : wider.clips) {
         std::vector<mobb::Disk> disks(clip.clip->samples().begin(), clip.clip->samples().end());
         for (mobb::Disk& disk : disks) disk.r *= 1.5;
@@ -132,12 +132,12 @@ TEST_F(ChoiceTest, EveryChoiceOfARunWithoutPlansIsMadeAgain) {
 
 class LinearChoiceTest : public ChoiceTest {
   protected:
-    LinearChoiceTest() : ChoiceTest(testing::with_linear_clips(testing::walker_scene())) {}
+    LinearChoiceTest() : ChoiceTest(with_linear_clips(walker_scene())) {}
 };
 
 class MixedChoiceTest : public ChoiceTest {
   protected:
-    MixedChoiceTest() : ChoiceTest(testing::with_linear_clips(testing::walker_scene(), 2)) {}
+    MixedChoiceTest() : ChoiceTest(with_linear_clips(walker_scene(), 2)) {}
 };
 
 TEST_F(LinearChoiceTest, EveryChoiceOfARunIsMadeAgain) { expect_same(run(1, 0)); }
@@ -183,7 +183,7 @@ TEST_F(ChoiceTest, APlanIsRoomThatIsKept) {
     reservations.reserve(1, 0, other);
     const auto met = [&] {
         int planned = 0;
-        for (const Candidate& candidate : testing::choice_at(moves, reservations, crowd, point).candidates) {
+        for (const Candidate& candidate : choice_at(moves, reservations, crowd, point).candidates) {
             EXPECT_NE(candidate.met, Met::play);
             planned += candidate.met == Met::plan;
         }
@@ -201,7 +201,7 @@ TEST_F(ChoiceTest, AChoiceHasAPlanThatLastsAsLongAsAsked) {
     crowd.plan = 4;
     ReservationTable reservations(moves, crowd.area, crowd.grace);
     const ChoicePoint point = at_wall(moves, crowd.area, 2);
-    const Choice choice = testing::choice_at(moves, reservations, crowd, point);
+    const Choice choice = choice_at(moves, reservations, crowd, point);
     EXPECT_FALSE(choice.candidates[choice.taken].no_way_on);
     double seconds = 0;
     for (const PlannedMove& next : choice.plan) seconds += moves.until_next(next.move);
@@ -232,7 +232,7 @@ TEST_F(ChoiceTest, AtAWallItTurnsAsLittleAsItMust) {
     CrowdRun crowd;
     crowd.area = {20, 20};
     ReservationTable reservations(moves, crowd.area, crowd.grace);
-    const Choice choice = testing::choice_at(moves, reservations, crowd, at_wall(moves, crowd.area, 1.1));
+    const Choice choice = choice_at(moves, reservations, crowd, at_wall(moves, crowd.area, 1.1));
     EXPECT_EQ(choice.kind, PlayKind::pivoted);
     double least = 360;
     for (const Candidate& candidate : choice.candidates) {
@@ -258,7 +258,7 @@ TEST_F(ChoiceTest, RoomIsKeptWhereOthersEnd) {
     for (const double grace : {0.0, 1.0}) {
         ReservationTable reservations(moves, crowd.area, grace);
         reservations.reserve(1, 0, other);
-        const Choice choice = testing::choice_at(moves, reservations, crowd, point);
+        const Choice choice = choice_at(moves, reservations, crowd, point);
         int in_the_way = 0;
         for (const Candidate& candidate : choice.candidates) {
             if (candidate.turn_deg == 0) in_the_way += candidate.in_the_way;
@@ -267,7 +267,7 @@ TEST_F(ChoiceTest, RoomIsKeptWhereOthersEnd) {
         EXPECT_FALSE(choice.candidates[choice.taken].in_the_way);
         // Once agent 1 has chosen, its room moves on with it.
         reservations.reserve(1, 1, {0, {{2 * exit + 1.5, 20}, 180, 0.7}, 0.7, PlayKind::chosen});
-        for (const Candidate& candidate : testing::choice_at(moves, reservations, crowd, point).candidates) {
+        for (const Candidate& candidate : choice_at(moves, reservations, crowd, point).candidates) {
             EXPECT_FALSE(candidate.in_the_way);
         }
     }
@@ -283,7 +283,7 @@ TEST_F(ChoiceTest, WithNobodyFreeTheLeastContactIsForcedAndTheFloorKept) {
         const mobb::Placement at{{-9.3 + 0.2 * other, 0.1 * other}, 90.0 * other, point.time + 0.1 * other};
         reservations.reserve(other, 0, {4, at, 0, PlayKind::chosen});
     }
-    const Choice choice = testing::choice_at(moves, reservations, crowd, point);
+    const Choice choice = choice_at(moves, reservations, crowd, point);
     ASSERT_EQ(choice.kind, PlayKind::forced);
     const Candidate& taken = choice.candidates[choice.taken];
     EXPECT_FALSE(taken.leaves_floor);
@@ -305,7 +305,7 @@ TEST_F(ChoiceTest, OnNoFloorAtAllTheLeastContactIsStillFound) {
     crowd.area = {0.5, 0.5};
     ReservationTable reservations(moves, crowd.area, crowd.grace);
     const ChoicePoint point = at_wall(moves, crowd.area);
-    const Choice choice = testing::choice_at(moves, reservations, crowd, point);
+    const Choice choice = choice_at(moves, reservations, crowd, point);
     EXPECT_EQ(choice.kind, PlayKind::forced);
     EXPECT_TRUE(choice.candidates[choice.taken].leaves_floor);
     // In a room of one's own there is none.

@@ -11,12 +11,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::body_clip;
-using testing::body_scene;
-using testing::BodyFrame;
-using testing::kBodyDt;
-using testing::radians;
-
 constexpr int kWalkFrames = 20;
 constexpr double kWalkStep = 0.04;  // metres a frame: 1.2 m/s
 
@@ -179,7 +173,7 @@ CrowdAgent agent_of(const Scene& scene, const std::vector<std::pair<PlayKind, do
     for (const auto& [kind, turn_deg] : plays) {
         Play play;
         play.kind = kind;
-        play.placement = testing::following(scene, 0, agent.plays.back().placement, 0);
+        play.placement = following(scene, 0, agent.plays.back().placement, 0);
         play.placement.rotate_deg += turn_deg;
         agent.plays.push_back(play);
     }

@@ -9,10 +9,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::body_clip;
-using testing::body_scene;
-using testing::BodyFrame;
-
 constexpr int kStepFrames = 30;
 constexpr double kHipStep = 0.04;  // metres a frame
 

@@ -10,6 +10,7 @@
 #include <import/skeleton/warp.h>
 #include <scene/fitted_scene.h>
 #include <scene/motion_graph.h>
+#include <support/folders.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 
@@ -37,8 +38,6 @@
 namespace mobbscope {
 namespace {
 
-const std::filesystem::path kClips = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/clips";
-
 /// The project's own walkers, to be cut into a graph in `folder`.
 const Scene& own_recordings(const std::filesystem::path& folder) {
     static const Scene scene = load_recordings(clip_files({kClips}), folder / "graph.json", {}, true).scene;
@@ -61,7 +60,7 @@ double way_of(const mobb::Clip& clip, const GraphMove& move) {
 class OwnGraph : public ::testing::Test {
   protected:
     static void SetUpTestSuite() {
-        folder_ = std::make_unique<testing::TempFolder>();
+        folder_ = std::make_unique<TempFolder>();
         built_ = std::make_unique<BuiltGraph>(build_graph(own_recordings(folder_->path()), {}, "clips"));
     }
     static void TearDownTestSuite() {
@@ -74,11 +73,11 @@ class OwnGraph : public ::testing::Test {
         return *scene().clips[static_cast<std::size_t>(graph().moves[static_cast<std::size_t>(move)].clip)].clip;
     }
 
-    static std::unique_ptr<testing::TempFolder> folder_;
+    static std::unique_ptr<TempFolder> folder_;
     static std::unique_ptr<BuiltGraph> built_;
 };
 
-std::unique_ptr<testing::TempFolder> OwnGraph::folder_;
+std::unique_ptr<TempFolder> OwnGraph::folder_;
 std::unique_ptr<BuiltGraph> OwnGraph::built_;
 
 TEST_F(OwnGraph, OffersWalksTurnsStopsAndRuns) {
@@ -132,7 +131,7 @@ TEST_F(OwnGraph, RandomWalksAreContinuous) {
     for (int i = 0; i < 2000; ++i) {
         const auto& choices = by_hub[static_cast<std::size_t>(graph().moves[static_cast<std::size_t>(move)].to)];
         const int next = choices[random() % choices.size()];
-        const mobb::Placement after = testing::following(scene(), move, placed, next);
+        const mobb::Placement after = following(scene(), move, placed, next);
         const mobb::PlacedClip before_clip(clip_of(move), placed);
         const mobb::PlacedClip after_clip(clip_of(next), after);
         ASSERT_NEAR(after.start, before_clip.time(before_clip.count()), 1e-9);
@@ -310,8 +309,7 @@ TEST_F(OwnGraph, ListsTheJointsThatCount) {
     by_root.graph = changed;
     EXPECT_LT(measure_transitions(by_root).pose_distance.median, measure_transitions(scene()).pose_distance.median / 2);
     changed->rigs.front().joints = {"wing"};
-    EXPECT_NE(testing::input_error([&] { measure_transitions(by_root); }).find("there is no joint 'wing'"),
-              std::string::npos);
+    EXPECT_NE(input_error([&] { measure_transitions(by_root); }).find("there is no joint 'wing'"), std::string::npos);
     // An older file lists none: they are found anew.
     auto older = std::make_shared<MotionGraph>(graph());
     older->rigs.clear();
@@ -391,28 +389,27 @@ TEST_F(OwnGraph, OptionsAreKept) {
 }
 
 TEST(GraphBuild, RefusesWhatCannotBeCut) {
-    const testing::TempFolder folder;
+    const TempFolder folder;
     const auto csv = folder.write("a.csv", "t,x,y,r\n0,0,0,1\n1,1,0,1\n");
     const Scene flat = load_recordings(clip_files({csv}), folder.path() / "g.json", {}, true).scene;
-    EXPECT_NE(testing::input_error([&] { build_graph(flat, {}, "a.csv"); }).find("a.csv: no clip has joints"),
+    EXPECT_NE(input_error([&] { build_graph(flat, {}, "a.csv"); }).find("a.csv: no clip has joints"),
               std::string::npos);
     const Scene shortest = load_recordings(clip_files({kClips / "run.glb"}), folder.path() / "g.json", {}, true).scene;
     GraphOptions strict;
     strict.bounds.pose_distance = 0;
-    EXPECT_NE(testing::input_error([&] { build_graph(shortest, strict, "run"); }).find("no pose comes again"),
+    EXPECT_NE(input_error([&] { build_graph(shortest, strict, "run"); }).find("no pose comes again"),
               std::string::npos);
     strict.bounds.pose_distance = -1;
     EXPECT_THROW(build_graph(shortest, strict, "run"), std::invalid_argument);
-    EXPECT_NE(testing::input_error([&] { clip_files({folder.path() / "x.json"}); }).find("from clip files"),
-              std::string::npos);
+    EXPECT_NE(input_error([&] { clip_files({folder.path() / "x.json"}); }).find("from clip files"), std::string::npos);
     std::filesystem::create_directory(folder.path() / "empty");
     folder.write("empty/readme.txt", "no motion");
-    EXPECT_NE(testing::input_error([&] { clip_files({folder.path() / "empty"}); }).find("no clips in this folder"),
+    EXPECT_NE(input_error([&] { clip_files({folder.path() / "empty"}); }).find("no clips in this folder"),
               std::string::npos);
 }
 
 TEST(GraphBuild, MovesKeepTheMotionOfTheirRecordings) {
-    const testing::TempFolder folder;
+    const TempFolder folder;
     ImportOptions linear;
     linear.motion = mobb::Motion::linear;
     const Scene recordings = load_recordings(clip_files({kClips}), folder.path() / "graph.json", linear, true).scene;
@@ -442,7 +439,7 @@ class ClipFolders : public ::testing::Test {
         return out;
     }
 
-    const testing::TempFolder folder_;
+    const TempFolder folder_;
 };
 
 TEST_F(ClipFolders, WhatTheyHoldDecidesTheOrder) {
@@ -480,19 +477,18 @@ TEST_F(ClipFolders, ABadFileIsLeftOutUnlessItWasNamed) {
     EXPECT_EQ(recordings.scene.clips.size(), 3u);
     ASSERT_EQ(recordings.left_out.size(), 1u);
     EXPECT_NE(recordings.left_out.front().find("a/bad.bvh: "), std::string::npos) << recordings.left_out.front();
-    const std::string why = testing::input_error([&] { load({path("a"), path("b")}, true); });
+    const std::string why = input_error([&] { load({path("a"), path("b")}, true); });
     EXPECT_EQ(why, recordings.left_out.front());
-    EXPECT_EQ(testing::input_error([&] { load({path("a/bad.bvh"), path("b")}, false); }), why);
-    EXPECT_EQ(testing::input_error([&] { load({path("a"), path("a/bad.bvh")}, false); }), why);
-    EXPECT_NE(testing::input_error([&] {
+    EXPECT_EQ(input_error([&] { load({path("a/bad.bvh"), path("b")}, false); }), why);
+    EXPECT_EQ(input_error([&] { load({path("a"), path("a/bad.bvh")}, false); }), why);
+    EXPECT_NE(input_error([&] {
                   load({path("a"), path("none.bvh")}, false);
               }).find("none.bvh: no such file"),
               std::string::npos);
     for (const char* name : {"a/straight.csv", "a/bend.csv"}) std::filesystem::remove(path(name));
-    EXPECT_EQ(testing::input_error([&] { load({path("a")}, false); }), why);
+    EXPECT_EQ(input_error([&] { load({path("a")}, false); }), why);
     folder_.write("a/also_bad.bvh", "HIERARCHY");
-    EXPECT_NE(testing::input_error([&] { load({path("a")}, false); }).find("; nor can 1 other file be read"),
-              std::string::npos);
+    EXPECT_NE(input_error([&] { load({path("a")}, false); }).find("; nor can 1 other file be read"), std::string::npos);
 }
 
 TEST_F(ClipFolders, AFolderThatCannotBeReadIsLeftOutAndNamed) {
@@ -506,7 +502,7 @@ TEST_F(ClipFolders, AFolderThatCannotBeReadIsLeftOutAndNamed) {
     std::string closed;
     try {
         files = clip_files({path("b")});
-        closed = testing::input_error([&] { clip_files({path("b/closed")}); });
+        closed = input_error([&] { clip_files({path("b/closed")}); });
     } catch (const InputError& error) {
         ADD_FAILURE() << error.what();
     }
@@ -516,15 +512,14 @@ TEST_F(ClipFolders, AFolderThatCannotBeReadIsLeftOutAndNamed) {
     const Recordings recordings = load_recordings(files, path("graph.json"), {}, false);
     EXPECT_EQ(recordings.left_out, std::vector<std::string>{why});
     EXPECT_FALSE(recordings.scene.clips.empty());
-    EXPECT_EQ(testing::input_error([&] { load_recordings(files, path("graph.json"), {}, true); }), why);
+    EXPECT_EQ(input_error([&] { load_recordings(files, path("graph.json"), {}, true); }), why);
 }
 
 TEST(GraphBuild, ClipsThatAreTooLongForTheirJointsAreNotSaidToHaveNone) {
     Scene scene = load_recordings(clip_files({kClips}), "graph.json", {}, true).scene;
     // As an import leaves them of which there would be too many positions.
     for (SceneClip& clip : scene.clips) clip.skeleton.reset();
-    EXPECT_NE(testing::input_error([&] { build_graph(scene, {}, "clips"); }).find("has too many samples"),
-              std::string::npos);
+    EXPECT_NE(input_error([&] { build_graph(scene, {}, "clips"); }).find("has too many samples"), std::string::npos);
 }
 
 TEST(GraphBuild, MoreSamplesASecondThanMotionHasAreRefused) {
@@ -532,7 +527,7 @@ TEST(GraphBuild, MoreSamplesASecondThanMotionHasAreRefused) {
     options.fps = 1000;
     EXPECT_NO_THROW(load_recordings(clip_files({kClips / "run.glb"}), "graph.json", options, true));
     options.fps = 1001;
-    EXPECT_NE(testing::input_error([&] {
+    EXPECT_NE(input_error([&] {
                   load_recordings(clip_files({kClips / "run.glb"}), "graph.json", options, false);
               }).find("has 1001 samples a second; graphs are built from up to 1000: lower --fps"),
               std::string::npos);
@@ -560,16 +555,15 @@ TEST(GraphBuild, OnlyPiecesThatDifferAreKept) {
 class RealRecordings : public ::testing::Test {
   protected:
     void SetUp() override {
-        if (!std::filesystem::exists(kData)) GTEST_SKIP() << "no data at " << kData;
+        if (!std::filesystem::exists(kSharedData)) GTEST_SKIP() << "no data at " << kSharedData;
     }
     Scene load(const std::vector<std::filesystem::path>& places) const {
         std::vector<std::filesystem::path> whole;
-        for (const std::filesystem::path& place : places) whole.push_back(kData / place);
+        for (const std::filesystem::path& place : places) whole.push_back(kSharedData / place);
         return load_recordings(clip_files(whole), folder_.path() / "graph.json", {}, false).scene;
     }
 
-    const std::filesystem::path kData = std::filesystem::path(MOBBSCOPE_SHARED_DATA);
-    const testing::TempFolder folder_;
+    const TempFolder folder_;
 };
 
 TEST_F(RealRecordings, ALongWalkBecomesAGraphWhoseBoundsHold) {

@@ -26,9 +26,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::walk;
-using testing::with_linear_clips;
-
 const mobb::Clip& clip_of_play(const Scene& run, const Play& play) {
     return *run.clips[static_cast<std::size_t>(run.graph->moves[static_cast<std::size_t>(play.move)].clip)].clip;
 }
@@ -45,7 +42,7 @@ struct RunOfJoints {
 class JointsOfARun : public ::testing::TestWithParam<RunOfJoints> {
   protected:
     Scene run_of(std::uint64_t seed) const {
-        Scene scene = testing::walker_scene();
+        Scene scene = walker_scene();
         if (GetParam().is_coarse) {
             scene.clips = {walk("ahead", 1.4, 0, 4, 0.4, 0.3), walk("left", 1.2, 60, 4, 0.4, 0.3),
                            walk("right", 1.2, -60, 4, 0.4, 0.3), walk("around", 0.9, 150, 6, 0.4, 0.3)};
@@ -162,8 +159,7 @@ std::set<std::pair<int, int>> pairs_of(const Scene& people, Search search) {
         person_of.push_back(people.agents[static_cast<std::size_t>(who.agent)].run_agent);
     }
     std::set<std::pair<int, int>> out;
-    for (const PeopleConflict& found : testing::all_of(PeopleConflicts(crowd, person_of, search)))
-        out.emplace(found.a, found.b);
+    for (const PeopleConflict& found : all_of(PeopleConflicts(crowd, person_of, search))) out.emplace(found.a, found.b);
     return out;
 }
 
@@ -261,7 +257,7 @@ std::vector<Met> met_after_ahead(const Scene& scene, const std::vector<std::vect
     }
     const ChoicePoint point{0, 1, {0, {}, 0}, moves.until_joint(0)};
     std::vector<Met> out;
-    for (const Candidate& candidate : testing::choice_at(moves, reservations, run, point).candidates)
+    for (const Candidate& candidate : choice_at(moves, reservations, run, point).candidates)
         out.push_back(candidate.met);
     return out;
 }
@@ -336,7 +332,7 @@ TEST(Joints, TheirContactIsHarm) {
         reservations.reserve(1, 0, post({3.5, 0.35}, 1.6));
         reservations.reserve(2, 0, post({6.5, 0}, 3.1));
         const ChoicePoint point{0, 1, {0, {}, 0}, 1.5};
-        const Choice choice = testing::choice_at(moves, reservations, run, point);
+        const Choice choice = choice_at(moves, reservations, run, point);
         EXPECT_EQ(choice.kind, PlayKind::forced);
         EXPECT_EQ(choice.candidates[choice.taken].move, 0) << "seed " << run.seed;
     }
@@ -380,10 +376,10 @@ TEST(Joints, AChoiceMadeAgainTellsWhoIsMetOnThem) {
 }
 
 TEST(Joints, OfOneSampleMovesTheyAreAllThereIs) {
-    Scene scene = testing::walker_scene();
+    Scene scene = walker_scene();
     scene.clips = {scene.clips[0], scene.clips[6], walk("one", 1, 0, 1, 1.0 / 30, 0.3)};
     scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
-    const Scene run = testing::with_run(with_linear_clips(std::move(scene)), 12, {7, 7});
+    const Scene run = with_run(with_linear_clips(std::move(scene)), 12, {7, 7});
     int ones = 0;
     for (const CrowdAgent& agent : run.crowd->agents)
         for (const Play& play : agent.plays) ones += clip_of_play(run, play).count() == 1 ? 1 : 0;

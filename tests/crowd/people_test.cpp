@@ -16,16 +16,13 @@
 namespace mobbscope {
 namespace {
 
-using testing::walk;
-using testing::walker_scene;
-
 /// A run of walks of one dt on a floor so small that some are forced.
 Scene crowded_run() {
     Scene scene;
     scene.clips = {walk("ahead", 1.4, 0, 45, 1.0 / 30, 0.4), walk("left", 1.2, 60, 40, 1.0 / 30, 0.42),
                    walk("right", 1.2, -60, 40, 1.0 / 30, 0.42)};
     scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
-    return testing::with_run(std::move(scene), 20, {9, 9});
+    return with_run(std::move(scene), 20, {9, 9});
 }
 
 TEST(People, TheirClipsAreWhatTheyPlay) {
@@ -70,7 +67,7 @@ TEST(People, CollideWhereTheirPlaysDo) {
     std::set<std::pair<int, int>> found;
     std::vector<int> person_of(crowd.size());
     std::iota(person_of.begin(), person_of.end(), 0);
-    for (const PeopleConflict& conflict : testing::all_of(PeopleConflicts(crowd, person_of, Search::trees))) {
+    for (const PeopleConflict& conflict : all_of(PeopleConflicts(crowd, person_of, Search::trees))) {
         found.emplace(conflict.a, conflict.b);
     }
     EXPECT_EQ(found, expected);
@@ -103,7 +100,7 @@ Scene joining_plays(const std::vector<Play>& plays) {
     Scene scene;
     scene.clips = {walk("held", 1.4, 0, 45, 1.0 / 30, 0.4), walk("linear", 1.4, 30, 45, 1.0 / 30, 0.3),
                    walk("linear, slower", 1.4, 0, 30, 0.05, 0.5), walk("linear, one sample", 1.4, 0, 1, 1.5, 0.2)};
-    const Scene linear = testing::with_linear_clips(scene);
+    const Scene linear = with_linear_clips(scene);
     for (std::size_t i = 1; i < scene.clips.size(); ++i) scene.clips[i] = linear.clips[i];
     scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
     CrowdRun run;

@@ -25,7 +25,7 @@ namespace {
 
 class WorldTest : public ::testing::Test {
   protected:
-    const FittedScene fitted{testing::walker_scene(), {}};
+    const FittedScene fitted{walker_scene(), {}};
     const MoveSet moves{fitted};
     CounterRandom random{1, 2, 3};
 

@@ -17,9 +17,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-using testing::walker_scene;
-
 class Simulate : public ::testing::Test {
   protected:
     const FittedScene fitted{walker_scene(), {}};
@@ -143,8 +140,7 @@ TEST_F(Simulate, TheRunDependsOnTheSeedAndNotOnTheThreads) {
     // So many moves that candidates are asked in several tasks.
     Scene scene;
     for (int i = 0; i < 60; ++i) {
-        scene.clips.push_back(
-            testing::walk("walk" + std::to_string(i), 0.8 + 0.02 * i, 5.0 * i - 150, 45, 1.0 / 30, 0.4));
+        scene.clips.push_back(walk("walk" + std::to_string(i), 0.8 + 0.02 * i, 5.0 * i - 150, 45, 1.0 / 30, 0.4));
     }
     scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
     const FittedScene many(scene, {});

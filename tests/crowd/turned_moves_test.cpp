@@ -39,7 +39,7 @@ double step_turned_by(const mobb::Clip& turned, const mobb::Clip& from, std::siz
 }
 
 TEST(TurnedMoves, NoneIsFasterThanTheRateAllows) {
-    const FittedScene fitted(testing::walker_scene(), {});
+    const FittedScene fitted(walker_scene(), {});
     for (const double rate : {40.0, 120.0, 500.0}) {
         const MoveSet moves(fitted, rate);
         EXPECT_GT(moves.count(), moves.unturned().size());
@@ -67,7 +67,7 @@ TEST(TurnedMoves, NoneIsFasterThanTheRateAllows) {
 }
 
 TEST(TurnedMoves, TheRoomAfterAMoveHoldsAllThatMayFollow) {
-    const FittedScene fitted(testing::walker_scene(), {});
+    const FittedScene fitted(walker_scene(), {});
     for (const double rate : {0.0, 120.0, kTurnsAtOnce}) {
         const MoveSet moves(fitted, rate);
         for (int i = 0; i < 36; ++i) {
@@ -101,7 +101,7 @@ TEST(TurnedMoves, TheRoomAfterAMoveHoldsAllThatMayFollow) {
 }
 
 TEST(TurnedMoves, ARunHoldsThoseThatArePlayedAndIsReadAgain) {
-    const FittedScene fitted(testing::walker_scene(), {});
+    const FittedScene fitted(walker_scene(), {});
     const MoveSet moves(fitted);
     SimulateOptions options = turning_crowd();
     options.threads = 1;
@@ -140,7 +140,7 @@ TEST(TurnedMoves, ARunHoldsThoseThatArePlayedAndIsReadAgain) {
 }
 
 TEST(TurnedMoves, NobodyJumpsInAFileThatHasATurnRate) {
-    const FittedScene fitted(testing::walker_scene(), {});
+    const FittedScene fitted(walker_scene(), {});
     const MoveSet moves(fitted);
     Scene run = scene_of_run(moves, simulate(moves, turning_crowd()).run);
     CrowdRun edited = *run.crowd;
@@ -153,7 +153,7 @@ TEST(TurnedMoves, NobodyJumpsInAFileThatHasATurnRate) {
 
 TEST(TurnedMoves, OfSamplesThatAreHardlyApartSomeRadiusIsTurned) {
     Scene scene;
-    scene.clips = {testing::walk("blink", 1.4, 0, 3, 1e-11, 0.4)};
+    scene.clips = {walk("blink", 1.4, 0, 3, 1e-11, 0.4)};
     scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
     const FittedScene fitted(scene, {});
     const std::optional<double> radius = MoveSet(fitted, kDefaultTurnRate).turning_radius(0);
@@ -167,8 +167,8 @@ TEST(TurnedMoves, WhatIsForcedHarmsForTheFewestSeconds) {
                                             std::vector<mobb::Disk>(static_cast<std::size_t>(samples), {0, 0, 0.4}));
     };
     Scene scene;
-    scene.clips = {testing::walk("ahead", 1.4, 0, 45, 1.0 / 30, 0.4),
-                   testing::walk("aside", 1.4, 0, 45, 1.0 / 30, 0.4),
+    scene.clips = {walk("ahead", 1.4, 0, 45, 1.0 / 30, 0.4),
+                   walk("aside", 1.4, 0, 45, 1.0 / 30, 0.4),
                    {"stand", {}, {}, still(45)},
                    {"blink", {}, {}, still(6)}};
     MotionGraph graph;
@@ -191,7 +191,7 @@ TEST(TurnedMoves, WhatIsForcedHarmsForTheFewestSeconds) {
     reservations.reserve(1, 0, {2, {{2.1, 0.3}, 0, 0}, 0});
     reservations.reserve(2, 0, {2, {{2.1, -0.3}, 0, 0}, 0});
     reservations.reserve(3, 0, {3, {{0, 0.9}, 0, 0.4}, 0});
-    const Choice choice = testing::choice_at(moves, reservations, crowd, point);
+    const Choice choice = choice_at(moves, reservations, crowd, point);
     ASSERT_EQ(choice.kind, PlayKind::forced);
     ASSERT_EQ(choice.candidates.size(), 2u);
     const auto first_contact = [&](const Candidate& candidate) {
@@ -204,7 +204,7 @@ TEST(TurnedMoves, WhatIsForcedHarmsForTheFewestSeconds) {
 
 TEST(TurnedMoves, WhoStandsInFrontOfAWallTurnsAway) {
     Scene scene;
-    scene.clips = {testing::walk("stand", 0, 0, 30, 1.0 / 30, 0.3), testing::walk("ahead", 1.2, 0, 60, 1.0 / 30, 0.3)};
+    scene.clips = {walk("stand", 0, 0, 30, 1.0 / 30, 0.3), walk("ahead", 1.2, 0, 60, 1.0 / 30, 0.3)};
     scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
     const FittedScene fitted(scene, {});
     const MoveSet moves(fitted, 120);
@@ -218,7 +218,7 @@ TEST(TurnedMoves, WhoStandsInFrontOfAWallTurnsAway) {
         // Ends at (4.5, 0), with the wall a metre and a half ahead.
         point.before.move = move;
         point.before.placement = {{move == 0 ? 4.5 : 4.5 - 2.4, 0}, 0, move == 0 ? -1.0 : -2.0};
-        const Choice choice = testing::choice_at(moves, reservations, crowd, point);
+        const Choice choice = choice_at(moves, reservations, crowd, point);
         const Candidate& taken = choice.candidates[choice.taken];
         return std::tuple(choice.kind, taken.move, taken.turn_deg != 0);
     };

@@ -15,7 +15,8 @@
 #include <utility>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 /// A walk at `speed` m/s for `samples` samples of `dt` seconds that turns by `turn_deg` on the way.
 inline SceneClip walk(const std::string& name, double speed, double turn_deg, int samples, double dt, double radius) {
@@ -79,4 +80,5 @@ inline Choice choice_at(const MoveSet& moves, const ReservationTable& reservatio
     return choose(moves, reservations, run, point, search);
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

@@ -17,7 +17,8 @@
 #include <utility>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 inline constexpr double kBodyDt = 1.0 / 30;
 
@@ -62,4 +63,5 @@ inline Scene body_scene(std::vector<SceneClip> clips, const std::vector<std::pai
     return scene;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

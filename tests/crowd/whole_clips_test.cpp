@@ -28,7 +28,7 @@ Scene quarter_circle() {
 TEST(GraphWalk, FourQuarterTurnsComeBackToTheirBeginning) {
     const Scene scene = quarter_circle();
     mobb::Placement placed{{3, -2}, 40, 1};
-    for (int i = 0; i < 4; ++i) placed = testing::following(scene, 0, placed, 0);
+    for (int i = 0; i < 4; ++i) placed = following(scene, 0, placed, 0);
     EXPECT_NEAR(placed.translate.x, 3, 2);
     EXPECT_NEAR(placed.translate.y, -2, 2);
     EXPECT_NEAR(placed.rotate_deg, 40, 8);  // the direction is read over 0.1 m, here two samples
@@ -38,7 +38,7 @@ TEST(GraphWalk, FourQuarterTurnsComeBackToTheirBeginning) {
 TEST(GraphWalk, TheNextMoveBeginsOneStepBehindTheLastSample) {
     const Scene scene = quarter_circle();
     const mobb::Placement first{{3, -2}, 40, 1};
-    const mobb::Placement second = testing::following(scene, 0, first, 0);
+    const mobb::Placement second = following(scene, 0, first, 0);
     const mobb::Clip& clip = *scene.clips[0].clip;
     const mobb::Disk last = mobb::PlacedClip(clip, first).disk(99);
     const mobb::Disk next = mobb::PlacedClip(clip, second).disk(0);
@@ -49,7 +49,7 @@ TEST(GraphWalk, AWholeClipThatIsNoMoveIsRefused) {
     Scene scene;
     scene.clips.push_back(
         {"far", "far.csv", {}, std::make_shared<mobb::Clip>(0.1, std::vector{mobb::Disk{-2e6, 0, 1}})});
-    EXPECT_EQ(testing::input_error([&] { graph_of_whole_clips(scene); }),
+    EXPECT_EQ(input_error([&] { graph_of_whole_clips(scene); }),
               "far.csv: clip 'far': begins or ends more than 1e+06 m from the origin; move it there");
 }
 

@@ -141,10 +141,10 @@ double gap_if_tighter(const PlacedTree& a, const PlacedTree& b, const Trace::Eve
 
 TEST(Avoidable, IsWhatADenseSearchOfLinesFinds) {
     Random random(35);
-    int avoidable = 0, others = 0, narrow = 0;
+    int avoidable = 0, others = 0;
     for (int round = 0; round < 400; ++round) {
         SCOPED_TRACE(round);
-        const testing::RandomQuery asked = testing::random_query(random, 120);
+        const RandomQuery asked = random_query(random, 120);
         const PlacedTree a = asked.a(), b = asked.b();
         const AvoidableOverlaps judged = avoidable_overlaps(asked.trace, a, b);
         EXPECT_TRUE(judged.all_judged());
@@ -163,7 +163,6 @@ TEST(Avoidable, IsWhatADenseSearchOfLinesFinds) {
                 EXPECT_GT(found->line.gap, 0);
                 EXPECT_GE(found->line.gap, 0.97 * gap) << event << ": about the widest";
                 ++avoidable;
-                narrow += gap <= 0;
             } else {
                 EXPECT_LE(gap, 8 * all.slack) << event;
                 ++others;
@@ -180,7 +179,7 @@ TEST(Avoidable, BlamesTheBoxInWhosePlaceATighterOneWouldHaveCut) {
     std::set<std::size_t> tests;
     for (int round = 0; round < 400; ++round) {
         SCOPED_TRACE(round);
-        const testing::RandomQuery asked = testing::random_query(random, 100);
+        const RandomQuery asked = random_query(random, 100);
         const PlacedTree a = asked.a(), b = asked.b();
         const AvoidableOverlaps judged = avoidable_overlaps(asked.trace, a, b);
         for (std::size_t i = 0; i < judged.events.size(); ++i) {
@@ -281,7 +280,7 @@ TEST(Avoidable, NoneLeadsToAHit) {
     Random random(37);
     int above = 0;
     for (int round = 0; round < 100; ++round) {
-        const testing::RandomQuery asked = testing::random_query(random, 200);
+        const RandomQuery asked = random_query(random, 200);
         for (int event = 0; event < asked.trace.size(); ++event) {
             if (asked.trace[event].outcome != Outcome::hit) continue;
             for (int i = asked.trace[event].parent; i >= 0; i = asked.trace[i].parent) {

@@ -2,6 +2,7 @@
 #include <explain/query_sentence.h>
 #include <mobb/random_motion.h>
 #include <mobb/separation.h>
+#include <support/folders.h>
 
 #include "render/scenes.h"
 
@@ -73,8 +74,7 @@ TEST(AxisIntervals, SayWhatTheTestsOfTheDemoScenesSaid) {
     Counts all;
     for (const char* name : {"crossing", "collision"}) {
         for (const mobb::TreeKind kind : mobb::test::kFittedTrees) {
-            Scene scene = load_scene(std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/scenes" /
-                                     (std::string(name) + ".json"));
+            Scene scene = load_scene(kScenes / (std::string(name) + ".json"));
             mobb::FitOptions options = scene.fit;
             options.tree = kind;
             const Counts counts = check_all({std::move(scene), options});
@@ -99,7 +99,7 @@ TEST(AxisIntervals, HoldAcrossEdgesAndFarAway) {
         mobb::FitOptions options;
         options.tree = mobb::TreeKind::umobb;
         options.leaf = 3;
-        const Counts counts = check_all({testing::scene_of(placements), options});
+        const Counts counts = check_all({scene_of(placements), options});
         all.separated += counts.separated;
         all.across += counts.across;
         all.skipped += counts.skipped;
@@ -118,7 +118,7 @@ TEST(AxisIntervals, HoldForEveryKindFarAway) {
         mobb::FitOptions options;
         options.tree = kind;
         options.leaf = 3;
-        const Counts counts = check_all({testing::scene_of(placements), options});
+        const Counts counts = check_all({scene_of(placements), options});
         EXPECT_GT(counts.separated, 100) << mobb::name(kind);
         EXPECT_GT(counts.overlaps, 100) << mobb::name(kind);
     }
@@ -127,11 +127,11 @@ TEST(AxisIntervals, HoldForEveryKindFarAway) {
 TEST(AxisIntervals, ParallelEdgesAreLeftOut) {
     mobb::FitOptions options;
     options.tree = mobb::TreeKind::umobb;
-    EXPECT_GT(check_all({testing::scene_of({{}, {{0, 0.9}, 0, 0}}), options}).skipped, 0);
+    EXPECT_GT(check_all({scene_of({{}, {{0, 0.9}, 0, 0}}), options}).skipped, 0);
 }
 
 TEST(AxisIntervals, AxesAreNamedAsInTheSentence) {
-    const FittedScene fitted = testing::miss_scene();
+    const FittedScene fitted = miss_scene();
     const RecordedQuery recorded = record(fitted, fitted.queries()[0]);
     ViewState view;
     view.query = 0;

@@ -283,8 +283,8 @@ void expect_bones_inside(const SceneClip& clip, const std::string& what) {
 }
 
 TEST(Bodies, BonesLieInTheDisks) {
-    const testing::TempFolder folder;
-    folder.write("walker.bvh", testing::kWalker);
+    const TempFolder folder;
+    folder.write("walker.bvh", kWalker);
     const std::string options[] = {R"("fps": 17)", R"("fps": 30, "trim": [0.03, 0.08])", R"("root": "Left Arm")",
                                    R"("origin": "start_heading", "motion": "linear")",
                                    R"("turn": {"deg": 70, "seconds": 0.05}, "fps": 40)"};

@@ -23,7 +23,7 @@ TEST(BranchCosts, AreTheEventsBelowEachPair) {
     Random random(365);
     std::size_t found = 0;
     for (int round = 0; round < 300; ++round) {
-        const testing::RandomQuery asked = testing::random_query(random);
+        const RandomQuery asked = random_query(random);
         const Recursion recursion = recursion_of(asked.trace, asked.a(), asked.b());
         FocusWindow focus;
         if (random.chance(0.4)) focus.branch = random.integer(0, static_cast<int>(recursion.pairs.size()) - 1);

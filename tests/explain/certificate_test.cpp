@@ -19,13 +19,11 @@
 namespace mobbscope {
 namespace {
 
-using testing::ProvenQuery;
-
 /// Proofs of random answers are taken; there are no more tiles than the trace has separated and measured pairs.
 void prove(const std::function<ProvenQuery(mobb::test::Random&)>& make) {
     mobb::test::Random random(35);
     int misses = 0, hits = 0;
-    for (int i = 0; i < testing::certificate_budget(); ++i) {
+    for (int i = 0; i < certificate_budget(); ++i) {
         SCOPED_TRACE(i);
         const ProvenQuery asked = make(random);
         EXPECT_EQ(asked.refused(asked.proof), "");
@@ -38,15 +36,15 @@ void prove(const std::function<ProvenQuery(mobb::test::Random&)>& make) {
         EXPECT_LE(asked.proof.tiles.size(), ends);
         (asked.recorded.contact ? hits : misses) += 1;
     }
-    EXPECT_GT(misses, testing::certificate_budget() / 6);
-    EXPECT_GT(hits, testing::certificate_budget() / 20);
+    EXPECT_GT(misses, certificate_budget() / 6);
+    EXPECT_GT(hits, certificate_budget() / 20);
 }
 
-TEST(Certificate, ProvesAnswersOfAllKinds) { prove(testing::random_proven_query); }
+TEST(Certificate, ProvesAnswersOfAllKinds) { prove(random_proven_query); }
 
 TEST(Certificate, ProvesAnswersOfRealClips) {
-    if (testing::real_clips().empty()) GTEST_SKIP() << "no test data at " << MOBBSCOPE_SHARED_DATA;
-    prove(testing::random_real_query);
+    if (real_clips().empty()) GTEST_SKIP() << "no test data at " << MOBBSCOPE_SHARED_DATA;
+    prove(random_real_query);
 }
 
 /// How far a tile's line, moved as far as it can be, is passed by the disks of its time, metres.
@@ -70,9 +68,9 @@ double passed_by(const ProvenQuery& asked, const Tile& tile) {
 TEST(Certificate, WhatIsDamagedIsRefused) {
     mobb::test::Random random(38);
     int removed = 0, widened = 0, moved = 0;
-    for (int i = 0; i < testing::certificate_budget(); ++i) {
+    for (int i = 0; i < certificate_budget(); ++i) {
         SCOPED_TRACE(i);
-        const ProvenQuery asked = testing::random_proven_query(random);
+        const ProvenQuery asked = random_proven_query(random);
         const Certificate& proof = asked.proof;
         if (proof.tiles.empty()) continue;
         const auto at = static_cast<std::size_t>(random.integer(0, static_cast<int>(proof.tiles.size()) - 1));
@@ -144,7 +142,7 @@ void expect_proven(const mobb::ClipPtr& a, const mobb::ClipPtr& b, const mobb::P
                    const mobb::Placement& place_b, bool collide, std::size_t tiles) {
     for (const mobb::TreeKind tree : mobb::kTreeKinds) {
         SCOPED_TRACE(mobb::name(tree));
-        const ProvenQuery asked(testing::two_agents(a, b, place_a, place_b), {.tree = tree, .leaf = 2});
+        const ProvenQuery asked(two_agents(a, b, place_a, place_b), {.tree = tree, .leaf = 2});
         EXPECT_EQ(asked.refused(asked.proof), "");
         EXPECT_EQ(asked.proof.contact.has_value(), collide);
         EXPECT_EQ(asked.proof.tiles.size(), tiles);
@@ -192,7 +190,7 @@ TEST(Certificate, WalkersWhoPassEachOtherNeedALineThatMoves) {
     std::vector<mobb::Disk> disks;
     for (int i = 0; i < 100; ++i) disks.push_back({0.1 * i, 0, 0.3});
     const mobb::ClipPtr walk = clip(0.1, disks, mobb::Motion::linear);
-    const ProvenQuery asked(testing::two_agents(walk, walk, {}, {{0.7, 0}, 0, 0}), {});
+    const ProvenQuery asked(two_agents(walk, walk, {}, {{0.7, 0}, 0, 0}), {});
     ASSERT_EQ(asked.proof.tiles.size(), 1u);
     EXPECT_NEAR(asked.proof.tiles[0].speed, 1, 0.05);
     EXPECT_GT(asked.proof.tiles[0].gap, 0.09);
@@ -203,13 +201,13 @@ TEST(Certificate, AxesOfSeparatedBoxesAreNeverAlongTime) {
     // Boxes that share time overlap along it. So an axis that separates them crosses the floor.
     mobb::test::Random random(39);
     int boxes = 0;
-    for (int i = 0; i < 5 * testing::certificate_budget(); ++i) {
+    for (int i = 0; i < 5 * certificate_budget(); ++i) {
         const mobb::ClipPtr a = mobb::test::random_clip(random, 200), b = mobb::test::random_partner(random, *a, 200);
         mobb::Placement place_a, place_b;
         mobb::test::random_placements(random, *a, *b, place_a, place_b);
         mobb::FitOptions fit = mobb::test::random_fit(random);
         fit.tree = random.chance(0.5) ? mobb::TreeKind::umobb : mobb::TreeKind::hybrid2;
-        const ProvenQuery asked(testing::two_agents(a, b, place_a, place_b), fit);
+        const ProvenQuery asked(two_agents(a, b, place_a, place_b), fit);
         for (int step = 0; step < asked.recorded.trace.size(); ++step) {
             const mobb::Trace::Event event = asked.recorded.trace[step];
             if (event.outcome != mobb::Outcome::separated) continue;
@@ -217,7 +215,7 @@ TEST(Certificate, AxesOfSeparatedBoxesAreNeverAlongTime) {
             EXPECT_GT(glm::length(glm::dvec2(separating_axis(asked.a(), asked.b(), event))), 1e-6);
         }
     }
-    EXPECT_GT(boxes, 2 * testing::certificate_budget());
+    EXPECT_GT(boxes, 2 * certificate_budget());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <explain/tree_cost.h>
 #include <mobb/level_figures.h>
 #include <scene/fitted_scene.h>
+#include <support/folders.h>
 
 #include <gtest/gtest.h>
 
@@ -18,10 +19,8 @@ namespace {
 using Trees = std::vector<std::shared_ptr<const mobb::Tree>>;
 using Costs = std::vector<std::shared_ptr<const TreeCost>>;
 
-const std::string kScenes = MOBBSCOPE_SOURCE_DIR "/assets/scenes/";
-
 Trees trees_of(const std::vector<mobb::FitOptions>& fits, const std::string& scene = "crossing.json") {
-    const FittedScene fitted(load_scene(kScenes + scene), fits.front());
+    const FittedScene fitted(load_scene(kScenes / scene), fits.front());
     Trees out;
     for (const mobb::FitOptions& fit : fits)
         out.push_back(std::make_shared<const mobb::Tree>(fitted.tree(0).shared_clip(), fit));

@@ -22,13 +22,13 @@ using mobb::Outcome;
 using mobb::TestKind;
 
 struct Valued {
-    testing::RandomQuery asked;
+    RandomQuery asked;
     mobb::PlacedTree a, b;
     Recursion recursion;
     EventValues values;
 
     explicit Valued(mobb::test::Random& random)
-        : asked(testing::random_query(random)),
+        : asked(random_query(random)),
           a(asked.a()),
           b(asked.b()),
           recursion(recursion_of(asked.trace, a, b)),

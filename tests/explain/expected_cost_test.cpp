@@ -4,6 +4,7 @@
 #include <mobb/query.h>
 #include <mobb/separation.h>
 #include <scene/scene.h>
+#include <support/folders.h>
 
 #include <gtest/gtest.h>
 
@@ -486,7 +487,7 @@ TEST(ExpectedCost, RanksFitsAsCountsDoAndBoundsThem) {
 
 /// On recordings that the formula was not tried on.
 TEST(ExpectedCost, RanksFitsOfRecordingsAsCountsDo) {
-    const std::string folder = MOBBSCOPE_SHARED_DATA "/bvh/";
+    const std::string folder = kSharedData / "bvh/";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no recordings in " << folder;
     const std::vector<std::string> files{
         "long/cmu_01_02_playground-climb_amc30hz", "long/cmu_01_06_playground-climb-sit_amc30hz",

@@ -1,6 +1,7 @@
 // Sweeps of fits: against all fits counted one by one, and what they say of themselves.
 #include <explain/fit_sweep.h>
 #include <explain/time_scale_curves.h>
+#include <support/folders.h>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -96,7 +97,7 @@ TEST(FitSweep, RecommendsTheBestOfMadeUpWalks) {
 }
 
 TEST(FitSweep, RecommendsTheBestOfRecordings) {
-    const std::string folder = MOBBSCOPE_SHARED_DATA "/bvh/";
+    const std::string folder = kSharedData / "bvh/";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no recordings in " << folder;
     std::vector<mobb::ClipPtr> short_ones;
     for (const char* file :
@@ -347,7 +348,7 @@ TEST(FitSweep, ThePresentFitStaysWhereNoneIsBetter) {
 }
 
 TEST(FitSweep, OfAScenesQueriesAllAreAsked) {
-    const Scene scene = load_scene(MOBBSCOPE_SOURCE_DIR "/assets/scenes/crossing.json");
+    const Scene scene = load_scene(kCrossing);
     std::vector<mobb::ClipPtr> clips;
     for (const SceneClip& clip : scene.clips) clips.push_back(clip.clip);
     const QueryWorkload workload = scene_workload(scene);

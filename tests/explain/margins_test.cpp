@@ -13,8 +13,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::ProvenQuery;
-
 /// Inside a convex polygon, anywhere.
 glm::dvec2 point_in(const std::vector<glm::dvec2>& polygon, mobb::test::Random& random) {
     glm::dvec2 sum{0};
@@ -58,11 +56,11 @@ void try_shifts(int shifts, int times, const std::function<ProvenQuery(mobb::tes
     EXPECT_GT(many_tiles, asked / 100);
 }
 
-TEST(Margins, NoChangeWithinThemCollides) { try_shifts(100'000, 20'000, testing::random_proven_query); }
+TEST(Margins, NoChangeWithinThemCollides) { try_shifts(100'000, 20'000, random_proven_query); }
 
 TEST(Margins, NoChangeOfRealClipsWithinThemCollides) {
-    if (testing::real_clips().empty()) GTEST_SKIP() << "no test data at " << MOBBSCOPE_SHARED_DATA;
-    try_shifts(20'000, 4'000, testing::random_real_query);
+    if (real_clips().empty()) GTEST_SKIP() << "no test data at " << MOBBSCOPE_SHARED_DATA;
+    try_shifts(20'000, 4'000, random_real_query);
 }
 
 /// Disks of 0.5 m that stay for so many seconds.
@@ -71,7 +69,7 @@ mobb::ClipPtr standing(double seconds, glm::dvec2 at = {0, 0}) {
 }
 
 TEST(Margins, OfTwoWhoStandAreHalfThePlane) {
-    const ProvenQuery query(testing::two_agents(standing(5), standing(5), {}, {{2, 0}, 0, 1}), {});
+    const ProvenQuery query(two_agents(standing(5), standing(5), {}, {{2, 0}, 0, 1}), {});
     const auto margins = margins_of(query.a().placed_clip(), query.b().placed_clip(), query.proof);
     ASSERT_TRUE(margins);
     EXPECT_NEAR(margins->growth, 0.5, 1e-9);
@@ -92,7 +90,7 @@ TEST(Margins, OfTwoWhoStandAreHalfThePlane) {
 }
 
 TEST(Margins, OfATouchAreNothing) {
-    const ProvenQuery query(testing::two_agents(standing(5), standing(5), {}, {{1, 0}, 0, 0}), {});
+    const ProvenQuery query(two_agents(standing(5), standing(5), {}, {{1, 0}, 0, 0}), {});
     const auto margins = margins_of(query.a().placed_clip(), query.b().placed_clip(), query.proof);
     ASSERT_TRUE(margins);
     EXPECT_NEAR(margins->growth, 0, 1e-9);
@@ -104,7 +102,7 @@ TEST(Margins, ShiftInTimeReachesAsFarAsTheLineHolds) {
     // A stands where B will be from 3 s on, and leaves 0.5 s before.
     const auto walk = std::make_shared<const mobb::Clip>(
         1, std::vector<mobb::Disk>{{0, 3, 0.5}, {0, 3, 0.5}, {0, 3, 0.5}, {0, 0, 0.5}});
-    const ProvenQuery query(testing::two_agents(standing(2.5), walk, {}, {}), {});
+    const ProvenQuery query(two_agents(standing(2.5), walk, {}, {}), {});
     const auto margins = margins_of(query.a().placed_clip(), query.b().placed_clip(), query.proof);
     ASSERT_TRUE(margins);
     EXPECT_NEAR(margins->shift_in_time, 0.5, 1e-5);
@@ -114,10 +112,10 @@ TEST(Margins, ShiftInTimeReachesAsFarAsTheLineHolds) {
 }
 
 TEST(Margins, AreOfMissesAlone) {
-    const ProvenQuery hit(testing::two_agents(standing(5), standing(5), {}, {{0.5, 0}, 0, 1}), {});
+    const ProvenQuery hit(two_agents(standing(5), standing(5), {}, {{0.5, 0}, 0, 1}), {});
     ASSERT_TRUE(hit.proof.contact);
     EXPECT_FALSE(margins_of(hit.a().placed_clip(), hit.b().placed_clip(), hit.proof));
-    const ProvenQuery apart(testing::two_agents(standing(5), standing(5), {}, {{0, 0}, 0, 9}), {});
+    const ProvenQuery apart(two_agents(standing(5), standing(5), {}, {{0, 0}, 0, 9}), {});
     EXPECT_FALSE(margins_of(apart.a().placed_clip(), apart.b().placed_clip(), apart.proof));
 }
 

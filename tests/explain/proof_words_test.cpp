@@ -11,14 +11,12 @@
 namespace mobbscope {
 namespace {
 
-using testing::ProvenQuery;
-
 TEST(TraversalEnds, PartitionTheCommonTime) {
     mobb::test::Random random(37);
     int boxes = 0, runs = 0;
-    for (int i = 0; i < testing::certificate_budget(); ++i) {
+    for (int i = 0; i < certificate_budget(); ++i) {
         SCOPED_TRACE(i);
-        const ProvenQuery query = testing::random_proven_query(random);
+        const ProvenQuery query = random_proven_query(random);
         const mobb::PlacedTree a = query.a(), b = query.b();
         const std::vector<TraversalEnd> ends = traversal_ends(a, b, query.recorded.trace);
         const double begin = std::max(a.begin_time(), b.begin_time());

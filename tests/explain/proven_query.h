@@ -3,6 +3,7 @@
 
 #include <explain/certificate.h>
 #include <import/import.h>
+#include <support/folders.h>
 
 #include "mobb/random_motion.h"
 
@@ -13,7 +14,8 @@
 #include <utility>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 struct ProvenQuery {
     FittedScene fitted;
@@ -79,7 +81,7 @@ inline const std::vector<mobb::ClipPtr>& real_clips() {
         std::vector<mobb::ClipPtr> out;
         Importer importer;
         for (const char* folder : {"bvh/short", "bvh/long", "gltf", "trajectories"}) {
-            const auto path = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / folder;
+            const auto path = kSharedData / folder;
             if (!std::filesystem::exists(path)) continue;
             std::vector<std::filesystem::path> files;
             for (const auto& entry : std::filesystem::directory_iterator(path)) files.push_back(entry.path());
@@ -130,4 +132,5 @@ inline int certificate_budget() {
     return text ? std::atoi(text) : 300;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

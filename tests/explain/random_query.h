@@ -5,7 +5,8 @@
 
 #include "mobb/random_motion.h"
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 struct RandomQuery {
     mobb::Tree tree_a, tree_b;
@@ -28,4 +29,5 @@ inline RandomQuery random_query(mobb::test::Random& random, int most_samples = 4
     return out;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

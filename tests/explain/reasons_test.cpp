@@ -37,7 +37,7 @@ TEST(Reasons, ChainsAreWhatAFilterOfTheTraceFinds) {
     int moments = 0;
     int deep = 0;
     while (moments < 1000) {
-        const testing::RandomQuery asked = testing::random_query(random);
+        const RandomQuery asked = random_query(random);
         const mobb::PlacedTree a = asked.a();
         const mobb::PlacedTree b = asked.b();
         const Recursion recursion = recursion_of(asked.trace, a, b);
@@ -70,7 +70,7 @@ TEST(Reasons, OfASampleAreTheEndPairsThatCoverIt) {
     Random random(362);
     int found = 0;
     for (int round = 0; round < 200; ++round) {
-        const testing::RandomQuery asked = testing::random_query(random);
+        const RandomQuery asked = random_query(random);
         const Recursion recursion = recursion_of(asked.trace, asked.a(), asked.b());
         for (const int side : {0, 1}) {
             const mobb::Tree& tree = side == 0 ? asked.tree_a : asked.tree_b;
@@ -99,7 +99,7 @@ TEST(Reasons, APairSaysHowItEndedWithItsLastChild) {
     int some = 0;
     int hits = 0;
     for (int round = 0; round < 300; ++round) {
-        const testing::RandomQuery asked = testing::random_query(random);
+        const RandomQuery asked = random_query(random);
         const Recursion recursion = recursion_of(asked.trace, asked.a(), asked.b());
         std::set<int> ended;
         for (int event = 0; event < asked.trace.size(); ++event) {
@@ -132,7 +132,7 @@ TEST(Reasons, PairsThatRecordingStoppedInHaveNotEnded) {
     Random random(371);
     int open = 0;
     for (int round = 0; round < 60; ++round) {
-        const testing::RandomQuery asked = testing::random_query(random);
+        const RandomQuery asked = random_query(random);
         const mobb::PlacedTree a = asked.a(), b = asked.b();
         const int kept = asked.trace.size() / 2;
         if (kept < 4) continue;
@@ -157,7 +157,7 @@ TEST(Reasons, PairsThatRecordingStoppedInHaveNotEnded) {
 TEST(FocusWindow, CountsWhatIsInIt) {
     Random random(364);
     for (int round = 0; round < 100; ++round) {
-        const testing::RandomQuery asked = testing::random_query(random);
+        const RandomQuery asked = random_query(random);
         if (asked.trace.size() > 600) continue;
         const mobb::PlacedTree a = asked.a();
         const mobb::PlacedTree b = asked.b();

@@ -25,7 +25,7 @@ TEST(Recursion, HoldsEveryEventOnceAndChildrenInsideParents) {
     int hits = 0;
     int deep = 0;
     for (int round = 0; round < 300; ++round) {
-        const testing::RandomQuery asked = testing::random_query(random);
+        const RandomQuery asked = random_query(random);
         const Recursion found = recursion_of(asked.trace, asked.a(), asked.b());
         ASSERT_EQ(found.pair_of.size(), static_cast<std::size_t>(asked.trace.size()));
         int events = 0;
@@ -67,7 +67,7 @@ TEST(Recursion, CountsWhatHadBeenCountedAtEachStep) {
     Random random(6);
     int avoidable = 0;
     for (int round = 0; round < 60; ++round) {
-        const testing::RandomQuery asked = testing::random_query(random);
+        const RandomQuery asked = random_query(random);
         if (asked.trace.size() > 400) continue;
         const Recursion found = recursion_of(asked.trace, asked.a(), asked.b());
         Trace part;
@@ -104,7 +104,7 @@ TEST(Recursion, AnEventTakesUnderTwoHundredBytes) {
 
 TEST(Recursion, OfAnEmptyTraceIsEmpty) {
     Random random(7);
-    const testing::RandomQuery asked = testing::random_query(random);
+    const RandomQuery asked = random_query(random);
     const Recursion found = recursion_of(Trace(), asked.a(), asked.b());
     EXPECT_TRUE(found.pairs.empty());
     EXPECT_EQ(found.depth, 0);

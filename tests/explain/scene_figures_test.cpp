@@ -1,5 +1,6 @@
 // The figures of a scene's nodes: what is kept of them, and which fit's counts they have.
 #include <explain/scene_figures.h>
+#include <support/folders.h>
 
 #include <gtest/gtest.h>
 
@@ -18,7 +19,7 @@ std::shared_ptr<const FittedScene> crossing_fitted(mobb::TreeKind kind, int leaf
     mobb::FitOptions fit;
     fit.tree = kind;
     fit.leaf = leaf;
-    return std::make_shared<const FittedScene>(load_scene(MOBBSCOPE_SOURCE_DIR "/assets/scenes/crossing.json"), fit);
+    return std::make_shared<const FittedScene>(load_scene(kCrossing), fit);
 }
 
 double tests_of(const SceneCosts& costs, TreeNode node) {

@@ -14,8 +14,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::ProvenQuery;
-
 void expect_tiles(const std::vector<Decision>& decisions, double begin, double end) {
     EXPECT_EQ(decisions.empty(), !(begin < end));
     if (decisions.empty()) return;
@@ -29,9 +27,9 @@ void expect_tiles(const std::vector<Decision>& decisions, double begin, double e
 TEST(TraversalComparison, BothSidesTileTheCommonTimeExactly) {
     mobb::test::Random random(37);
     int different = 0;
-    for (int i = 0; i < testing::certificate_budget(); ++i) {
+    for (int i = 0; i < certificate_budget(); ++i) {
         SCOPED_TRACE(i);
-        const ProvenQuery query = testing::random_proven_query(random);
+        const ProvenQuery query = random_proven_query(random);
         const mobb::PlacedTree a = query.a(), b = query.b();
         const mobb::FitOptions other = mobb::test::random_any_fit(random);
         const FitComparison compared =
@@ -69,9 +67,9 @@ TEST(TraversalComparison, BothSidesTileTheCommonTimeExactly) {
 TEST(TraversalComparison, AStepHasItsMatchInTheOtherTraversal) {
     mobb::test::Random random(39);
     int decided = 0, went_on = 0;
-    for (int i = 0; i < testing::certificate_budget() / 3; ++i) {
+    for (int i = 0; i < certificate_budget() / 3; ++i) {
         SCOPED_TRACE(i);
-        const ProvenQuery query = testing::random_proven_query(random);
+        const ProvenQuery query = random_proven_query(random);
         const mobb::PlacedTree a = query.a(), b = query.b();
         const mobb::FitOptions other = mobb::test::random_any_fit(random);
         const FitComparison compared =
@@ -112,9 +110,9 @@ TEST(TraversalComparison, AStepHasItsMatchInTheOtherTraversal) {
 
 TEST(TraversalComparison, WithItselfAllIsZero) {
     mobb::test::Random random(38);
-    for (int i = 0; i < testing::certificate_budget() / 3; ++i) {
+    for (int i = 0; i < certificate_budget() / 3; ++i) {
         SCOPED_TRACE(i);
-        const ProvenQuery query = testing::random_proven_query(random);
+        const ProvenQuery query = random_proven_query(random);
         const mobb::PlacedTree a = query.a(), b = query.b();
         const mobb::FitOptions same = a.tree().options();
         const FitComparison compared = compare_fits(a, b, query.recorded,
@@ -149,7 +147,7 @@ mobb::Trace changed(const mobb::Trace& trace, int step, const std::function<void
 ProvenQuery telling_query() {
     mobb::test::Random random(5);
     while (true) {
-        ProvenQuery query = testing::random_proven_query(random);
+        ProvenQuery query = random_proven_query(random);
         const mobb::TestCounts& tests = query.recorded.tests;
         if (query.recorded.trace.size() > 10 && tests[mobb::TestKind::samples] > 3 && tests.boxes() > 3 &&
             query.recorded.trace[query.recorded.trace.size() - 1].test != mobb::TestKind::time)

@@ -2,6 +2,7 @@
 #include <explain/expected_cost.h>
 #include <explain/tree_cost.h>
 #include <scene/fitted_scene.h>
+#include <support/folders.h>
 
 #include <gtest/gtest.h>
 
@@ -14,12 +15,10 @@
 namespace mobbscope {
 namespace {
 
-const std::string kCostScenes = MOBBSCOPE_SOURCE_DIR "/assets/scenes/";
-
 FittedScene crossing_with(mobb::TreeKind kind) {
     mobb::FitOptions fit;
     fit.tree = kind;
-    return {load_scene(kCostScenes + "crossing.json"), fit};
+    return {load_scene(kCrossing), fit};
 }
 
 TEST(TreeCost, IsWhatIsExpected) {

@@ -32,7 +32,7 @@ TEST(BvhFuzz, DamagedFilesAreReadOrRefused) {
     int read = 0;
     int refused = 0;
     for (int round = 0; round < 60'000; ++round) {
-        const std::string text = testing::mutated(round % 2 == 0 ? testing::kWalker : two_bodies(), random);
+        const std::string text = mutated(round % 2 == 0 ? kWalker : two_bodies(), random);
         ImportOptions options;
         if (round % 3 == 0) options.unit = "cm";
         if (round % 5 == 0) options.trim = {0.02, 0.4};

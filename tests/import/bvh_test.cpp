@@ -10,10 +10,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-using testing::kWalker;
-using testing::replaced;
-
 const std::string kFile = "walk.bvh";
 
 /// Where the joints of a text's only animation are at a stored frame.

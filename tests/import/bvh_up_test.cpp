@@ -5,6 +5,7 @@
 #include <import/bvh/bvh.h>
 #include <import/import.h>
 #include <import/skeleton/motion_clips.h>
+#include <support/folders.h>
 
 #include <gtest/gtest.h>
 #include <glm/vec3.hpp>
@@ -346,8 +347,6 @@ TEST(BvhUp, SeveralRootsAreSeveralClipsOfOneUnit) {
     EXPECT_NEAR(clips[2].clip->samples().back().y, -4.0 / 30, 1e-5);
 }
 
-const std::filesystem::path kFiles = MOBBSCOPE_SHARED_DATA;
-
 #define SKIP_WITHOUT(path) \
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "no test data at " << (path)
 
@@ -389,13 +388,13 @@ std::string with_z_up(const std::string& text) {
 }
 
 TEST(BvhUp, PublishedFilesKeepYAndHaveZWhereTheyAreTurned) {
-    const auto table = kFiles / "expected.csv";
+    const auto table = kSharedData / "expected.csv";
     SKIP_WITHOUT(table);
     int upright = 0, turned = 0;
-    for (const testing::Row& row : testing::read_rows(table)) {
+    for (const Row& row : read_rows(table)) {
         const std::string& file = row.at("file");
         if (!file.ends_with(".bvh")) continue;
-        const std::string text = read_file(kFiles / file);
+        const std::string text = read_file(kSharedData / file);
         const MotionFile as_it_is = bvh_motion(parse_bvh(text, file));
         EXPECT_EQ(as_it_is.ground, kYUp) << file;
         EXPECT_EQ(as_it_is.up_doubt, "") << file;
@@ -419,7 +418,7 @@ double length_of(const mobb::Clip& clip) {
 }
 
 TEST(BvhUp, PublicCases) {
-    const auto folder = kFiles / "public";
+    const auto folder = kSharedData / "public";
     SKIP_WITHOUT(folder);
     const ImportedClip rows = import_clips(folder / "bvh_one_row_more_than_frames.bvh", {}).at(0);
     EXPECT_EQ(rows.facts.frames, 61);

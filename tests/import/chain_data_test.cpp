@@ -2,6 +2,7 @@
 #include <import/import.h>
 #include <mobb/chain_boxes.h>
 #include <mobb/random_motion.h>
+#include <support/folders.h>
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ namespace mobbscope {
 namespace {
 
 TEST(ChainData, BoxesAreAboutAsTightAsARebuiltTreesAtEqualCount) {
-    const auto folder = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "bvh/short";
+    const auto folder = kSharedData / "bvh/short";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no test data at " << folder;
     std::vector<std::filesystem::path> files;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());

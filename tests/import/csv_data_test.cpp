@@ -1,6 +1,7 @@
 // Real and deliberately broken files of the shared data set, where it is.
 #include <base/error.h>
 #include <import/import.h>
+#include <support/folders.h>
 
 #include <gtest/gtest.h>
 
@@ -11,13 +12,11 @@
 namespace mobbscope {
 namespace {
 
-const std::filesystem::path kCsvData = MOBBSCOPE_SHARED_DATA;
-
 #define SKIP_WITHOUT(path) \
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "no test data at " << (path)
 
 TEST(CsvData, EveryBrokenFileEndsAsExpected) {
-    const auto table = kCsvData / "invalid/EXPECTED.csv";
+    const auto table = kSharedData / "invalid/EXPECTED.csv";
     SKIP_WITHOUT(table);
     std::ifstream in(table);
     // Files that may be refused or read; this reader takes these, and refuses the others named bad_.
@@ -29,7 +28,7 @@ TEST(CsvData, EveryBrokenFileEndsAsExpected) {
         if (!line.starts_with("csv/")) continue;
         const std::size_t comma = line.find(',');
         const std::string name = line.substr(0, comma);
-        const std::filesystem::path file = kCsvData / "invalid" / name;
+        const std::filesystem::path file = kSharedData / "invalid" / name;
         const std::string expected = line.substr(comma + 1, line.find(',', comma + 1) - comma - 1);
         std::string message;
         try {
@@ -51,7 +50,7 @@ TEST(CsvData, EveryBrokenFileEndsAsExpected) {
 }
 
 TEST(CsvData, RealPathsLoadWithTheirSamples) {
-    const auto folder = kCsvData / "trajectories/xytr";
+    const auto folder = kSharedData / "trajectories/xytr";
     SKIP_WITHOUT(folder);
     const std::map<std::string, int> samples{
         {"cmu_01_06_30hz", 1284}, {"cmu_03_03_30hz", 1141}, {"cmu_07_05_30hz", 130}, {"cmu_09_01_30hz", 35}};

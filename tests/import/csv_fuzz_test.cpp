@@ -22,7 +22,7 @@ TEST(CsvFuzz, DamagedFilesAreReadOrRefused) {
     int read = 0;
     int refused = 0;
     for (int round = 0; round < 30'000; ++round) {
-        const std::string text = testing::mutated(seeds[static_cast<std::size_t>(round) % std::size(seeds)], random);
+        const std::string text = mutated(seeds[static_cast<std::size_t>(round) % std::size(seeds)], random);
         ImportOptions options;
         if (round % 5 == 2 || round % 7 == 0) options.dt = 0.1;
         if (round % 13 == 0) options.columns = "x=y*2-x/y,r=(x+1)*(x+1)";

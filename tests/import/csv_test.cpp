@@ -1,3 +1,5 @@
+#include "imported.h"
+
 #include <import/import.h>
 #include <import/tracks/csv.h>
 #include <support/input_error.h>
@@ -8,24 +10,13 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-using testing::TempFolder;
-
-std::vector<ImportedClip> clips(std::string_view text, const ImportOptions& options = {}) {
-    return csv_clips(parse_csv(text, "f.csv", options), "f.csv", options);
-}
-
 const mobb::Clip& only(const std::vector<ImportedClip>& clips) {
     EXPECT_EQ(clips.size(), 1u);
     return *clips.at(0).clip;
 }
 
-std::string csv_refusal(std::string_view text, const ImportOptions& options = {}) {
-    return input_error([&] { clips(text, options); });
-}
-
 TEST(Csv, ColumnsAreTakenByName) {
-    const auto read = clips("r,y,t,x\n0.4,2,0,1\n0.5,4,0.5,3\n");
+    const auto read = csv_clips("r,y,t,x\n0.4,2,0,1\n0.5,4,0.5,3\n");
     const mobb::Clip& clip = only(read);
     EXPECT_EQ(clip.dt(), 0.5);
     EXPECT_EQ(clip.samples()[1].x, 3);
@@ -37,8 +28,8 @@ TEST(Csv, ColumnsAreTakenByName) {
 TEST(Csv, BlanksBlankLinesQuotesLineEndsAndByteOrderMarkDoNotMatter) {
     const std::string_view plain = "t,x,y,r\n0,0,0,0.4\n1,0,1,0.4";
     const std::string_view odd = "\xef\xbb\xbf t , \"x\",\ty,r\r\n\r\n 0 , 0,0,\"0.4\" \r\n  \n1,0,+1,4e-1\r\n\r\n";
-    const auto a = clips(plain);
-    const auto b = clips(odd);
+    const auto a = csv_clips(plain);
+    const auto b = csv_clips(odd);
     ASSERT_EQ(only(a).count(), only(b).count());
     EXPECT_EQ(only(b).samples()[1].y, 1);
     EXPECT_EQ(only(b).samples()[1].r, 0.4);
@@ -47,7 +38,7 @@ TEST(Csv, BlanksBlankLinesQuotesLineEndsAndByteOrderMarkDoNotMatter) {
 TEST(Csv, TracksAreSplitById) {
     const std::string_view text =
         "id,t,x,y,r\n7,0,1,0,0.3\n\"a,\"\"b\",5,2,0,0.3\n7,1,3,0,0.3\n\"a,\"\"b\",7,4,0,0.3\n";
-    const auto both = clips(text);
+    const auto both = csv_clips(text);
     ASSERT_EQ(both.size(), 2u);
     EXPECT_EQ(both[0].name, "7");
     EXPECT_EQ(both[1].id, "a,\"b");
@@ -55,14 +46,14 @@ TEST(Csv, TracksAreSplitById) {
     EXPECT_EQ(both[0].clip->samples()[1].x, 3);
     ImportOptions one;
     one.id = "7";
-    EXPECT_EQ(only(clips(text, one)).samples()[0].x, 1);
+    EXPECT_EQ(only(csv_clips(text, one)).samples()[0].x, 1);
     one.id = "8";
     EXPECT_NE(csv_refusal(text, one).find("no track '8'"), std::string::npos);
     EXPECT_EQ(csv_field(both[1].id), "\"a,\"\"b\"");
 }
 
 TEST(Csv, RoundedTimesKeepTheRowsAndTheirSpan) {
-    const auto read = clips("t,x,y,r\n0,0,0,0.4\n0.033333,1,0,0.4\n0.066667,2,0,0.4\n0.1,3,0,0.4\n");
+    const auto read = csv_clips("t,x,y,r\n0,0,0,0.4\n0.033333,1,0,0.4\n0.066667,2,0,0.4\n0.1,3,0,0.4\n");
     EXPECT_EQ(only(read).count(), 4);
     EXPECT_EQ(only(read).dt(), 0.1 / 3);
     EXPECT_TRUE(read[0].facts.warnings.empty());
@@ -70,7 +61,7 @@ TEST(Csv, RoundedTimesKeepTheRowsAndTheirSpan) {
 
 TEST(Csv, OtherTimesAreResampledFromTheFirstToTheLast) {
     const std::string_view text = "t,x,y,r\n10,0,0,0.4\n10.1,1,0,0.4\n10.35,2,0,0.6\n10.4,3,0,0.4\n";
-    const auto read = clips(text);
+    const auto read = csv_clips(text);
     EXPECT_EQ(only(read).count(), 13);
     EXPECT_EQ(only(read).dt(), 1.0 / 30);
     EXPECT_EQ(only(read).samples()[3].x, 1);
@@ -78,15 +69,15 @@ TEST(Csv, OtherTimesAreResampledFromTheFirstToTheLast) {
     EXPECT_NEAR(only(read).samples()[6].x, 1 + 0.1 / 0.25, 1e-12);
     ImportOptions ten;
     ten.fps = 10;
-    EXPECT_EQ(only(clips(text, ten)).count(), 5);
+    EXPECT_EQ(only(csv_clips(text, ten)).count(), 5);
     ASSERT_EQ(read[0].facts.warnings.size(), 1u);
     EXPECT_EQ(read[0].facts.warnings[0].text,
               "the times are not uniform (line 3: 10.1 s, in step would be 10.133 s); the path is resampled at 30 fps");
-    EXPECT_NE(clips(text, ten)[0].facts.warnings.at(0).text.find("resampled at 10 fps"), std::string::npos);
+    EXPECT_NE(csv_clips(text, ten)[0].facts.warnings.at(0).text.find("resampled at 10 fps"), std::string::npos);
 }
 
 TEST(Csv, AWarningNamesTheLineInTheFileNotInTheTrack) {
-    const auto read = clips("id,t,x,y,r\na,0,0,0,0\nb,0,0,0,0\n\na,1,0,0,0\nb,1,0,0,0\nb,5.5,0,0,0\na,2,0,0,0\n");
+    const auto read = csv_clips("id,t,x,y,r\na,0,0,0,0\nb,0,0,0,0\n\na,1,0,0,0\nb,1,0,0,0\nb,5.5,0,0,0\na,2,0,0,0\n");
     EXPECT_TRUE(read.at(0).facts.warnings.empty());
     ASSERT_EQ(read.at(1).facts.warnings.size(), 1u);
     EXPECT_EQ(said(read[1].facts.warnings[0]), "the times are not uniform; the path is resampled at 30 fps (line 7)");
@@ -97,33 +88,33 @@ TEST(Csv, WithoutTimesDtIsNeeded) {
               "f.csv: line 1: the header names no column t; name one or give dt (seconds between rows)");
     ImportOptions options;
     options.dt = 0.25;
-    EXPECT_EQ(only(clips("x,y,r\n0,0,0.4\n1,0,0.4\n", options)).dt(), 0.25);
+    EXPECT_EQ(only(csv_clips("x,y,r\n0,0,0.4\n1,0,0.4\n", options)).dt(), 0.25);
     EXPECT_NE(csv_refusal("t,x,y,r\n0,0,0,0.4\n").find("one row does not tell how long it lasts"), std::string::npos);
-    const auto one = clips("t,x,y,r\n3,0,0,0.4\n", options);
+    const auto one = csv_clips("t,x,y,r\n3,0,0,0.4\n", options);
     EXPECT_EQ(only(one).dt(), 0.25);
     EXPECT_EQ(one[0].facts.warnings, (std::vector<ImportWarning>{{"there is one row: it holds for 0.25 s", "dt"}}));
-    EXPECT_EQ(clips("t,x,y,r\n0,0,0,0\n1,0,0,0\n", options)[0].facts.warnings.size(), 1u);
+    EXPECT_EQ(csv_clips("t,x,y,r\n0,0,0,0\n1,0,0,0\n", options)[0].facts.warnings.size(), 1u);
 }
 
 TEST(Csv, RadiusMayComeFromOutside) {
     EXPECT_NE(csv_refusal("t,x,y\n0,0,0\n1,0,0\n").find("no column r"), std::string::npos);
     ImportOptions options;
     options.radius = 0.3;
-    EXPECT_EQ(only(clips("t,x,y\n0,0,0\n1,0,0\n", options)).samples()[1].r, 0.3);
-    EXPECT_EQ(only(clips("t,x,y,r\n0,0,0,1\n1,0,0,1\n", options)).samples()[1].r, 0.3);
+    EXPECT_EQ(only(csv_clips("t,x,y\n0,0,0\n1,0,0\n", options)).samples()[1].r, 0.3);
+    EXPECT_EQ(only(csv_clips("t,x,y,r\n0,0,0,1\n1,0,0,1\n", options)).samples()[1].r, 0.3);
 }
 
 TEST(Csv, UnitScalesLengthsButNotTheRadiusGivenInMetres) {
     ImportOptions options;
     options.unit = "cm";
-    const auto scaled = clips("t,x,y,r\n0,100,-50,40\n1,0,0,0\n", options);
+    const auto scaled = csv_clips("t,x,y,r\n0,100,-50,40\n1,0,0,0\n", options);
     EXPECT_EQ(only(scaled).samples()[0].x, 1);
     EXPECT_EQ(only(scaled).samples()[0].y, -0.5);
     EXPECT_DOUBLE_EQ(only(scaled).samples()[0].r, 0.4);
     options.radius = 0.3;
-    EXPECT_EQ(only(clips("t,x,y,r\n0,100,-50,40\n1,0,0,0\n", options)).samples()[0].r, 0.3);
+    EXPECT_EQ(only(csv_clips("t,x,y,r\n0,100,-50,40\n1,0,0,0\n", options)).samples()[0].r, 0.3);
     options.unit = "2.5";
-    EXPECT_EQ(only(clips("t,x,y,r\n0,2,0,0\n1,0,0,0\n", options)).samples()[0].x, 5);
+    EXPECT_EQ(only(csv_clips("t,x,y,r\n0,2,0,0\n1,0,0,0\n", options)).samples()[0].x, 5);
     options.unit = "auto";
     EXPECT_NE(csv_refusal("t,x,y,r\n0,2,0,0\n1,0,0,0\n", options).find("unit 'auto' does not apply to CSV"),
               std::string::npos);
@@ -134,17 +125,17 @@ TEST(Csv, TrimTakesSecondsFromTheFirstRow) {
     for (int i = 0; i <= 10; ++i) text += std::to_string(100 + i) + ',' + std::to_string(i) + ",0,0.4\n";
     ImportOptions options;
     options.trim = {2, 5};
-    const auto rows = clips(text, options);
+    const auto rows = csv_clips(text, options);
     EXPECT_EQ(only(rows).count(), 4);
     EXPECT_EQ(only(rows).samples()[0].x, 2);
     EXPECT_EQ(only(rows).dt(), 1);
     EXPECT_TRUE(rows[0].facts.warnings.empty());
     options.trim = {2.5, 99};
-    EXPECT_EQ(clips(text, options)[0].facts.warnings,
+    EXPECT_EQ(csv_clips(text, options)[0].facts.warnings,
               (std::vector<ImportWarning>{
                   {"trim ends at 99 s, but the rows last 10 s; all of them to the end are taken", "trim"}}));
-    EXPECT_EQ(only(clips(text, options)).count(), 8);
-    EXPECT_EQ(only(clips(text, options)).samples()[0].x, 2.5);
+    EXPECT_EQ(only(csv_clips(text, options)).count(), 8);
+    EXPECT_EQ(only(csv_clips(text, options)).samples()[0].x, 2.5);
     options.trim = {20, 30};
     EXPECT_NE(csv_refusal(text, options).find("trim begins at 20 s but the file lasts 10 s"), std::string::npos);
 }
@@ -189,13 +180,13 @@ TEST(Csv, AColumnThatTheRadiusNamesHoldsTheRadii) {
     ImportOptions options;
     options.radius = radius_from_text("width");
     options.unit = "cm";
-    const auto read = clips(text, options);
+    const auto read = csv_clips(text, options);
     ASSERT_EQ(read.size(), 2u);
     EXPECT_DOUBLE_EQ(read[0].clip->samples()[1].r, 0.4) << "in the file's unit, as r is";
     EXPECT_DOUBLE_EQ(read[1].clip->samples()[0].r, 0.5);
     options.radius = radius_from_text("r");
-    EXPECT_DOUBLE_EQ(clips(text, options)[0].clip->samples()[0].r, 0.01);
-    EXPECT_EQ(clips("t,x,y,r\n0,0,0,7\n1,0,0,7\n", options)[0].clip->samples()[0].r, 0.07);
+    EXPECT_DOUBLE_EQ(csv_clips(text, options)[0].clip->samples()[0].r, 0.01);
+    EXPECT_EQ(csv_clips("t,x,y,r\n0,0,0,7\n1,0,0,7\n", options)[0].clip->samples()[0].r, 0.07);
     options.radius = radius_from_text("widht");
     EXPECT_NE(csv_refusal(text, options).find("names no column 'widht' of radii (did you mean 'width'?)"),
               std::string::npos);
@@ -213,7 +204,7 @@ TEST(Csv, RadiiByIdAreMetres) {
     ImportOptions options;
     options.unit = "cm";
     options.radius = radius_from_text(folder.write("radii.csv", "id,radius\n\"a, left\",0.3\nb,0.4\n").string());
-    const auto read = clips("id,t,x,y\n\"a, left\",0,0,0\n\"a, left\",1,0,0\nb,0,1,1\nb,1,1,1\n", options);
+    const auto read = csv_clips("id,t,x,y\n\"a, left\",0,0,0\n\"a, left\",1,0,0\nb,0,1,1\nb,1,1,1\n", options);
     EXPECT_EQ(read[0].clip->samples()[0].r, 0.3);
     EXPECT_EQ(read[1].clip->samples()[1].r, 0.4);
     EXPECT_NE(csv_refusal("t,x,y\n0,0,0\n1,0,0\n", options).find("has no ids; give metres"), std::string::npos);

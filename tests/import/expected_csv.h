@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 /// Column name to field.
 using Row = std::map<std::string, std::string>;
@@ -43,4 +44,5 @@ inline std::vector<Row> read_rows(const std::filesystem::path& table) {
     return rows;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

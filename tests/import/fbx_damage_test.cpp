@@ -11,14 +11,11 @@
 namespace mobbscope {
 namespace {
 
-using testing::FbxForm;
-using testing::FbxWrite;
-using testing::FbxWritten;
 using namespace testing::fbx;
 
 /// Imports bytes; what was said against them, one line, or nothing.
 std::string said_against(const std::string& bytes) {
-    const testing::TempFolder folder;
+    const TempFolder folder;
     try {
         import_clips(folder.write("clip.fbx", bytes), {});
     } catch (const InputError& error) {

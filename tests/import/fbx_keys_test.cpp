@@ -7,7 +7,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::FbxWrite;
 using namespace testing::fbx;
 
 constexpr std::int64_t kTcb = 0x208;

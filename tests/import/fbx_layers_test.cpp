@@ -135,7 +135,7 @@ TEST(FbxLayers, EmptyStacksAreLeftOutAndKeepTheirNumbers) {
     for (int i = 0; i < 5; ++i) scene.layer(scene.stack("empty"));
     const std::int64_t hips = scene.model("Hips", 0);
     scene.animate(scene.layer(scene.stack("Walk")), hips, "Lcl Translation", {{"X", line(0, 4)}});
-    const testing::TempFolder folder;
+    const TempFolder folder;
     const auto file = folder.write("clip.fbx", scene.bytes());
     const std::vector<ImportedClip> clips = import_clips(file, {});
     ASSERT_EQ(clips.size(), 1u);
@@ -159,7 +159,7 @@ TEST(FbxLayers, WhyNothingMovesIsSaid) {
     const std::int64_t hips = scene.model("Hips", 0);
     const std::int64_t base = scene.layer(scene.stack("Take 001"), {{"Mute", choice(1)}});
     scene.animate(base, hips, "Lcl Translation", {{"X", line(0, 4)}});
-    EXPECT_EQ(testing::input_error([&] { parsed(scene).motion(0, 0); }),
+    EXPECT_EQ(input_error([&] { parsed(scene).motion(0, 0); }),
               "clip.fbx: animation 'Take 001': moves no node, as the layer 'over' is muted: it was left out; give a "
               "clip that does");
 }

@@ -15,8 +15,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::FbxWrite;
-using testing::FbxWritten;
 using namespace testing::fbx;
 
 TEST(FbxChains, RotateInEachOrder) {
@@ -184,7 +182,7 @@ TEST(FbxChains, EveryAxisMayPointUp) {
         const std::int64_t hips = scene.model("Hips", 0);
         scene.animate(scene.layer(scene.stack("t")), hips, "Lcl Translation",
                       {{"X", line(0, 300)}, {"Y", line(0, 50)}, {"Z", line(0, 400)}});
-        const testing::TempFolder folder;
+        const TempFolder folder;
         const ImportedClip clip = import_clips(folder.write("clip.fbx", scene.bytes()), {}).at(0);
         EXPECT_NEAR(clip.clip->samples().back().x, it.x, 1e-6) << it.what;
         EXPECT_NEAR(clip.clip->samples().back().y, it.y, 1e-6) << it.what;
@@ -293,7 +291,7 @@ TEST(FbxNodes, UpAxesAndUnitsAreTheFiles) {
         std::vector<std::pair<std::string, Keys>> keys;
         for (const auto& [axis, values] : to) keys.push_back({axis, line(0, std::get<double>(values[0]))});
         scene.animate(scene.layer(scene.stack("t")), hips, "Lcl Translation", keys);
-        const testing::TempFolder folder;
+        const TempFolder folder;
         return import_clips(folder.write("clip.fbx", scene.bytes()), {}).at(0);
     };
     const auto end = [&](const std::vector<std::int64_t>& axes, const Properties& to, double unit = 1,
@@ -321,7 +319,7 @@ TEST(FbxNodes, AxesThatAreNoneAreSaid) {
     const auto read = [](const std::vector<std::pair<std::string, std::int64_t>>& axes) {
         Walk walk;
         for (const auto& [name, value] : axes) walk.scene.setting(name, value);
-        const testing::TempFolder folder;
+        const TempFolder folder;
         return import_clips(folder.write("clip.fbx", walk.scene.bytes()), {}).at(0);
     };
     const auto doubt = [](const ImportedClip& clip) {
@@ -374,7 +372,7 @@ TEST(FbxNodes, UnitsThatAreNoneAreGuessedAndSaid) {
         for (const bool is_text : {false, true}) {
             Walk walk;
             walk.scene.setting("UnitScaleFactor", unit);
-            const testing::TempFolder folder;
+            const TempFolder folder;
             const auto file = folder.write("clip.fbx", walk.scene.bytes({7400, is_text}));
             const ImportedClip clip = import_clips(file, {}).at(0);
             EXPECT_TRUE(clip.facts.guessed_from_height);

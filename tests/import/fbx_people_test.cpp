@@ -45,7 +45,7 @@ TEST(FbxPeople, OfEqualJointNamesAreTwoClips) {
         add_person(scene, layer, above[0], 0, 400, 0);
         add_person(scene, layer, above[1], 0, -200, 300);
         if (way == 4) scene.model("Camera", 0, {}, "Camera");
-        const testing::TempFolder folder;
+        const TempFolder folder;
         const auto file = folder.write("clip.fbx", scene.bytes());
         const std::vector<ImportedClip> clips = import_clips(file, {});
         ASSERT_EQ(clips.size(), 2u);
@@ -70,7 +70,7 @@ TEST(FbxPeople, WhatCarriesOneOfThemMovesIt) {
         scene.animate(layer, group, "Lcl Translation", {{"X", line(0, 100)}}, {{"d|Z", scalar(z)}});
         add_person(scene, layer, group, 0, 0, 0);
     }
-    const testing::TempFolder folder;
+    const TempFolder folder;
     const std::vector<ImportedClip> clips = import_clips(folder.write("clip.fbx", scene.bytes()), {});
     ASSERT_EQ(clips.size(), 2u);
     expect_ends(clips[0], 0, 0, 1, 0);
@@ -87,7 +87,7 @@ TEST(FbxPeople, OneWithPropsAndControlsIsOne) {
         scene.animate(layer, control, "Lcl Translation", {{"X", line(0, 400)}});
     }
     scene.animate(layer, scene.model("Ball", 0, {}, "Mesh"), "Lcl Translation", {{"X", line(0, 100)}});
-    const testing::TempFolder folder;
+    const TempFolder folder;
     EXPECT_EQ(import_clips(folder.write("clip.fbx", scene.bytes()), {}).size(), 1u);
 }
 
@@ -103,7 +103,7 @@ std::int64_t add_chain(Scene& scene, std::int64_t layer, const std::string& name
 }
 
 std::vector<std::string> clip_names(const Scene& scene) {
-    const testing::TempFolder folder;
+    const TempFolder folder;
     std::vector<std::string> out;
     for (const ImportedClip& clip : import_clips(folder.write("clip.fbx", scene.bytes()), {})) {
         out.push_back(clip.name + ": " + clip.facts.root);
@@ -151,7 +151,7 @@ TEST(FbxPeople, SmallSkeletonsBesideThemAreNamed) {
     add_chain(scene, layer, "Sword", 2, 100);
     add_person(scene, layer, 0, 0, 400, 0);
     add_chain(scene, layer, "Ball", 1, 100);
-    const testing::TempFolder folder;
+    const TempFolder folder;
     const auto file = folder.write("clip.fbx", scene.bytes());
     const std::vector<ImportedClip> clips = import_clips(file, {});
     ASSERT_EQ(clips.size(), 1u);

@@ -17,7 +17,9 @@
 #include <utility>
 #include <vector>
 
-namespace mobbscope::testing::fbx {
+namespace mobbscope {
+inline namespace testing {
+namespace fbx {
 
 inline constexpr double kTicks = 46'186'158'000;
 inline constexpr std::int64_t kLinear = 0x4;
@@ -194,4 +196,6 @@ struct Walk {
     std::int64_t hips = 0, hand = 0, stack = 0, base = 0;
 };
 
-}  // namespace mobbscope::testing::fbx
+}  // namespace fbx
+}  // namespace testing
+}  // namespace mobbscope

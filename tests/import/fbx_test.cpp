@@ -4,6 +4,7 @@
 #include <base/error.h>
 #include <import/fbx/fbx.h>
 #include <import/import.h>
+#include <support/folders.h>
 #include <support/input_error.h>
 #include <support/mutate.h>
 #include <support/temp_folder.h>
@@ -17,10 +18,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::fbx_bytes;
-using testing::FbxForm;
-using testing::FbxWrite;
-using testing::FbxWritten;
 using namespace testing::fbx;
 
 // ---- the document
@@ -112,7 +109,7 @@ TEST(FbxDocuments, DamageIsReadOrRefused) {
         const std::string bytes = walk.scene.bytes(form);
         for (int round = 0; round < 3'000; ++round) {
             try {
-                const MotionFile file = parse_fbx(testing::mutated(bytes, random), "clip.fbx");
+                const MotionFile file = parse_fbx(mutated(bytes, random), "clip.fbx");
                 const auto motion = file.motion(0, 0);
                 std::vector<glm::dvec3> positions(motion->joints().size());
                 motion->pose(motion->times().last, positions);
@@ -194,13 +191,13 @@ TEST(FbxDocuments, WithoutAnimationThereIsNoClip) {
     EXPECT_NE(refusal(scene.bytes()).find("holds no animation"), std::string::npos);
     scene.layer(scene.stack("Take 001"));
     const MotionFile still = parse_fbx(scene.bytes(), "clip.fbx");
-    EXPECT_NE(testing::input_error([&] { still.motion(0, 0); }).find("moves no node"), std::string::npos);
+    EXPECT_NE(input_error([&] { still.motion(0, 0); }).find("moves no node"), std::string::npos);
 }
 
 // ---- files
 
 TEST(FbxFiles, ThePublicOnesGiveTheirValues) {
-    const std::filesystem::path folder = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "public";
+    const std::filesystem::path folder = kSharedData / "public";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no test data at " << folder;
     const auto clips = [&](const char* name) {
         return import_clips(folder / (std::string("fbx_") + name + ".fbx"), {});
@@ -241,7 +238,7 @@ TEST(FbxFiles, ThePublicOnesGiveTheirValues) {
 }
 
 TEST(FbxFiles, AreToldByTheirContent) {
-    const testing::TempFolder folder;
+    const TempFolder folder;
     const Scene scene = Walk().scene;
     for (const bool is_text : {false, true}) {
         EXPECT_EQ(import_clips(folder.write("walk", scene.bytes({7400, is_text})), {}).at(0).facts.format, "fbx");
@@ -251,13 +248,13 @@ TEST(FbxFiles, AreToldByTheirContent) {
 }
 
 TEST(FbxFiles, DamagedRealOnesAreReadOrRefused) {
-    const std::filesystem::path original = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "fbx/huesitos.fbx";
+    const std::filesystem::path original = kSharedData / "fbx/huesitos.fbx";
     if (!std::filesystem::exists(original)) GTEST_SKIP() << "no test data at " << original;
-    const std::string bytes = testing::slurp(original);
+    const std::string bytes = slurp(original);
     std::mt19937 random(20250305);
     for (int round = 0; round < 300; ++round) {
         try {
-            parse_fbx(testing::mutated(bytes, random), "clip.fbx");
+            parse_fbx(mutated(bytes, random), "clip.fbx");
         } catch (const InputError& error) {
             EXPECT_EQ(std::string_view(error.what()).find('\n'), std::string_view::npos) << error.what();
         }

@@ -15,7 +15,8 @@
 #include <variant>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 /// A value of a record. A text that is a name may hold "Class::Name", which binary files write the other way round.
 using FbxWritten = std::variant<std::int64_t, double, std::string, std::vector<std::int64_t>, std::vector<double>,
@@ -197,4 +198,5 @@ inline std::string fbx_bytes(std::vector<FbxWrite> records, const FbxForm& form 
     return out;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

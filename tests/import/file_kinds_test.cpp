@@ -20,10 +20,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::gzipped;
-using testing::input_error;
-using testing::TempFolder;
-
 const std::string kTableText = "id,t,x,y,r\n1,0,0,0,1\n1,1,1,0,1\n2,0,5,5,1\n2,1,5,6,1\n";
 const std::string kTracksText = "10 1 1.5 2\n20 1 1.5 2.5\n20 2 0 0\n30 2 0 1\n";
 const std::string kLinesText =
@@ -44,7 +40,7 @@ TEST(FileKinds, TextIsToldByItsContentWhateverItsName) {
             EXPECT_EQ(import_clips(file, {}).front().facts.format, format) << name;
         }
     }
-    EXPECT_EQ(import_clips(folder.write("walk", testing::kWalker), {}).front().facts.format, "bvh");
+    EXPECT_EQ(import_clips(folder.write("walk", kWalker), {}).front().facts.format, "bvh");
     EXPECT_EQ(contents_of(folder.path() / "walk"), Contents::skeletons);
     EXPECT_EQ(contents_of(folder.path() / "a.dat"), Contents::table);
     EXPECT_EQ(contents_of(folder.path() / "none"), std::nullopt);
@@ -53,7 +49,7 @@ TEST(FileKinds, TextIsToldByItsContentWhateverItsName) {
 
 /// A node that goes 2 m along x in a second; its buffer lies in the text.
 std::string gltf_text() {
-    testing::GltfBytes bytes;
+    GltfBytes bytes;
     const int times = bytes.add_floats("SCALAR", {0, 1});
     bytes.channel("0", "translation", times, bytes.add_floats("VEC3", {0, 0, 0, 2, 0, 0})).animation();
     return bytes.json(R"([{"name":"hips"}])", "",
@@ -63,7 +59,7 @@ std::string gltf_text() {
 TEST(FileKinds, GltfIsToldByItsContentWhateverItsName) {
     const TempFolder folder;
     const std::string text = gltf_text();
-    const std::string glb = testing::join_glb(text, "");
+    const std::string glb = join_glb(text, "");
     for (const char* name :
          {"a.gltf", "a.glb", "a.vrma", "a.vrm", "a.VRM", "a.GLB", "a.bin", "a", "a.txt", "a.fbx", "a.bvh"}) {
         for (const std::string& bytes :
@@ -114,7 +110,7 @@ TEST(FileKinds, PackedTextIsReadAsItIs) {
                                                                     {"walk.txt.gz", kTracksText},
                                                                     {"walk.ndjson.gz", kLinesText},
                                                                     {"walk.yaml.gz", kPlanText},
-                                                                    {"walk.bvh.gz", testing::kWalker},
+                                                                    {"walk.bvh.gz", kWalker},
                                                                     {"walk.gz", kTableText},
                                                                     {"walk.csv", kTableText}}) {
         const auto packed = import_clips(folder.write(name, gzipped(text)), {});
@@ -164,7 +160,7 @@ TEST(FileKinds, DamagedPackedFilesAreRefusedInOneLine) {
     EXPECT_NE(refusal(gzipped(gzipped(text))).find("packed by gzip twice"), std::string::npos);
     std::mt19937 random(20240610);
     for (int round = 0; round < 300; ++round) {
-        const auto file = folder.write("m.csv.gz", testing::mutated(packed, random));
+        const auto file = folder.write("m.csv.gz", mutated(packed, random));
         try {
             import_clips(file, {});
         } catch (const InputError& error) {

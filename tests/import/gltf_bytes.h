@@ -10,7 +10,8 @@
 #include <string_view>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 /// A GLB of these parts; `binary` is left out when empty.
 inline std::string join_glb(std::string_view json, std::string_view binary) {
@@ -142,4 +143,5 @@ inline const std::string kEverythingNodes =
 
 inline const std::string kEverythingSkins = R"(,"skins":[{"joints":[2]},{"joints":[1,2],"skeleton":0},{"joints":[3]}])";
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

@@ -14,8 +14,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::GltfBytes;
-
 /// Nodes by name, with what moves them: times are 0 and 2 s.
 class Stage {
   public:
@@ -253,7 +251,7 @@ TEST(GltfCharacters, OnlyThoseThatAnAnimationMovesAreClipsOfIt) {
     EXPECT_EQ(staged_names(staged_clips(stage, "BHips")), (Names{"run · BHips", "wave · BHips"}));
     EXPECT_EQ(staged_names(staged_clips(stage, "BHips", "walk")), (Names{"walk · BHips"}));
     EXPECT_EQ(staged_names(staged_clips(stage, "", "walk")), (Names{"walk · AHips"}));
-    EXPECT_NE(testing::input_error([&] {
+    EXPECT_NE(input_error([&] {
                   staged_clips(stage, "", "fly");
               }).find("animation 'fly': moves none of the file's 2 characters"),
               std::string::npos);
@@ -283,7 +281,7 @@ TEST(GltfCharacters, JointsOfOneNameAreNumbered) {
     EXPECT_NEAR(about("Hips #2").clip->samples().back().r, 0.5, 1e-6);
     EXPECT_NEAR(about("Head #2").clip->samples().back().x, 3.5, 1e-6);
     EXPECT_NEAR(about("Hips #3").clip->samples().back().x, 0, 1e-6) << "the mesh";
-    EXPECT_EQ(testing::input_error([&] { about("Hips #4"); }),
+    EXPECT_EQ(input_error([&] { about("Hips #4"); }),
               "two.glb: there is no joint 'Hips #4' for root; the nearest is 'Hips #2'");
 }
 
@@ -315,8 +313,7 @@ TEST(GltfCharacters, AnyNodeCanBeTheRoot) {
         EXPECT_NEAR(end.y, expected.y, 1e-6) << expected.root;
         EXPECT_NEAR(end.r, expected.r, 1e-6) << expected.root;
     }
-    EXPECT_NE(testing::input_error([&] { staged_clips(stage, "hips"); }).find("the nearest is 'Hips'"),
-              std::string::npos);
+    EXPECT_NE(input_error([&] { staged_clips(stage, "hips"); }).find("the nearest is 'Hips'"), std::string::npos);
     // Without a skin too: what is animated begins at the hips.
     Stage bare;
     bare.node("World").body("", "World").node("Crate", "World", "2,0,0").walks("Hips", 4).animation("walk");
@@ -361,8 +358,7 @@ TEST(GltfCharacters, VrmSaysWhereTheBodyOfAnAnimationBegins) {
     EXPECT_EQ(clip.facts.joints, 4);
     EXPECT_NEAR(clip.clip->samples().back().x, 4, 1e-6);
     for (const char* node : {"99", "-1", "\"3\"", "null", "{}"}) {
-        EXPECT_NE(testing::input_error([&] { clip_with(with_hips(node)); }).find("its hips refer to"),
-                  std::string::npos)
+        EXPECT_NE(input_error([&] { clip_with(with_hips(node)); }).find("its hips refer to"), std::string::npos)
             << node;
     }
     for (const char* other : {R"(,"extensions":{"VRMC_vrm_animation":{"humanoid":7}})", R"(,"extensions":[])",
@@ -396,7 +392,7 @@ TEST(GltfCharacters, AFileOfSkinsAloneIsBounded) {
     EXPECT_EQ(one.characters.size(), 1u) << "all hang on what moves";
     ImportOptions often;
     often.fps = 5000;
-    EXPECT_EQ(testing::input_error([&] { motion_clips(one, "many.glb", often); }),
+    EXPECT_EQ(input_error([&] { motion_clips(one, "many.glb", often); }),
               "many.glb: needs 40001 joints and layers of curves for each of 10001 frames, which is too much; check "
               "the file, "
               "or lower fps");
@@ -408,7 +404,7 @@ TEST(GltfCharacters, AFileOfSkinsAloneIsBounded) {
     still.channel(std::to_string(kChain + 1), "rotation", still.add_floats("SCALAR", {0}),
                   still.add_floats("VEC4", {0, 0, 0, 1}));
     const std::string many = still.animation("wave").glb(nodes + "]", ",\"skins\":[" + skins + "]");
-    EXPECT_EQ(testing::input_error([&] { parse_gltf(many, "many.glb"); }),
+    EXPECT_EQ(input_error([&] { parse_gltf(many, "many.glb"); }),
               "many.glb: holds 20000 characters, but at most 1000 are read; export fewer at a time");
 }
 

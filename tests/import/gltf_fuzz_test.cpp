@@ -4,6 +4,7 @@
 #include <base/error.h>
 #include <import/nodes/gltf.h>
 #include <import/skeleton/motion_clips.h>
+#include <support/folders.h>
 #include <support/mutate.h>
 #include <support/temp_folder.h>
 
@@ -51,13 +52,13 @@ void try_to_read(const std::string& bytes, const std::string& name, Outcomes& ou
 
 TEST(GltfFuzz, DamagedTextIsReadOrRefused) {
     std::mt19937 random(20250302);
-    const testing::GltfBytes bytes = testing::everything_in_gltf();
-    const std::string json = bytes.json(testing::kEverythingNodes, testing::kEverythingSkins);
+    const GltfBytes bytes = everything_in_gltf();
+    const std::string json = bytes.json(kEverythingNodes, kEverythingSkins);
     Outcomes outcomes;
     for (int round = 0; round < 12'000; ++round) {
         // The container stays whole, so that the damage gets past its checks.
-        const std::string damaged = round % 2 == 0 ? testing::mutated(json, random) : nudged(json, random);
-        try_to_read(testing::join_glb(damaged, bytes.binary()), "fuzz.glb", outcomes);
+        const std::string damaged = round % 2 == 0 ? mutated(json, random) : nudged(json, random);
+        try_to_read(join_glb(damaged, bytes.binary()), "fuzz.glb", outcomes);
     }
     EXPECT_GT(outcomes.read, 300);
     EXPECT_GT(outcomes.refused, 1000);
@@ -65,17 +66,17 @@ TEST(GltfFuzz, DamagedTextIsReadOrRefused) {
 
 TEST(GltfFuzz, DamagedFilesAreReadOrRefused) {
     std::mt19937 random(20250303);
-    const testing::GltfBytes bytes = testing::everything_in_gltf();
+    const GltfBytes bytes = everything_in_gltf();
     const std::string data = "data:application/octet-stream;base64,AAAAAAAAgD8AAAAAAAAAAAAAAAAAAABAAAAAAAAAAAA=";
     const std::array seeds{
-        testing::slurp(std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/clips/stand.glb"),
-        bytes.glb(testing::kEverythingNodes, testing::kEverythingSkins),
-        testing::GltfBytes(bytes).json(testing::kEverythingNodes, "", data),
+        slurp(kClips / "stand.glb"),
+        bytes.glb(kEverythingNodes, kEverythingSkins),
+        GltfBytes(bytes).json(kEverythingNodes, "", data),
     };
     Outcomes outcomes;
     for (int round = 0; round < 6'000; ++round) {
         const std::string& seed = seeds[static_cast<std::size_t>(round) % seeds.size()];
-        const std::string damaged = round % 4 < 2 ? testing::mutated(seed, random) : nudged(seed, random);
+        const std::string damaged = round % 4 < 2 ? mutated(seed, random) : nudged(seed, random);
         try_to_read(damaged, round % 3 == 2 ? "fuzz.gltf" : "fuzz.glb", outcomes);
     }
     EXPECT_GT(outcomes.read, 500);
@@ -83,7 +84,7 @@ TEST(GltfFuzz, DamagedFilesAreReadOrRefused) {
 }
 
 TEST(GltfFuzz, EveryTruncationIsRefused) {
-    const std::string bytes = testing::everything_in_gltf().glb(testing::kEverythingNodes);
+    const std::string bytes = everything_in_gltf().glb(kEverythingNodes);
     Outcomes outcomes;
     for (std::size_t length = 0; length < bytes.size(); ++length) {
         try_to_read(bytes.substr(0, length), "fuzz.glb", outcomes);

@@ -1,5 +1,6 @@
 // KHR_animation_pointer: what a pointer to a node's property moves, what others are told of, and what is refused.
 #include "gltf_bytes.h"
+#include "imported.h"
 
 #include <import/skeleton/motion_clips.h>
 #include <support/input_error.h>
@@ -14,8 +15,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::GltfBytes;
-
 const std::string kPointedArm = R"([{"name":"hips","children":[1]},{"name":"hand","translation":[1,0.5,0.25]}])";
 
 std::vector<ImportedClip> pointed_clips(const std::string& bytes, const ImportOptions& options = {}) {
@@ -23,18 +22,13 @@ std::vector<ImportedClip> pointed_clips(const std::string& bytes, const ImportOp
 }
 
 std::string pointed_refusal(const std::string& bytes, const ImportOptions& options = {}) {
-    return testing::input_error([&] { pointed_clips(bytes, options); });
+    return input_error([&] { pointed_clips(bytes, options); });
 }
 
 std::vector<std::string> warnings_of(const ImportedClip& clip) {
     std::vector<std::string> out;
     for (const ImportWarning& warning : clip.facts.warnings) out.push_back(warning.text);
     return out;
-}
-
-bool has_warning(const ImportedClip& clip, const std::string& words) {
-    const std::vector<std::string> all = warnings_of(clip);
-    return std::ranges::any_of(all, [&](const std::string& text) { return text.find(words) != std::string::npos; });
 }
 
 /// Keys of one property at 0, 1 and 2.5 s: as many numbers as an interpolation takes, none of them 0.
@@ -154,8 +148,8 @@ TEST(GltfPointer, ToWeightsMovesMorphTargets) {
         both.pointer_channel(weights, 0, 0);
         const ImportedClip clip = pointed_clips(both.animation().glb(kPointedArm)).at(0);
         expect_pointed_walk(clip);
-        EXPECT_TRUE(has_warning(clip, "morph targets are animated too"));
-        EXPECT_FALSE(has_warning(clip, "KHR_animation_pointer"));
+        EXPECT_TRUE(warns(clip, "morph targets are animated too"));
+        EXPECT_FALSE(warns(clip, "KHR_animation_pointer"));
     }
     GltfBytes each = pointed_walk();
     each.pointer_channel("/nodes/1/weights/0", 0, 0).pointer_channel("/nodes/1/weights/1", 0, 0);
@@ -189,8 +183,8 @@ TEST(GltfPointer, OfManyElsewhereAFewAreNamed) {
     GltfBytes bytes = pointed_walk();
     for (const std::string& pointer : kElsewhere) bytes.pointer_channel(pointer, 0, 0);
     const ImportedClip clip = pointed_clips(bytes.animation().glb(kPointedArm)).at(0);
-    EXPECT_TRUE(has_warning(clip, "'" + kElsewhere[0] + "', '" + kElsewhere[1] + "', '" + kElsewhere[2] +
-                                      "' and 5 more places, which move no node: passed over"))
+    EXPECT_TRUE(warns(clip, "'" + kElsewhere[0] + "', '" + kElsewhere[1] + "', '" + kElsewhere[2] +
+                                "' and 5 more places, which move no node: passed over"))
         << warnings_of(clip).front();
 }
 
@@ -207,8 +201,8 @@ TEST(GltfPointer, ElsewhereAloneMakesNoClip) {
     const std::vector<ImportedClip> clips = pointed_clips(bytes.glb(kPointedArm));
     ASSERT_EQ(clips.size(), 1u);
     EXPECT_EQ(clips[0].name, "walk");
-    EXPECT_TRUE(has_warning(clips[0], "animation 'glow' is left out: it moves no node, as KHR_animation_pointer"));
-    EXPECT_FALSE(has_warning(clips[0], "passed over")) << "that is about the other animation";
+    EXPECT_TRUE(warns(clips[0], "animation 'glow' is left out: it moves no node, as KHR_animation_pointer"));
+    EXPECT_FALSE(warns(clips[0], "passed over")) << "that is about the other animation";
     ImportOptions named;
     named.animation = "glow";
     EXPECT_NE(pointed_refusal(bytes.glb(kPointedArm), named)

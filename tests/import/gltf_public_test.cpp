@@ -1,5 +1,6 @@
 // glTF files after public reports, of the shared data set where it is, against their right values.
 #include <import/import.h>
+#include <support/folders.h>
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,7 @@
 namespace mobbscope {
 namespace {
 
-const std::filesystem::path kPublicFiles = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "public";
+const std::filesystem::path kPublic = kSharedData / "public";
 
 /// From one place on the floor to another in 2 s, 0.6 m wide, by way of a third after 1 s.
 void expect_way(const ImportedClip& clip, glm::dvec2 from, glm::dvec2 middle, glm::dvec2 to) {
@@ -29,8 +30,8 @@ void expect_way(const ImportedClip& clip, glm::dvec2 from, glm::dvec2 middle, gl
 
 TEST(GltfPublic, PointersToTheHipsAreRead) {
     for (const char* name : {"gltf_pointer_on_hips.gltf", "gltf_pointer_only.gltf"}) {
-        if (!std::filesystem::exists(kPublicFiles / name)) GTEST_SKIP() << "no test data at " << kPublicFiles / name;
-        const std::vector<ImportedClip> clips = import_clips(kPublicFiles / name, {});
+        if (!std::filesystem::exists(kPublic / name)) GTEST_SKIP() << "no test data at " << kPublic / name;
+        const std::vector<ImportedClip> clips = import_clips(kPublic / name, {});
         ASSERT_EQ(clips.size(), 1u) << name;
         expect_way(clips[0], {0, 0}, {2, 0}, {4, 0});
         EXPECT_EQ(clips[0].facts.root, "Hips");
@@ -39,7 +40,7 @@ TEST(GltfPublic, PointersToTheHipsAreRead) {
 }
 
 TEST(GltfPublic, TwoSkinsAreTwoPeople) {
-    const auto file = kPublicFiles / "gltf_two_skins_one_clip.gltf";
+    const auto file = kPublic / "gltf_two_skins_one_clip.gltf";
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "no test data at " << file;
     const std::vector<ImportedClip> clips = import_clips(file, {});
     ASSERT_EQ(clips.size(), 2u);

@@ -13,9 +13,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::GltfBytes;
-using testing::join_glb;
-
 constexpr double kHalf = std::numbers::sqrt2 / 2;  // sine and cosine of 45 degrees
 const std::string kArm = R"([{"children":[1]},{"name":"tip","translation":[1,0,0]}])";
 
@@ -38,7 +35,7 @@ void expect_at(const glm::dvec3& place, double x, double y, double z, double tol
 }
 
 std::string gltf_refusal(const std::string& bytes, const std::string& name = "clip.glb") {
-    return testing::input_error([&] {
+    return input_error([&] {
         const auto file = parse_gltf(bytes, name);
         for (std::size_t i = 0; i < file.animations.size(); ++i) file.motion(i, 0);
     });
@@ -276,12 +273,12 @@ TEST(GltfFile, ChannelsWithoutATargetNodeAreIgnored) {
 }
 
 TEST(GltfFile, BuffersLieBesideItOrBelow) {
-    const testing::TempFolder folder;
+    const TempFolder folder;
     const GltfBytes bytes = mover();
     std::filesystem::create_directory(folder.path() / "the data");
     folder.write("the data/a+b.bin", bytes.binary() + "more than is needed");
     const auto file = folder.write("clip.gltf", bytes.json("[{}]", "", "the%20data/a+b.bin"));
-    expect_at(pose_at(*parse_gltf(testing::slurp(file), file).motion(0, 0), 1)[0], 2, 0, 0);
+    expect_at(pose_at(*parse_gltf(slurp(file), file).motion(0, 0), 1)[0], 2, 0, 0);
 
     for (const char* uri :
          {"../clip.bin", "/etc/passwd", "http://host/a.bin", "a/../../b.bin", "%2e%2e/b.bin", "a\\\\b"}) {
@@ -289,12 +286,12 @@ TEST(GltfFile, BuffersLieBesideItOrBelow) {
         EXPECT_NE(message.find("/buffers/0/uri"), std::string::npos) << message;
     }
     const std::string missing =
-        testing::input_error([&] { parse_gltf(bytes.json("[{}]", "", "gone.bin"), folder.path() / "b.gltf"); });
+        input_error([&] { parse_gltf(bytes.json("[{}]", "", "gone.bin"), folder.path() / "b.gltf"); });
     EXPECT_NE(missing.find("b.gltf: buffer 0: "), std::string::npos) << missing;
     EXPECT_NE(missing.find("gone.bin: no such file"), std::string::npos) << missing;
     folder.write("short.bin", bytes.binary().substr(1));
     const std::string cut =
-        testing::input_error([&] { parse_gltf(bytes.json("[{}]", "", "short.bin"), folder.path() / "c.gltf"); });
+        input_error([&] { parse_gltf(bytes.json("[{}]", "", "short.bin"), folder.path() / "c.gltf"); });
     EXPECT_NE(cut.find("buffer 0"), std::string::npos) << cut;
 }
 

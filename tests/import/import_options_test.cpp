@@ -13,9 +13,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::kWalker;
-using testing::TempFolder;
-
 std::string complaint(const char* key, const char* text) {
     ImportOptions options;
     try {

@@ -18,10 +18,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-using testing::slurp;
-using testing::TempFolder;
-
 /// Runs statements on a database file.
 void run_sql(const std::filesystem::path& file, const std::string& sql) {
     sqlite3* opened = nullptr;
@@ -168,7 +164,7 @@ TEST(Jupedsim, DamagedDatabasesAreReadOrRefusedSoon) {
     for (int round = 0; round < 3000; ++round) {
         std::string bytes = good;
         if (round % 2 == 0) {
-            bytes = testing::mutated(bytes, random);
+            bytes = mutated(bytes, random);
         } else {
             // Where pages lead, and how long cells are.
             for (int edits = 0; edits < 4; ++edits)

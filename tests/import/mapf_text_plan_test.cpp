@@ -13,9 +13,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-using testing::TempFolder;
-
 /// "0: (0,0) (1,0); 1: ...": the agents of a plan in a .txt file, and where they are at each step.
 std::string plan_in(const std::string& text) {
     const TempFolder folder;

@@ -12,9 +12,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-using testing::TempFolder;
-
 /// The clips of the agents of a plan in flow style: "a: [{t: 0, x: 1, y: 2}]".
 std::vector<ImportedClip> agents_of(const std::string& agents, const ImportOptions& options = {}) {
     return track_clips(parse_mapf_plan("schedule: {" + agents + "}", "f.yaml"), "f.yaml", options);

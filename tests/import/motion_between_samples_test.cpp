@@ -11,9 +11,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::kWalker;
-using testing::TempFolder;
-
 constexpr const char* kTrackRows = "0 1 0 0\n10 1 0.1 0\n0 2 0 1\n10 2 0.1 1\n";
 constexpr const char* kPlanRows = "schedule:\n  a:\n  - {t: 0, x: 0, y: 0}\n  - {t: 1, x: 1, y: 0}\n";
 

@@ -1,3 +1,5 @@
+#include "imported.h"
+
 #include <import/bvh/bvh.h>
 #include <import/skeleton/motion.h>
 #include <import/skeleton/motion_clips.h>
@@ -12,10 +14,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-using testing::kWalker;
-using testing::replaced;
-
 ImportedClip clip_of(const std::string& text, const ImportOptions& options = {}) {
     return motion_clips(bvh_motion(parse_bvh(text, "walk.bvh")), "some/walk.bvh", options).at(0);
 }
@@ -25,11 +23,6 @@ void expect_disk(const ImportedClip& of, std::size_t sample, double x, double y,
     EXPECT_NEAR(disk.x, x, 1e-9);
     EXPECT_NEAR(disk.y, y, 1e-9);
     EXPECT_NEAR(disk.r, r, 1e-9);
-}
-
-bool warns(const ImportedClip& of, const std::string& text) {
-    return std::any_of(of.facts.warnings.begin(), of.facts.warnings.end(),
-                       [&](const ImportWarning& warning) { return warning.text.find(text) != std::string::npos; });
 }
 
 /// A pole 1.7 m tall in cm that goes along X at a frame's `steps` in cm, 30 a second, with an arm 40 cm long.

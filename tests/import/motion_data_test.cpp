@@ -4,6 +4,7 @@
 #include <base/error.h>
 #include <import/import.h>
 #include <support/bytes_read.h>
+#include <support/folders.h>
 
 #include <gtest/gtest.h>
 
@@ -17,8 +18,6 @@
 
 namespace mobbscope {
 namespace {
-
-const std::filesystem::path kData = MOBBSCOPE_SHARED_DATA;
 
 // Bytes that may be read beside a file, to look at what it is.
 constexpr std::uint64_t kAround = 16'384;
@@ -49,19 +48,19 @@ double max_radius(const mobb::Clip& clip) {
 }
 
 /// The clip that a row of expected.csv speaks of.
-ImportedClip data_clip(const testing::Row& row, Importer& importer) {
+ImportedClip data_clip(const Row& row, Importer& importer) {
     ImportOptions options;
     options.unit = row.at("unit_to_m");
     if (!row.at("clip").empty()) options.animation = row.at("clip");
-    return importer.clips(kData / row.at("file"), options).at(0);
+    return importer.clips(kSharedData / row.at("file"), options).at(0);
 }
 
 TEST(MotionData, EveryFigureOfExpectedCsv) {
-    const auto table = kData / "expected.csv";
+    const auto table = kSharedData / "expected.csv";
     SKIP_WITHOUT(table);
     Importer importer;
     std::map<std::string, int> checked;
-    for (const testing::Row& row : testing::read_rows(table)) {
+    for (const Row& row : read_rows(table)) {
         if (row.at("frames").empty()) continue;
         const std::string& file = row.at("file");
         SCOPED_TRACE(file + " " + row.at("clip"));
@@ -89,7 +88,7 @@ TEST(MotionData, EveryFigureOfExpectedCsv) {
 }
 
 TEST(MotionData, OneWalkInFiveEncodingsIsOnePath) {
-    const auto folder = kData / "gltf";
+    const auto folder = kSharedData / "gltf";
     SKIP_WITHOUT(folder);
     const ImportedClip first = import_clips(folder / "derived_cmu_07_05_m.glb", {}).at(0);
     for (const char* other : {"cm", "zup", "late", "noibm"}) {
@@ -104,12 +103,12 @@ TEST(MotionData, OneWalkInFiveEncodingsIsOnePath) {
 }
 
 TEST(MotionData, TheUnitOfBvhIsGuessed) {
-    const auto table = kData / "expected.csv";
+    const auto table = kSharedData / "expected.csv";
     SKIP_WITHOUT(table);
-    for (const testing::Row& row : testing::read_rows(table)) {
+    for (const Row& row : read_rows(table)) {
         const std::string& file = row.at("file");
         if (!file.ends_with(".bvh")) continue;
-        const SourceFacts facts = import_clips(kData / file, {}).at(0).facts;
+        const SourceFacts facts = import_clips(kSharedData / file, {}).at(0).facts;
         // Four joints made by hand, 35 units tall: "unknown, taken as cm".
         const bool is_no_body = file.ends_with("rotation_first_root.bvh");
         EXPECT_EQ(facts.unit == std::stod(row.at("unit_to_m")), !is_no_body) << file << ' ' << facts.unit;
@@ -117,7 +116,7 @@ TEST(MotionData, TheUnitOfBvhIsGuessed) {
 }
 
 TEST(MotionData, TurnsGoTheWayThatTheirNamesSay) {
-    const auto folder = kData / "bvh/short";
+    const auto folder = kSharedData / "bvh/short";
     SKIP_WITHOUT(folder);
     // From the heading of the first 0.4 s to that of the last: a mirrored ground plane would turn the other way.
     const auto turn = [&](const std::string& name) {
@@ -133,12 +132,12 @@ TEST(MotionData, TurnsGoTheWayThatTheirNamesSay) {
 }
 
 TEST(MotionData, WarningsAreGivenWhereTheDataIsOddAndNowhereElse) {
-    const auto table = kData / "expected.csv";
+    const auto table = kSharedData / "expected.csv";
     SKIP_WITHOUT(table);
-    for (const testing::Row& row : testing::read_rows(table)) {
+    for (const Row& row : read_rows(table)) {
         const std::string& file = row.at("file");
         if (!file.ends_with(".bvh") || file.ends_with("rotation_first_root.bvh")) continue;
-        const std::vector<ImportWarning> warnings = import_clips(kData / file, {}).at(0).facts.warnings;
+        const std::vector<ImportWarning> warnings = import_clips(kSharedData / file, {}).at(0).facts.warnings;
         const auto warned = [&](const char* of) {
             return std::count_if(warnings.begin(), warnings.end(),
                                  [of](const ImportWarning& w) { return w.text.find(of) != std::string::npos; });
@@ -156,25 +155,26 @@ TEST(MotionData, WarningsAreGivenWhereTheDataIsOddAndNowhereElse) {
 }
 
 TEST(MotionData, EveryBrokenFileEndsAsExpected) {
-    const auto table = kData / "invalid/EXPECTED.csv";
+    const auto table = kSharedData / "invalid/EXPECTED.csv";
     SKIP_WITHOUT(table);
     int checked = 0;
-    for (const testing::Row& row : testing::read_rows(table)) {
+    for (const Row& row : read_rows(table)) {
         const std::string& file = row.at("file");
         if (file.starts_with("csv/")) continue;
-        const std::uint64_t before = testing::bytes_read();
+        const std::uint64_t before = bytes_read();
         std::string message;
         int samples = 0;
         try {
-            for (const ImportedClip& clip : import_clips(kData / "invalid" / file, {})) samples += clip.clip->count();
+            for (const ImportedClip& clip : import_clips(kSharedData / "invalid" / file, {}))
+                samples += clip.clip->count();
         } catch (const InputError& error) {
             message = error.what();
             EXPECT_EQ(message.find('\n'), std::string::npos) << message;
             EXPECT_NE(message.find(std::filesystem::path(file).filename()), std::string::npos) << message;
         }
         // Damage makes no more work than a sound file of its size.
-        const std::uint64_t size = std::filesystem::file_size(kData / "invalid" / file);
-        EXPECT_LE(testing::bytes_read() - before, 2 * size + kAround) << file;
+        const std::uint64_t size = std::filesystem::file_size(kSharedData / "invalid" / file);
+        EXPECT_LE(bytes_read() - before, 2 * size + kAround) << file;
         EXPECT_LE(samples, static_cast<int>(size / 100)) << file;
         if (row.at("expected") == "accept") {
             EXPECT_EQ(message, "") << file;
@@ -187,9 +187,9 @@ TEST(MotionData, EveryBrokenFileEndsAsExpected) {
 }
 
 TEST(MotionData, AFolderOfShortClipsIsReadOnce) {
-    const auto folder = kData / "bvh/short";
+    const auto folder = kSharedData / "bvh/short";
     SKIP_WITHOUT(folder);
-    const std::uint64_t before = testing::bytes_read();
+    const std::uint64_t before = bytes_read();
     int count = 0;
     std::uint64_t bytes = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -197,7 +197,7 @@ TEST(MotionData, AFolderOfShortClipsIsReadOnce) {
         bytes += entry.file_size() + kAround;
     }
     EXPECT_EQ(count, 51);
-    EXPECT_LE(testing::bytes_read() - before, bytes);
+    EXPECT_LE(bytes_read() - before, bytes);
 }
 
 }  // namespace

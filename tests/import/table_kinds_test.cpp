@@ -1,4 +1,6 @@
 // Tables as people have them: names of columns, boxes, units, separators, comments; and the option columns.
+#include "imported.h"
+
 #include <import/clip/column_choice.h>
 #include <import/import.h>
 #include <import/tracks/csv.h>
@@ -15,17 +17,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-using testing::TempFolder;
-
-std::vector<ImportedClip> table_clips_of(const std::string& text, const ImportOptions& options = {}) {
-    return csv_clips(parse_csv(text, "f.csv", options), "f.csv", options);
-}
-
-std::string table_refusal(const std::string& text, const ImportOptions& options = {}) {
-    return input_error([&] { table_clips_of(text, options); });
-}
-
 ImportOptions with_fps(double fps) {
     ImportOptions options;
     options.fps = fps;
@@ -36,13 +27,6 @@ ImportOptions with_columns(const char* columns) {
     ImportOptions options;
     options.columns = columns;
     return options;
-}
-
-bool table_warns(const ImportedClip& clip, const std::string& part) {
-    for (const ImportWarning& warning : clip.facts.warnings) {
-        if (warning.text.find(part) != std::string::npos) return true;
-    }
-    return false;
 }
 
 struct Place {
@@ -66,12 +50,12 @@ TEST(TableKinds, ColumnsThatMeanNothingArePassedOverWithOneWarning) {
         {",id,t,x,y,r,a\n0,1,0,0,0,0.3,1\n1,1,0.1,0.1,0,0.3,1\n", "'a' and a column without a name are passed over"},
     };
     for (const auto& [text, warning] : tables) {
-        const auto read = table_clips_of(text);
+        const auto read = csv_clips(text);
         ASSERT_EQ(read.size(), 1u) << text;
         EXPECT_EQ(read[0].clip->count(), 2);
         EXPECT_DOUBLE_EQ(second(read[0]).x, 0.1) << text;
         ASSERT_EQ(read[0].facts.warnings.size(), 1u) << text;
-        EXPECT_TRUE(table_warns(read[0], warning)) << read[0].facts.warnings[0].text;
+        EXPECT_TRUE(warns(read[0], warning)) << read[0].facts.warnings[0].text;
     }
 }
 
@@ -82,8 +66,8 @@ TEST(TableKinds, ManyColumnsAreCountedInTheWarning) {
         row += ",text";
         next += ",";
     }
-    const auto read = table_clips_of(header + '\n' + row + '\n' + next + '\n');
-    EXPECT_TRUE(table_warns(read[0], "'c7' and 92 more are passed over")) << read[0].facts.warnings[0].text;
+    const auto read = csv_clips(header + '\n' + row + '\n' + next + '\n');
+    EXPECT_TRUE(warns(read[0], "'c7' and 92 more are passed over")) << read[0].facts.warnings[0].text;
     EXPECT_EQ(second(read[0]).x, 2);
 }
 
@@ -95,7 +79,7 @@ TEST(TableKinds, ColumnsGoByTheirUsualNames) {
           "ped,simTime,position_x,position_y,r", "traj_id,secs,Easting,Northing,r",
           "uid,elapsed_time_s,world_x,y_world,r", "pid,time,x,y,r"}) {
         const auto read =
-            table_clips_of(std::string(header) + "\n7,0,1,2,0.25\n7,0.5,3,4,0.25\n8,1,0,0,0.5\n8,1.5,0,0,0.5\n");
+            csv_clips(std::string(header) + "\n7,0,1,2,0.25\n7,0.5,3,4,0.25\n8,1,0,0,0.5\n8,1.5,0,0,0.5\n");
         ASSERT_EQ(read.size(), 2u) << header;
         EXPECT_EQ(read[0].id, "7");
         EXPECT_EQ(read[0].clip->dt(), 0.5) << header;
@@ -106,52 +90,52 @@ TEST(TableKinds, ColumnsGoByTheirUsualNames) {
 }
 
 TEST(TableKinds, TwoColumnsForOneAreRefusedWithAHint) {
-    EXPECT_EQ(table_refusal("id,trackId,t,x,y\n1,1,0,0,0\n"),
+    EXPECT_EQ(csv_refusal("id,trackId,t,x,y\n1,1,0,0,0\n"),
               "f.csv: line 1, column 2: 'id' and 'trackId' may both be id; say which by the option columns, such as "
               "id=trackId");
-    EXPECT_NE(table_refusal("id,t,x,y,xCenter,yCenter\n1,0,0,0,0,0\n").find("'x' and 'xCenter' may both be x"),
+    EXPECT_NE(csv_refusal("id,t,x,y,xCenter,yCenter\n1,0,0,0,0,0\n").find("'x' and 'xCenter' may both be x"),
               std::string::npos);
-    EXPECT_NE(table_refusal("id,t,time,x,y\n1,0,0,0,0\n").find("'t' and 'time' may both be t"), std::string::npos);
-    EXPECT_NE(table_refusal("x,X,y,t,r\n1,0,0,0,0\n").find("'x' and 'X' may both be x"), std::string::npos);
-    EXPECT_NE(table_refusal("t,x,y,r,radius\n1,0,0,0,0\n").find("'r' and 'radius' may both be r"), std::string::npos);
+    EXPECT_NE(csv_refusal("id,t,time,x,y\n1,0,0,0,0\n").find("'t' and 'time' may both be t"), std::string::npos);
+    EXPECT_NE(csv_refusal("x,X,y,t,r\n1,0,0,0,0\n").find("'x' and 'X' may both be x"), std::string::npos);
+    EXPECT_NE(csv_refusal("t,x,y,r,radius\n1,0,0,0,0\n").find("'r' and 'radius' may both be r"), std::string::npos);
     // One that may mean something else gives way.
-    EXPECT_EQ(table_clips_of("id,agent,t,timestamp,x,y,r\n1,car,0,1e9,0,0,1\n1,car,2,1e9,0,0,1\n")[0].clip->dt(), 2);
+    EXPECT_EQ(csv_clips("id,agent,t,timestamp,x,y,r\n1,car,0,1e9,0,0,1\n1,car,2,1e9,0,0,1\n")[0].clip->dt(), 2);
     ImportOptions said = with_columns("id=trackId");
-    EXPECT_EQ(table_clips_of("id,trackId,t,x,y\n1,a,0,0,0\n2,a,1,0,0\n", said)[0].id, "a");
+    EXPECT_EQ(csv_clips("id,trackId,t,x,y\n1,a,0,0,0\n2,a,1,0,0\n", said)[0].id, "a");
 }
 
 TEST(TableKinds, FramesBecomeTimesByFps) {
     const std::string text = "id,frame,x,y\n1,10,0,0\n1,11,1,0\n1,12,2,0\n2,20,0,0\n2,21,1,0\n";
-    EXPECT_EQ(table_refusal(text),
+    EXPECT_EQ(csv_refusal(text),
               "f.csv: line 1: the rows have frame numbers in place of times: give fps (frames a second), or dt "
               "(seconds from one frame to the next)");
     for (const bool by_dt : {false, true}) {
         ImportOptions options;
         (by_dt ? options.dt : options.fps) = by_dt ? 0.25 : 4;
-        const auto read = table_clips_of(text, options);
+        const auto read = csv_clips(text, options);
         ASSERT_EQ(read.size(), 2u);
         EXPECT_EQ(read[0].clip->dt(), 0.25);
         EXPECT_EQ(read[0].clip->count(), 3) << "fps is the file's, and resamples nothing";
         EXPECT_EQ(read[1].start, 2.5);
         EXPECT_EQ(read[0].clip->samples()[0].r, kDefaultTrackRadius);
-        EXPECT_TRUE(table_warns(read[0], "the file has no radii: 0.2 m are taken"));
+        EXPECT_TRUE(warns(read[0], "the file has no radii: 0.2 m are taken"));
         EXPECT_EQ(read[0].facts.warnings.size(), 1u);
     }
     // A comment may tell it, and times of their own go before frames.
-    EXPECT_EQ(table_clips_of("# framerate: 8\n" + text)[0].clip->dt(), 0.125);
-    EXPECT_EQ(table_clips_of("frame,id,t,x,y\n0,1,0,0,0\n30,1,2,0,0\n")[0].clip->dt(), 2);
+    EXPECT_EQ(csv_clips("# framerate: 8\n" + text)[0].clip->dt(), 0.125);
+    EXPECT_EQ(csv_clips("frame,id,t,x,y\n0,1,0,0,0\n30,1,2,0,0\n")[0].clip->dt(), 2);
     // One motion.
     ImportOptions one = with_fps(10);
     one.radius = 0.5;
-    EXPECT_NEAR(table_clips_of("frame,x,y\n100,0,0\n101,1,0\n102,2,0\n", one)[0].clip->dt(), 0.1, 1e-12);
-    EXPECT_NEAR(table_clips_of("frame,x,y\n100,0,0\n", one)[0].clip->dt(), 0.1, 1e-12);
+    EXPECT_NEAR(csv_clips("frame,x,y\n100,0,0\n101,1,0\n102,2,0\n", one)[0].clip->dt(), 0.1, 1e-12);
+    EXPECT_NEAR(csv_clips("frame,x,y\n100,0,0\n", one)[0].clip->dt(), 0.1, 1e-12);
 }
 
 TEST(TableKinds, RowsOfTracksMayComeInAnyOrder) {
-    const auto read = table_clips_of("id,frame,x,y\n1,2,2,0\n2,0,9,0\n1,0,0,0\n1,1,1,0\n2,1,8,0\n", with_fps(1));
+    const auto read = csv_clips("id,frame,x,y\n1,2,2,0\n2,0,9,0\n1,0,0,0\n1,1,1,0\n2,1,8,0\n", with_fps(1));
     EXPECT_EQ(second(read[0]).x, 1);
     EXPECT_EQ(second(read[1]).x, 8);
-    EXPECT_EQ(table_refusal("id,t,x,y\n1,2,2,0\n1,0,0,0\n1,2,1,0\n"),
+    EXPECT_EQ(csv_refusal("id,t,x,y\n1,2,2,0\n1,0,0,0\n1,2,1,0\n"),
               "f.csv: line 4: the time 2 of track '1' stands already in line 2; remove one");
 }
 
@@ -166,54 +150,52 @@ TEST(TableKinds, OfBoxesTheCentresAreTaken) {
         {"Frame,ID,X,Y,Width,Height\n1,1,10,4,5,2\n2,1,12,4,5,2\n", "X+Width/2"},
     };
     for (const auto& [text, said] : tables) {
-        const auto read = table_clips_of(text, with_fps(25));
+        const auto read = csv_clips(text, with_fps(25));
         EXPECT_EQ(second(read[0]).x, 14.5) << text;
         EXPECT_EQ(second(read[0]).y, 5) << text;
-        EXPECT_TRUE(table_warns(read[0], said)) << text;
-        EXPECT_TRUE(table_warns(read[0], "taken for boxes"));
+        EXPECT_TRUE(warns(read[0], said)) << text;
+        EXPECT_TRUE(warns(read[0], "taken for boxes"));
     }
     // inD has centres, and a body has a length too.
-    EXPECT_EQ(second(table_clips_of("trackId,frame,xCenter,yCenter,width,length\n1,0,1,2,2,5\n1,1,3,2,2,5\n",
-                                    with_fps(25))[0])
-                  .x,
-              3);
-    EXPECT_EQ(second(table_clips_of("id,t,x,y,length,width,height\n1,0,1,2,2,5,1\n1,1,3,2,2,5,1\n")[0]).x, 3);
+    EXPECT_EQ(
+        second(csv_clips("trackId,frame,xCenter,yCenter,width,length\n1,0,1,2,2,5\n1,1,3,2,2,5\n", with_fps(25))[0]).x,
+        3);
+    EXPECT_EQ(second(csv_clips("id,t,x,y,length,width,height\n1,0,1,2,2,5,1\n1,1,3,2,2,5,1\n")[0]).x, 3);
     ImportOptions corners = with_columns("x=x,y=y");
     corners.fps = 25;
-    const auto read = table_clips_of(tables[0].first, corners);
+    const auto read = csv_clips(tables[0].first, corners);
     EXPECT_EQ(second(read[0]).x, 12);
-    EXPECT_FALSE(table_warns(read[0], "boxes"));
+    EXPECT_FALSE(warns(read[0], "boxes"));
 }
 
 TEST(TableKinds, DataSetsOfTrafficAreRead) {
-    const auto ngsim = table_clips_of(
+    const auto ngsim = csv_clips(
         "Vehicle_ID,Frame_ID,Total_Frames,Global_Time,Local_X,Local_Y,Global_X,Global_Y,v_length,Location\n"
         "2,13,437,1118846980200,10,30,6451137.641,1873344.962,14.5,us-101\n"
         "2,14,437,1118846980300,10,40,6451140.329,1873342.0,14.5,us-101\n"
         "2,15,437,1118846980400,10,50,6451143.018,1873339.04,14.5,us-101\n");
     EXPECT_NEAR(ngsim[0].clip->dt(), 0.1, 1e-7);
     EXPECT_DOUBLE_EQ(second(ngsim[0]).y, 40 * 0.3048);
-    EXPECT_TRUE(table_warns(ngsim[0], "a unit of length is 0.3048 m, as the column 'Local_X' says"));
+    EXPECT_TRUE(warns(ngsim[0], "a unit of length is 0.3048 m, as the column 'Local_X' says"));
     EXPECT_NEAR(ngsim[0].facts.t0.value(), 1118846980.2, 1e-6);
     ImportOptions metres;
     metres.unit = "m";
-    EXPECT_EQ(table_clips_of("vehicle_id,t,local_x,local_y\n1,0,1,2\n1,1,3,4\n", metres)[0].clip->samples()[1].y, 4);
+    EXPECT_EQ(csv_clips("vehicle_id,t,local_x,local_y\n1,0,1,2\n1,1,3,4\n", metres)[0].clip->samples()[1].y, 4);
 
-    const auto interaction = table_clips_of(
+    const auto interaction = csv_clips(
         "case_id,track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy,psi_rad,length,width\n"
         "1,3,1,100,car,0,0,1,1,0,4,2\n1,3,2,200,car,1,0,1,1,0,4,2\n1,3,3,300,car,2,0,1,1,0,4,2\n");
     EXPECT_DOUBLE_EQ(interaction[0].clip->dt(), 0.1);
     EXPECT_EQ(interaction[0].facts.t0, 0.1);
 
-    const auto argoverse = table_clips_of(
+    const auto argoverse = csv_clips(
         "TIMESTAMP,TRACK_ID,OBJECT_TYPE,X,Y,CITY_NAME\n315968000.1,0-1,AGENT,1,2,MIA\n315968000.2,0-1,AGENT,1.5,2,MIA\n"
         "315968000.3,0-1,AGENT,2,2,MIA\n");
     EXPECT_NEAR(argoverse[0].clip->dt(), 0.1, 1e-7);
     EXPECT_EQ(argoverse[0].id, "0-1");
-    EXPECT_TRUE(
-        table_warns(argoverse[0], "the column 'TIMESTAMP' is taken for seconds; give columns (t=TIMESTAMP/1000)"));
+    EXPECT_TRUE(warns(argoverse[0], "the column 'TIMESTAMP' is taken for seconds; give columns (t=TIMESTAMP/1000)"));
 
-    const auto ind = table_clips_of(
+    const auto ind = csv_clips(
         "recordingId,trackId,frame,trackLifetime,xCenter,yCenter,heading,width,length,lonVelocity\n"
         "0,4,100,0,10,5,90,1.9,4.5,\n0,4,101,1,10.4,5,90,1.9,4.5,1\n",
         with_fps(25));
@@ -225,33 +207,33 @@ TEST(TableKinds, NamesRowsAndCommentsTellUnits) {
     for (const char* head :
          {"id,t,x/cm,y/cm,r/cm\n", "id,t,x [cm],y [cm],r [cm]\n", "id,t,x_cm,y_cm,r_cm\n", "id,t,x,y,r\n,s,cm,cm,cm\n",
           "# all lengths in cm\nid,t,x,y,r\n", "# unit: cm\nid,t,x,y,r\n"}) {
-        const auto read = table_clips_of(std::string(head) + "1,0,0,0,30\n1,1,100,50,30\n");
+        const auto read = csv_clips(std::string(head) + "1,0,0,0,30\n1,1,100,50,30\n");
         EXPECT_EQ(read[0].facts.unit, 0.01) << head;
         EXPECT_EQ(second(read[0]), (Place{1, 0.5, 0.3})) << head;
-        EXPECT_TRUE(table_warns(read[0], "a unit of length is 0.01 m")) << head;
+        EXPECT_TRUE(warns(read[0], "a unit of length is 0.01 m")) << head;
     }
     ImportOptions said;
     said.unit = "m";
-    EXPECT_EQ(second(table_clips_of("id,t,x/cm,y/cm,r\n1,0,0,0,30\n1,1,100,50,30\n", said)[0]).x, 100);
+    EXPECT_EQ(second(csv_clips("id,t,x/cm,y/cm,r\n1,0,0,0,30\n1,1,100,50,30\n", said)[0]).x, 100);
     // A radius in metres beside places in centimetres.
-    EXPECT_DOUBLE_EQ(second(table_clips_of("id,t,x/cm,y/cm,r/m\n1,0,0,0,0.3\n1,1,100,50,0.3\n")[0]).r, 0.3);
-    EXPECT_EQ(second(table_clips_of("t [ms],x,y,r\n0,0,0,1\n500,1,0,1\n")[0]).x, 1);
-    EXPECT_EQ(table_clips_of("t [ms],x,y,r\n0,0,0,1\n500,1,0,1\n")[0].clip->dt(), 0.5);
+    EXPECT_DOUBLE_EQ(second(csv_clips("id,t,x/cm,y/cm,r/m\n1,0,0,0,0.3\n1,1,100,50,0.3\n")[0]).r, 0.3);
+    EXPECT_EQ(second(csv_clips("t [ms],x,y,r\n0,0,0,1\n500,1,0,1\n")[0]).x, 1);
+    EXPECT_EQ(csv_clips("t [ms],x,y,r\n0,0,0,1\n500,1,0,1\n")[0].clip->dt(), 0.5);
 }
 
 TEST(TableKinds, OtherSignsMayPartFields) {
-    const auto plain = table_clips_of("id,t,x,y,r\n1,0,0.5,0,1\n1,1,1.5,0,1\n");
+    const auto plain = csv_clips("id,t,x,y,r\n1,0,0.5,0,1\n1,1,1.5,0,1\n");
     for (const char* text :
          {"id;t;x;y;r\n1;0;0.5;0;1\n1;1;1.5;0;1\n", "id\tt\tx\ty\tr\n1\t0\t0.5\t0\t1\n1\t1\t1.5\t0\t1\n",
           "id t x y r\n1 0 0.5 0 1\n1  1 1.5\t0 1\n", "id;t;x;y;r\n1;0;0,5;0;1\n1;1;1,5;0;1\n",
           "#id,t,x,y,r\n1,0,0.5,0,1\n1,1,1.5,0,1\n", "# made by hand\n# id, t, x, y, r\n1,0,0.5,0,1\n1,1,1.5,0,1\n",
           "\tid\tt\tx\ty\tr\tnote\n0\t1\t0\t0.5\t0\t1\t\n1\t1\t1\t1.5\t0\t1\t\n"}) {
-        const auto read = table_clips_of(text);
+        const auto read = csv_clips(text);
         ASSERT_EQ(read.size(), 1u) << text;
         EXPECT_EQ(second(read[0]), second(plain[0])) << text;
     }
-    EXPECT_TRUE(table_warns(table_clips_of("t;x;y;r\n0;0,5;0;1\n1;1;0;1\n")[0], "commas within numbers"));
-    EXPECT_NE(table_refusal("t;x;y;r\n0;1.000,5;0;1\n").find("'1.000,5' is no finite number"), std::string::npos);
+    EXPECT_TRUE(warns(csv_clips("t;x;y;r\n0;0,5;0;1\n1;1;0;1\n")[0], "commas within numbers"));
+    EXPECT_NE(csv_refusal("t;x;y;r\n0;1.000,5;0;1\n").find("'1.000,5' is no finite number"), std::string::npos);
 }
 
 TEST(TableKinds, BlanksPartNamesWhereNumbersStandBelow) {
@@ -264,28 +246,27 @@ TEST(TableKinds, BlanksPartNamesWhereNumbersStandBelow) {
 }
 
 TEST(TableKinds, WhatIsMissingIsSaid) {
-    EXPECT_EQ(table_refusal("1,0,0,0\n1,1,0,0\n"),
+    EXPECT_EQ(csv_refusal("1,0,0,0\n1,1,0,0\n"),
               "f.csv: line 1: there is no header; begin the file with a line that names the columns, such as t,x,y,r");
-    EXPECT_NE(table_refusal("1,0,0,car\n").find("there is no header"), std::string::npos);
-    EXPECT_NE(table_refusal("id,t,lat,lon\n1,0,50,8\n").find("degrees: turn them into metres first"),
+    EXPECT_NE(csv_refusal("1,0,0,car\n").find("there is no header"), std::string::npos);
+    EXPECT_NE(csv_refusal("id,t,lat,lon\n1,0,50,8\n").find("degrees: turn them into metres first"), std::string::npos);
+    EXPECT_NE(csv_refusal("id,t,east,north\n1,0,50,8\n").find("say what it is by the option columns, such as x=east"),
               std::string::npos);
-    EXPECT_NE(table_refusal("id,t,east,north\n1,0,50,8\n").find("say what it is by the option columns, such as x=east"),
-              std::string::npos);
-    EXPECT_NE(table_refusal("id,t,z,x [px],y [px]\n1,0,0,50,8\n").find("such as x=x [px]"), std::string::npos);
-    EXPECT_NE(table_refusal("id,timestep,x,y\n1,0,0,0\n").find("frame numbers in place of times"), std::string::npos);
+    EXPECT_NE(csv_refusal("id,t,z,x [px],y [px]\n1,0,0,50,8\n").find("such as x=x [px]"), std::string::npos);
+    EXPECT_NE(csv_refusal("id,timestep,x,y\n1,0,0,0\n").find("frame numbers in place of times"), std::string::npos);
     const std::string tracks = "who,t,x,y,r\na,0,0,0,1\na,1,0,0,1\nb,0,0,0,1\n";
-    EXPECT_EQ(table_refusal(tracks),
+    EXPECT_EQ(csv_refusal(tracks),
               "f.csv: line 4, column 2 (t): the time does not come after 1 of the row before; sort the rows and remove "
               "doubles, or, if these are several tracks, say which column names them, such as columns id=who");
-    EXPECT_EQ(table_clips_of(tracks, with_columns("id=who")).size(), 2u);
-    EXPECT_NE(table_refusal("id,time,x,y\n1,2024-05-01 12:00:00.1,0,0\n").find("is a time of day; give seconds"),
+    EXPECT_EQ(csv_clips(tracks, with_columns("id=who")).size(), 2u);
+    EXPECT_NE(csv_refusal("id,time,x,y\n1,2024-05-01 12:00:00.1,0,0\n").find("is a time of day; give seconds"),
               std::string::npos);
-    EXPECT_NE(table_refusal("# a\n# b\n").find("blank lines and comments"), std::string::npos);
+    EXPECT_NE(csv_refusal("# a\n# b\n").find("blank lines and comments"), std::string::npos);
 }
 
 TEST(TableColumns, TheOptionSaysOrWorksOutColumns) {
     const std::string text = "who;frame;east;north;wide\nAnn;0;1;2;0.6\nAnn;5;3;4;0.6\nBob;5;0;0;1\nBob;10;0;0;1\n";
-    const auto read = table_clips_of(text, with_columns("id=who,t=frame/25,x=east,y=north,r=wide/2"));
+    const auto read = csv_clips(text, with_columns("id=who,t=frame/25,x=east,y=north,r=wide/2"));
     ASSERT_EQ(read.size(), 2u);
     EXPECT_EQ(read[0].id, "Ann");
     EXPECT_EQ(read[0].clip->dt(), 0.2);
@@ -293,15 +274,15 @@ TEST(TableColumns, TheOptionSaysOrWorksOutColumns) {
     EXPECT_EQ(read[1].start, 0.2);
     EXPECT_TRUE(read[0].facts.warnings.empty());
     const auto turned =
-        table_clips_of(text, with_columns("id=WHO, t = frame * 0.04, x = -(north - 2*east)/2, y=\"east\", r=0.25"));
+        csv_clips(text, with_columns("id=WHO, t = frame * 0.04, x = -(north - 2*east)/2, y=\"east\", r=0.25"));
     EXPECT_EQ(second(turned[0]), (Place{1, 3, 0.25}));
     ImportOptions frames = with_columns("id=who,frame=frame,x=east,y=north");
     frames.fps = 5;
-    EXPECT_EQ(table_clips_of(text, frames)[0].clip->dt(), 1);
+    EXPECT_EQ(csv_clips(text, frames)[0].clip->dt(), 1);
     // Names that look like something else.
-    EXPECT_EQ(second(table_clips_of("t,a-b,x+1,2,r\n0,1,2,3,1\n1,4,5,6,1\n", with_columns("x=a-b,y=x+1+\"2\""))[0]),
+    EXPECT_EQ(second(csv_clips("t,a-b,x+1,2,r\n0,1,2,3,1\n1,4,5,6,1\n", with_columns("x=a-b,y=x+1+\"2\""))[0]),
               (Place{4, 11, 1}));
-    const auto refused = [&](const char* columns) { return table_refusal(text, with_columns(columns)); };
+    const auto refused = [&](const char* columns) { return csv_refusal(text, with_columns(columns)); };
     EXPECT_NE(refused("id=who,t=fram/25,x=east,y=north").find("names no column 'fram' (did you mean 'frame'?)"),
               std::string::npos);
     EXPECT_NE(refused("id=who+frame,x=east,y=north").find("id is one column"), std::string::npos);

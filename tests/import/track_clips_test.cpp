@@ -1,4 +1,6 @@
 // Tracks of a table or a trajectory file: when they start, their step, what lies in gaps, what trim takes.
+#include "imported.h"
+
 #include <import/import.h>
 #include <import/tracks/csv.h>
 #include <import/tracks/track_steps.h>
@@ -14,12 +16,6 @@
 
 namespace mobbscope {
 namespace {
-
-using testing::input_error;
-
-std::vector<ImportedClip> table_tracks(const std::string& text, const ImportOptions& options = {}) {
-    return csv_clips(parse_csv(text, "f.csv"), "f.csv", options);
-}
 
 std::string all_said(const ImportedClip& clip) {
     std::string out;
@@ -49,14 +45,14 @@ const std::string kTracksHead = "id,t,x,y,r\n";
 
 TEST(TrackClips, StartWithTheirFirstRowOnTheClockOfTheFile) {
     const auto read =
-        table_tracks("t,r,x,id,y\n15,0.2,1,late,0\n12.5,0.2,0,early,0\n13,0.2,1,early,0\n15.5,0.2,2,late,0\n");
+        csv_clips("t,r,x,id,y\n15,0.2,1,late,0\n12.5,0.2,0,early,0\n13,0.2,1,early,0\n15.5,0.2,2,late,0\n");
     ASSERT_EQ(read.size(), 2u);
     EXPECT_EQ(read[0].id, "late");
     EXPECT_EQ(read[0].start, 2.5);
     EXPECT_EQ(read[1].start, 0);
     for (const ImportedClip& clip : read) EXPECT_EQ(clip.facts.t0, 12.5);
-    EXPECT_EQ(table_tracks("t,x,y,r\n12,0,0,1\n13,0,0,1\n")[0].facts.t0, std::nullopt) << "no track";
-    EXPECT_EQ(table_tracks("t,x,y,r\n12,0,0,1\n13,0,0,1\n")[0].start, 0);
+    EXPECT_EQ(csv_clips("t,x,y,r\n12,0,0,1\n13,0,0,1\n")[0].facts.t0, std::nullopt) << "no track";
+    EXPECT_EQ(csv_clips("t,x,y,r\n12,0,0,1\n13,0,0,1\n")[0].start, 0);
 }
 
 TEST(TrackClips, TheStepIsFoundHoweverTimesAreRounded) {
@@ -71,9 +67,9 @@ TEST(TrackClips, TheStepIsFoundHoweverTimesAreRounded) {
     };
     for (const auto& [first, dt, format] : clocks) {
         SCOPED_TRACE(std::to_string(first) + ' ' + std::to_string(dt) + ' ' + format);
-        const auto read = table_tracks(kTracksHead + rows_of_track("a", first, dt, steps_up_to(300), format) +
-                                       rows_of_track("b", first, dt, {100, 101, 102, 110, 111, 200}, format) +
-                                       rows_of_track("c", first, dt, {7}, format));
+        const auto read = csv_clips(kTracksHead + rows_of_track("a", first, dt, steps_up_to(300), format) +
+                                    rows_of_track("b", first, dt, {100, 101, 102, 110, 111, 200}, format) +
+                                    rows_of_track("c", first, dt, {7}, format));
         ASSERT_EQ(read.size(), 3u);
         EXPECT_EQ(read[0].clip->count(), 301);
         EXPECT_EQ(read[0].facts.warnings.size(), 0u) << all_said(read[0]);
@@ -101,7 +97,7 @@ TEST(TrackClips, TimesInMillisecondsAreInStepFromWhicheverFrame) {
                 text += rows_of_track("gaps" + std::to_string(first), start, 1 / rate,
                                       {0, 1, 2, 3, 9, 10, 11, 12, 13, 14, 15, 16, 17, 40, 41, 43, 60}, "%.3f");
             }
-            for (const ImportedClip& clip : table_tracks(text)) {
+            for (const ImportedClip& clip : csv_clips(text)) {
                 SCOPED_TRACE(std::to_string(rate) + ' ' + clip.id);
                 EXPECT_EQ(all_said(clip).find("not uniform"), std::string::npos) << all_said(clip);
                 ASSERT_EQ(clip.clip->count(), clip.id.starts_with("gaps") ? 61 : 71);
@@ -111,28 +107,28 @@ TEST(TrackClips, TimesInMillisecondsAreInStepFromWhicheverFrame) {
             }
         }
     }
-    const auto alone = table_tracks("t,x,y,r\n0,0,0,1\n0.017,1,0,1\n0.033,2,0,1\n0.05,3,0,1\n0.067,4,0,1\n");
+    const auto alone = csv_clips("t,x,y,r\n0,0,0,1\n0.017,1,0,1\n0.033,2,0,1\n0.05,3,0,1\n0.067,4,0,1\n");
     EXPECT_EQ(alone[0].clip->count(), 5);
     EXPECT_EQ(all_said(alone[0]).find("not uniform"), std::string::npos) << all_said(alone[0]);
     // What was not rounded, or is a whole millisecond off, is out of step as ever.
     for (const char* const late : {"0.0205", "0.021"}) {
-        const auto read = table_tracks(kTracksHead + "a,0,0,0,1\na," + late + ",1,0,1\na,0.04,2,0,1\n");
+        const auto read = csv_clips(kTracksHead + "a,0,0,0,1\na," + late + ",1,0,1\na,0.04,2,0,1\n");
         EXPECT_NE(all_said(read[0]).find("not uniform"), std::string::npos) << late;
     }
 }
 
 TEST(TrackClips, TracksOfOneFileShareItsStepToTheLastBit) {
-    const auto read = table_tracks(kTracksHead + rows_of_track("a", 0, 0.1, steps_up_to(50), "%.17g") +
-                                   rows_of_track("b", 17.3, 0.1, steps_up_to(9), "%.17g") +
-                                   rows_of_track("c", 171.7, 0.1, {0, 1, 4, 5}, "%.17g"));
+    const auto read = csv_clips(kTracksHead + rows_of_track("a", 0, 0.1, steps_up_to(50), "%.17g") +
+                                rows_of_track("b", 17.3, 0.1, steps_up_to(9), "%.17g") +
+                                rows_of_track("c", 171.7, 0.1, {0, 1, 4, 5}, "%.17g"));
     EXPECT_EQ(read[0].clip->dt(), read[1].clip->dt());
     EXPECT_EQ(read[0].clip->dt(), read[2].clip->dt());
 }
 
 TEST(TrackClips, WhoseRowsAreEquallyFarApartHasAStepOfItsOwn) {
-    const auto read = table_tracks(kTracksHead + rows_of_track("a", 0, 0.1, steps_up_to(20), "%g") +
-                                   rows_of_track("b", 0, 0.25, steps_up_to(4), "%g") +
-                                   rows_of_track("c", 0, 0.15, {0, 1, 2, 5}, "%g"));
+    const auto read =
+        csv_clips(kTracksHead + rows_of_track("a", 0, 0.1, steps_up_to(20), "%g") +
+                  rows_of_track("b", 0, 0.25, steps_up_to(4), "%g") + rows_of_track("c", 0, 0.15, {0, 1, 2, 5}, "%g"));
     EXPECT_EQ(read[1].clip->dt(), 0.25);
     EXPECT_EQ(read[1].clip->count(), 5);
     EXPECT_NEAR(read[2].clip->dt(), 0.15, 1e-12);
@@ -142,7 +138,7 @@ TEST(TrackClips, WhoseRowsAreEquallyFarApartHasAStepOfItsOwn) {
 TEST(TrackClips, OtherTimesAreResampledFromTheirOwnStart) {
     const std::string text = kTracksHead + rows_of_track("a", 0, 0.1, steps_up_to(20), "%g") +
                              "b,1.03,0,0,.2\nb,1.21,1,0,.2\nb,1.33,2,0,.2\n";
-    const auto read = table_tracks(text);
+    const auto read = csv_clips(text);
     EXPECT_EQ(read[1].clip->dt(), 1.0 / 30);
     EXPECT_EQ(read[1].clip->count(), 10);
     EXPECT_EQ(read[1].start, 1.03);
@@ -150,33 +146,33 @@ TEST(TrackClips, OtherTimesAreResampledFromTheirOwnStart) {
     EXPECT_FALSE(read[1].facts.dt);
     ImportOptions ten;
     ten.fps = 10;
-    EXPECT_EQ(table_tracks(text, ten)[1].clip->count(), 4);
-    EXPECT_EQ(table_tracks(text, ten)[0].clip->count(), 21);
-    EXPECT_EQ(all_said(table_tracks(text, ten)[0]),
+    EXPECT_EQ(csv_clips(text, ten)[1].clip->count(), 4);
+    EXPECT_EQ(csv_clips(text, ten)[0].clip->count(), 21);
+    EXPECT_EQ(all_said(csv_clips(text, ten)[0]),
               "fps does not apply: the rows are uniform in time and are the samples\n");
 }
 
 TEST(TrackClips, RowsAloneNeedAStepFromSomewhere) {
     const std::string alone = "id,t,x,y,r\na,0,0,0,0.2\nb,3,1,0,0.2\n";
-    EXPECT_EQ(input_error([&] { table_tracks(alone); }),
+    EXPECT_EQ(input_error([&] { csv_clips(alone); }),
               "f.csv: every track has one row, which does not tell how long it lasts; give dt (seconds)");
     ImportOptions options;
     options.dt = 0.5;
-    const auto read = table_tracks(alone, options);
+    const auto read = csv_clips(alone, options);
     EXPECT_EQ(read[0].clip->dt(), 0.5);
     EXPECT_EQ(read[1].start, 3);
     EXPECT_EQ(all_said(read[1]), "");
-    EXPECT_EQ(all_said(table_tracks(kTracksHead + rows_of_track("a", 0, 1, {0, 1}, "%g"), options)[0]),
+    EXPECT_EQ(all_said(csv_clips(kTracksHead + rows_of_track("a", 0, 1, {0, 1}, "%g"), options)[0]),
               "dt does not apply: the rows have times\n");
 }
 
 TEST(TrackClips, WithoutTimesAllStartTogetherAndThatIsSaid) {
     const std::string text = "x,id,y,r\n0,a,0,0.2\n5,b,0,0.2\n1,a,0,0.2\n9,c,9,0.2\n2,a,0,0.2\n";
-    EXPECT_EQ(input_error([&] { table_tracks(text); }),
+    EXPECT_EQ(input_error([&] { csv_clips(text); }),
               "f.csv: line 1: the header names no column t; name one or give dt (seconds between rows)");
     ImportOptions options;
     options.dt = 0.25;
-    const auto read = table_tracks(text, options);
+    const auto read = csv_clips(text, options);
     ASSERT_EQ(read.size(), 3u);
     for (const ImportedClip& clip : read) {
         EXPECT_EQ(clip.start, 0);
@@ -195,7 +191,7 @@ TEST(TrackClips, TrimIsOfTheFilesTimeAndStartsStay) {
     const auto trimmed = [&](double from, double to) {
         ImportOptions options;
         options.trim = {from, to};
-        return table_tracks(text, options);
+        return csv_clips(text, options);
     };
     const auto read = trimmed(4, 5.5);
     ASSERT_EQ(read.size(), 2u) << "c comes later";
@@ -220,7 +216,7 @@ TEST(TrackClips, TrimTakesAPartOfWhatIsResampledToo) {
     ImportOptions options;
     options.trim = {1, 2};
     options.fps = 10;
-    const auto read = table_tracks(kTracksHead + "a,50,0,0,.2\na,50.7,7,0,.2\na,53,30,0,.2\n", options);
+    const auto read = csv_clips(kTracksHead + "a,50,0,0,.2\na,50.7,7,0,.2\na,53,30,0,.2\n", options);
     EXPECT_EQ(read[0].clip->count(), 11);
     EXPECT_NEAR(read[0].start, 1, 1e-12);
     EXPECT_NEAR(read[0].clip->samples()[10].x, 20, 1e-9);
@@ -231,14 +227,14 @@ TEST(TrackClips, OneTrackKeepsItsTimeAndStep) {
         kTracksHead + rows_of_track("a", 0, 0.5, steps_up_to(10), "%g") + rows_of_track("b", 3, 0.5, {0}, "%g");
     ImportOptions options;
     options.id = "b";
-    const auto read = table_tracks(text, options);
+    const auto read = csv_clips(text, options);
     ASSERT_EQ(read.size(), 1u);
     EXPECT_EQ(read[0].start, 3);
     EXPECT_EQ(read[0].clip->dt(), 0.5);
 }
 
 TEST(TrackClips, AskedForOneByOneTheyAreTheSame) {
-    const testing::TempFolder folder;
+    const TempFolder folder;
     const std::string file =
         folder.write("f.csv", kTracksHead + rows_of_track("a", 0, 0.5, {0, 1, 2, 4}, "%g") +
                                   rows_of_track("b", 3, 0.5, {0}, "%g") + rows_of_track("c", 9, 0.5, {0, 1}, "%g"));

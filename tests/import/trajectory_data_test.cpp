@@ -1,5 +1,6 @@
 // Real crowds of the shared data set, where it is, against the numbers of an independent reader.
 #include <import/import.h>
+#include <support/folders.h>
 
 #include "expected_csv.h"
 
@@ -10,8 +11,6 @@
 
 namespace mobbscope {
 namespace {
-
-const std::filesystem::path kTrackData = MOBBSCOPE_SHARED_DATA;
 
 /// What the table says of a file, from its clips.
 struct Figures {
@@ -42,12 +41,12 @@ Figures figures_of(const std::vector<ImportedClip>& clips) {
 }
 
 TEST(TrajectoryData, EveryFileHasTheExpectedNumbers) {
-    const auto table = kTrackData / "expected_trajectories.csv";
+    const auto table = kSharedData / "expected_trajectories.csv";
     if (!std::filesystem::exists(table)) GTEST_SKIP() << "no test data at " << table;
     int files = 0;
-    for (testing::Row& row : testing::read_rows(table)) {
+    for (Row& row : read_rows(table)) {
         const auto number = [&row](const char* column) { return std::stod(row[column]); };
-        const std::filesystem::path file = kTrackData / row["file"];
+        const std::filesystem::path file = kSharedData / row["file"];
         SCOPED_TRACE(file.filename());
         const auto clips = import_clips(file, {});
         EXPECT_EQ(static_cast<double>(clips.size()), number("agents"));
@@ -70,10 +69,10 @@ TEST(TrajectoryData, EveryFileHasTheExpectedNumbers) {
 }
 
 TEST(TrajectoryData, TheSameCrowdInTwoFormatsIsTheSame) {
-    const auto obsmat = kTrackData / "trajectories/ucy_zara01_obsmat.txt";
+    const auto obsmat = kSharedData / "trajectories/ucy_zara01_obsmat.txt";
     if (!std::filesystem::exists(obsmat)) GTEST_SKIP() << "no test data at " << obsmat;
     const auto a = import_clips(obsmat, {});
-    const auto b = import_clips(kTrackData / "trajectories/trajnetpp_zara01.ndjson", {});
+    const auto b = import_clips(kSharedData / "trajectories/trajnetpp_zara01.ndjson", {});
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
         EXPECT_EQ(a[i].name, b[i].name);

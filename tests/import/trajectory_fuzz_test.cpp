@@ -16,7 +16,7 @@ void fuzz(Parser parse, const std::vector<std::string>& seeds, int rounds) {
     int read = 0;
     int refused = 0;
     for (int round = 0; round < rounds; ++round) {
-        const std::string text = testing::mutated(seeds[static_cast<std::size_t>(round) % seeds.size()], random);
+        const std::string text = mutated(seeds[static_cast<std::size_t>(round) % seeds.size()], random);
         ImportOptions options;
         if (round % 7 == 0) options.dt = 0.1;
         if (round % 5 == 0) options.trim = {0.05, 0.4};

@@ -7,8 +7,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-
 const std::string kTrajnetpp = R"({"scene": {"id": 0, "p": 1, "s": 1, "e": 21, "fps": 2.0, "tag": [1, []]}}
 {"track": {"f": 1, "p": 1, "x": -0.5, "y": 2}}
 {"track": {"f": 11, "p": 1, "x": 0.5, "y": 2}}

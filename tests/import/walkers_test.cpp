@@ -1,5 +1,6 @@
 // The walking skeletons in assets/clips are what they claim to be.
 #include <import/import.h>
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -10,7 +11,6 @@
 namespace mobbscope {
 namespace {
 
-const std::filesystem::path kClips = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/clips";
 constexpr const char* kNames[] = {"walk", "bend", "turn", "run", "stand", "circle"};
 
 ImportedClip read(const std::string& name) { return import_clips(kClips / (name + ".glb"), {}).at(0); }
@@ -68,15 +68,15 @@ TEST(Walkers, GoAsTheirNamesSay) {
 
 TEST(Walkers, TheGeneratorMakesTheFilesThatAreThere) {
     if (std::system("python3 --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no python3";
-    const testing::TempFolder folder;
+    const TempFolder folder;
     const std::string script = "python3 -B '" MOBBSCOPE_SOURCE_DIR "/scripts/make_walkers.py' ";
     ASSERT_EQ(std::system((script + "'" + folder.path().string() + "'").c_str()), 0);
     for (const char* name : kNames) {
         const std::string file = std::string(name) + ".glb";
-        EXPECT_TRUE(testing::slurp(folder.path() / file) == testing::slurp(kClips / file)) << file;
+        EXPECT_TRUE(slurp(folder.path() / file) == slurp(kClips / file)) << file;
     }
     ASSERT_EQ(std::system((script + "--seed 2 '" + folder.path().string() + "'").c_str()), 0);
-    EXPECT_FALSE(testing::slurp(folder.path() / "walk.glb") == testing::slurp(kClips / "walk.glb"));
+    EXPECT_FALSE(slurp(folder.path() / "walk.glb") == slurp(kClips / "walk.glb"));
 }
 
 }  // namespace

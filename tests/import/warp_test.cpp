@@ -2,6 +2,7 @@
 #include <import/import.h>
 #include <import/skeleton/disk_sampler.h>
 #include <import/skeleton/warp.h>
+#include <support/folders.h>
 
 #include <gtest/gtest.h>
 
@@ -27,7 +28,7 @@ bool same_disk(const mobb::Disk& a, const mobb::Disk& b) { return a.x == b.x && 
 class Warp : public ::testing::Test {
   protected:
     static void SetUpTestSuite() {
-        const std::filesystem::path file = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/clips/wander.glb";
+        const std::filesystem::path file = kClips / "wander.glb";
         ImportOptions options;
         options.trim = {5, 8};
         part_ = std::make_unique<ImportedClip>(import_clips(file, options).front());

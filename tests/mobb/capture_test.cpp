@@ -19,8 +19,8 @@
 namespace mobb {
 namespace {
 
-using mobbscope::testing::slurp;
-using mobbscope::testing::TempFolder;
+using mobbscope::slurp;
+using mobbscope::TempFolder;
 
 ClipPtr walk_of(int samples) {
     std::vector<Disk> path;

@@ -14,7 +14,8 @@
 #include <string>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 inline MotionFile written_and_read(const PlayedMotion& motion, const MotionFormat& format) {
     return format.read(format.write(motion), "agent");
@@ -54,4 +55,5 @@ inline double farthest_off(const PlayedMotion& motion, const MotionFormat& forma
     return most;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

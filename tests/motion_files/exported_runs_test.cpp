@@ -7,6 +7,7 @@
 #include <motion_files/formats.h>
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
+#include <support/folders.h>
 
 #include <gtest/gtest.h>
 
@@ -18,11 +19,6 @@
 
 namespace mobbscope {
 namespace {
-
-using testing::farthest_off;
-
-const std::filesystem::path kOwnClips = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/clips";
-const std::filesystem::path kShared = MOBBSCOPE_SHARED_DATA;
 
 enum class Moves { whole_clips, graph };
 
@@ -58,43 +54,43 @@ void expect_same_again(const std::vector<std::filesystem::path>& places, Moves m
     }
 }
 
-TEST(ExportedRuns, OfWholeClips) { expect_same_again({kOwnClips}, Moves::whole_clips); }
-TEST(ExportedRuns, OfAGraph) { expect_same_again({kOwnClips}, Moves::graph); }
+TEST(ExportedRuns, OfWholeClips) { expect_same_again({kClips}, Moves::whole_clips); }
+TEST(ExportedRuns, OfAGraph) { expect_same_again({kClips}, Moves::graph); }
 
-TEST(ExportedRuns, OfMovesThatTurnOnTheWay) { expect_same_again({kOwnClips}, Moves::graph, {}, {}, {8, 8}, true); }
+TEST(ExportedRuns, OfMovesThatTurnOnTheWay) { expect_same_again({kClips}, Moves::graph, {}, {}, {8, 8}, true); }
 
 TEST(ExportedRuns, OfManySamplesASecond) {
     ImportOptions options;
     options.fps = 60;
-    expect_same_again({kOwnClips / "walk.glb", kOwnClips / "turn.glb"}, Moves::whole_clips, options);
+    expect_same_again({kClips / "walk.glb", kClips / "turn.glb"}, Moves::whole_clips, options);
 }
 
 TEST(ExportedRuns, OfBvhRecordings) {
-    const auto folder = kShared / "bvh/short";
+    const auto folder = kSharedData / "bvh/short";
     expect_same_again(
         {folder / "cmu_07_01_walk_120hz.bvh", folder / "cmu_07_02_walk_120hz.bvh", folder / "cmu_09_01_run_120hz.bvh"},
         Moves::whole_clips);
 }
-TEST(ExportedRuns, OfAGraphOfBvhRecordings) { expect_same_again({kShared / "bvh/short"}, Moves::graph); }
+TEST(ExportedRuns, OfAGraphOfBvhRecordings) { expect_same_again({kSharedData / "bvh/short"}, Moves::graph); }
 
 TEST(ExportedRuns, OfGltfWithABodyThatIsScaledAndTurnedByNodesAbove) {
-    expect_same_again({kShared / "gltf/CesiumMan.glb"}, Moves::whole_clips);
-    expect_same_again({kShared / "gltf/derived_cmu_07_05_cm.glb"}, Moves::whole_clips);
+    expect_same_again({kSharedData / "gltf/CesiumMan.glb"}, Moves::whole_clips);
+    expect_same_again({kSharedData / "gltf/derived_cmu_07_05_cm.glb"}, Moves::whole_clips);
 }
 
-TEST(ExportedRuns, OfFbx) { expect_same_again({kShared / "fbx/cmu_85_04_breakdance.fbx"}, Moves::whole_clips); }
+TEST(ExportedRuns, OfFbx) { expect_same_again({kSharedData / "fbx/cmu_85_04_breakdance.fbx"}, Moves::whole_clips); }
 
 TEST(ExportedRuns, OfAGraphOfFbx) {
     GraphOptions dance;
     dance.bounds = {0.5, 3};
-    expect_same_again({kShared / "fbx/cmu_85_14_breakdance.fbx"}, Moves::graph, {}, dance);
+    expect_same_again({kSharedData / "fbx/cmu_85_14_breakdance.fbx"}, Moves::graph, {}, dance);
 }
 
 TEST(ExportedRuns, EveryMotionFileOfTheDataSetAlone) {
-    if (!std::filesystem::exists(kShared / "bvh")) GTEST_SKIP() << "no test data at " << kShared;
+    if (!std::filesystem::exists(kSharedData / "bvh")) GTEST_SKIP() << "no test data at " << kSharedData;
     int checked = 0;
     for (const char* folder : {"bvh/short", "bvh/quirks", "gltf", "fbx"}) {
-        for (const ClipFile& file : clip_files({kShared / folder})) {
+        for (const ClipFile& file : clip_files({kSharedData / folder})) {
             Scene scene;
             try {
                 scene = load_recordings({file}, "one.json", {}, true).scene;

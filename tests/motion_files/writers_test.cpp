@@ -23,14 +23,6 @@ namespace mobbscope {
 namespace {
 
 using nlohmann::json;
-using testing::farthest_off;
-using testing::imported_again;
-using testing::input_error;
-using testing::kWalker;
-using testing::replaced;
-using testing::slurp;
-using testing::TempFolder;
-using testing::written_and_read;
 
 /// Three plays of the walker's two frames on a floor, the last one turned on the spot.
 std::string run_text(const std::string& clip = R"({"source": "walk.bvh", "fps": 10, "unit": "cm"})",
@@ -125,7 +117,7 @@ TEST_F(MotionFiles, JointsKeepTheirOwnAxesAndRest) {
 
 TEST_F(MotionFiles, TheRestOfAGltfIsThePoseOfZeroAngles) {
     // An arm along its own x, whose shoulder is turned up by 90 degrees about z where nothing is animated, and scaled.
-    testing::GltfBytes bytes;
+    GltfBytes bytes;
     const int times = bytes.add_floats("SCALAR", {0, 1.0F / 30});
     const auto half = static_cast<float>(std::sqrt(0.5));
     bytes.channel("0", "translation", times, bytes.add_floats("VEC3", {0, 1, 0, 1, 1, 0}));
@@ -307,9 +299,9 @@ TEST_F(MotionFiles, DamagedRunsAndRecordingsAreWrittenOrRefused) {
     int written = 0;
     for (int i = 0; i < 400; ++i) {
         const bool in_run = i % 2 == 0;
-        folder.write("walk.bvh", in_run ? kWalker : testing::mutated(kWalker, random));
+        folder.write("walk.bvh", in_run ? kWalker : mutated(kWalker, random));
         try {
-            const Scene damaged = scene(in_run ? testing::mutated(run_text(), random) : run_text());
+            const Scene damaged = scene(in_run ? mutated(run_text(), random) : run_text());
             const PlayedMotion motion(damaged, damaged.crowd ? damaged.crowd->agents.front().name : "walk");
             for (const MotionFormat& format : motion_formats()) {
                 const std::string bytes = format.write(motion);

@@ -2,6 +2,7 @@
 #include <picture_tests/run_cases.h>
 #include <picture_tests/test_case.h>
 #include <render/image/png.h>
+#include <support/folders.h>
 
 #include "render/backends.h"
 
@@ -14,8 +15,6 @@
 
 namespace mobbscope::picture_tests {
 namespace {
-
-const std::filesystem::path kSource = MOBBSCOPE_SOURCE_DIR;
 
 /// Null where the machine lacks the backend; then the test is skipped, or failed.
 std::unique_ptr<PictureMaker> maker_or_skip(Backend backend) {

@@ -13,9 +13,6 @@
 namespace mobbscope::picture_tests {
 namespace {
 
-using mobbscope::testing::CaseFolder;
-using mobbscope::testing::slurp;
-
 Image filled(std::uint8_t grey) {
     Image image(8, 4);
     for (std::uint8_t& byte : image.rgba) byte = grey;

@@ -24,8 +24,6 @@
 namespace mobbscope::picture_tests {
 namespace {
 
-using mobbscope::testing::CaseFolder;
-using mobbscope::testing::says;
 using Json = nlohmann::ordered_json;
 
 constexpr std::array kNumbers{Held::answers, Held::trace, Held::fit};

@@ -15,8 +15,6 @@
 namespace mobbscope::picture_tests {
 namespace {
 
-using mobbscope::testing::CaseFolder;
-
 std::vector<DrawList> lists_of(const std::string& more) {
     const CaseFolder cases;
     const std::string keys = R"({"mobbscope_case": 1, "scene": "scene.json", "size": "600x200", )";

@@ -12,8 +12,6 @@
 namespace mobbscope::picture_tests {
 namespace {
 
-using mobbscope::testing::TempFolder;
-
 const Reference kOurs{{{"Inter.otf", "0123456789abcdef"}, {"Mono.ttf", "fedc"}}, "1.86", "Mesa 22.3.6, llvmpipe"};
 
 TEST(Reference, IsReadAsItWasWritten) {

@@ -20,8 +20,6 @@
 namespace mobbscope::picture_tests {
 namespace {
 
-using mobbscope::testing::CaseFolder;
-
 class RunCaseTest : public ::testing::Test {
   protected:
     void SetUp() override {

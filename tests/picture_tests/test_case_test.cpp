@@ -14,10 +14,6 @@
 namespace mobbscope::picture_tests {
 namespace {
 
-using mobbscope::testing::CaseFolder;
-using mobbscope::testing::input_error;
-using mobbscope::testing::says;
-
 TEST(ReadCase, TakesTheSceneAsItIsWhereTheCaseSaysNothing) {
     const CaseFolder cases;
     const Case read = read_case(cases.write("a", R"({"mobbscope_case": 1, "scene": "scene.json"})").file);

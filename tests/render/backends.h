@@ -14,7 +14,8 @@
 #include <string>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 inline std::string name_of(Backend backend) {
     return backend == Backend::osmesa ? "osmesa" : backend == Backend::egl ? "egl" : "auto";
@@ -68,4 +69,5 @@ class OnEachBackend : public ::testing::TestWithParam<Backend> {
 
 inline std::string backend_name(const ::testing::TestParamInfo<Backend>& info) { return name_of(info.param); }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

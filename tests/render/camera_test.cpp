@@ -19,8 +19,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::kGoldenSize;
-
 std::vector<glm::vec3> points_of(const DrawList& list) {
     std::vector<glm::vec3> out;
     for (const DiskInstance& disk : list.disks) out.push_back(disk.base);

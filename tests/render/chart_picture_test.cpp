@@ -15,9 +15,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::small_chart;
-using testing::small_level_chart;
-
 const TextRun* run_with(const DrawList& list, const std::string& text) {
     const auto at =
         std::find_if(list.texts.begin(), list.texts.end(), [&](const TextRun& t) { return t.text == text; });

@@ -11,7 +11,8 @@
 #include <string_view>
 #include <utility>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 inline constexpr const char* kGraphicsCard = "NVIDIA GeForce RTX 4070/PCIe/SSE2";
 inline constexpr const char* kProcessor = "llvmpipe (LLVM 15.0.6, 256 bits)";
@@ -98,4 +99,5 @@ class CountingContext final : public GlContext {
     std::unique_ptr<GlContext> draws_;
 };
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

@@ -23,9 +23,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::kGoldenSize;
-using testing::who_has_a_disk;
-
 constexpr PictureSize kLarge{1280, 720};
 
 class CrowdPicture : public ::testing::Test {

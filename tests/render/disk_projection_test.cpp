@@ -15,8 +15,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::kGoldenSize;
-
 FittedScene one_walk(mobb::TreeKind kind, int samples = 60, double time_scale = 1.0) {
     mobb::FitOptions options;
     options.tree = kind;

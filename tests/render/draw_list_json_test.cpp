@@ -22,9 +22,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::kGoldenSize;
-using testing::text_of;
-
 using nlohmann::json;
 
 /// Levels or a query, both with a time cursor: disks, boxes of nodes and others, lines of all kinds.

@@ -18,8 +18,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::kGoldenSize;
-
 TEST(DrawList, HasADiskForEverySample) {
     const FittedScene fitted = testing::hit_scene();
     const DrawList list = build_draw_list(fitted, {}, kGoldenSize);

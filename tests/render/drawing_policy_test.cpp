@@ -19,12 +19,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::CountingContext;
-using testing::kGraphicsCard;
-using testing::kProcessor;
-using testing::kSmallSize;
-using testing::pixels_of;
-
 TEST(DrawingPolicy, AProcessorIsKnownByItsName) {
     for (const char* device : {kProcessor, "softpipe", "Software Rasterizer", "GDI Generic", "Google SwiftShader",
                                "ANGLE (Google, Vulkan 1.3.0 (SwiftShader Device))"}) {

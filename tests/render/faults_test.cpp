@@ -22,9 +22,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::kGoldenSize;
-using testing::text_of;
-
 ViewState levels_view() {
     ViewState view;
     view.levels = {1, 1, false};

@@ -20,8 +20,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::kGoldenSize;
-
 /// How much of the picture is left, at least, between the disks and its edges: of its width and of its height; below 0:
 /// something is cut off. `boxes`: also around these, and what a plan shows of them; `free_top`: pixels at the top that
 /// are no part of the picture.

@@ -14,8 +14,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::small_graph;
-
 TEST(GraphPicture, NamesEveryHubAndCountsItsMoves) {
     const DrawList list = graph_picture(small_graph(), {640, 360}, Theme::dark);
     const auto count = [&](const std::string& text) {

@@ -12,8 +12,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::filled;
-
 int red_over_blue(const std::uint8_t* pixel) { return pixel[0] - pixel[2]; }
 
 TEST(HeatMap, AGhostOfTheReferenceStays) {

@@ -23,8 +23,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::kSmallSize;
-using testing::text_of;
 using Kind = AgentPart::Kind;
 using Role = HighlightLine::Role;
 

@@ -12,8 +12,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::filled;
-
 /// No pixel may differ.
 constexpr DiffOptions kNone{3, 0, 0, 0};
 

@@ -20,8 +20,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::kSmallSize;
-
 class KeptBuffersTest : public testing::OnEachBackend {
   protected:
     explicit KeptBuffersTest(Scene scene = testing::scene_of({{}, {{1, -1}, 90, 0.25}}, 300))

@@ -5,6 +5,7 @@
 #include <render/parts/paths.h>
 #include <render/pictures/build_draw_list.h>
 #include <render/pictures/moment.h>
+#include <support/folders.h>
 
 #include "render/pictures.h"
 #include "render/scenes.h"
@@ -22,9 +23,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::kGoldenSize;
-using testing::who_has_a_disk;
-
 ViewState at(double time) {
     ViewState view;
     view.show = Show::moment;
@@ -32,7 +30,7 @@ ViewState at(double time) {
     return view;
 }
 
-Scene crossing() { return load_scene(std::string(MOBBSCOPE_SOURCE_DIR) + "/assets/scenes/crossing.json"); }
+Scene crossing() { return load_scene(kCrossing); }
 Scene collision() { return load_scene(std::string(MOBBSCOPE_SOURCE_DIR) + "/assets/scenes/collision.json"); }
 FittedScene fitted(Scene scene) {
     const mobb::FitOptions options = scene.fit;

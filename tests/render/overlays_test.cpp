@@ -16,8 +16,6 @@
 namespace mobbscope {
 namespace {
 
-using Kind = Overlay::Kind;
-
 const std::vector<PictureSize> kSizes{{640, 360}, {850, 560}, {1280, 720}};
 
 /// At a hit, with a time cursor: all three overlays, and the longest legend.
@@ -29,7 +27,7 @@ ViewState busy_view() {
     return view;
 }
 
-const Overlay* overlay(const DrawList& list, Kind kind) {
+const Overlay* overlay(const DrawList& list, Overlay::Kind kind) {
     const auto at = std::ranges::find(list.overlays, kind, &Overlay::kind);
     return at == list.overlays.end() ? nullptr : &*at;
 }
@@ -73,14 +71,14 @@ TEST(Overlays, StandInTheirCornersWithoutOverlap) {
             for (const Overlay& one : list.overlays) {
                 EXPECT_TRUE(!one.folded || (one.no_room && size.width < 1280)) << size.width;
             }
-            const float margin = overlay(list, Kind::caption)->rect.min.x;
+            const float margin = overlay(list, Overlay::Kind::caption)->rect.min.x;
             const auto right = static_cast<float>(size.width) - margin;
             const auto bottom = static_cast<float>(size.height) - margin;
-            EXPECT_EQ(overlay(list, Kind::caption)->rect.min, glm::vec2(margin));
-            EXPECT_EQ(overlay(list, Kind::inset)->rect.min.y, margin);
-            EXPECT_NEAR(overlay(list, Kind::inset)->rect.max.x, right, 1);
-            EXPECT_EQ(overlay(list, Kind::legend)->rect.min.x, margin);
-            EXPECT_NEAR(overlay(list, Kind::legend)->rect.max.y, bottom, 1);
+            EXPECT_EQ(overlay(list, Overlay::Kind::caption)->rect.min, glm::vec2(margin));
+            EXPECT_EQ(overlay(list, Overlay::Kind::inset)->rect.min.y, margin);
+            EXPECT_NEAR(overlay(list, Overlay::Kind::inset)->rect.max.x, right, 1);
+            EXPECT_EQ(overlay(list, Overlay::Kind::legend)->rect.min.x, margin);
+            EXPECT_NEAR(overlay(list, Overlay::Kind::legend)->rect.max.y, bottom, 1);
         }
     }
 }
@@ -102,7 +100,7 @@ TEST(Overlays, TheLegendHasSixRowsAndCountsTheRest) {
     ViewState view = busy_view();
     const DrawList list = build_draw_list(fitted, view, PictureSize{1280, 720});
     ASSERT_GT(list.legend.size(), kLegendRows);
-    const Overlay legend = *overlay(list, Kind::legend);
+    const Overlay legend = *overlay(list, Overlay::Kind::legend);
     std::vector<std::string> words = words_on(list, legend.rect);
     ASSERT_EQ(words.size(), kLegendRows + 1);
     EXPECT_EQ(words.back(), "and " + std::to_string(list.legend.size() - kLegendRows) + " more");
@@ -112,10 +110,10 @@ TEST(Overlays, TheLegendHasSixRowsAndCountsTheRest) {
 
     view.whole_legend = true;
     const DrawList whole = build_draw_list(fitted, view, PictureSize{1280, 720});
-    words = words_on(whole, overlay(whole, Kind::legend)->rect);
+    words = words_on(whole, overlay(whole, Overlay::Kind::legend)->rect);
     ASSERT_EQ(words.size(), whole.legend.size());
     for (std::size_t i = 0; i < words.size(); ++i) EXPECT_EQ(words[i], whole.legend[i].text);
-    EXPECT_TRUE(overlay(whole, Kind::legend)->more) << "the way back";
+    EXPECT_TRUE(overlay(whole, Overlay::Kind::legend)->more) << "the way back";
     expect_apart(whole);
 
     view.past = Past::pair;
@@ -123,8 +121,8 @@ TEST(Overlays, TheLegendHasSixRowsAndCountsTheRest) {
     view.whole_legend = false;
     const DrawList few = build_draw_list(fitted, view, PictureSize{1280, 720});
     ASSERT_LE(few.legend.size(), kLegendRows);
-    EXPECT_EQ(words_on(few, overlay(few, Kind::legend)->rect).size(), few.legend.size());
-    EXPECT_FALSE(overlay(few, Kind::legend)->more);
+    EXPECT_EQ(words_on(few, overlay(few, Overlay::Kind::legend)->rect).size(), few.legend.size());
+    EXPECT_FALSE(overlay(few, Overlay::Kind::legend)->more);
 }
 
 TEST(Overlays, AWholeLegendThatDoesNotFitSaysHowMuchIsLeft) {
@@ -134,7 +132,7 @@ TEST(Overlays, AWholeLegendThatDoesNotFitSaysHowMuchIsLeft) {
     view.whole_legend = true;
     const FittedScene fitted(testing::scene_of(placements), {});
     const DrawList list = build_draw_list(fitted, view, PictureSize{640, 360});
-    const std::vector<std::string> words = words_on(list, overlay(list, Kind::legend)->rect);
+    const std::vector<std::string> words = words_on(list, overlay(list, Overlay::Kind::legend)->rect);
     ASSERT_GT(words.size(), kLegendRows + 1);
     EXPECT_EQ(words.back(), "and " + std::to_string(list.legend.size() - (words.size() - 1)) + " more");
     expect_apart(list);
@@ -156,7 +154,7 @@ TEST(Overlays, FoldToTheirHeaders) {
             ASSERT_EQ(list.overlays.size(), 3u);
             expect_apart(list);
             for (std::size_t j = 0; j < folds.size(); ++j) {
-                const Overlay& one = *overlay(list, static_cast<Kind>(j));
+                const Overlay& one = *overlay(list, static_cast<Overlay::Kind>(j));
                 EXPECT_EQ(one.folded, i == j);
                 EXPECT_FALSE(one.no_room);
                 if (i == j) {
@@ -174,7 +172,7 @@ TEST(Overlays, WhatHasNoRoomIsFoldedAndSaysSo) {
     const FittedScene fitted = testing::hit_scene();
     const DrawList list = build_draw_list(fitted, busy_view(), PictureSize{330, 150});
     expect_apart(list);
-    const Overlay& legend = *overlay(list, Kind::legend);
+    const Overlay& legend = *overlay(list, Overlay::Kind::legend);
     EXPECT_TRUE(legend.folded && legend.no_room);
     EXPECT_EQ(words_on(list, legend.rect), std::vector<std::string>{"Legend: no room"});
     for (int width = 64; width < 700; width += 31) {

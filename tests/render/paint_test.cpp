@@ -20,9 +20,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::kSmallSize;
-using testing::pixels_of;
-
 /// Disks, boxes with faces, lines, panels and text.
 DrawList everything() {
     ViewState view;

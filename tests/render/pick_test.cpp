@@ -5,6 +5,7 @@
 #include <render/parts/node_boxes.h>
 #include <render/pictures/build_draw_list.h>
 #include <scene/drawn_agent.h>
+#include <support/folders.h>
 
 #include "render/backends.h"
 #include "render/scenes.h"
@@ -25,7 +26,7 @@ namespace {
 constexpr PictureSize kPickSize{960, 540};
 
 FittedScene demo_scene(const std::string& name) {
-    Scene scene = load_scene(std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets" / "scenes" / (name + ".json"));
+    Scene scene = load_scene(kScenes / (name + ".json"));
     const mobb::FitOptions options = scene.fit;
     return {std::move(scene), options};
 }

@@ -10,7 +10,8 @@
 #include <sstream>
 #include <string>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 inline constexpr PictureSize kGoldenSize{640, 360};
 inline constexpr PictureSize kSmallSize{320, 240};
@@ -33,4 +34,5 @@ inline std::string text_of(const DrawList& list, const IdImage* ids = nullptr) {
     return out.str();
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

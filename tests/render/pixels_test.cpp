@@ -15,8 +15,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::kSmallSize;
-
 Image render(const FittedScene& fitted, const ViewState& view, PictureSize size, Renderer& renderer) {
     return renderer.draw(build_draw_list(fitted, view, size));
 }

@@ -15,8 +15,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::png_chunk;
-
 struct PngChunk {
     std::string type;
     std::string data;

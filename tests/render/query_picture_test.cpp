@@ -7,6 +7,7 @@
 #include <render/query/query_boxes.h>
 #include <render/query/separation_gap.h>
 #include <scene/scene.h>
+#include <support/folders.h>
 
 #include "render/pictures.h"
 #include "render/scenes.h"
@@ -24,8 +25,6 @@
 
 namespace mobbscope {
 namespace {
-
-using testing::kGoldenSize;
 
 struct Query {
     explicit Query(FittedScene scene) : fitted(std::move(scene)), recorded(record(fitted, fitted.queries()[0])) {
@@ -76,7 +75,7 @@ TEST(QueryProgress, OnlyTestedNodesAreKnown) {
 /// Which nodes of A and B each kind of past tells of, worked out from the trace by itself.
 TEST(QueryProgress, ThePastIsThePairTheAncestorsTheSiblingsOrAll) {
     // Of which siblings have children of their own.
-    const Query query(FittedScene(load_scene(MOBBSCOPE_SOURCE_DIR "/assets/scenes/crossing.json"), {}));
+    const Query query(FittedScene(load_scene(kCrossing), {}));
     const mobb::Trace& trace = query.recorded.trace;
     bool siblings_differ = false;
     bool all_differ = false;

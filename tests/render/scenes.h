@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 /// A walk along x at 1 m/s, 30 samples a second, swaying a little.
 inline mobb::ClipPtr walk(int samples) {
@@ -59,4 +60,5 @@ inline FittedScene miss_scene(mobb::TreeKind kind = mobb::TreeKind::mobb) {
     return {scene_of({{}, {{0, 1.1}, 0, 0}}), options};
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

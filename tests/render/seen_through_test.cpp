@@ -18,8 +18,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::kSmallSize;
-
 /// Disks, boxes with faces, lines, panels and text.
 DrawList all_pixels(Theme theme, std::optional<Rgba> background) {
     ViewState view;

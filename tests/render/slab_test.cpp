@@ -516,7 +516,7 @@ TEST(Framing, HasTheBoxesOnDemand) {
             const DrawList list = build_draw_list(of, view, kSlabSize);
             int outside = 0;
             for (const BoxInstance& box : list.boxes) {
-                if (!box.pickable || !box.extents[2].z) continue;
+                if (!box.pickable || box.extents[2].z == 0) continue;
                 for (const glm::vec3& corner : box_corners(box)) {
                     const auto at = list.projection.project(corner);
                     outside +=

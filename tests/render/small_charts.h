@@ -6,7 +6,8 @@
 #include <cmath>
 #include <string>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 /// What a query costs with four trees over the leaf size.
 inline Chart small_chart() {
@@ -56,4 +57,5 @@ inline Chart small_level_chart() {
     return chart;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

@@ -11,7 +11,8 @@
 #include <string>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 /// Three hubs that lead to each other and one by itself; moves are arcs of different speeds and turns.
 inline Scene small_graph() {
@@ -40,4 +41,5 @@ inline Scene small_graph() {
     return scene;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

@@ -12,8 +12,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::filled;
-
 /// Black lines on white, every tenth row.
 Image ruled() {
     Image image = filled(64, 48, 255);

@@ -18,7 +18,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::kSmallSize;
 using Kind = AgentPart::Kind;
 using Role = HighlightLine::Role;
 

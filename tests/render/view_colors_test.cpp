@@ -28,8 +28,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::kGoldenSize;
-
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 /// Of the clip that all agents of these scenes play: its node or sample.

@@ -42,10 +42,6 @@
 namespace mobbscope::app {
 namespace {
 
-using mobbscope::testing::slurp;
-using mobbscope::testing::TempFolder;
-using testing::ThreeCases;
-using testing::walkers;
 namespace fs = std::filesystem;
 
 /// A window on them.

@@ -11,7 +11,8 @@
 #include <string>
 #include <utility>
 
-namespace mobbscope::app::testing {
+namespace mobbscope::app {
+inline namespace testing {
 
 /// Two who walk, the second shifted by so many metres.
 inline std::string walkers(const std::string& shift) {
@@ -56,4 +57,5 @@ class ThreeCases {
     std::filesystem::path folder_;
 };
 
-}  // namespace mobbscope::app::testing
+}  // namespace testing
+}  // namespace mobbscope::app

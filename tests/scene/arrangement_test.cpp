@@ -14,8 +14,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::TempFolder;
-
 Scene three_agents(const std::string& view) {
     return parse_scene(R"({"clips": {"walk": {"dt": 1, "samples": [[0, 0, 0.5], [3, 0, 0.5]]},
                                      "stand": {"dt": 1, "samples": [[0, 0, 1]]}},
@@ -83,11 +81,11 @@ TEST(Arrangement, WhoIsHiddenHasItsPlaceAmongWhatIsDrawn) {
 }
 
 TEST(Arrangement, AnUnknownNameIsRefusedAtItsPlace) {
-    const std::string message = testing::input_error([] { three_agents(R"({"hidden": ["A", "D"]})"); });
+    const std::string message = input_error([] { three_agents(R"({"hidden": ["A", "D"]})"); });
     EXPECT_NE(message.find("/view/hidden/1"), std::string::npos) << message;
     EXPECT_NE(message.find("there is no agent 'D'"), std::string::npos) << message;
     EXPECT_NE(message.find("the nearest is"), std::string::npos) << message;
-    EXPECT_NE(testing::input_error([] { three_agents(R"({"arrange": "heap"})"); }).find("'heap'"), std::string::npos);
+    EXPECT_NE(input_error([] { three_agents(R"({"arrange": "heap"})"); }).find("'heap'"), std::string::npos);
     const Scene scene = three_agents("{}");
     ViewState view;
     view.pinned = {"walk"};

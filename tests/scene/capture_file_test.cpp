@@ -33,7 +33,6 @@ namespace {
 
 using mobb::CaptureRing;
 using mobb::CrashCapture;
-using testing::TempFolder;
 
 bool same_numbers(const mobb::Clip& a, const mobb::Clip& b) {
     const auto same = [](double x, double y) { return x == y && std::signbit(x) == std::signbit(y); };

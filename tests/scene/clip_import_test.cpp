@@ -10,9 +10,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-using testing::TempFolder;
-
 struct TracksFolder {
     TempFolder folder;
     Scene scene;

@@ -6,6 +6,7 @@
 #include <scene/clip_turn.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
+#include <support/folders.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 
@@ -18,11 +19,9 @@
 namespace mobbscope {
 namespace {
 
-const std::filesystem::path kClips = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/clips";
-
 /// A clip of two seconds along +x from a file, and one that turns.
 struct TurnFolder {
-    testing::TempFolder folder;
+    TempFolder folder;
     TurnFolder() { folder.write("walk.csv", "t,x,y,r\n0,0,0,1\n1,1,0,1\n2,2,0,1\n3,3,0,1\n"); }
 
     Scene read(const std::string& turn, const std::string& rest = "") const {
@@ -32,7 +31,7 @@ struct TurnFolder {
                            "s.json", folder.path());
     }
     std::string refusal(const std::string& turn, const std::string& rest = "") const {
-        return testing::input_error([&] { read(turn, rest); });
+        return input_error([&] { read(turn, rest); });
     }
 };
 
@@ -67,7 +66,7 @@ TEST(ClipTurn, IsKeptWhereAClipIsImportedAnew) {
     EXPECT_EQ(scene.clips[1].turn, (ClipTurn{90, 2}));
     EXPECT_NEAR(scene.clips[1].clip->samples()[3].x, scene.clips[1].clip->samples()[2].x, 1e-12);
     options.trim = {0, 0.5};
-    EXPECT_NE(testing::input_error([&] {
+    EXPECT_NE(input_error([&] {
                   reimport(scene, *file, {{1, options}});
               }).find("walk.csv: a turn of 2 s"),
               std::string::npos);
@@ -98,7 +97,7 @@ TEST(ClipTurn, BadKeysAreRefusedAtTheirPlace) {
         {of.refusal(R"({"deg": 30, "second": 1})"), "unknown key 'second'"},
         {of.refusal(R"({"deg": 30, "seconds": 4.5})"),
          "/clips/turned/turn: a turn of 4.5 s does not fit into a clip of 4 s"},
-        {testing::input_error([] {
+        {input_error([] {
              parse_scene(R"({"clips": {"a": {"dt": 1, "samples": [[0,0,1]], "turn": {"deg": 1, "seconds": 1}}}})",
                          "s.json", "");
          }),

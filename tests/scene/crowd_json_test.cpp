@@ -1,8 +1,9 @@
 // The key crowd: what is written is read back, and what does not fit together is refused at its place.
+#include "scene_refusal.h"
+
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
-#include <support/input_error.h>
 
 #include <gtest/gtest.h>
 
@@ -27,10 +28,6 @@ std::string crowd(const std::string& agents) {
 std::string plays(const std::string& list) { return crowd("[{\"name\": \"1\", \"plays\": [" + list + "]}]"); }
 
 const std::string kFirst = R"({"move": 0, "translate": [3, 4], "rotate_deg": 90, "start": -0.5})";
-
-std::string crowd_refusal(const std::string& text) {
-    return testing::input_error([&] { parse_scene(text, "s.json", ""); });
-}
 
 TEST(CrowdJson, ARunIsReadWrittenAndReadAgain) {
     const Scene scene = parse_scene(
@@ -69,7 +66,7 @@ TEST(CrowdJson, PlaysFollowEachOther) {
 {"move": 1, "translate": [3, 6], "rotate_deg": 90, "start": 1.5)";
     EXPECT_NO_THROW(parse_scene(plays(kFirst + end + "}"), "s.json", ""));
     const auto expect = [&](const std::string& text, const std::string& message) {
-        EXPECT_EQ(crowd_refusal(plays(kFirst + ",\n" + text)), message);
+        EXPECT_EQ(scene_refusal(plays(kFirst + ",\n" + text)), message);
     };
     expect(R"({"move": 0, "translate": [3, 6], "rotate_deg": 90, "start": 1.5})",
            "s.json: line 7, /crowd/agents/0/plays/1/move: begins in hub 'left', but the move before ends in 'right'");
@@ -128,7 +125,7 @@ TEST(CrowdJson, ValuesAreChecked) {
         {kHead + R"("queries": [{"a": {"clip": "a"}, "b": {"clip": "a"}}], "crowd": {}})", "not both; remove one"},
     };
     for (const auto& [text, message] : cases) {
-        EXPECT_NE(crowd_refusal(text).find(message), std::string::npos) << message << "\ngave " << crowd_refusal(text);
+        EXPECT_NE(scene_refusal(text).find(message), std::string::npos) << message << "\ngave " << scene_refusal(text);
     }
 }
 

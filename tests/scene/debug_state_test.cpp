@@ -1,6 +1,6 @@
 // Filters, breakpoints and bookmarks are kept with the scene, and follow its queries.
-#include <base/error.h>
 #include <scene/scene_edits.h>
+#include <support/input_error.h>
 
 #include <gtest/gtest.h>
 
@@ -21,15 +21,6 @@ Scene debugged(const std::string& debug = kDebug, const std::string& more = "") 
         "agents": [{"name": "A", "clip": "walk"}, {"name": "B", "clip": "walk"}, {"name": "C", "clip": "walk"}])" +
                            more + R"(, "debug": )" + debug + "}",
                        "s.json", "");
-}
-
-std::string debug_refusal(const std::string& debug) {
-    try {
-        debugged(debug);
-        return "";
-    } catch (const InputError& error) {
-        return error.what();
-    }
 }
 
 /// "first 0, last 2"
@@ -57,10 +48,12 @@ TEST(DebugState, IsReadAndWritten) {
 }
 
 TEST(DebugState, IsRefusedWithItsPlace) {
-    EXPECT_NE(debug_refusal(R"({"filters": [{"name": "x", "where": "gpa < 1"}]})")
-                  .find("/debug/filters/0/where: at character 1 of 'gpa < 1': 'gpa' is no field (did you mean 'gap'?)"),
-              std::string::npos)
-        << debug_refusal(R"({"filters": [{"name": "x", "where": "gpa < 1"}]})");
+    const auto refusal = [](const std::string& debug) { return input_error([&] { debugged(debug); }); };
+    const std::string filter = refusal(R"({"filters": [{"name": "x", "where": "gpa < 1"}]})");
+    EXPECT_NE(
+        filter.find("/debug/filters/0/where: at character 1 of 'gpa < 1': 'gpa' is no field (did you mean 'gap'?)"),
+        std::string::npos)
+        << filter;
     for (const char* debug :
          {R"([])", R"({"filter": []})", R"({"filters": [{"name": "", "where": "step = 1"}]})",
           R"({"filters": [{"where": "step = 1"}]})",
@@ -69,7 +62,7 @@ TEST(DebugState, IsRefusedWithItsPlace) {
           R"({"breakpoints": [{"where": "step = 1", "on": 1}]})", R"({"bookmarks": [{"query": 3, "step": 0}]})",
           R"({"bookmarks": [{"query": 0}]})", R"({"bookmarks": [{"query": 0, "step": -1}]})",
           R"({"bookmarks": [{"query": 0.5, "step": 1}]})"}) {
-        EXPECT_NE(debug_refusal(debug).find("/debug"), std::string::npos) << debug << ": " << debug_refusal(debug);
+        EXPECT_NE(refusal(debug).find("/debug"), std::string::npos) << debug << ": " << refusal(debug);
     }
 }
 
@@ -92,7 +85,7 @@ TEST(DebugState, HasNamedViews) {
                                      std::pair(R"([{"name": " top ", "view": {}}])",
                                                "/debug/views/0/name: 'top' is a camera that every scene has"),
                                      std::pair(R"({})", "/debug/views")}) {
-        const std::string refused = debug_refusal(R"({"views": )" + std::string(views) + "}");
+        const std::string refused = input_error([&] { debugged(R"({"views": )" + std::string(views) + "}"); });
         EXPECT_NE(refused.find(why), std::string::npos) << views << ": " << refused;
         EXPECT_EQ(refused.find('\n'), std::string::npos);
     }

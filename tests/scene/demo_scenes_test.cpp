@@ -1,5 +1,6 @@
 // The demo scenes are what they claim to be.
 #include <scene/fitted_scene.h>
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -9,8 +10,6 @@
 
 namespace mobbscope {
 namespace {
-
-const std::filesystem::path kScenes = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/scenes";
 
 /// Metres between the nearest centres of two paths, whenever they are there.
 double nearest_on_floor(const FittedScene& fitted, const SceneQuery& query) {
@@ -62,12 +61,12 @@ TEST(DemoScenes, TheWalkIsHuman) {
 
 TEST(DemoScenes, TheGeneratorMakesTheFilesThatAreThere) {
     if (std::system("python3 --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no python3";
-    const testing::TempFolder folder;
+    const TempFolder folder;
     const std::string command =
         "python3 -B '" MOBBSCOPE_SOURCE_DIR "/scripts/make_scenes.py' '" + folder.path().string() + "'";
     ASSERT_EQ(std::system(command.c_str()), 0);
     for (const char* file : {"crossing.json", "collision.json", "circles.json", "walk.csv"}) {
-        EXPECT_EQ(testing::slurp(folder.path() / file), testing::slurp(kScenes / file)) << file;
+        EXPECT_EQ(slurp(folder.path() / file), slurp(kScenes / file)) << file;
     }
 }
 

@@ -1,6 +1,7 @@
 // Filters as text, of events and of nodes: every field and sign, words, errors with their place, completion.
 #include <scene/event_filter.h>
 #include <scene/node_field.h>
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -14,9 +15,11 @@ namespace {
 using Terms = std::vector<EventFilter::Term>;
 
 /// "message at N", or "" for a filter.
-std::string filter_refusal(std::string_view text) {
+/// Why the text is no such filter, and at which character; "" if it is one.
+template <class Filter>
+std::string refusal(std::string_view text) {
     try {
-        const EventFilter filter(text);
+        const Filter filter(text);
         return "";
     } catch (const FilterError& error) {
         return std::string(error.what()) + " at " + std::to_string(error.at());
@@ -24,7 +27,7 @@ std::string filter_refusal(std::string_view text) {
 }
 
 TEST(EventFilter, TheDocumentListsEveryField) {
-    const std::string document = testing::slurp(MOBBSCOPE_SOURCE_DIR "/docs/command_line.md");
+    const std::string document = slurp(kSource / "docs/command_line.md");
     for (const TableField& field : event_fields()) {
         const std::string name(field.name);
         const std::string row = field.of_side ? "| `" + name + "(a)`, `" + name + "(b)` |" : "| `" + name + "` |";
@@ -43,7 +46,7 @@ TEST(EventFilter, TakesEveryFieldWithEverySignThatItHas) {
             const EventFilter filter(name);
             EXPECT_EQ(filter.terms().front().field, number);
             EXPECT_EQ(filter.terms().front().side, field.of_side ? 1 : 0);
-            EXPECT_NE(filter_refusal(name + " = 1"), "");
+            EXPECT_NE(refusal<EventFilter>(name + " = 1"), "");
             continue;
         }
         const std::string value = field.kind == FieldKind::word   ? std::string(field.values.back())
@@ -52,10 +55,10 @@ TEST(EventFilter, TakesEveryFieldWithEverySignThatItHas) {
         const bool ordered = field.kind == FieldKind::number || field.kind == FieldKind::range;
         for (const std::string sign : {"=", "==", "!=", "\u2260", "<", "<=", "\u2264", ">", ">=", "\u2265"}) {
             const bool equality = sign == "=" || sign == "==" || sign == "!=" || sign == "\u2260";
-            EXPECT_EQ(filter_refusal(name + sign + value).empty(), ordered || equality) << name << sign << value;
+            EXPECT_EQ(refusal<EventFilter>(name + sign + value).empty(), ordered || equality) << name << sign << value;
         }
         EXPECT_FALSE(field.doc.empty());
-        EXPECT_NE(filter_refusal(name), "") << "a comparison is missing";
+        EXPECT_NE(refusal<EventFilter>(name), "") << "a comparison is missing";
     }
 }
 
@@ -100,40 +103,40 @@ TEST(EventFilter, SaysInWordsWhatItMeans) {
 }
 
 TEST(EventFilter, PointsAtWhatIsWrong) {
-    EXPECT_EQ(filter_refusal(""), "a field is missing at 0");
-    EXPECT_EQ(filter_refusal("gapp < 1"), "'gapp' is no field (did you mean 'gap'?) at 0");
-    EXPECT_EQ(filter_refusal("gap < "), "a number is missing at 6");
-    EXPECT_EQ(filter_refusal("gap 0.5"), "a comparison is missing: =, !=, <, <=, > or >= at 4");
-    EXPECT_EQ(filter_refusal("gap < 0.5 s"), "'s' is no unit of the gap: m, cm or mm at 10");
-    EXPECT_EQ(filter_refusal("gap < 5 km"), "'km' is no unit of the gap: m, cm or mm at 8");
-    EXPECT_EQ(filter_refusal("gap < 5e"), "'e' is no unit of the gap: m, cm or mm at 7");
-    EXPECT_EQ(filter_refusal("time = 2 min and step > 3"), "'min' is no unit of the time: s or ms at 9");
-    EXPECT_EQ(filter_refusal("step < 5 m"), "the step has no unit at 9");
-    EXPECT_EQ(filter_refusal("level(a) > 2 x"), "the level has no unit at 13");
-    EXPECT_EQ(filter_refusal("node(a) = 2.1 m"), "the node has no unit at 14");
-    EXPECT_EQ(filter_refusal("gap < 0,5"), "write 0.5 with a point at 7");
-    EXPECT_EQ(filter_refusal("clearance > -0,25 m"), "write -0.25 with a point at 14");
-    EXPECT_EQ(filter_refusal("node(b) = 2,1"), "write 2.1 with a point at 11");
-    EXPECT_EQ(filter_refusal("gap < 5, step > 2"), "'and' or 'or' is missing at 7");
-    EXPECT_EQ(filter_refusal("step = = 3"), "a number is missing at 7");
-    EXPECT_EQ(filter_refusal("outcome === hit").substr(0, 17), "a word is missing");
-    EXPECT_EQ(filter_refusal("level > 2"), "whose? Give level(a) or level(b) at 6");
-    EXPECT_EQ(filter_refusal("level(c) > 2"), "a or b must stand here at 6");
-    EXPECT_EQ(filter_refusal("outcome = overlapp"),
+    EXPECT_EQ(refusal<EventFilter>(""), "a field is missing at 0");
+    EXPECT_EQ(refusal<EventFilter>("gapp < 1"), "'gapp' is no field (did you mean 'gap'?) at 0");
+    EXPECT_EQ(refusal<EventFilter>("gap < "), "a number is missing at 6");
+    EXPECT_EQ(refusal<EventFilter>("gap 0.5"), "a comparison is missing: =, !=, <, <=, > or >= at 4");
+    EXPECT_EQ(refusal<EventFilter>("gap < 0.5 s"), "'s' is no unit of the gap: m, cm or mm at 10");
+    EXPECT_EQ(refusal<EventFilter>("gap < 5 km"), "'km' is no unit of the gap: m, cm or mm at 8");
+    EXPECT_EQ(refusal<EventFilter>("gap < 5e"), "'e' is no unit of the gap: m, cm or mm at 7");
+    EXPECT_EQ(refusal<EventFilter>("time = 2 min and step > 3"), "'min' is no unit of the time: s or ms at 9");
+    EXPECT_EQ(refusal<EventFilter>("step < 5 m"), "the step has no unit at 9");
+    EXPECT_EQ(refusal<EventFilter>("level(a) > 2 x"), "the level has no unit at 13");
+    EXPECT_EQ(refusal<EventFilter>("node(a) = 2.1 m"), "the node has no unit at 14");
+    EXPECT_EQ(refusal<EventFilter>("gap < 0,5"), "write 0.5 with a point at 7");
+    EXPECT_EQ(refusal<EventFilter>("clearance > -0,25 m"), "write -0.25 with a point at 14");
+    EXPECT_EQ(refusal<EventFilter>("node(b) = 2,1"), "write 2.1 with a point at 11");
+    EXPECT_EQ(refusal<EventFilter>("gap < 5, step > 2"), "'and' or 'or' is missing at 7");
+    EXPECT_EQ(refusal<EventFilter>("step = = 3"), "a number is missing at 7");
+    EXPECT_EQ(refusal<EventFilter>("outcome === hit").substr(0, 17), "a word is missing");
+    EXPECT_EQ(refusal<EventFilter>("level > 2"), "whose? Give level(a) or level(b) at 6");
+    EXPECT_EQ(refusal<EventFilter>("level(c) > 2"), "a or b must stand here at 6");
+    EXPECT_EQ(refusal<EventFilter>("outcome = overlapp"),
               "'overlapp' is not one of them: disjoint_in_time, separated, overlap, hit, no_hit at 10");
-    EXPECT_EQ(filter_refusal("outcome < hit"), "only = and != compare outcome at 8");
-    EXPECT_EQ(filter_refusal("gap < 1 gap > 2"), "'and' or 'or' is missing at 8");
-    EXPECT_EQ(filter_refusal("step = 1 not step = 2"), "'and' or 'or' is missing at 9");
-    EXPECT_EQ(filter_refusal("gap < 1 a"), "'and' or 'or' is missing at 8") << "it is begun";
-    EXPECT_EQ(filter_refusal("step = 1 adn step = 2"), "'and' or 'or' is missing at 9") << "it is meant";
-    EXPECT_EQ(filter_refusal("(gap < 1"), "')' is missing at 8");
-    EXPECT_EQ(filter_refusal("gap < 1.2.3"), "'1.2.3' is no number at 6");
-    EXPECT_EQ(filter_refusal("gap < 1e999"), "'1e999' is no number at 6");
-    EXPECT_EQ(filter_refusal("node(a) = 2.x"), "a node is missing: its level and place (2.1) or its index at 10");
-    EXPECT_EQ(filter_refusal("gap < 1 and"), "a field is missing at 11");
-    EXPECT_EQ(filter_refusal("gap < 1 & pairs > 2"), "'and' or 'or' is missing at 8");
-    EXPECT_EQ(filter_refusal(std::string(100'000, '(')).substr(0, 23), "it is nested too deep a");
-    EXPECT_EQ(filter_refusal(std::string("gap\0< 1", 7)).empty(), false);
+    EXPECT_EQ(refusal<EventFilter>("outcome < hit"), "only = and != compare outcome at 8");
+    EXPECT_EQ(refusal<EventFilter>("gap < 1 gap > 2"), "'and' or 'or' is missing at 8");
+    EXPECT_EQ(refusal<EventFilter>("step = 1 not step = 2"), "'and' or 'or' is missing at 9");
+    EXPECT_EQ(refusal<EventFilter>("gap < 1 a"), "'and' or 'or' is missing at 8") << "it is begun";
+    EXPECT_EQ(refusal<EventFilter>("step = 1 adn step = 2"), "'and' or 'or' is missing at 9") << "it is meant";
+    EXPECT_EQ(refusal<EventFilter>("(gap < 1"), "')' is missing at 8");
+    EXPECT_EQ(refusal<EventFilter>("gap < 1.2.3"), "'1.2.3' is no number at 6");
+    EXPECT_EQ(refusal<EventFilter>("gap < 1e999"), "'1e999' is no number at 6");
+    EXPECT_EQ(refusal<EventFilter>("node(a) = 2.x"), "a node is missing: its level and place (2.1) or its index at 10");
+    EXPECT_EQ(refusal<EventFilter>("gap < 1 and"), "a field is missing at 11");
+    EXPECT_EQ(refusal<EventFilter>("gap < 1 & pairs > 2"), "'and' or 'or' is missing at 8");
+    EXPECT_EQ(refusal<EventFilter>(std::string(100'000, '(')).substr(0, 23), "it is nested too deep a");
+    EXPECT_EQ(refusal<EventFilter>(std::string("gap\0< 1", 7)).empty(), false);
 }
 
 TEST(EventFilter, CountsAreWholeNumbers) {
@@ -143,10 +146,10 @@ TEST(EventFilter, CountsAreWholeNumbers) {
         for (const std::string sign : {" = ", " != "}) {
             const std::string begin = whose + sign;
             const std::string why = "the " + name + " is a whole number at " + std::to_string(begin.size());
-            EXPECT_EQ(filter_refusal(begin + "2.5"), field.unit.empty() ? why : "");
-            EXPECT_EQ(filter_refusal(begin + "2.0"), "");
+            EXPECT_EQ(refusal<EventFilter>(begin + "2.5"), field.unit.empty() ? why : "");
+            EXPECT_EQ(refusal<EventFilter>(begin + "2.0"), "");
         }
-        EXPECT_EQ(filter_refusal(whose + " < 2.5"), "") << "it passes something";
+        EXPECT_EQ(refusal<EventFilter>(whose + " < 2.5"), "") << "it passes something";
     }
 }
 
@@ -160,24 +163,14 @@ TEST(EventFilter, HasAThousandPartsAtMost) {
     EXPECT_FALSE(most.passes([](const EventFilter::Term&) { return false; }));
     EXPECT_TRUE(most.words().ends_with("or the step is 2"));
     const std::string why = "it has too many parts: at most 1000 at 12000";
-    EXPECT_EQ(filter_refusal(with_parts(1001)), why);
-    EXPECT_EQ(filter_refusal(with_parts(100'000)), why);
-    EXPECT_EQ(filter_refusal('(' + with_parts(600) + ") and (" + with_parts(600) + ')').substr(0, 21),
+    EXPECT_EQ(refusal<EventFilter>(with_parts(1001)), why);
+    EXPECT_EQ(refusal<EventFilter>(with_parts(100'000)), why);
+    EXPECT_EQ(refusal<EventFilter>('(' + with_parts(600) + ") and (" + with_parts(600) + ')').substr(0, 21),
               "it has too many parts");
 }
 
-/// "message at N", or "" for a filter of nodes.
-std::string node_refusal(std::string_view text) {
-    try {
-        const NodeFilter filter(text);
-        return "";
-    } catch (const FilterError& error) {
-        return std::string(error.what()) + " at " + std::to_string(error.at());
-    }
-}
-
 TEST(NodeFilter, TakesTheFieldsOfNodesAndNoOthers) {
-    const std::string document = testing::slurp(MOBBSCOPE_SOURCE_DIR "/docs/command_line.md");
+    const std::string document = slurp(kSource / "docs/command_line.md");
     for (const NodeFieldInfo& field : node_fields()) {
         EXPECT_EQ(&info(field.field), &field);
         const std::string name(field.name);
@@ -188,9 +181,9 @@ TEST(NodeFilter, TakesTheFieldsOfNodesAndNoOthers) {
         }
         EXPECT_EQ(NodeFilter::field(NodeFilter(name + " = 3").terms().front()), field.field);
     }
-    EXPECT_EQ(node_refusal("gap < 1"), "'gap' is no field at 0");
-    EXPECT_EQ(node_refusal("level(a) = 1"), "a comparison is missing: =, !=, <, <=, > or >= at 5");
-    EXPECT_EQ(filter_refusal("fill < 1"), "'fill' is no field at 0");
+    EXPECT_EQ(refusal<NodeFilter>("gap < 1"), "'gap' is no field at 0");
+    EXPECT_EQ(refusal<NodeFilter>("level(a) = 1"), "a comparison is missing: =, !=, <, <=, > or >= at 5");
+    EXPECT_EQ(refusal<EventFilter>("fill < 1"), "'fill' is no field at 0");
 }
 
 TEST(NodeFilter, ReadsPartsInPercent) {
@@ -199,10 +192,10 @@ TEST(NodeFilter, ReadsPartsInPercent) {
     EXPECT_EQ(NodeFilter("fill < 50").words(), "the fill is below 50 %");
     EXPECT_EQ(NodeFilter("empty > 0.5 and not leaf").words(),
               "the empty space is above 0.5 m\u00B2\u00B7s, and it is not so that it is a leaf");
-    EXPECT_EQ(node_refusal("fill < 5 m"), "'m' is no unit of the fill: % at 9");
-    EXPECT_EQ(node_refusal("empty > 5 m"), "the empty is given without its unit at 10");
-    EXPECT_EQ(node_refusal("tests > 5 %"), "the tests has no unit at 10");
-    EXPECT_EQ(filter_refusal("gap < 5 %"), "'%' is no unit of the gap: m, cm or mm at 8");
+    EXPECT_EQ(refusal<NodeFilter>("fill < 5 m"), "'m' is no unit of the fill: % at 9");
+    EXPECT_EQ(refusal<NodeFilter>("empty > 5 m"), "the empty is given without its unit at 10");
+    EXPECT_EQ(refusal<NodeFilter>("tests > 5 %"), "the tests has no unit at 10");
+    EXPECT_EQ(refusal<EventFilter>("gap < 5 %"), "'%' is no unit of the gap: m, cm or mm at 8");
     EXPECT_EQ(completion_of(node_field_table(), "fill < 50 ").words, (std::vector<std::string>{"and", "or"}));
 }
 
@@ -228,7 +221,8 @@ TEST(EventFilter, CompletesWhatIsBegun) {
     // Whatever is proposed goes on to a filter, or is one.
     for (const std::string& word : words("")) {
         const std::string text = word;
-        EXPECT_TRUE(filter_refusal(text).empty() || !words(text + ' ').empty() || word == "not" || word == "(") << word;
+        EXPECT_TRUE(refusal<EventFilter>(text).empty() || !words(text + ' ').empty() || word == "not" || word == "(")
+            << word;
     }
 }
 

@@ -85,12 +85,12 @@ TEST(FigureScenes, OfAnInnerNodesChildrenOneIsOverWhenTheLeafBegins) {
 
 TEST(FigureScenes, TheGeneratorMakesTheFilesThatAreThere) {
     if (std::system("python3 --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no python3";
-    const testing::TempFolder folder;
+    const TempFolder folder;
     const std::string command =
         "python3 -B '" MOBBSCOPE_SOURCE_DIR "/scripts/make_figures.py' '" + folder.path().string() + "'";
     ASSERT_EQ(std::system(command.c_str()), 0);
     for (const char* file : {"person.json", "levels.json", "inner_nodes.json", "leaf.json", "disk.json"}) {
-        EXPECT_EQ(testing::slurp(folder.path() / file), testing::slurp(kFigures / file)) << file;
+        EXPECT_EQ(slurp(folder.path() / file), slurp(kFigures / file)) << file;
     }
 }
 

@@ -11,9 +11,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-using testing::TempFolder;
-
 Scene scene_of(const std::string& clips, const std::filesystem::path& folder = "", const ImportOptions& over = {}) {
     return parse_scene("{\"clips\": {" + clips + "}}", "s.json", folder, over);
 }

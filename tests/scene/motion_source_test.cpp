@@ -3,6 +3,7 @@
 #include <import/skeleton/motion.h>
 #include <scene/scene.h>
 #include <support/bvh_text.h>
+#include <support/folders.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 
@@ -13,12 +14,9 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-using testing::TempFolder;
-
 TEST(MotionSource, ImportKeysSayHowTheFileBecomesAClip) {
     const TempFolder folder;
-    folder.write("walk.bvh", testing::kWalker);
+    folder.write("walk.bvh", kWalker);
     const auto file = folder.write("s.json", R"({"clips": {"arm": {"source": "walk.bvh", "animation": 0,
         "root": "Left Arm", "fps": 20, "unit": "cm", "up": "y", "trim": [0, 0.06], "origin": "start"}}})");
     const SceneClip clip = load_scene(file).clips.at(0);
@@ -38,14 +36,14 @@ TEST(MotionSource, ImportKeysSayHowTheFileBecomesAClip) {
 
 TEST(MotionSource, MessagesNameBothFilesAndThePlaceInEach) {
     const TempFolder folder;
-    const auto walk = folder.write("walk.bvh", testing::replaced(testing::kWalker, "0 95 30", "0 nan 30"));
+    const auto walk = folder.write("walk.bvh", replaced(kWalker, "0 95 30", "0 nan 30"));
     const auto file = folder.write("s.json", "{\"clips\": {\n\"c\": {\"source\": \"walk.bvh\"}}}");
     EXPECT_EQ(input_error([&] { load_scene(file); }), file.string() + ": line 2, /clips/c/source: " + walk.string() +
                                                           ": line 24: 'nan' is no finite number; write it like 12.5");
 }
 
 TEST(MotionSource, AClipFileIsASceneOfItsAnimations) {
-    const std::filesystem::path knight = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "gltf/KayKit_Knight.glb";
+    const std::filesystem::path knight = kSharedData / "gltf/KayKit_Knight.glb";
     if (!std::filesystem::exists(knight)) GTEST_SKIP() << "no test data at " << knight;
     const Scene scene = load_scene(knight);
     ASSERT_EQ(scene.clips.size(), 76u);
@@ -71,7 +69,7 @@ TEST(MotionSource, AClipFileIsASceneOfItsAnimations) {
 
 /// Two people, who go along x 4 and 3 m in "walk"; in "wave" one of them turns.
 std::string two_people() {
-    testing::GltfBytes bytes;
+    GltfBytes bytes;
     const int times = bytes.add_floats("SCALAR", {0, 2});
     bytes.channel("0", "translation", times, bytes.add_floats("VEC3", {0, 1, 0, 4, 1, 0}));
     bytes.channel("2", "translation", times, bytes.add_floats("VEC3", {0, 1, 3, 3, 1, 3})).animation("walk");

@@ -1,4 +1,6 @@
 // What is wrong with a scene is said in one line that names the file, the place and the remedy.
+#include "scene_refusal.h"
+
 #include <base/text.h>
 #include <scene/scene.h>
 #include <support/input_error.h>
@@ -8,13 +10,6 @@
 
 namespace mobbscope {
 namespace {
-
-using testing::input_error;
-using testing::TempFolder;
-
-std::string scene_refusal(const std::string& text) {
-    return input_error([&] { parse_scene(text, "s.json", ""); });
-}
 
 /// A scene of one clip "c" with two agents "A" and "B", with `rest` after it.
 std::string with(const std::string& rest) {

@@ -39,7 +39,7 @@ void read_damaged(const char* scene_text, unsigned seed) {
     int read = 0;
     int refused = 0;
     for (int round = 0; round < 30'000; ++round) {
-        const std::string text = testing::mutated(scene_text, random);
+        const std::string text = mutated(scene_text, random);
         try {
             const Scene scene = parse_scene(text, "fuzz.json", "");
             // What was let in must be fit for use.

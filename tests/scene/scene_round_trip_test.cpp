@@ -16,8 +16,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::TempFolder;
-
 /// Numbers with all their digits.
 Scene random_scene(std::mt19937_64& random) {
     std::uniform_real_distribution<double> length(-20, 20);

@@ -9,8 +9,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::TempFolder;
-
 Scene parse_plain(std::string_view text) { return parse_scene(text, "s.json", ""); }
 
 constexpr const char* kTwoClips = R"("clips": {"z": {"dt": 0.5, "samples": [[0, 0, 0.4], [1, 0, 0.5]]},
@@ -68,7 +66,7 @@ TEST(Scene, TestsAreExpectedByTheirKind) {
     EXPECT_EQ(parse_plain(to_json(both)).queries[0].expect, both.queries[0].expect);
 
     const auto refused = [&](const char* expect_text) {
-        return testing::input_error([&] { parse_plain(expecting(expect_text)); });
+        return input_error([&] { parse_plain(expecting(expect_text)); });
     };
     EXPECT_NE(refused(R"({"tests": {}})").find("no kind of test is named"), std::string::npos);
     EXPECT_NE(refused(R"({"tests": {"obb2": 1}})").find("'obb2' is no kind of test; give time, obb2d"),

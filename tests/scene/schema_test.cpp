@@ -1,8 +1,10 @@
 // assets/scene.schema.json and the reader know the same keys.
+#include "scene_refusal.h"
+
 #include <base/file.h>
 #include <scene/scene.h>
 #include <scene/view_options.h>
-#include <support/input_error.h>
+#include <support/folders.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -18,8 +20,7 @@ namespace mobbscope {
 namespace {
 
 const nlohmann::json& schema() {
-    static const nlohmann::json value =
-        nlohmann::json::parse(testing::slurp(std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/scene.schema.json"));
+    static const nlohmann::json value = nlohmann::json::parse(slurp(kSource / "assets/scene.schema.json"));
     return value;
 }
 
@@ -81,14 +82,12 @@ TEST(Schema, EveryKeyOfTheSchemaIsKnownToTheReader) {
             // A value of no type: whatever is complained about, it is not the key.
             nlohmann::json object = {{key, nlohmann::json::array({nullptr})}};
             if (definition == "imported") object["source"] = "none.csv";
-            const std::string message =
-                testing::input_error([&] { parse_scene(scene_with(definition, object), "s.json", ""); });
+            const std::string message = scene_refusal(scene_with(definition, object));
             EXPECT_EQ(message.find("unknown key"), std::string::npos) << definition << ": " << message;
         }
         nlohmann::json object = {{"unheard_of", 1}};
         if (definition == "imported") object["source"] = "none.csv";
-        const std::string message =
-            testing::input_error([&] { parse_scene(scene_with(definition, object), "s.json", ""); });
+        const std::string message = scene_refusal(scene_with(definition, object));
         EXPECT_NE(message.find("unknown key 'unheard_of'"), std::string::npos) << definition << ": " << message;
     }
 }
@@ -96,8 +95,8 @@ TEST(Schema, EveryKeyOfTheSchemaIsKnownToTheReader) {
 /// Holds what stands between `begin`, the first behind `from`, and `end` against what a table makes of it, or writes
 /// it.
 void hold_part(const std::string& from, const std::string& begin, const std::string& end, const std::string& made) {
-    const std::filesystem::path file = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/scene.schema.json";
-    std::string text = testing::slurp(file);
+    const std::filesystem::path file = kSource / "assets/scene.schema.json";
+    std::string text = slurp(file);
     const std::size_t first = text.find(begin, text.find(from)) + begin.size();
     const std::size_t last = text.find(end, first);
     ASSERT_NE(last, std::string::npos) << from;
@@ -195,7 +194,7 @@ void expect_known(const nlohmann::json& value, const std::set<std::string>& keys
 }
 
 TEST(Schema, EveryKeyThatIsWrittenIsInTheSchema) {
-    const testing::TempFolder folder;
+    const TempFolder folder;
     folder.write("a.csv", "id,t,x,y,r\n1,0,0,0,0\n1,1,0,0,0\n1,5,0,0,0\n");
     Scene scene = parse_scene(R"({"clips": {"root": {"dt": 1, "samples": [[0, 0, 1]]},
         "source": {"source": "a.csv", "id": 1, "fps": 9, "unit": "m", "trim": [0, 3], "origin": "start", "radius": 1, "dt": 1}},

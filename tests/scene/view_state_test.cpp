@@ -98,13 +98,13 @@ TEST(ViewState, FilesThatSayTestedBeforeAreStillRead) {
     EXPECT_EQ(view_in(R"({"tested_before": true})").past, Past::all);
     EXPECT_EQ(view_in(R"({"tested_before": false})").past, Past::pair);
     EXPECT_EQ(view_in(R"({"past": "siblings"})").past, Past::siblings);
-    const std::string both = testing::input_error([] { view_in(R"({"past": "pair", "tested_before": true})"); });
+    const std::string both = input_error([] { view_in(R"({"past": "pair", "tested_before": true})"); });
     EXPECT_NE(both.find("/view/tested_before: says the same as 'past' in an older way; leave it out"),
               std::string::npos)
         << both;
-    const std::string other = testing::input_error([] { view_in(R"({"past": "some"})"); });
+    const std::string other = input_error([] { view_in(R"({"past": "some"})"); });
     EXPECT_NE(other.find("give pair, ancestors, siblings or all"), std::string::npos) << other;
-    EXPECT_NE(testing::input_error([] { view_in(R"({"tested_before": "yes"})"); }), "");
+    EXPECT_NE(input_error([] { view_in(R"({"tested_before": "yes"})"); }), "");
     std::ostringstream out;
     JsonWriter writer(out);
     write_view(writer, view_in(R"({"tested_before": true})"));

@@ -3,6 +3,7 @@
 #include <import/skeleton/warp.h>
 #include <scene/clip_import.h>
 #include <scene/scene.h>
+#include <support/folders.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 
@@ -18,11 +19,6 @@
 namespace mobbscope {
 namespace {
 
-using testing::input_error;
-using testing::TempFolder;
-
-const std::filesystem::path kAssets = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/clips";
-
 bool same_samples(const mobb::Clip& a, const mobb::Clip& b) {
     return std::ranges::equal(a.samples(), b.samples(), [](const mobb::Disk& p, const mobb::Disk& q) {
         return p.x == q.x && p.y == q.y && p.r == q.r;
@@ -33,8 +29,8 @@ bool same_samples(const mobb::Clip& a, const mobb::Clip& b) {
 Scene warped_scene() {
     const std::string parts =
         R"({"clips": {"a": {"source": "walk.glb", "trim": [1, 1.98]}, "b": {"source": "walk.glb", "trim": [1.5, 2.78]}}})";
-    Scene scene = parse_scene(parts, "s.json", kAssets);
-    scene.file = kAssets / "s.json";
+    Scene scene = parse_scene(parts, "s.json", kClips);
+    scene.file = kClips / "s.json";
     std::vector<std::shared_ptr<const MovingPose>> poses;
     for (const int frame : {3, 14}) {
         poses.push_back(
@@ -48,7 +44,7 @@ Scene warped_scene() {
 TEST(WarpKey, IsReadAndWritten) {
     const Scene scene = warped_scene();
     const std::string text = to_json(scene);
-    const Scene read = parse_scene(text, "s.json", kAssets);
+    const Scene read = parse_scene(text, "s.json", kClips);
     EXPECT_EQ(to_json(read), text);
     for (std::size_t i = 0; i < 2; ++i) {
         ASSERT_TRUE(read.clips[i].warp) << i;
@@ -61,7 +57,7 @@ TEST(WarpKey, IsReadAndWritten) {
 }
 
 TEST(WarpKey, SamplesInTheSceneAreWarpedAlready) {
-    const Scene read = parse_scene(to_json(warped_scene()), "s.json", kAssets);
+    const Scene read = parse_scene(to_json(warped_scene()), "s.json", kClips);
     const std::string text = to_json(read, true);
     EXPECT_EQ(text.find("warp"), std::string::npos);
     EXPECT_EQ(text.find("poses"), std::string::npos);
@@ -76,18 +72,18 @@ TEST(WarpKey, PosesOfOneNameInTwoScenesAreToldApart) {
     ClipWarp warp = *scene.clips[1].warp;
     warp.end = {"A", std::make_shared<const MovingPose>(other), -5};
     scene.clips[1].warp = std::make_shared<const ClipWarp>(warp);
-    const Scene read = parse_scene(to_json(scene), "s.json", kAssets);
+    const Scene read = parse_scene(to_json(scene), "s.json", kClips);
     EXPECT_EQ(*read.clips[1].warp->end.pose, other);
     EXPECT_EQ(*read.clips[0].warp->begin.pose, *scene.clips[0].warp->begin.pose);
 }
 
 TEST(WarpKey, AClipIsWarpedAgainWithOtherOptions) {
-    const Scene scene = parse_scene(to_json(warped_scene()), (kAssets / "s.json").string(), kAssets);
+    const Scene scene = parse_scene(to_json(warped_scene()), (kClips / "s.json").string(), kClips);
     ImportOptions options = scene.clips[0].options;
     options.fps = 60;
     Scene with_file = scene;
-    with_file.file = kAssets / "s.json";
-    const auto file = source_file(kAssets / "walk.glb", nullptr);
+    with_file.file = kClips / "s.json";
+    const auto file = source_file(kClips / "walk.glb", nullptr);
     const std::vector<ReimportedClip> made = reimport(with_file, *file, {{0, options}, {1, scene.clips[1].options}});
     ASSERT_EQ(made.size(), 2u);
     EXPECT_EQ(made[0].is.clip->dt(), 1.0 / 60);
@@ -104,7 +100,7 @@ TEST(WarpKey, WhatIsWrongIsSaidAtItsPlace) {
         const auto at = text.find(part);
         EXPECT_NE(at, std::string::npos) << part;
         text.replace(at, part.size(), instead);
-        return input_error([&] { parse_scene(text, "s.json", kAssets); });
+        return input_error([&] { parse_scene(text, "s.json", kClips); });
     };
     const std::pair<std::pair<const char*, const char*>, const char*> cases[] = {
         {{"\"seconds\": 0.3", "\"seconds\": 0"}, "/clips/a/warp/seconds: must be over 0"},

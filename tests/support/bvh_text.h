@@ -3,7 +3,8 @@
 
 #include <string>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 /// A walker of three joints, Y up, about 1.7 m tall in cm: two frames a tenth of a second apart. The hips go 10 cm
 /// along X and turn by 90 degrees about Y; an arm reaches 50 cm forward (Z), its tip 20 cm farther.
@@ -39,4 +40,5 @@ inline std::string replaced(std::string text, const std::string& what, const std
     return text.replace(text.find(what), what.size(), with);
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

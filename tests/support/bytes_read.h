@@ -5,7 +5,8 @@
 #include <fstream>
 #include <string>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 /// Bytes that this process has read so far, as the kernel counts them; 0 always where it does not.
 inline std::uint64_t bytes_read() {
@@ -16,4 +17,5 @@ inline std::uint64_t bytes_read() {
     return name == "rchar:" ? bytes : 0;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

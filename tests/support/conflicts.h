@@ -6,7 +6,8 @@
 #include <cstddef>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 inline std::vector<PeopleConflict> all_of(const PeopleConflicts& conflicts) {
     std::vector<PeopleConflict> out;
@@ -14,4 +15,5 @@ inline std::vector<PeopleConflict> all_of(const PeopleConflicts& conflicts) {
     return out;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

@@ -5,7 +5,8 @@
 
 #include <string>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 inline std::string gzipped(const std::string& bytes) {
     z_stream stream{};
@@ -23,4 +24,5 @@ inline std::string gzipped(const std::string& bytes) {
     return out;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

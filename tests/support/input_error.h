@@ -7,7 +7,8 @@
 
 #include <string>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 /// The message of the InputError that `action` throws; fails the test if there is none, or if it is not one line.
 template <class Action>
@@ -23,4 +24,5 @@ std::string input_error(const Action& action) {
     return "";
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

@@ -6,7 +6,8 @@
 #include <set>
 #include <string>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 inline std::set<std::string> keys(const nlohmann::json& object) {
     std::set<std::string> out;
@@ -14,4 +15,5 @@ inline std::set<std::string> keys(const nlohmann::json& object) {
     return out;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

@@ -4,7 +4,8 @@
 #include <random>
 #include <string>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 /// Changes one to six places: a byte flipped, removed, doubled or replaced by one that grammars care about, a slice
 /// repeated or cut, or the rest cut off.
@@ -39,4 +40,5 @@ inline std::string mutated(std::string bytes, std::mt19937& random) {
     return bytes;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

@@ -7,7 +7,8 @@
 #include <string_view>
 #include <vector>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 /// Four bytes, the highest first.
 inline std::string big_endian(std::size_t value) {
@@ -57,4 +58,5 @@ inline std::string png_file(const PngKind& kind, const std::vector<int>& rows, c
     return png_header(kind) + between + png_chunk("IDAT", packed(bytes_of(rows))) + png_chunk("IEND", "");
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

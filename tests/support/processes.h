@@ -9,7 +9,8 @@
 #include <string>
 #include <thread>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 /// Whether it holds within a few seconds.
 inline bool comes(const std::function<bool()>& holds) {
@@ -25,4 +26,5 @@ inline bool is_alive(pid_t process) {
     return std::getline(in, all) && all.find(") Z ") == std::string::npos;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

@@ -10,7 +10,8 @@
 #include <cerrno>
 #include <cstddef>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 /// From now on files without names (O_TMPFILE) are refused to this process and what it starts, as by a file system
 /// that has none. False if that cannot be done.
@@ -40,4 +41,5 @@ inline bool refuse_to_sync() {
     return ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

@@ -11,7 +11,8 @@
 #include <string>
 #include <string_view>
 
-namespace mobbscope::testing {
+namespace mobbscope {
+inline namespace testing {
 
 class TempFolder {
   public:
@@ -44,4 +45,5 @@ inline std::string slurp(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-}  // namespace mobbscope::testing
+}  // namespace testing
+}  // namespace mobbscope

@@ -10,12 +10,12 @@ namespace mobbscope::app {
 
 namespace {
 
-std::atomic<int> jobs = 0;
+std::atomic<int> running_jobs = 0;
 
 /// Counts itself.
 struct Counted {
-    Counted() { ++jobs; }
-    ~Counted() { --jobs; }
+    Counted() { ++running_jobs; }
+    ~Counted() { --running_jobs; }
     Counted(const Counted&) = delete;
     Counted& operator=(const Counted&) = delete;
 };
@@ -94,7 +94,7 @@ Job::~Job() { cancel(); }
 
 void Job::cancel() { shared_->control.cancel(); }
 
-bool Job::any_left() { return jobs > 0; }
+bool Job::any_left() { return running_jobs > 0; }
 
 double Job::progress() const { return shared_->control.progress(); }
 

@@ -78,7 +78,8 @@ int rank_of(CandidateOutcome outcome) {
 }
 
 /// Those that the list shows, in its order; candidates that are equal in it stay as they were asked.
-std::vector<ListedCandidate> listed(const CrowdInspector& crowds, const Workspace& workspace, const Choice& choice) {
+std::vector<ListedCandidate> listed_candidates(const CrowdInspector& crowds, const Workspace& workspace,
+                                               const Choice& choice) {
     const CandidateList& list = crowds.list;
     std::vector<ListedCandidate> out;
     for (const std::size_t index : shown_candidates(choice)) {
@@ -178,7 +179,7 @@ void last_choice(Ui& ui, CrowdInspector& crowds) {
     }
     words(ui.style.text, choice_sentence(ui.workspace.scene(), *followed));
     list_head(ui, crowds);
-    const std::vector<ListedCandidate> all = listed(crowds, ui.workspace, choice);
+    const std::vector<ListedCandidate> all = listed_candidates(crowds, ui.workspace, choice);
     if (all.empty()) words(ui.style.quiet, "None of them is as asked for.");
     const NameList names(all.size(), [&](std::size_t i) { return all[i].name; });
     rows(ui, "##candidates", static_cast<int>(all.size()), kMostCandidateRows,

@@ -22,7 +22,6 @@ constexpr float kMostSide = 520;
 constexpr float kHatch = 7;      // between lines
 constexpr float kLowRoom = 860;  // windows with less keep the map folded at first
 constexpr std::size_t kImageSlot = 40;
-constexpr int kBars = 64;
 
 const char* axis_title(MapAxis axis) {
     switch (axis) {
@@ -101,6 +100,7 @@ void MapPicture::follow(const std::shared_ptr<const PlacementMap>& map) {
     if (map_ == map) return;
     map_ = map;
     usual_colors_ = mobbscope::usual_colors(*map);
+    constexpr int kBars = 64;
     counts_ = value_counts(*map, usual_colors_, kBars);
     key_.reset();
 }

@@ -19,7 +19,7 @@ namespace mobbscope::app {
 namespace {
 
 constexpr float kLeastWidth = 96;           // of a picture, pixels at scale 1
-constexpr float kSides = 16.0f / 9;         // its width in heights
+constexpr float kAspect = 16.0f / 9;        // its width in heights
 constexpr int kFiner = 3;                   // it is drawn so many times as large, for smooth edges
 constexpr double kLineScale = 1.5;          // of lines then
 constexpr std::size_t kFirstSlot = 10'000;  // of the painter's images
@@ -105,7 +105,7 @@ void ViewPictures::section(Ui& ui) {
     const auto columns = std::max<std::size_t>(1, static_cast<std::size_t>((room + gap) / (ui.px(kLeastWidth) + gap)));
     const float width =
         std::max(1.0f, std::floor((room - gap * static_cast<float>(columns - 1)) / static_cast<float>(columns)));
-    const ImVec2 size{width, std::max(1.0f, std::floor(width / kSides))};
+    const ImVec2 size{width, std::max(1.0f, std::floor(width / kAspect))};
     // Whoever drags does not wait for them.
     makes_one_ = !ImGui::IsMouseDown(ImGuiMouseButton_Left) && !ui.workspace.history.has_open_group();
     for (std::size_t i = 0; i < count; ++i) {

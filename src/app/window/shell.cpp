@@ -391,9 +391,8 @@ const DrawStatistics& Shell::statistics() const { return state_->renderer.statis
 Image Shell::viewport_picture() {
     if (!shown()) throw std::invalid_argument("there is no picture yet: open a scene or a clip first");
     DrawList picture = *shown();
-    using Role = HighlightLine::Role;
     std::erase_if(picture.highlights, [](const HighlightLine& line) {
-        return line.role != Role::selection && line.role != Role::ancestor;
+        return line.role != HighlightLine::Role::selection && line.role != HighlightLine::Role::ancestor;
     });
     return state_->renderer.draw(picture);
 }

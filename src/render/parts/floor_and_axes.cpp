@@ -235,7 +235,7 @@ std::vector<LabelRequest> floor_and_axis_labels(const DrawList& list, const Floo
 }
 
 std::vector<LabelRequest> time_titles(const DrawList& list, const FloorExtent& s, float size) {
-    constexpr int kPlaces = 24;  // along the axis, and along a side
+    constexpr int kTitlePlaces = 24;  // along the axis, and along a side
     const ViewProjection& projection = list.projection;
     const glm::dvec2 foot = axis_corner(s, projection.right);
     const glm::vec2 picture(projection.size.width, projection.size.height);
@@ -253,8 +253,8 @@ std::vector<LabelRequest> time_titles(const DrawList& list, const FloorExtent& s
         label.distance = 0.6f * size;
         out.push_back(label);
     };
-    for (int i = 0; i < kPlaces; ++i) {
-        const double t = s.t1 - (s.t1 - s.t0) * i / kPlaces;
+    for (int i = 0; i < kTitlePlaces; ++i) {
+        const double t = s.t1 - (s.t1 - s.t0) * i / kTitlePlaces;
         const auto at = projection.project(list.space.point(foot.x, foot.y, t));
         if (!at || !Rect{glm::vec2(0), picture}.contains({*at, *at})) continue;
         // Beside the ticks, which stand to the left, once there is no room above.
@@ -262,8 +262,8 @@ std::vector<LabelRequest> time_titles(const DrawList& list, const FloorExtent& s
     }
     const std::string away = time_on_end(projection) ? words : "time, s: upwards";
     for (const float x : {0.0f, picture.x}) {
-        for (int i = 1; i < kPlaces; ++i) {
-            const float y = picture.y * (0.5f + 0.5f * static_cast<float>(i % 2 ? i : -i) / kPlaces);
+        for (int i = 1; i < kTitlePlaces; ++i) {
+            const float y = picture.y * (0.5f + 0.5f * static_cast<float>(i % 2 ? i : -i) / kTitlePlaces);
             add(away, {x, y}, {{x > 0 ? -1 : 1, 0}});
         }
     }

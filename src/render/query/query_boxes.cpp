@@ -70,10 +70,10 @@ PairOutline pair_outline(const ViewState& view) {
 }
 
 LineStyle pair_style(PairOutline outline, const DrawnAgent& side, BoxState found, const Palette& palette) {
-    constexpr float kWidth = 2.2f;
-    if (outline == PairOutline::owner) return {outlining(side.color, palette), kWidth};
+    constexpr float kOutlineWidth = 2.2f;
+    if (outline == PairOutline::owner) return {outlining(side.color, palette), kOutlineWidth};
     LineStyle style = outcome_style(found, palette);
-    style.width = kWidth;
+    style.width = kOutlineWidth;
     return style;
 }
 

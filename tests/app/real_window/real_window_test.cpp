@@ -18,9 +18,6 @@
 namespace mobbscope {
 namespace {
 
-using mobbscope::testing::TempFolder;
-using testing::slurp;
-
 const std::string kHere = MOBBSCOPE_SOURCE_DIR "/tests/app/real_window/";
 constexpr int kLacking = 77;
 
@@ -245,7 +242,7 @@ TEST(RealWindow, APersonReviewsPictureTests) {
     const std::filesystem::path folder = MOBBSCOPE_PICTURES "/real_review";
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
-    const app::testing::ThreeCases files(folder);
+    const app::ThreeCases files(folder);
     const std::string golden = files.bytes("moved.png");
     const int status = under_xvfb("'" + kHere + "review.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere + "review.script' '" +
                                   folder.string() + "'");
