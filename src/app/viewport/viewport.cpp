@@ -513,7 +513,8 @@ void Viewport::press(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) {
     drag_ = Drag::orbit;
     asks_ = io.MouseDown[1];
     place_.reset();
-    const auto on_overlay = list_ ? overlay_click(*list_, pixel) : std::nullopt;
+    std::optional<OverlayClick> on_overlay;
+    if (list_) on_overlay = overlay_click(*list_, pixel);
     const LineEnd end = list_ && is_active(ui) ? line_end_at(ui, picture) : LineEnd::none;
     // Handles stand over the panels.
     const auto hold = list_ && is_active(ui) ? take_hold(ui, picture, pixel) : std::nullopt;
