@@ -1,7 +1,9 @@
 #include <render/gl/backends.h>
 #include <render/gl/gl_objects.h>
+#include <render/pictures/build_draw_list.h>
 
 #include "render/backends.h"
+#include "render/scenes.h"
 
 #include <glad/gl.h>
 #include <gtest/gtest.h>
@@ -60,6 +62,12 @@ TEST_P(BackendTest, AnErrorThatNobodyTellsIsThrown) {
 }
 
 TEST_P(BackendTest, TheCompilerRemarksNothingOnOurShaders) {
+    // Each program is compiled when it is first used.
+    ViewState view;
+    view.time = 1;
+    const DrawList list = build_draw_list(testing::hit_scene(), view, PictureSize{320, 200});
+    renderer().paint(list, 4);
+    renderer().draw_ids(list);
     EXPECT_EQ(renderer().context().warnings(), std::vector<std::string>{});
 }
 
@@ -68,10 +76,10 @@ constexpr std::string_view kFragment = "#version 330 core\nin vec4 c;\nout vec4 
 
 TEST_P(BackendTest, ShadersThatDoNotCompileOrLinkAreThrown) {
     const auto context = GlContext::open(GetParam());
-    EXPECT_NO_THROW(ShaderProgram(*context, "good", kVertex, kFragment));
+    EXPECT_NO_THROW(ShaderProgram(*context, "good", kVertex, kFragment).use());
     const auto complaint = [&](std::string_view vertex, std::string_view fragment) -> std::string {
         try {
-            const ShaderProgram program(*context, "bad", vertex, fragment);
+            ShaderProgram(*context, "bad", vertex, fragment).use();
         } catch (const MachineError& error) {
             return error.what();
         }
@@ -89,7 +97,7 @@ TEST_P(BackendTest, WhatTheCompilerRemarksIsAWarning) {
     // Mesa may have read its environment before; a text that is new is in no cache.
     const std::string text = "#version 330 core\nout vec4 o;\nvoid main() { float x; o = vec4(x) * " +
                              std::to_string(std::chrono::system_clock::now().time_since_epoch().count()) + ".0; }\n";
-    const ShaderProgram program(*context, "odd", kVertex, text);
+    ShaderProgram(*context, "odd", kVertex, text).use();
     EXPECT_FALSE(context->warnings().empty());
 }
 

@@ -21,6 +21,8 @@ struct GlCounts {
     std::size_t finishes = 0;     ///< glFinish
     std::size_t disk_calls = 0;   ///< draw calls of disks
     std::size_t whole = 0;        ///< scenes of several samples that became pictures
+    std::size_t textures = 0;     ///< of several samples
+    std::size_t programs = 0;     ///< compiled
     bool errors_at_once = false;  ///< was asked for
 };
 
@@ -51,7 +53,8 @@ class CountingContext final : public GlContext {
         if (asked == "glGetError") return before(get_error, &next_error);
         if (asked == "glEnable") return before(enable, &note_enabled);
         if (asked == "glDrawElementsInstanced") return before(draw_disks, &count_disks);
-        if (asked == "glBlitFramebuffer") return before(blit, &count_whole);
+        if (asked == "glDrawArrays") return before(draw_whole, &count_whole);
+        if (asked == "glLinkProgram") return before(link, &count_program);
         if (asked == "glTexImage2DMultisample") return before(allocate, &allocate_samples);
         return own;
     }
@@ -75,13 +78,18 @@ class CountingContext final : public GlContext {
         ++counts.disk_calls;
         draw_disks(mode, count, type, indices, instances);
     }
-    static void count_whole(GLint x0, GLint y0, GLint x1, GLint y1, GLint to_x0, GLint to_y0, GLint to_x1, GLint to_y1,
-                            GLbitfield what, GLenum filter) {
-        counts.whole += what == GL_COLOR_BUFFER_BIT && filter == GL_NEAREST;
-        blit(x0, y0, x1, y1, to_x0, to_y0, to_x1, to_y1, what, filter);
+    static void count_program(GLuint program) {
+        ++counts.programs;
+        link(program);
+    }
+    /// All else is drawn in instances.
+    static void count_whole(GLenum mode, GLint first, GLsizei count) {
+        ++counts.whole;
+        draw_whole(mode, first, count);
     }
     static void allocate_samples(GLenum target, GLsizei samples, GLenum format, GLsizei width, GLsizei height,
                                  GLboolean fixed) {
+        ++counts.textures;
         is_out_of_memory = lacks_memory;
         if (!lacks_memory) allocate(target, samples, format, width, height, fixed);
     }
@@ -93,7 +101,8 @@ class CountingContext final : public GlContext {
     static inline PFNGLGETERRORPROC get_error;
     static inline PFNGLENABLEPROC enable;
     static inline PFNGLDRAWELEMENTSINSTANCEDPROC draw_disks;
-    static inline PFNGLBLITFRAMEBUFFERPROC blit;
+    static inline PFNGLDRAWARRAYSPROC draw_whole;
+    static inline PFNGLLINKPROGRAMPROC link;
     static inline PFNGLTEXIMAGE2DMULTISAMPLEPROC allocate;
 
     std::unique_ptr<GlContext> draws_;

@@ -96,6 +96,23 @@ TEST_P(DrawingPolicyTest, AProcessorDrawsItInSlicesAndIsWaitedFor) {
     EXPECT_EQ(pixels_of(card.paint(list_, kPictureSamples), kSmallSize), in_slices) << "it is the same picture";
 }
 
+/// Most processes that draw draw one picture.
+TEST_P(DrawingPolicyTest, APictureTakesTheProgramsAndTexturesThatItNeeds) {
+    Renderer renderer = as(kProcessor);
+    EXPECT_EQ(CountingContext::counts.programs, 0u);
+    DrawList few = list_;
+    few.boxes = {};
+    renderer.draw(few);
+    EXPECT_EQ(CountingContext::counts.programs, 4u) << "disks, lines, samples, words";
+    EXPECT_EQ(CountingContext::counts.textures, 2u) << "colour and depth";
+    renderer.draw(list_);
+    EXPECT_EQ(CountingContext::counts.programs, 8u) << "faces: begun, summed, blended; colours of disks";
+    EXPECT_EQ(CountingContext::counts.textures, 3u) << "which disks are seen, as the picture before had the same";
+    renderer.paint(list_, kPictureSamples);
+    EXPECT_EQ(CountingContext::counts.programs, 8u);
+    EXPECT_EQ(CountingContext::counts.textures, 3u);
+}
+
 TEST_P(DrawingPolicyTest, WhatAProcessorKeepsForADrawCallDoesNotPileUp) {
     Renderer renderer = as(kProcessor);
     renderer.paint(many_disks(), kPictureSamples);

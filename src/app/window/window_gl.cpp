@@ -110,7 +110,7 @@ void UiPass::draw(const ImDrawData& data, PictureSize size) {
     glViewport(0, 0, size.width, size.height);
     blend_over();
     glEnable(GL_SCISSOR_TEST);
-    for (const ShaderProgram* program : {&plain_, &textured_}) {
+    for (ShaderProgram* program : {&plain_, &textured_}) {
         program->use();
         program->set("viewport", size);
     }

@@ -298,7 +298,7 @@ void DiskPass::draw(const Batch& batch, DrawStatistics& statistics) {
 }
 
 void DiskPass::draw(const DrawList& list, Detail detail, DrawStatistics& statistics) {
-    begin(visibility_key(list, detail), statistics);
+    begin(visibility_key(list, detail), false, statistics);
     draw_more(list, std::numeric_limits<std::size_t>::max(), statistics);
 }
 
@@ -316,8 +316,9 @@ DiskPass::VisibilityKey DiskPass::visibility_key(const DrawList& list, Detail de
     return out;
 }
 
-void DiskPass::begin(const VisibilityKey& key, DrawStatistics& statistics) {
+void DiskPass::begin(const VisibilityKey& key, bool colored, DrawStatistics& statistics) {
     detail_ = key.detail;
+    colored_ = colored;
     undrawn_.assign(key.batches.rbegin(), key.batches.rend());
     if (undrawn_.empty()) return;
     if (detail_ == Detail::coarse && drawn_) {
@@ -340,6 +341,7 @@ bool DiskPass::draw_more(const DrawList& list, std::size_t most, DrawStatistics&
     program_.set("back", projection.back);
     // With two corners at the sides the outline is right, however few the others are.
     program_.set("across", detail_ == Detail::coarse ? glm::vec2(projection.right) : glm::vec2(1, 0));
+    if (colored_) use_colors(program_, list, statistics);
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
@@ -362,22 +364,27 @@ bool DiskPass::draw_more(const DrawList& list, std::size_t most, DrawStatistics&
     return undrawn_.empty();
 }
 
-void DiskPass::tint(const DrawList& list, const Texture& visibility, DrawStatistics& statistics) {
+void DiskPass::use_colors(ShaderProgram& program, const DrawList& list, DrawStatistics& statistics) {
     glActiveTexture(GL_TEXTURE0 + kColors);
     store_colors(statistics);
     glBindTexture(GL_TEXTURE_2D, colors_.name());
+    glActiveTexture(GL_TEXTURE0);
+    program.set("colors", kColors);
+    program.set("background", glm::vec3(list.palette.background));
+}
+
+void DiskPass::tint(const DrawList& list, const Texture& visibility, DrawStatistics& statistics) {
+    tint_.use();
+    use_colors(tint_, list, statistics);
     GLint samples = 0;
     glGetIntegerv(GL_SAMPLES, &samples);
     const bool multisampled = samples > 0;
     glActiveTexture(GL_TEXTURE0 + (multisampled ? kVisibilitySamples : kVisibility));
     glBindTexture(multisampled ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D, visibility.name());
     glActiveTexture(GL_TEXTURE0);
-    tint_.use();
     tint_.set("visibility", kVisibility);
     tint_.set("visibility_samples", kVisibilitySamples);
-    tint_.set("colors", kColors);
     tint_.set("sample_index", -1);
-    tint_.set("background", glm::vec3(list.palette.background));
     tint_.set("viewport", list.size);
     std::vector<BoxInstance> around;
     for (const DiskBlock& block : levels_->blocks()) {

@@ -43,14 +43,14 @@ class DiskPass {
     };
 
     /// Into the bound framebuffer: to output 0 which disk is seen and how bright, for `tint`; of fine disks ids to
-    /// output 1.
+    /// output 1; to output 2 what `tint` would make of the first, if begin was told so.
     void draw(const DrawList& list, Detail detail, DrawStatistics& statistics);
     /// What draw would draw. Another list than the last ends what is drawn in parts. Throws MachineError for more disks
     /// than can be told apart.
     VisibilityKey visibility_key(const DrawList& list, Detail detail);
     /// The same as draw, in parts. Requires that `key` is what visibility_key() returned last: ranges are of the pieces
-    /// that are kept of that list.
-    void begin(const VisibilityKey& key, DrawStatistics& statistics);
+    /// that are kept of that list. `colored`: whether output 2 is wanted.
+    void begin(const VisibilityKey& key, bool colored, DrawStatistics& statistics);
     /// At most so many disks and tubes more (> 0) of the same list; true once that was all.
     bool draw_more(const DrawList& list, std::size_t most, DrawStatistics& statistics);
     /// Brings the colours of the disks of the list that was asked about last into the bound framebuffer, where they are
@@ -75,6 +75,8 @@ class DiskPass {
     const Stored& store(int level, DrawStatistics& statistics);
     const Stored& store_fine(DrawStatistics& statistics);
     void store_colors(DrawStatistics& statistics);
+    /// For the program in use.
+    void use_colors(ShaderProgram& program, const DrawList& list, DrawStatistics& statistics);
     std::vector<Batch> fine_batches(const ViewProjection& projection, glm::vec2 slab) const;
     std::vector<Batch> coarse_batches(const ViewProjection& projection, glm::vec2 slab);
     void draw(const Batch& batch, DrawStatistics& statistics);
@@ -93,6 +95,7 @@ class DiskPass {
     Stored fine_;                        ///< all disks in drawing order, on which depends who wins where two are equal
     std::vector<Stored> coarse_{DiskLevels::kLevels};
     Detail detail_ = Detail::fine;
+    bool colored_ = false;
     std::vector<Batch> undrawn_;  ///< what is left to be drawn, the last first
 };
 

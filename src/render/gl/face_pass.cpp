@@ -4,7 +4,6 @@
 #include <render/gl/gl_objects.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <iterator>
 
@@ -17,7 +16,10 @@ bool has_faces(const BoxInstance& box) { return box.fill.a > 0; }
 }  // namespace
 
 FacePass::FacePass(GlContext& context, const BoxBuffer& boxes)
-    : boxes_(boxes), faces_(context, "face"), composite_(context, "composite") {
+    : boxes_(boxes),
+      begin_(context, "composite", "face_begin"),
+      faces_(context, "face"),
+      composite_(context, "composite") {
     glBindVertexArray(array_.name());
     boxes.describe_shapes({}).integers(5, 2, offsetof(BoxBuffer::Shape, id));
     boxes.looks_from({}).floats(4, 4, offsetof(BoxBuffer::Look, fill));
@@ -47,25 +49,25 @@ void FacePass::draw(const DrawList& list, bool ids, DrawStatistics& statistics) 
     ++statistics.draw_calls;
 }
 
-/// Only what faces may cover is cleared and blended: these are the dearest pixels of a picture.
-void FacePass::clear(const DrawList& list, DrawStatistics& statistics) {
+/// Only what faces may cover is prepared and blended: these are the dearest pixels of a picture.
+void FacePass::begin(const DrawList& list, const Texture* depth_samples, DrawStatistics& statistics) {
     std::vector<BoxInstance> boxes;
     std::copy_if(list.boxes.begin(), list.boxes.end(), std::back_inserter(boxes), has_faces);
-    const std::optional<Rect> around = tiles_.cover(boxes, list.projection, statistics);
-    if (!around) return;
-    const glm::ivec2 corner(around->min.x, static_cast<float>(list.size.height) - around->max.y);
-    const glm::ivec2 extent(around->size());
-    glScissor(corner.x, corner.y, extent.x, extent.y);
-    glEnable(GL_SCISSOR_TEST);
-    const std::array<GLfloat, 4> nothing_yet{0, 0, 0, 1};
-    const std::array<GLfloat, 4> zero{0, 0, 0, 0};
-    glClearBufferfv(GL_COLOR, 0, nothing_yet.data());
-    glClearBufferfv(GL_COLOR, 1, zero.data());
-    glDisable(GL_SCISSOR_TEST);
+    if (!tiles_.cover(boxes, list.projection, statistics)) return;
+    begin_.use();
+    begin_.set("viewport", list.size);
+    begin_.set("depth_samples", 0);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, depth_samples ? depth_samples->name() : 0);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_ALWAYS);
+    glDepthMask(depth_samples ? GL_TRUE : GL_FALSE);
+    glDisable(GL_BLEND);
+    tiles_.draw(statistics);
 }
 
-void FacePass::accumulate(const DrawList& list, DrawStatistics& statistics) {
-    clear(list, statistics);
+void FacePass::accumulate(const DrawList& list, const Texture* depth_samples, DrawStatistics& statistics) {
+    begin(list, depth_samples, statistics);
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
     // Colours add up; alpha keeps the product of (1 - opacity).

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 namespace render_assets {
 std::string_view embedded(std::string_view name);
@@ -64,16 +65,22 @@ ShaderProgram::ShaderProgram(GlContext& context, const std::string& vertex, cons
     : ShaderProgram(context, fragment, render_assets::embedded(vertex + ".vert"),
                     render_assets::embedded(fragment + ".frag")) {}
 
-ShaderProgram::ShaderProgram(GlContext& context, const std::string& name, std::string_view vertex,
-                             std::string_view fragment) {
+ShaderProgram::ShaderProgram(GlContext& context, std::string name, std::string_view vertex, std::string_view fragment)
+    : context_(&context), name_(std::move(name)), vertex_(vertex), fragment_(fragment) {}
+
+void ShaderProgram::use() {
+    if (program_) return glUseProgram(program_->name());
     const GlObject<ShaderKind<GL_VERTEX_SHADER>> vertex_shader;
     const GlObject<ShaderKind<GL_FRAGMENT_SHADER>> fragment_shader;
-    compile(context, vertex_shader.name(), name + ".vert", vertex);
-    compile(context, fragment_shader.name(), name + ".frag", fragment);
-    glAttachShader(program_.name(), vertex_shader.name());
-    glAttachShader(program_.name(), fragment_shader.name());
-    glLinkProgram(program_.name());
-    judge(context, name, program_.name(), GL_LINK_STATUS, glGetProgramiv, glGetProgramInfoLog);
+    compile(*context_, vertex_shader.name(), name_ + ".vert", vertex_);
+    compile(*context_, fragment_shader.name(), name_ + ".frag", fragment_);
+    GlObject<ProgramKind> program;
+    glAttachShader(program.name(), vertex_shader.name());
+    glAttachShader(program.name(), fragment_shader.name());
+    glLinkProgram(program.name());
+    judge(*context_, name_, program.name(), GL_LINK_STATUS, glGetProgramiv, glGetProgramInfoLog);
+    program_ = std::move(program);
+    glUseProgram(program_->name());
 }
 
 void reset_state() {

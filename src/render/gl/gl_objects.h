@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -74,17 +75,19 @@ using Texture = GlObject<CountedKind<glGenTextures, glDeleteTextures>>;
 using Renderbuffer = GlObject<CountedKind<glGenRenderbuffers, glDeleteRenderbuffers>>;
 using Framebuffer = GlObject<CountedKind<glGenFramebuffers, glDeleteFramebuffers>>;
 
-/// A linked pair of shaders. What the compiler remarks goes to the context's warnings.
+/// A linked pair of shaders, compiled when they are first used: few pictures need all programs. What the compiler
+/// remarks goes to the context's warnings.
 class ShaderProgram {
   public:
-    /// From shaders/<name>.vert and .frag, which are part of the program. Throws MachineError with what the compiler
-    /// says if it does not take them.
+    /// From shaders/<name>.vert and .frag, which are part of the program. The context outlives the program.
     ShaderProgram(GlContext& context, const std::string& name) : ShaderProgram(context, name, name) {}
     /// The same from two shaders of different names.
     ShaderProgram(GlContext& context, const std::string& vertex, const std::string& fragment);
-    ShaderProgram(GlContext& context, const std::string& name, std::string_view vertex, std::string_view fragment);
+    /// The same from texts, which outlive the program; `name` is what messages call them.
+    ShaderProgram(GlContext& context, std::string name, std::string_view vertex, std::string_view fragment);
 
-    void use() const { glUseProgram(program_.name()); }
+    /// Throws MachineError with what the compiler says if it does not take the shaders.
+    void use();
 
     // Of the program in use; where the compiler dropped the uniform they do nothing.
     void set(const char* uniform, GLint value) const { glUniform1i(location(uniform), value); }
@@ -97,9 +100,12 @@ class ShaderProgram {
     void set(const char* uniform, PictureSize value) const { set(uniform, glm::vec2(value.width, value.height)); }
 
   private:
-    GLint location(const char* uniform) const { return glGetUniformLocation(program_.name(), uniform); }
+    GLint location(const char* uniform) const { return glGetUniformLocation(program_->name(), uniform); }
 
-    GlObject<ProgramKind> program_;
+    GlContext* context_;
+    std::string name_;
+    std::string_view vertex_, fragment_;
+    std::optional<GlObject<ProgramKind>> program_;  ///< none before the first use
 };
 
 /// As in a new context, except that rows of pixels are packed without gaps: whatever else draws in the context, a

@@ -8,6 +8,7 @@
 #include <render/gl/gl_objects.h>
 #include <render/gl/line_pass.h>
 #include <render/gl/overlay_pass.h>
+#include <render/gl/resolve_pass.h>
 #include <render/gl/targets.h>
 #include <render/image/image.h>
 
@@ -46,6 +47,13 @@ constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 // Whose edges are drawn; of a coarse picture they would take longer than all else.
 constexpr std::size_t kMostBoxesCoarse = 1000;
 
+/// Makes the bound framebuffer's one colour take what shaders write to an output.
+void write_output(GLsizei output) {
+    std::array<GLenum, 3> outputs{GL_NONE, GL_NONE, GL_NONE};
+    outputs[static_cast<std::size_t>(output)] = GL_COLOR_ATTACHMENT0;
+    glDrawBuffers(output + 1, outputs.data());
+}
+
 std::unique_ptr<GlContext> made_current(std::unique_ptr<GlContext> context) {
     context->make_current();
     return context;
@@ -60,9 +68,8 @@ struct Renderer::State {
           disks(*context),
           faces(*context, boxes),
           lines(*context, boxes),
-          overlay(*context) {
-        context->check("compiling shaders");
-    }
+          overlay(*context),
+          resolve(*context) {}
 
     /// Another picture: what was painted in parts is given up, and what stands is no longer taken for that of a list.
     void begin(PictureSize size) {
@@ -82,26 +89,38 @@ struct Renderer::State {
     struct Canvas {
         std::optional<Targets> targets;
         std::optional<DiskPass::VisibilityKey> visibility_key;  ///< that the targets have
+        std::optional<DiskPass::VisibilityKey> colored_key;     ///< of the last picture whose visibility was not kept
         int samples = 0;                                        ///< that were asked for
     };
 
     /// Whether a picture may have fewer samples than were asked for, where memory lacks.
     enum class Fewer { allowed, refused };
 
-    void prepare(Canvas& canvas, PictureSize size, int samples, Fewer fewer) {
-        if (canvas.targets && canvas.targets->size() == size && canvas.samples == samples &&
-            (fewer == Fewer::allowed || canvas.targets->samples() == samples))
-            return;
-        canvas = {std::nullopt, std::nullopt, samples};
+    /// What a picture needs beside colours and depth.
+    struct Needs {
+        bool visibility = false;
+        bool faces = false;
+    };
+
+    void prepare(Canvas& canvas, PictureSize size, int samples, Needs needs, Fewer fewer) {
+        const bool fits = canvas.targets && canvas.targets->size() == size && canvas.samples == samples &&
+                          (fewer == Fewer::allowed || canvas.targets->samples() == samples);
         context->check("drawing");
         try {
-            canvas.targets.emplace(size, samples);
+            if (!fits) {
+                canvas = {};
+                canvas.samples = samples;
+                canvas.targets.emplace(size, samples);
+            }
+            if (needs.visibility) canvas.targets->need_visibility();
+            if (needs.faces) canvas.targets->need_faces();
         } catch (const LacksMemory&) {
             if (samples == 1) throw;
             const std::string lacks = "this OpenGL (" + std::string(context->name()) + ") lacks memory for " +
                                       std::to_string(samples) + " samples of each pixel: ";
             if (fewer == Fewer::refused) throw MachineError(lacks + "take fewer, or make the picture smaller");
-            prepare(canvas, size, 1, Fewer::refused);
+            canvas.targets.reset();
+            prepare(canvas, size, 1, needs, Fewer::refused);
             canvas.samples = samples;
             notice = lacks + "edges are less smooth";
         }
@@ -113,6 +132,7 @@ struct Renderer::State {
         Revision of;
         Canvas* canvas;
         Rgba ground;
+        bool keeps_visibility = true;
         Part next = Part::disks;
         std::size_t disks_at_once = kDisksAtFirst;
         std::size_t most_boxes = kAll;
@@ -122,36 +142,49 @@ struct Renderer::State {
         return disks.visibility_key(list, samples > 1 ? Detail::fine : Detail::coarse);
     }
 
+    /// What a picture is drawn for: to be shown, while others follow; to be read back, once or on two grounds.
+    enum class For { showing, reading, reading_twice };
+
     /// Into the result's framebuffer, on a ground that is taken for opaque. Which disks are seen where is the dearest
     /// part of a picture. Where the one before had the same, of whatever colours, it is taken from that: a query's
-    /// steps and a time cursor move through them.
-    void begin_paint(const DrawList& list, Canvas& canvas, int samples, Rgba ground, Fewer fewer) {
+    /// steps and a time cursor move through them. Keeping it is dear, too: a picture that is read back, which may be
+    /// the only one, does so only if the one before it could have been taken.
+    void begin_paint(const DrawList& list, Canvas& canvas, int samples, Rgba ground, For what_for) {
+        const Fewer fewer = what_for == For::showing ? Fewer::allowed : Fewer::refused;
         begin(list.size);
         check_samples(samples);
-        prepare(canvas, list.size, samples, fewer);
+        visibility_key = visibility_key_of(list, samples);
+        const bool keeps_visibility =
+            what_for != For::reading || canvas.visibility_key == visibility_key || canvas.colored_key == visibility_key;
+        prepare(canvas, list.size, samples, {keeps_visibility, FacePass::needed(list)}, fewer);
+        if (canvas.targets->samples() != samples) visibility_key = visibility_key_of(list, canvas.targets->samples());
         boxes.keep(list, statistics);
-        work.emplace(Work{list.revision, &canvas, ground});
-        visibility_key = visibility_key_of(list, canvas.targets->samples());
-        disks.begin(visibility_key, statistics);
+        work.emplace(Work{list.revision, &canvas, ground, keeps_visibility});
+        disks.begin(visibility_key, !keeps_visibility, statistics);
         if (canvas.visibility_key == visibility_key) {
             work->next = Part::colors;
             return;
         }
         canvas.visibility_key.reset();
-        glBindFramebuffer(GL_FRAMEBUFFER, canvas.targets->visibility_buffer().name());
-        glClearColor(0, 0, 0, 0);
+        canvas.colored_key.reset();
         glClearDepth(1);
+        if (keeps_visibility) {
+            glBindFramebuffer(GL_FRAMEBUFFER, canvas.targets->visibility_buffer().name());
+            glClearColor(0, 0, 0, 0);
+        } else {
+            glBindFramebuffer(GL_FRAMEBUFFER, canvas.targets->scene().name());
+            glClearColor(ground.r, ground.g, ground.b, 1);
+        }
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     }
-    void begin_paint(const DrawList& list, int samples, Rgba ground, Fewer fewer) {
-        begin_paint(list, samples > 1 ? fine : coarse, samples, ground, fewer);
+    void begin_paint(const DrawList& list, int samples, Rgba ground, For what_for) {
+        begin_paint(list, samples > 1 ? fine : coarse, samples, ground, what_for);
     }
 
     void draw_faces(const Targets& targets, const DrawList& list) {
         if (!FacePass::needed(list)) return;
-        targets.share_depth();
         glBindFramebuffer(GL_FRAMEBUFFER, targets.faces().name());
-        faces.accumulate(list, statistics);
+        faces.accumulate(list, targets.samples() > 1 ? &targets.scene_depth() : nullptr, statistics);
         glBindFramebuffer(GL_FRAMEBUFFER, targets.scene().name());
         faces.composite(targets.sums(), targets.weights(), list.size, statistics);
     }
@@ -160,10 +193,18 @@ struct Renderer::State {
     bool draw_part(const DrawList& list, std::size_t most_disks) {
         Canvas& canvas = *work->canvas;
         const Targets& targets = *canvas.targets;
-        glBindFramebuffer(GL_FRAMEBUFFER,
-                          (work->next == Part::disks ? targets.visibility_buffer() : targets.scene()).name());
+        const bool into_visibility = work->next == Part::disks && work->keeps_visibility;
+        glBindFramebuffer(GL_FRAMEBUFFER, (into_visibility ? targets.visibility_buffer() : targets.scene()).name());
         switch (work->next) {
             case Part::disks:
+                if (!work->keeps_visibility) {
+                    write_output(2);
+                    disks.draw_more(list, kAll, statistics);
+                    write_output(0);
+                    canvas.colored_key = visibility_key;
+                    work->next = Part::faces;
+                    return false;
+                }
                 if (!disks.draw_more(list, most_disks, statistics)) return false;
                 canvas.visibility_key = visibility_key;
                 work->next = Part::colors;
@@ -192,8 +233,8 @@ struct Renderer::State {
         return true;
     }
 
-    void paint(const DrawList& list, int samples, Rgba ground, Fewer fewer) {
-        begin_paint(list, samples, ground, fewer);
+    void paint(const DrawList& list, int samples, Rgba ground, For what_for) {
+        begin_paint(list, samples, ground, what_for);
         while (!draw_part(list, kAll)) {
         }
     }
@@ -218,19 +259,19 @@ struct Renderer::State {
     }
 
     /// Disks and faces on fewer pixels; lines and words, which are narrow, on all.
-    void paint_coarse(const DrawList& list, int divisor, Rgba ground, Fewer fewer) {
-        if (divisor == 1) return paint(list, 1, ground, fewer);
+    void paint_coarse(const DrawList& list, int divisor, Rgba ground, For what_for) {
+        if (divisor == 1) return paint(list, 1, ground, what_for);
         const auto part = [&](int side) { return (side + divisor - 1) / divisor; };
         DrawList small;
         static_cast<PictureFrame&>(small) = static_cast<const PictureFrame&>(list);
         static_cast<DrawnWorld&>(small) = static_cast<const DrawnWorld&>(list);
         small.palette = list.palette;
         small.size = small.projection.size = {part(list.size.width), part(list.size.height)};
-        begin_paint(small, low, 1, ground, fewer);
+        begin_paint(small, low, 1, ground, what_for);
         while (work->next != Part::lines) draw_part(small, kAll);
 
         resume(list.size);
-        prepare(coarse, list.size, 1, fewer);
+        prepare(coarse, list.size, 1, {}, Fewer::refused);
         coarse.visibility_key.reset();
         coarse.targets->enlarge(*low.targets);
         work->canvas = &coarse;
@@ -254,8 +295,8 @@ struct Renderer::State {
 
     /// The picture out of the scene in the targets, its highlights and its words.
     void finish(const Targets& targets, const DrawList& list) {
-        targets.resolve();
         glBindFramebuffer(GL_FRAMEBUFFER, targets.result().name());
+        if (targets.samples() > 1) resolve.draw(targets.scene_color(), targets.samples(), statistics);
         lines.draw_highlights(list, statistics);
         overlay.draw_panels(list.size, statistics);
         lines.draw_overlay(list.size, statistics);
@@ -269,7 +310,7 @@ struct Renderer::State {
     template <class PaintOn>
     Image drawn(const DrawList& list, const PaintOn& paint_on) {
         const auto draw_on = [&](Rgba ground) {
-            paint_on(ground);
+            paint_on(ground, is_seen_through(list) ? For::reading_twice : For::reading);
             Image image(list.size.width, list.size.height);
             glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
             context->check("reading the picture");
@@ -289,9 +330,11 @@ struct Renderer::State {
     void check_samples(int samples) const {
         GLint most = 1;
         GLint most_read = 1;  // one by one
+        GLint most_depth = 1;
         glGetIntegerv(GL_MAX_SAMPLES, &most);
         glGetIntegerv(GL_MAX_COLOR_TEXTURE_SAMPLES, &most_read);
-        most = std::min(most, most_read);
+        glGetIntegerv(GL_MAX_DEPTH_TEXTURE_SAMPLES, &most_depth);
+        most = std::min({most, most_read, most_depth});
         if (samples <= std::max(most, 1)) return;
         throw MachineError("this OpenGL (" + std::string(context->name()) + ") draws at most " + std::to_string(most) +
                            " samples a pixel, not " + std::to_string(samples));
@@ -313,6 +356,7 @@ struct Renderer::State {
     FacePass faces;
     LinePass lines;
     OverlayPass overlay;
+    ResolvePass resolve;
     Canvas fine, coarse, low;  ///< multisampled; without that; that and smaller
 };
 
@@ -341,17 +385,17 @@ void Renderer::check_samples(int samples) {
 }
 
 const Texture& Renderer::paint(const DrawList& list, int samples) {
-    state_->paint(list, samples, opaque_ground_of(list), State::Fewer::allowed);
+    state_->paint(list, samples, opaque_ground_of(list), State::For::showing);
     return state_->picture();
 }
 
 const Texture& Renderer::paint_coarse(const DrawList& list, int divisor) {
-    state_->paint_coarse(list, divisor, opaque_ground_of(list), State::Fewer::allowed);
+    state_->paint_coarse(list, divisor, opaque_ground_of(list), State::For::showing);
     return state_->picture();
 }
 
 void Renderer::begin_paint(const DrawList& list, int samples) {
-    state_->begin_paint(list, samples, opaque_ground_of(list), State::Fewer::allowed);
+    state_->begin_paint(list, samples, opaque_ground_of(list), State::For::showing);
 }
 
 bool Renderer::is_painting(const DrawList& list) const { return state_->work && state_->work->of == list.revision; }
@@ -378,27 +422,21 @@ const Texture& Renderer::paint_highlights(const DrawList& list, int samples) {
 }
 
 Image Renderer::draw(const DrawList& list, int samples) {
-    return state_->drawn(list, [&](Rgba ground) { state_->paint(list, samples, ground, State::Fewer::refused); });
+    return state_->drawn(list,
+                         [&](Rgba ground, State::For what_for) { state_->paint(list, samples, ground, what_for); });
 }
 
 Image Renderer::draw_coarse(const DrawList& list, int divisor) {
-    return state_->drawn(list,
-                         [&](Rgba ground) { state_->paint_coarse(list, divisor, ground, State::Fewer::refused); });
+    return state_->drawn(
+        list, [&](Rgba ground, State::For what_for) { state_->paint_coarse(list, divisor, ground, what_for); });
 }
 
 namespace {
 
-/// Makes the bound IdTarget take what goes to an output: ids of disks to 1, of boxes to 2.
-void write_ids_of(GLsizei output) {
-    std::array<GLenum, 3> outputs{GL_NONE, GL_NONE, GL_NONE};
-    outputs[static_cast<std::size_t>(output)] = GL_COLOR_ATTACHMENT0;
-    glDrawBuffers(output + 1, outputs.data());
-}
-
 void clear_ids() {
     const std::array<GLuint, 4> nothing{0, 0, 0, 0};
     const GLfloat farthest = 1;
-    write_ids_of(0);
+    write_output(0);
     glClearBufferuiv(GL_COLOR, 0, nothing.data());
     glClearBufferfv(GL_DEPTH, 0, &farthest);
 }
@@ -410,9 +448,9 @@ IdImage Renderer::draw_ids(const DrawList& list) {
     s.begin(list.size);
     const IdTarget target(list.size);
     clear_ids();
-    write_ids_of(1);
+    write_output(1);  // ids of disks
     s.disks.draw(list, Detail::fine, s.statistics);
-    write_ids_of(2);
+    write_output(2);  // ids of boxes
     s.boxes.keep(list, s.statistics);
     s.faces.draw_ids(list, s.statistics);
 
@@ -430,7 +468,7 @@ DepthImage Renderer::draw_depths(const DrawList& list) {
     s.begin(list.size);
     const IdTarget target(list.size);
     clear_ids();
-    write_ids_of(1);
+    write_output(1);
     s.disks.draw(list, Detail::fine, s.statistics);
 
     DepthImage image{list.size.width, list.size.height, {}};

@@ -5,6 +5,8 @@
 #include <render/gl/gl_objects.h>
 #include <render/image/image.h>
 
+#include <optional>
+
 namespace mobbscope {
 
 /// OpenGL has too little memory for a framebuffer.
@@ -21,34 +23,38 @@ class Targets {
     /// OpenGL cannot draw so.
     Targets(PictureSize size, int samples);
 
+    // What not every picture needs takes most of the memory, and clearing that takes time. Made once; throw as above.
+    void need_visibility();
+    void need_faces();
+
     PictureSize size() const { return size_; }
     int samples() const { return samples_; }
     const Framebuffer& scene() const { return scene_; }  ///< colour and depth
-    /// Which disks are seen, and the scene's depth. It stays as it is while faces and lines are drawn.
-    const Framebuffer& visibility_buffer() const { return visibility_buffer_; }
-    const Texture& visibility() const { return visibility_; }  ///< its texture
-    const Framebuffer& faces() const { return faces_; }        ///< sums, weights and depth of the transparent faces
+    /// Which disks are seen, and the scene's depth; once it was needed. It stays as it is while faces and lines are
+    /// drawn.
+    const Framebuffer& visibility_buffer() const { return *visibility_buffer_; }
+    const Texture& visibility() const { return visibility_; }    ///< its texture
+    const Framebuffer& faces() const { return *faces_; }         ///< sums, weights and depth of the transparent faces
+    const Texture& scene_color() const { return scene_color_; }  ///< multisampled; not used where it has one sample
+    const Texture& scene_depth() const { return scene_depth_; }
     /// The picture.
     const Framebuffer& result() const { return samples_ > 1 ? result_ : scene_; }
     const Texture& picture() const { return picture_; }  ///< its colours
     const Texture& sums() const { return sums_; }
     const Texture& weights() const { return weights_; }
 
-    /// Brings the scene's depth to the faces' framebuffer. The faces are smooth inside and their edges are drawn as
-    /// lines, so they do without multisampling.
-    void share_depth() const;
-    /// Brings the scene into the result: averages its samples.
-    void resolve() const;
-
     /// The colours and the depth of another scene, drawn smoothly over all of this one; neither is multisampled.
     void enlarge(const Targets& other) const;
 
   private:
+    void attach_scene_depth() const;  ///< to the bound framebuffer
+
     PictureSize size_;
     int samples_;
-    Framebuffer scene_, visibility_buffer_, faces_, result_;
-    Renderbuffer scene_color_, scene_depth_, faces_depth_;
-    Texture visibility_, sums_, weights_, picture_;
+    Framebuffer scene_, result_;
+    std::optional<Framebuffer> visibility_buffer_, faces_;  ///< none until they are needed
+    Renderbuffer faces_depth_;
+    Texture scene_color_, scene_depth_, visibility_, sums_, weights_, picture_;
 };
 
 /// The framebuffer that object ids are drawn in: no multisampling, the nearest wins.
