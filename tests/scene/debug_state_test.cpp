@@ -85,7 +85,8 @@ TEST(DebugState, HasNamedViews) {
                                      std::pair(R"([{"name": " top ", "view": {}}])",
                                                "/debug/views/0/name: 'top' is a camera that every scene has"),
                                      std::pair(R"({})", "/debug/views")}) {
-        const std::string refused = input_error([&] { debugged(R"({"views": )" + std::string(views) + "}"); });
+        const std::string text = views;
+        const std::string refused = input_error([&] { debugged(R"({"views": )" + text + "}"); });
         EXPECT_NE(refused.find(why), std::string::npos) << views << ": " << refused;
         EXPECT_EQ(refused.find('\n'), std::string::npos);
     }
