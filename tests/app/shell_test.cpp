@@ -30,7 +30,7 @@ constexpr PictureSize kSize{800, 500};
 class ShellTest : public ::testing::TestWithParam<Backend> {
   protected:
     void SetUp() override {
-        if (!open_or_skip(GetParam())) return;
+        if (!has_or_skip(GetParam())) return;
         window = std::make_unique<HeadlessWindow>(GlContext::open(GetParam()), session, kSize, 1);
         session.files.open_demo();
         window->settle();

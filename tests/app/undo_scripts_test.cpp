@@ -130,7 +130,7 @@ class Worked {
 };
 
 TEST(UndoScripts, AnyScriptUndoneIsTheSceneOfTheBeginAndRedoneAsItWas) {
-    if (!open_or_skip(Backend::osmesa)) return;
+    if (!has_or_skip(Backend::osmesa)) return;
     const TempFolder folder;
     const std::filesystem::path demos = demo_scene_file().parent_path();
     const std::vector<std::filesystem::path> files{demos / "crossing.json", demos / "collision.json",

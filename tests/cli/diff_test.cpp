@@ -224,7 +224,7 @@ TEST_F(DiffTest, WhatCannotBeWrittenIsStatusThreeAndLeavesNothing) {
 
 /// Neither the number of threads nor the order in which they finish shows.
 TEST_F(DiffTest, OneMoreCoreIsNoDifference) {
-    if (!open_or_skip(Backend::automatic)) return;
+    if (!has_or_skip(Backend::automatic)) return;
     const auto render = [&](const char* threads, const char* name) {
         ::setenv("LP_NUM_THREADS", threads, 1);
         const std::string out = folder.path() / name;

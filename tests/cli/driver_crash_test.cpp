@@ -83,7 +83,7 @@ TEST_F(DriverCrash, ListBackendsTellsOfIt) {
 }
 
 TEST_F(DriverCrash, TheNextOneDraws) {
-    if (!open_or_skip(Backend::egl)) return;
+    if (!has_or_skip(Backend::egl)) return;
     const Result result =
         run({"render", scene(), "-o", picture()}, with_drivers({"libOSMesa.so.8"}, "writes to nothing"));
     EXPECT_EQ(result.status, 0) << result.err;
@@ -116,7 +116,7 @@ TEST_F(DriverCrash, MesaDrawsOrIsTold) {
 }
 
 TEST_F(DriverCrash, ResultsComeOnce) {
-    if (!open_or_skip(Backend::automatic)) return;
+    if (!has_or_skip(Backend::automatic)) return;
     const std::string says = folder_.write("says.script", "state\n").string();
     const Result watched = run({scene(), "--headless", "--script", says}, [] {});
     const Result alone = run({scene(), "--headless", "--script", says}, [] { ::setenv("MOBBSCOPE_NO_WATCH", "1", 1); });
@@ -195,7 +195,7 @@ class WatchedProgram : public DriverCrash {
 };
 
 TEST(WatchedStatus, IsTheChildsWhereTheParentsParentIgnoresChildren) {
-    if (!open_or_skip(Backend::automatic)) return;
+    if (!has_or_skip(Backend::automatic)) return;
     const TempFolder folder;
     const std::string scene = folder.write("scene.json", kStandingScene);
     const std::string script = folder.write("s.script", "expect /none 1\n");

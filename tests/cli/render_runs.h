@@ -48,7 +48,7 @@ inline Names files_in(const std::filesystem::path& folder) {
 /// Draws, which needs a context.
 class DrawingTest : public ::testing::Test {
   protected:
-    void SetUp() override { open_or_skip(Backend::automatic); }
+    void SetUp() override { has_or_skip(Backend::automatic); }
 
     const TempFolder folder;
 

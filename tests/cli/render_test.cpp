@@ -26,7 +26,7 @@ std::vector<std::string> arguments(const std::string& scene, const std::string& 
 /// Draws, which needs a context.
 class RenderTest : public ::testing::Test {
   protected:
-    void SetUp() override { open_or_skip(Backend::automatic); }
+    void SetUp() override { has_or_skip(Backend::automatic); }
 
     const TempFolder folder;
     const std::string out = folder.path() / "out.png";

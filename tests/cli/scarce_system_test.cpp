@@ -51,14 +51,14 @@ TEST_F(FewThreads, ACrowdIsSimulated) {
 }
 
 TEST_F(FewThreads, APictureIsDrawn) {
-    if (!open_or_skip(Backend::automatic)) return;
+    if (!has_or_skip(Backend::automatic)) return;
     // Shaders are compiled anew, as whoever draws has no cache: few of them.
     expect_done({"render", file("scene.json"), "-o", file("p.png"), "--size", "64x64", "--samples", "1", "--no-disks",
                  "--no-labels", "--no-floor", "--no-legend", "--no-inset"});
 }
 
 TEST_F(FewThreads, AScriptIsRun) {
-    if (!open_or_skip(Backend::automatic)) return;
+    if (!has_or_skip(Backend::automatic)) return;
     expect_done({file("scene.json"), "--headless", "--script", file("s.script")});
 }
 

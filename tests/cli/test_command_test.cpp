@@ -60,7 +60,7 @@ class TestCommandTest : public ::testing::Test {
 class DrawnTestCommandTest : public TestCommandTest {
   protected:
     void SetUp() override {
-        if (!open_or_skip(Backend::automatic)) return;
+        if (!has_or_skip(Backend::automatic)) return;
     }
     void take_all() const { ASSERT_EQ(test({"--update", "all"}).status, 0); }
 };
@@ -280,7 +280,7 @@ TEST_F(AnswersTestCommandTest, TheGuardedFolderIsFound) {
     const std::filesystem::path shared = kSharedData / "guard/answers";
     if (!std::filesystem::exists(shared)) GTEST_SKIP() << "there is no " << shared;
     ::unsetenv("MESA_GL_VERSION_OVERRIDE");
-    if (!open_or_skip(Backend::automatic)) return;
+    if (!has_or_skip(Backend::automatic)) return;
     const TempFolder folder;
     std::filesystem::copy(shared, folder.path() / "answers");
     const std::string cases_of = (folder.path() / "answers").string();
@@ -1331,7 +1331,7 @@ TEST_F(AnswersTestCommandTest, UpdateOfAllLeavesGoldensThatPass) {
 }
 
 TEST_F(DrawnTestCommandTest, BothBackendsDrawTheSamePicture) {
-    if (!open_or_skip(Backend::osmesa) || !open_or_skip(Backend::egl)) return;
+    if (!has_or_skip(Backend::osmesa) || !has_or_skip(Backend::egl)) return;
     EXPECT_EQ(test({"--backend", "osmesa", "--update", "all"}).status, 0);
     EXPECT_EQ(test({"--backend", "egl"}).status, 0);
 }

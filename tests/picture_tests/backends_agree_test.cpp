@@ -18,7 +18,7 @@ namespace {
 
 /// Null where the machine lacks the backend; then the test is skipped, or failed.
 std::unique_ptr<PictureMaker> maker_or_skip(Backend backend) {
-    return mobbscope::testing::open_or_skip(backend) ? std::make_unique<PictureMaker>(backend) : nullptr;
+    return mobbscope::testing::has_or_skip(backend) ? std::make_unique<PictureMaker>(backend) : nullptr;
 }
 
 class BackendsAgreeTest : public ::testing::TestWithParam<const char*> {};

@@ -23,7 +23,7 @@ namespace {
 class RunCaseTest : public ::testing::Test {
   protected:
     void SetUp() override {
-        if (mobbscope::testing::open_or_skip(Backend::automatic))
+        if (mobbscope::testing::has_or_skip(Backend::automatic))
             maker_ = std::make_unique<PictureMaker>(Backend::automatic);
     }
 

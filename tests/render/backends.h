@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,13 @@ inline std::unique_ptr<Renderer> open_or_skip(Backend backend) {
         }();
         return nullptr;
     }
+}
+
+/// The same where others draw with it: it is opened once a process.
+inline bool has_or_skip(Backend backend) {
+    static std::set<Backend> found;
+    if (!found.contains(backend) && open_or_skip(backend)) found.insert(backend);
+    return found.contains(backend);
 }
 
 /// A texture's pixels, rows from top to bottom.

@@ -54,7 +54,7 @@ PaintPace no_time() {
 class DrawingPolicyTest : public ::testing::TestWithParam<Backend> {
   protected:
     void SetUp() override {
-        if (!testing::open_or_skip(GetParam())) GTEST_SKIP();
+        if (!testing::has_or_skip(GetParam())) GTEST_SKIP();
     }
     Renderer as(const char* device) const {
         return Renderer(std::make_unique<CountingContext>(GlContext::open(GetParam()), device));

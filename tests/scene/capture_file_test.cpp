@@ -284,7 +284,7 @@ TEST(CrashCaptureFile, HoldsTheQueryThatCrashed) {
                   Crowd().ask(ring, 10);
                   // The time goes into long queries: side by side, never touching, measured sample by sample.
                   const mobb::Tree tree(
-                      std::make_shared<const mobb::Clip>(0.1, std::vector<mobb::Disk>(20'000, {0, 0, 0.5})),
+                      std::make_shared<const mobb::Clip>(0.1, std::vector<mobb::Disk>(100'000, {0, 0, 0.5})),
                       {.levels = 1});
                   const mobb::PlacedTree a(tree, {}), b(tree, {.translate = {0.8, 0.8}, .rotate_deg = 30});
                   ::signal(SIGVTALRM, [](int) { std::abort(); });
