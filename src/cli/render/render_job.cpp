@@ -312,9 +312,10 @@ void RenderPlan::draw(Backend backend) {
             if (job.arguments.ui) {
                 // The window's picture changes the working folder, to which names are relative.
                 writing.finish();
-                write_png(picture.outputs.image, picture_tests::window_picture(
-                                                     *job.paths->fitted(), picture.view, job.arguments.file, backend,
-                                                     job.arguments.picture.size, job.arguments.ui_scale.value_or(1)));
+                write_png(picture.outputs.image,
+                          picture_tests::window_picture(*job.paths->fitted(), picture.view, job.arguments.file, backend,
+                                                        job.arguments.picture.size, job.arguments.ui_scale.value_or(1))
+                              .picture);
             } else {
                 const auto drawn = std::make_shared<Drawn>(
                     draw_scene(job, picture, renderer ? &*renderer : nullptr, film ? &*film : nullptr, patience));
