@@ -183,8 +183,8 @@ void write_pictures(std::ostream& out, const CaseResult& result) {
 
 /// Where the name of what a line is about ends; 0 where no word says so.
 std::size_t end_of_subject(std::string_view line) {
-    constexpr std::array<std::string_view, 6> kVerbs{
-        ": ", ", text: ", " is missing", " is not in the golden", " comes before ", " is called "};
+    constexpr std::array<std::string_view, 6> kVerbs{": ",         " is missing", " is new",
+                                                     " moved by ", " turned by ", " was "};
     bool quoted = false;
     for (std::size_t i = 0; i < line.size(); ++i) {
         if (line[i] == '\'') quoted = !quoted;

@@ -349,7 +349,7 @@ void render_case(const Command& command, const RenderArguments& arguments) {
     if (lower_extension(arguments.outputs.image) != ".png")
         throw InputError(arguments.outputs.image, "the picture of a case is written as .png; rename the output");
     picture_tests::PictureMaker maker(arguments.backend.value_or(Backend::automatic));
-    write_png(arguments.outputs.image, maker.make(drawn.shot));
+    write_png(arguments.outputs.image, maker.make(drawn.shot).picture);
 }
 
 }  // namespace mobbscope::cli
