@@ -1,10 +1,9 @@
 /// Draws picture tests with real changes, drawn by a seed, and says what comparing finds of each; draws all of them for
 /// comparison with another machine's; compares two such folders. bench/guard makes tables of it.
 ///
-///     bench_guard changes [--seed N] [--number N] [--goldens DRAWN [--fonts other]] FOLDER...
-///     bench_guard draw OUT [--backend B] [--samples N] [--shift PIXELS] [--noise SEED]
-///                          [--text no] [--panels no] FOLDER...
-///     bench_guard compare DRAWN DRAWN [--fonts other]
+///     bench_guard changes [--seed N] [--number N] [--goldens DRAWN] FOLDER...
+///     bench_guard draw OUT [--backend B] [--samples N] [--shift PIXELS] [--noise SEED] [--panels no] FOLDER...
+///     bench_guard compare DRAWN DRAWN
 ///
 /// `changes` prints a line for each change, `compare` one for each picture. Lines are of fields with tabs between them,
 /// the first line is their names. Cases of the window are left out.
@@ -15,9 +14,8 @@
 #include <base/random.h>
 #include <base/text.h>
 #include <picture_tests/picture_maker.h>
-#include <picture_tests/run_cases.h>
+#include <picture_tests/picture_state.h>
 #include <picture_tests/test_case.h>
-#include <render/compare/draw_list_compare.h>
 #include <render/image/image_diff.h>
 #include <render/image/png.h>
 
@@ -73,7 +71,7 @@ std::optional<Drawn> changed(const Kind& kind, const Drawn& before, PictureMaker
         if (!std::get<ChangeImage>(kind.change)(out.picture, before, random, what)) return std::nullopt;
         return out;
     }
-    out.picture = maker.make(out.shot, out.lists);
+    out.picture = maker.draw(out.shot, out.lists);
     return out;
 }
 
@@ -106,37 +104,36 @@ std::optional<double> largest_move(const std::vector<DrawList>& a, const std::ve
 
 constexpr int kRounding = 1;        // of 255: what nobody sees
 constexpr double kLeastMove = 0.2;  // pixels: a change that moves all by less is not counted among those to be seen
-constexpr const char* kComparedFields = "altered\tlargest\tbeyond\tallowed\tpasses\tloss";
+constexpr const char* kComparedFields = "altered\tlargest\tbeyond\tallowed\tpasses";
 
 /// The fields of two pictures.
 std::string compared(const Image& actual, const Image& golden) {
     const ImageDiff found = diff(actual, golden);
     if (!found.same_size) throw InputError("the pictures differ in size");
-    return formatted("%lld\t%d\t%lld\t%lld\t%d\t%.6f", static_cast<long long>(found.unequal), found.largest,
+    return formatted("%lld\t%d\t%lld\t%lld\t%d", static_cast<long long>(found.unequal), found.largest,
                      static_cast<long long>(found.differing), static_cast<long long>(found.allowed()),
-                     found.passes ? 1 : 0, similarity_loss(actual, golden, nullptr));
+                     found.passes ? 1 : 0);
 }
 
 struct Options {
     std::vector<std::string> words;  ///< what is no option
-    std::map<std::string, std::string, std::less<>> named{
-        {"--seed", "1"},       {"--number", "10"}, {"--goldens", ""}, {"--samples", ""},   {"--noise", ""},
-        {"--backend", "auto"}, {"--shift", "0"},   {"--text", "yes"}, {"--panels", "yes"}, {"--fonts", "same"}};
+    std::map<std::string, std::string, std::less<>> named{{"--seed", "1"},   {"--number", "10"}, {"--goldens", ""},
+                                                          {"--samples", ""}, {"--noise", ""},    {"--backend", "auto"},
+                                                          {"--shift", "0"},  {"--panels", "yes"}};
     const std::string& operator[](const char* name) const { return named.find(name)->second; }
 };
 
-/// What is first found of two panels' lists, or "-"; numbers of pixels, which processors alter, do not count.
-std::string list_difference(const std::string& actual, const std::string& golden, const Options& options) {
-    const DrawListComparison found = compare_draw_lists(actual, "the draw list", golden, "the golden",
-                                                        {.other_fonts = options["--fonts"] == "other", .most = 1});
-    return found.same() ? "-" : found.differences.front();
+/// What is first found of two states, or "-".
+std::string state_difference(const std::string& actual, const std::string& golden) {
+    const StateDifferences found = compare_states(actual, golden, "the golden");
+    return found.lines.empty() ? "-" : found.lines.front();
 }
 
 std::filesystem::path picture_file(const std::filesystem::path& folder, const std::string& name) {
     return folder / (name + ".png");
 }
-std::filesystem::path list_file(const std::filesystem::path& folder, const std::string& name) {
-    return folder / (name + ".draw.json");
+std::filesystem::path state_file(const std::filesystem::path& folder, const std::string& name) {
+    return folder / (name + ".state.json");
 }
 
 void make_changes(const Options& options) {
@@ -145,20 +142,21 @@ void make_changes(const Options& options) {
         std::string name;
         Drawn here;
         Image picture;
-        std::string list;
+        std::string state;
     };
     std::vector<Golden> goldens;
     for (NamedShot& one : read_shots(options.words)) {
         Golden golden{std::move(one.name), {std::move(one.shot), {}, {}}, {}, {}};
         golden.here.lists = panel_lists(golden.here.shot);
-        golden.here.picture = maker.make(golden.here.shot, golden.here.lists);
+        golden.here.picture = maker.draw(golden.here.shot, golden.here.lists);
         const std::string& from = options["--goldens"];
         golden.picture = from.empty() ? golden.here.picture : read_png(picture_file(from, golden.name));
-        golden.list = from.empty() ? maker.draw_lists(golden.here.lists) : read_file(list_file(from, golden.name));
+        golden.state = from.empty() ? picture_state(golden.here.shot, golden.here.lists)
+                                    : read_file(state_file(from, golden.name));
         goldens.push_back(std::move(golden));
     }
     if (goldens.empty()) throw InputError("there is no case to change");
-    std::cout << "kind\tcase\twhat\there\tmoved\t" << kComparedFields << "\tlist\n";
+    std::cout << "kind\tcase\twhat\there\tmoved\t" << kComparedFields << "\tstate\n";
     Uniform random(std::stoull(options["--seed"]));
     const int number = std::stoi(options["--number"]);
     for (const Kind& kind : kinds_of_change()) {
@@ -170,14 +168,15 @@ void make_changes(const Options& options) {
             if (!after) continue;
             const std::optional<double> moved =
                 kind.moves ? largest_move(golden.here.lists, after->lists) : std::nullopt;
-            const std::string list = maker.draw_lists(after->lists);
-            if (after->picture.rgba == golden.here.picture.rgba && list == maker.draw_lists(golden.here.lists))
+            const std::string state = picture_state(after->shot, after->lists);
+            if (after->picture.rgba == golden.here.picture.rgba &&
+                state == picture_state(golden.here.shot, golden.here.lists))
                 continue;
             const int here = diff(after->picture, golden.here.picture).largest;
             if (here > kRounding && moved.value_or(1) >= kLeastMove) ++visible;
             std::cout << kind.name << '\t' << golden.name << '\t' << what << '\t' << here << '\t'
                       << (moved ? formatted("%.3f", *moved) : "-") << '\t' << compared(after->picture, golden.picture)
-                      << '\t' << list_difference(list, golden.list, options) << std::endl;
+                      << '\t' << state_difference(state, golden.state) << std::endl;
         }
     }
 }
@@ -210,12 +209,12 @@ void draw_all(const Options& options) {
               << maker.renderer().context().device() << '\n';
     for (NamedShot& one : read_shots(std::span(options.words).subspan(1))) {
         if (options["--panels"] == "no" && one.shot.panels.size() > 1) continue;
-        Shot shot = options["--text"] == "no" ? without_text(std::move(one.shot)) : std::move(one.shot);
+        Shot shot = std::move(one.shot);
         if (!options["--samples"].empty()) shot.picture.samples = parse_samples(options["--samples"]);
         std::vector<DrawList> lists = panel_lists(shot);
-        write_file(list_file(out, one.name), maker.draw_lists(lists));
+        write_file(state_file(out, one.name), picture_state(shot, lists));
         for (DrawList& list : lists) shift_scene(list.projection, std::stof(options["--shift"]));
-        Image picture = maker.make(shot, lists);
+        Image picture = maker.draw(shot, lists);
         if (!options["--noise"].empty()) add_noise(picture, std::stoull(options["--noise"]));
         write_png(picture_file(out, one.name), picture);
     }
@@ -229,12 +228,11 @@ void compare_folders(const Options& options) {
         if (entry.path().extension() == ".png") names.push_back(entry.path().stem().string());
     }
     std::ranges::sort(names);
-    std::cout << "case\t" << kComparedFields << "\tlist\n";
+    std::cout << "case\t" << kComparedFields << "\tstate\n";
     for (const std::string& name : names) {
         std::cout << name << '\t'
                   << compared(read_png(picture_file(actual, name)), read_png(picture_file(golden, name))) << '\t'
-                  << list_difference(read_file(list_file(actual, name)), read_file(list_file(golden, name)), options)
-                  << '\n';
+                  << state_difference(read_file(state_file(actual, name)), read_file(state_file(golden, name))) << '\n';
     }
 }
 

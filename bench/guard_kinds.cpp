@@ -282,6 +282,44 @@ bool remove_line(DrawList& list, Uniform& random, std::string& what) {
     return true;
 }
 
+bool remove_overlay_line(DrawList& list, Uniform& random, std::string& what) {
+    if (list.overlay_lines.empty()) return false;
+    const std::size_t found = pick(list.overlay_lines, random);
+    what = formatted("line %d", static_cast<int>(found));
+    take_out(list.overlay_lines, found);
+    return true;
+}
+
+bool shorten_floor_line(DrawList& list, Uniform& random, std::string& what) {
+    const auto found = pick_if(list.lines, random, [](const LineInstance& line) {
+        return line.order.layer == DrawLayer::surroundings && line.order.level == 0;
+    });
+    if (!found) return false;
+    LineInstance& line = list.lines[*found];
+    line.to = glm::mix(line.from, line.to, 0.95f);
+    what = formatted("line %d", static_cast<int>(*found));
+    return true;
+}
+
+/// Levels that are drawn from the last to the first.
+bool reverse_levels(DrawList& list, Uniform&, std::string& what) {
+    std::vector<int> levels;
+    for (const BoxInstance& box : list.boxes) levels.push_back(box.order.level);
+    const auto [first, last] = std::ranges::minmax_element(levels);
+    if (levels.empty() || *first == *last) return false;
+    for (BoxInstance& box : list.boxes) box.order.level = *first + *last - box.order.level;
+    what = formatted("%d to %d", *first, *last);
+    return true;
+}
+
+bool fade_boxes(DrawList& list, Uniform& random, std::string& what) {
+    if (list.boxes.empty()) return false;
+    const float by = factor(random, 0.1, 0.3);
+    for (BoxInstance& box : list.boxes) box.fill.a *= by;
+    what = formatted("by %.2f", double{by});
+    return true;
+}
+
 /// What these points cover, pixels.
 Rect around(std::span<const glm::vec3> points, const ViewProjection& projection) {
     std::optional<Rect> out;
@@ -364,6 +402,10 @@ constexpr Kind kKinds[] = {
     {"one line 10-30 % wider or thinner", widen_line},
     {"all lines 10-30 % wider or thinner", widen_all_lines},
     {"two lines or boxes in the other order", exchange_order},
+    {"line of the floor 5 % shorter", shorten_floor_line},
+    {"line over the picture missing", remove_overlay_line},
+    {"levels in the other order", reverse_levels},
+    {"boxes 10-30 % more or less opaque", fade_boxes},
     {"agent's colour by 8-24 of 255", recolor_agent},
     {"agent renamed", rename_one_agent},
     {"level off by one", shift_level},

@@ -25,10 +25,9 @@
 #include <import/tracks/tracks.h>
 #include <mobb/tree.h>
 #include <picture_tests/held_answers.h>
-#include <picture_tests/reference.h>
+#include <picture_tests/picture_state.h>
 #include <picture_tests/shot.h>
 #include <picture_tests/test_case.h>
-#include <render/compare/draw_list_compare.h>
 #include <render/image/png.h>
 #include <scene/fitted_scene.h>
 #include <scene/scene.h>
@@ -274,11 +273,11 @@ void read_png_file(const std::string& bytes) {
         require(read_png_bytes(png_bytes(image)).rgba == image.rgba, "a picture that was written is another one");
 }
 
-void read_draw_list(const std::string& bytes) {
-    static const std::string golden = read_file(MOBBSCOPE_SOURCE_DIR "/tests/app/review_cases/moved.draw.json");
-    require(compare_draw_lists(bytes, "a", bytes, "b").same(), "a draw list is not what it is");
-    compare_draw_lists(bytes, "a", golden, "b", {true, 12});
-    compare_draw_lists(golden, "a", bytes, "b");
+void read_state(const std::string& bytes) {
+    static const std::string other = read_file(MOBBSCOPE_SOURCE_DIR "/tests/app/review_cases/moved.state.json");
+    require(picture_tests::compare_states(bytes, bytes, "a").lines.empty(), "a state is not what it is");
+    picture_tests::compare_states(bytes, other, "a");
+    picture_tests::compare_states(other, bytes, "b");
 }
 
 void read_result_line(const std::string& bytes) { picture_tests::read_result_line(bytes, the_case()); }
@@ -296,11 +295,6 @@ void read_report(const std::string& bytes) {
         picture_tests::read_case_report(file.path(), kSeedFolder / "case", the_case());
     for (const picture_tests::CaseResult& result : report.results)
         picture_tests::check_bytes(result.fresh, report.file);
-}
-
-void read_reference(const std::string& bytes) {
-    std::ofstream(picture_tests::reference_file(scratch_folder()), std::ios::binary) << bytes;
-    picture_tests::read_reference(scratch_folder());
 }
 
 }  // namespace mobbscope::fuzz

@@ -24,10 +24,9 @@ void read_script(const std::string& bytes);
 void read_view_state(const std::string& bytes);
 void read_settings(const std::string& bytes);
 void read_png_file(const std::string& bytes);
-void read_draw_list(const std::string& bytes);
+void read_state(const std::string& bytes);  ///< of a picture
 void read_result_line(const std::string& bytes);
 void read_request_line(const std::string& bytes);
 void read_report(const std::string& bytes);
-void read_reference(const std::string& bytes);
 
 }  // namespace mobbscope::fuzz

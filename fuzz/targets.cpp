@@ -187,15 +187,16 @@ std::vector<std::string> script_seeds() {
                              files_in(kSource / "tests/app/goldens/crowd", ".script")});
 }
 
-std::vector<std::string> draw_list_seeds() {
-    return joined(std::array{files_in(kSource / "tests/app/review_cases", ".draw.json"),
-                             files_in(kSource / "assets/figures", "6.draw.json"),
-                             files_in(kSource / "tests/goldens", "disk_stack.draw.json")});
+std::vector<std::string> state_seeds() {
+    return joined(std::array{files_in(kSource / "tests/app/review_cases", ".state.json"),
+                             files_in(kSource / "assets/figures", "6.state.json"),
+                             files_in(kSource / "tests/goldens", "disk_stack.state.json"),
+                             files_in(kSource / "tests/app/goldens/queries", "hit.state.json")});
 }
 
 std::vector<std::string> png_seeds() {
     using namespace testing;
-    std::vector<std::string> out = files_in(kSource / "tests/render/goldens", ".plain.png");
+    std::vector<std::string> out = files_in(kSource / "tests/app/review_cases", "same.png");
     out.push_back(png_file({2, 1, 8, 6, false}, {0, 1, 2, 3, 4, 5, 6, 7, 8}));
     out.push_back(png_file({2, 2, 8, 0, false}, {1, 10, 20, 2, 30, 40}));
     out.push_back(
@@ -216,9 +217,9 @@ picture_tests::CaseResult a_result() {
     result.actual = png_bytes(actual);
     result.golden = png_bytes(golden);
     result.image = diff(actual, golden);
-    result.findings = {{result.file.golden(), "pixels", {}}, {result.file.draw(), "numbers", {"box of A"}}};
-    result.fresh = {{result.file.golden(), result.actual, result.golden}, {result.file.draw(), "{}", {}}};
-    result.drawn_by = {"osmesa", "llvmpipe", {{{"Inter.otf", "01ab"}}, "1.86", "Mesa 22.3.6, llvmpipe"}};
+    result.findings = {{result.file.golden(), "pixels", {}}, {result.file.state(), "the state", {"A moved"}}};
+    result.fresh = {{result.file.golden(), result.actual, result.golden}, {result.file.state(), "{}", {}}};
+    result.drawn_by = {"osmesa", "llvmpipe"};
     return result;
 }
 
@@ -231,16 +232,15 @@ std::vector<std::string> result_line_seeds() {
 std::vector<std::string> report_seeds() {
     const std::vector<picture_tests::CaseResult> results{a_result()};
     std::ostringstream report;
-    picture_tests::write_case_report(report, results, picture_tests::runs_of(results), ".");
+    picture_tests::write_case_report(report, results, ".");
     const std::string page = "<!DOCTYPE html>\n" + std::string(picture_tests::kReportBegins) + report.str() +
                              std::string(picture_tests::kReportEnds) + "\n";
     return {report.str(), page};
 }
 
 std::vector<std::string> request_line_seeds() {
-    return {
-        picture_tests::request_line({"a", {}}),
-        picture_tests::request_line({"b", {picture_tests::GoldenSource::here, picture_tests::FreshGoldens::of_all}})};
+    return {picture_tests::request_line({"a", {}}),
+            picture_tests::request_line({"b", {picture_tests::FreshGoldens::of_all}})};
 }
 
 std::vector<std::string> golden_seeds() {
@@ -248,8 +248,6 @@ std::vector<std::string> golden_seeds() {
                              files_in(kSource / "tests/goldens", "answers.trace.json"),
                              files_in(kSource / "tests/goldens", "answers.fit.json")});
 }
-
-std::vector<std::string> reference_seeds() { return files_in(kSource / "tests/goldens", "reference.json"); }
 
 std::vector<std::string> csv_seeds() { return files_in(kSource / "assets/scenes", ".csv"); }
 
@@ -283,11 +281,10 @@ constexpr Target kTargets[] = {
     {"script", Form::lines, read_script, script_seeds},
     {"settings", Form::json, read_settings, none},
     {"png", Form::png, read_png_file, png_seeds},
-    {"draw-list", Form::json, read_draw_list, draw_list_seeds},
+    {"state", Form::json, read_state, state_seeds},
     {"result-line", Form::json, read_result_line, result_line_seeds},
     {"request-line", Form::json, read_request_line, request_line_seeds},
     {"report", Form::json, read_report, report_seeds},
-    {"reference", Form::json, read_reference, reference_seeds},
 };
 
 }  // namespace

@@ -42,10 +42,7 @@ struct GoldenEnding {
     std::string_view ending;
     Held held;
 };
-constexpr auto kGoldenEndings = std::to_array<GoldenEnding>({{".plain.state.json", Held::picture},
-                                                             {".plain.draw.json", Held::picture},
-                                                             {".plain.png", Held::picture},
-                                                             {".draw.json", Held::picture},
+constexpr auto kGoldenEndings = std::to_array<GoldenEnding>({{".state.json", Held::picture},
                                                              {".png", Held::picture},
                                                              {".answers.json", Held::answers},
                                                              {".trace.json", Held::trace},
@@ -69,16 +66,16 @@ std::vector<Held> read_hold(const JsonPlace& place) {
 
 /// Of a case that draws nothing.
 void refuse_picture_keys(const JsonPlace& root) {
-    for (const char* key : {"tolerance", "threshold", "allowed", "mask", "draw_list", "columns", "select", "size",
-                            "scale", "samples", "background", "window"}) {
+    for (const char* key : {"tolerance", "threshold", "allowed", "mask", "state", "columns", "select", "size", "scale",
+                            "samples", "background", "window"}) {
         const auto found = root.find(key);
         if (found) found->fail("the case holds no picture; remove this, or hold the picture too");
     }
 }
 
-/// Whether a file begins as a golden of answers, trace or fit: a scene may have such a name too.
-bool begins_as(Held held, const std::filesystem::path& file) {
-    const std::string key = "\"mobbscope_" + std::string(name(held)) + '"';
+/// Whether a file with an ending such as ".answers.json" begins as such a golden: a scene may have such a name too.
+bool begins_as(std::string_view ending, const std::filesystem::path& file) {
+    const std::string key = "\"mobbscope_" + std::string(ending.substr(1, ending.rfind('.') - 1)) + '"';
     std::string begin(64, '\0');
     std::ifstream in(file, std::ios::binary);
     in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
@@ -198,7 +195,7 @@ std::vector<std::filesystem::path> orphaned_goldens(const std::filesystem::path&
         }
         const std::string name = at->path().filename().string();
         const bool is_golden = std::ranges::any_of(kGoldenEndings, [&](const GoldenEnding& one) {
-            return name.ends_with(one.ending) && (one.held == Held::picture || begins_as(one.held, at->path()));
+            return name.ends_with(one.ending) && (one.ending == ".png" || begins_as(one.ending, at->path()));
         });
         if (is_golden && !owned.contains(at->path().lexically_normal())) out.push_back(at->path());
     }
@@ -226,7 +223,7 @@ CaseTerms read_terms(const JsonPlace& root, const std::filesystem::path& folder)
         read_at(*allowed, [&] { set_allowance(out.diff, word_of(*allowed)); });
     }
     if (const auto mask = root.find("mask")) out.mask = read_path(*mask, folder);
-    if (const auto draw_list = root.find("draw_list")) out.draw_list = draw_list->boolean();
+    if (const auto state = root.find("state")) out.state = state->boolean();
     if (const auto limit = root.find("time_limit")) out.time_limit = limit->number(kLeastTimeLimit, kMostTimeLimit);
     if (const auto skip = root.find("skip")) {
         if (skip->string().empty()) skip->fail("say why the case is skipped");

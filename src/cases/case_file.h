@@ -6,15 +6,13 @@
 ///      "threshold": 3,                over the tolerance's, as `mobbscope diff --threshold`
 ///      "allowed": "12px",             over the tolerance's, as `mobbscope diff --allowed`
 ///      "mask": "NAME.mask.png",       only what is neither black nor transparent in it is compared
-///      "draw_list": false,            pixels alone are held
+///      "state": false,                pixels alone are held
 ///      "time_limit": 300,             seconds that it may take, 0.1..86400, instead of 60
 ///      "skip": "why"                  the case is reported as skipped
 ///
-/// Beside it stand its goldens: `NAME.png` and, of what is no window, the numbers of all that is drawn,
-/// `NAME.draw.json` (draw_list_json.h); where the folder has a reference, of what has no draw list `NAME.plain.*` too
-/// (picture_tests/reference.h). Answers, traces and fits (picture_tests/held_answers.h) have `NAME.answers.json`,
-/// `NAME.trace.json` and `NAME.fit.json`. A case that holds no picture draws nothing, and has no key that only concerns
-/// pictures.
+/// Beside it stand its goldens: `NAME.png` and what that shows, `NAME.state.json` (picture_tests/picture_state.h).
+/// Answers, traces and fits (picture_tests/held_answers.h) have `NAME.answers.json`, `NAME.trace.json` and
+/// `NAME.fit.json`. A case that holds no picture draws nothing, and has no key that only concerns pictures.
 #pragma once
 
 #include <base/json.h>
@@ -60,10 +58,7 @@ struct CaseFile {
     /// The folder that the name is relative to.
     std::filesystem::path folder() const;
     std::filesystem::path golden() const { return beside(".png"); }
-    std::filesystem::path draw() const { return beside(".draw.json"); }
-    std::filesystem::path plain() const { return beside(".plain.png"); }
-    std::filesystem::path plain_draw() const { return beside(".plain.draw.json"); }
-    std::filesystem::path plain_state() const { return beside(".plain.state.json"); }
+    std::filesystem::path state() const { return beside(".state.json"); }
     /// The first golden of what is held.
     std::filesystem::path golden_of(Held held) const;
     using Golden = std::filesystem::path (CaseFile::*)() const;
@@ -95,8 +90,8 @@ bool is_case_name(std::string_view name);
 inline constexpr std::string_view kReportFile = "report.json";
 
 /// Where no case holds them: the goldens in a folder and the folders in it. A folder with a report.json is
-/// what a run left (case_report.h), and left out; so is a NAME.answers.json, NAME.trace.json or NAME.fit.json that does
-/// not begin as such a golden does. Of what cannot be searched there are none.
+/// what a run left (case_report.h), and left out; so is a NAME.state.json, NAME.answers.json, NAME.trace.json or
+/// NAME.fit.json that does not begin as such a golden does. Of what cannot be searched there are none.
 std::vector<std::filesystem::path> orphaned_goldens(const std::filesystem::path& folder,
                                                     const std::vector<CaseFile>& cases);
 
@@ -105,7 +100,7 @@ struct CaseTerms {
     Tolerance tolerance = Tolerance::tight;
     DiffOptions diff;                           ///< the tolerance's, and what the case says over them
     std::optional<std::filesystem::path> mask;  ///< of the golden's size
-    bool draw_list = true;                      ///< whether there is to be one
+    bool state = true;                          ///< whether it is held beside the pixels
     std::vector<Held> hold{Held::picture};      ///< at least one, each once
     double time_limit = 60;                     ///< seconds that drawing and comparing may take
     std::optional<std::string> skip;            ///< why

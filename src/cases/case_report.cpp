@@ -76,28 +76,9 @@ bool is_same_folder(const std::filesystem::path& told, const std::filesystem::pa
     return !std::filesystem::exists(told, ignored) && own_name(told) == own_name(folder);
 }
 
-/// What a report tells of other folders.
-struct Others {
-    std::vector<CaseResult> results;
-    std::vector<DrawnRun> runs;
-};
-
-void read_run(const JsonPlace& place, const std::filesystem::path& folder, CaseReport& to, Others& others) {
-    DrawnRun run{{}, {}, place.require("cases").strings()};
-    if (run.names.empty()) place.require("cases").fail("names no case");
-    run.reference = read_drawn_with(place);
-    const std::optional<std::filesystem::path> told = told_folder(place, run.names.front(), to.file);
-    run.folder = told.value_or(folder);
-    if (told && !is_same_folder(*told, folder)) {
-        others.runs.push_back(std::move(run));
-    } else {
-        to.run = std::move(run);
-    }
-}
-
 /// `others`: takes what the report tells of other folders.
 CaseReport read_report(const std::filesystem::path& report, const std::filesystem::path& folder,
-                       const std::vector<CaseFile>& cases, Others& others) {
+                       const std::vector<CaseFile>& cases, std::vector<CaseResult>& others) {
     CaseReport out;
     std::error_code ignored;
     out.file = std::filesystem::is_directory(report, ignored) ? report / kReportFile : report;
@@ -113,8 +94,6 @@ CaseReport read_report(const std::filesystem::path& report, const std::filesyste
         version.fail("the report has version " + format_double(version.number()) + "; this program reads version " +
                      std::to_string(kReportVersion));
     }
-    if (const auto runs = root.find("runs"))
-        runs->each([&](const JsonPlace& run) { read_run(run, folder, out, others); });
     std::set<std::pair<std::filesystem::path, std::string>> seen;
     root.require("cases").each([&](const JsonPlace& result) {
         const JsonPlace named = result.require("name");
@@ -123,7 +102,7 @@ CaseReport read_report(const std::filesystem::path& report, const std::filesyste
         if (!seen.insert({told.value_or(folder), of}).second)
             named.fail("the case " + in_quotes(of) + " is given twice");
         if (told && !is_same_folder(*told, folder)) {
-            others.results.push_back(read_result(result, {case_named(*told, of)}));
+            others.push_back(read_result(result, {case_named(*told, of)}));
         } else if (std::ranges::find(cases, of, &CaseFile::name) != cases.end()) {
             out.results.push_back(read_result(result, cases));
         } else if (is_case_name(of) && brings_case(result)) {
@@ -137,22 +116,7 @@ CaseReport read_report(const std::filesystem::path& report, const std::filesyste
 
 }  // namespace
 
-std::vector<DrawnRun> runs_of(std::span<const CaseResult> results) {
-    std::vector<DrawnRun> out;
-    for (const CaseResult& result : results) {
-        const Reference& reference = result.drawn_by.reference;
-        const bool is_run = result.outcome != CaseOutcome::failed && result.outcome != CaseOutcome::skipped;
-        if (!is_run || draws_nothing(result) || !result.other_here.empty() || reference.opengl.empty()) continue;
-        const std::filesystem::path folder = whole_path(result.file.folder());
-        auto run = std::ranges::find(out, folder, &DrawnRun::folder);
-        if (run == out.end()) run = out.insert(out.end(), {folder, reference, {}});
-        if (run->reference == reference) run->names.push_back(result.file.name);
-    }
-    return out;
-}
-
-void write_case_report(std::ostream& out, std::span<const CaseResult> results, std::span<const DrawnRun> runs,
-                       const std::filesystem::path& where) {
+void write_case_report(std::ostream& out, std::span<const CaseResult> results, const std::filesystem::path& where) {
     const auto told_as = [&](const std::filesystem::path& folder) {
         return whole_path(folder).lexically_relative(whole_path(where)).generic_string();
     };
@@ -160,13 +124,6 @@ void write_case_report(std::ostream& out, std::span<const CaseResult> results, s
     JsonWriter json(text);
     json.begin_object();
     json.member("mobbscope_report", kReportVersion);
-    json.list("runs", runs, [&](const DrawnRun& run) {
-        json.begin_object();
-        json.member("folder", told_as(run.folder));
-        write_drawn_with(json, run.reference);
-        json.values("cases", run.names);
-        json.end_object();
-    });
     json.begin_array("cases");
     for (const CaseResult& result : results) {
         if (is_told(result)) write_result(json, result, Pictures::not_in_fresh, told_as(result.file.folder()));
@@ -179,12 +136,12 @@ void write_case_report(std::ostream& out, std::span<const CaseResult> results, s
 
 CaseReport read_case_report(const std::filesystem::path& report, const std::filesystem::path& folder,
                             const std::vector<CaseFile>& cases) {
-    Others others;
+    std::vector<CaseResult> others;
     CaseReport out = read_report(report, folder, cases, others);
-    if (out.results.empty() && out.unknown.empty() && !out.run && !others.results.empty()) {
+    if (out.results.empty() && out.unknown.empty() && !others.empty()) {
         throw InputError(out.file.string(), "",
-                         "tells of the goldens in " + others.results.front().file.folder().string() +
-                             ", not of those in " + folder.string() + "; give that folder, or another report");
+                         "tells of the goldens in " + others.front().file.folder().string() + ", not of those in " +
+                             folder.string() + "; give that folder, or another report");
     }
     return out;
 }
@@ -197,7 +154,6 @@ std::string add_to_case_report(const std::filesystem::path& output, const std::f
     std::ranges::copy_if(results, std::back_inserter(told), is_told);
     const std::filesystem::path file = output / kReportFile;
     std::error_code ignored;
-    std::vector<DrawnRun> runs = runs_of(results);
     std::string replaced;
     if (results.empty() || (told.empty() && !std::filesystem::exists(file, ignored))) return replaced;
     make_folder_of(file);
@@ -209,14 +165,12 @@ std::string add_to_case_report(const std::filesystem::path& output, const std::f
     }
     if (std::filesystem::exists(file, ignored)) {
         try {
-            Others others;
+            std::vector<CaseResult> others;
             std::vector<CaseResult> before = read_report(file, folder, cases_there(folder), others).results;
             std::erase_if(before, [&](const CaseResult& one) {
                 return cases == Cases::all || std::ranges::find(results, one.file.name, name_of) != results.end();
             });
-            for (std::vector<CaseResult>* kept : {&before, &others.results})
-                std::ranges::move(*kept, std::back_inserter(told));
-            std::ranges::move(others.runs, std::back_inserter(runs));
+            for (std::vector<CaseResult>* kept : {&before, &others}) std::ranges::move(*kept, std::back_inserter(told));
         } catch (const InputError& error) {
             replaced = "the old report cannot be read and is replaced: " + std::string(error.what());
         }
@@ -228,7 +182,7 @@ std::string add_to_case_report(const std::filesystem::path& output, const std::f
         return replaced;
     }
     std::ostringstream report;
-    write_case_report(report, told, runs, output);
+    write_case_report(report, told, output);
     write_file(file, std::move(report).str());
     return replaced;
 }

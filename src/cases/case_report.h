@@ -2,11 +2,8 @@
 /// and to take them, on any system and without drawing anything.
 ///
 ///     {"mobbscope_report": 1,
-///      "runs": [{"folder": "../goldens", "opengl", "imgui", "fonts", "cases": [NAME, ...]}],
 ///      "cases": [{...}, ...]}                             each as in result_line.h, and
 ///      "folder": "../goldens"                             of its goldens, relative to the report
-///
-/// A run tells of its folder which cases' pictures it drew, also of those that passed, and with what.
 ///
 /// It is `report.json` in the folder of `mobbscope test --output`, and in the page of `--html`.
 #pragma once
@@ -30,24 +27,13 @@ namespace mobbscope::picture_tests {
 inline constexpr std::string_view kReportBegins = "<script type=\"application/json\" id=\"mobbscope-report\">";
 inline constexpr std::string_view kReportEnds = "</script>";
 
-/// What a run of a folder drew, where its goldens are from or there is no reference.
-struct DrawnRun {
-    std::filesystem::path folder;
-    Reference reference;             ///< what drew these pictures
-    std::vector<std::string> names;  ///< of the cases; at least one
-};
-/// By folder. Without what was drawn with something else than the first of its folder.
-std::vector<DrawnRun> runs_of(std::span<const CaseResult> results);
-
 /// Without the cases that passed or were skipped. No '<' is in it, so that a page can hold it. `where`: the folder that
 /// the report goes to.
-void write_case_report(std::ostream& out, std::span<const CaseResult> results, std::span<const DrawnRun> runs,
-                       const std::filesystem::path& where);
+void write_case_report(std::ostream& out, std::span<const CaseResult> results, const std::filesystem::path& where);
 
 struct CaseReport {
     std::filesystem::path file;  ///< that was read
     std::vector<CaseResult> results;
-    std::optional<DrawnRun> run;       ///< the last of the folder; none if it drew nothing, or the report does not say
     std::vector<std::string> unknown;  ///< cases that are none of those given, and whose files it does not bring
 };
 

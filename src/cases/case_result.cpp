@@ -13,7 +13,7 @@ bool draws_nothing(const CaseResult& result) {
 
 ImageDiff compared_again(const CaseResult& result, const Image& actual, const Image& golden) {
     std::optional<Image> mask;
-    if (result.mask) mask = read_mask(*result.mask, {golden.width, golden.height}, result.shown);
+    if (result.mask) mask = read_mask(*result.mask, {golden.width, golden.height}, result.file.golden());
     return diff(actual, golden, result.image ? result.image->options : DiffOptions{}, mask ? &*mask : nullptr);
 }
 
@@ -28,7 +28,7 @@ std::optional<Image> heat_map(const CaseResult& result) {
 
 bool can_be_taken(const CaseResult& result) {
     const bool is_no_golden = result.outcome == CaseOutcome::different || result.outcome == CaseOutcome::missing_golden;
-    if (!is_no_golden || !result.other_here.empty()) return false;
+    if (!is_no_golden) return false;
     const std::size_t kept = unmended(result).size();
     return kept == 0 || kept < result.findings.size();
 }

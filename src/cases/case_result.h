@@ -9,7 +9,6 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -50,33 +49,13 @@ struct Finding {
     std::vector<std::string> words;  ///< of numbers what differs, one line each; else empty
 };
 
-/// What said whether a picture is its golden's.
-enum class DecidedBy {
-    pixels,
-    draw_list,     ///< elsewhere than where the goldens are from, and the pixels differ: what is drawn
-    ssim,          ///< ... of what has no draw list: structural similarity
-    without_text,  ///< ... and where fonts are others: the golden without text
-};
-inline constexpr std::array<std::string_view, 4> kDecidedBy{"pixels", "draw list", "ssim", "without text"};
-inline std::string_view name(DecidedBy by) { return kDecidedBy[static_cast<std::size_t>(by)]; }
-
 /// In the place of a backend: the case holds no picture.
 inline constexpr std::string_view kDrawsNothing = "none";
 
-/// What pictures depend on, as a reference has it (picture_tests/reference.h).
-struct Reference {
-    std::map<std::string, std::string> fonts;  ///< file name to SHA-256, 64 hexadecimal digits
-    std::string imgui;                         ///< version of Dear ImGui
-    std::string opengl;                        ///< the driver's version and what draws; the processor does not matter
-
-    bool operator==(const Reference&) const = default;
-};
-
 /// What drew the pictures.
 struct DrawnBy {
-    std::string backend;    ///< "osmesa", "egl", kDrawsNothing; empty without OpenGL
-    std::string renderer;   ///< what OpenGL calls itself
-    Reference reference{};  ///< of a result that an older version wrote some of it may be empty
+    std::string backend;   ///< "osmesa", "egl", kDrawsNothing; empty without OpenGL
+    std::string renderer;  ///< what OpenGL calls itself
 };
 
 /// Pictures are packed, as the bytes of PNG files: a run may have hundreds.
@@ -88,17 +67,13 @@ struct CaseResult {
     std::vector<Finding> findings;     ///< of a case that is different or lacks a golden
     double seconds = 0;                ///< drawing and comparing
     Tolerance tolerance = Tolerance::tight;
-    DecidedBy decided_by = DecidedBy::pixels;
-    std::filesystem::path shown;  ///< the golden that `actual` is held against: the case's, or the one without text
-    std::optional<std::filesystem::path> mask;  ///< of that comparison
-    std::string actual;              ///< empty where there is none; without text if only that picture is different
+    std::optional<std::filesystem::path> mask;
+    std::string actual;              ///< empty where there is none
     std::string golden;              ///< likewise, and of a case that passed
     std::optional<ImageDiff> image;  ///< where both exist, without its heat map
     /// All goldens of the case as they would be now: of one that is different or lacks a golden; of others if that was
     /// asked for.
     std::vector<GoldenChange> fresh;
-    /// What is other here than where the goldens are from (picture_tests/reference.h); empty if nothing is.
-    std::string other_here;
     DrawnBy drawn_by;
     std::string not_drawn;                    ///< why its picture was not drawn, without OpenGL; else empty
     std::vector<std::filesystem::path> read;  ///< by the process that drew it and not told before; from the root
@@ -115,19 +90,12 @@ ImageDiff compared_again(const CaseResult& result, const Image& actual, const Im
 /// Of a result that has both pictures; nothing if they cannot be compared again.
 std::optional<Image> heat_map(const CaseResult& result);
 
-/// Whether what there is now is not the golden's, and goldens are taken here.
+/// Whether what there is now is not the golden's, and may become it.
 bool can_be_taken(const CaseResult& result);
 /// What goldens cannot mend: the answers that are not those that the scene expects.
 std::vector<Finding> unmended(const CaseResult& result);
 /// Whether the case would still be different if all its goldens were taken.
 inline bool stays_different(const CaseResult& result) { return !unmended(result).empty(); }
-
-/// What the goldens of a run are held to be from.
-enum class GoldenSource {
-    reference,  ///< what the reference.json of their folder says, or here if there is none
-    here,       ///< here, whatever it says: this becomes the reference
-};
-inline constexpr std::array<std::string_view, 2> kGoldenSources{"reference", "here"};
 
 /// Of which cases all goldens are made as they would be now (CaseResult::fresh), besides those that did not pass.
 enum class FreshGoldens {
@@ -138,7 +106,6 @@ enum class FreshGoldens {
 inline constexpr std::array<std::string_view, 3> kFreshGoldens{"of failed", "missing", "of all"};
 
 struct RunOptions {
-    GoldenSource source = GoldenSource::reference;
     FreshGoldens fresh = FreshGoldens::of_failed;
     std::optional<std::string> asked{};  ///< the text of the case, which its file is to have; none: what that has
 };
@@ -159,7 +126,7 @@ Summary summary(std::span<const CaseResult> results);
 /// "1 passed, 2 different, 3 without a golden, 4 failed, 5 skipped"; what there is none of is left out.
 std::string sum_of(const Summary& summary);
 
-/// "a.png: ...; a.draw.json: ..."
+/// "a.png: ...; a.state.json: ..."
 std::string message_of(std::span<const Finding> findings);
 
 /// All that is wrong, the most important fact first, one line each; of one that was skipped why.

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <map>
 #include <span>
 #include <sstream>
 #include <string>
@@ -42,13 +41,13 @@ std::optional<std::string> unpacked(const JsonPlace& place) {
 std::filesystem::path golden_at(const JsonPlace& place, const CaseFile& file) {
     const std::string& ending = place.string();
     if (!is_golden_ending(ending))
-        place.fail(in_quotes(ending) + " is no golden of a case, such as .png or .draw.json");
+        place.fail(in_quotes(ending) + " is no golden of a case, such as .png or .state.json");
     return file.beside(ending);
 }
 
-/// What would be written in the place of the golden that a result shows; null if nothing would.
-const GoldenChange* shown_change(const std::vector<GoldenChange>& fresh, const std::filesystem::path& shown) {
-    const auto found = std::ranges::find(fresh, shown, &GoldenChange::file);
+/// What would be written in the place of a golden; null if nothing would.
+const GoldenChange* change_of(const std::vector<GoldenChange>& fresh, const std::filesystem::path& golden) {
+    const auto found = std::ranges::find(fresh, golden, &GoldenChange::file);
     return found == fresh.end() ? nullptr : &*found;
 }
 
@@ -70,15 +69,6 @@ Value named(const JsonPlace& place, std::span<const std::string_view> names) {
     const std::optional<Value> value = enumerator_named<Value>(names, place.string());
     if (!value) place.fail(in_quotes(place.string()) + " is none of the names");
     return *value;
-}
-
-std::map<std::string, std::string> read_fonts(const JsonPlace& place) {
-    std::map<std::string, std::string> out;
-    for (int i = 0; i < place.members(); ++i) {
-        const JsonPlace font = place.member(i);
-        out.emplace(font.key(), font.string());
-    }
-    return out;
 }
 
 PictureSize read_picture_size(const JsonPlace& place) {
@@ -139,11 +129,8 @@ void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures,
     // Of what draws nothing no pixel is compared.
     const bool draws = !draws_nothing(result);
     json.member("tolerance", draws ? std::optional(std::string(name(result.tolerance))) : std::nullopt);
-    json.member("decided_by", draws ? std::optional(std::string(name(result.decided_by))) : std::nullopt);
-    json.member("other_here", result.other_here);
     json.member("backend", result.drawn_by.backend);
     json.member("renderer", result.drawn_by.renderer);
-    write_drawn_with(json, result.drawn_by.reference);
     if (lacks_opengl(result)) json.member("not_drawn", result.not_drawn);
     json.key("diff");
     result.image ? write_diff(json, *result.image) : json.null();
@@ -154,9 +141,8 @@ void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures,
         json.values("words", finding.words);
         json.end_object();
     });
-    json.member("shown", result.shown.empty() ? "" : result.file.ending_of(result.shown));
     json.member("mask", result.mask ? std::optional(mask_name(result)) : std::nullopt);
-    const bool there_already = pictures == Pictures::not_in_fresh && shown_change(result.fresh, result.shown);
+    const bool there_already = pictures == Pictures::not_in_fresh && change_of(result.fresh, result.file.golden());
     json.member("actual", there_already ? std::nullopt : packed_picture(result.actual));
     json.member("golden", there_already ? std::nullopt : packed_picture(result.golden));
     json.list("fresh", result.fresh, [&](const GoldenChange& fresh) {
@@ -167,19 +153,6 @@ void write_result(JsonWriter& json, const CaseResult& result, Pictures pictures,
         json.end_object();
     });
     json.end_object();
-}
-
-void write_drawn_with(JsonWriter& json, const Reference& reference) {
-    json.begin_object("fonts");
-    for (const auto& [font, hash] : reference.fonts) json.member(font, hash);
-    json.end_object();
-    json.member("imgui", reference.imgui);
-    json.member("opengl", reference.opengl);
-}
-
-Reference read_drawn_with(const JsonPlace& place) {
-    const JsonPlace fonts = place.require("fonts");
-    return {read_fonts(fonts), place.require("imgui").string(), place.require("opengl").string()};
 }
 
 CaseResult read_result(const JsonPlace& root, const std::vector<CaseFile>& cases) {
@@ -196,15 +169,9 @@ CaseResult read_result(const JsonPlace& root, const std::vector<CaseFile>& cases
     if (const auto read = root.find("read")) {
         read->each([&](const JsonPlace& one) { result.read.emplace_back(one.string()); });
     }
-    const JsonPlace tolerance = root.require("tolerance"), decided_by = root.require("decided_by");
+    const JsonPlace tolerance = root.require("tolerance");
     if (!tolerance.is_null()) result.tolerance = named<Tolerance>(tolerance, kTolerances);
-    if (!decided_by.is_null()) result.decided_by = named<DecidedBy>(decided_by, kDecidedBy);
-    result.other_here = root.require("other_here").string();
     result.drawn_by = {root.require("backend").string(), root.require("renderer").string()};
-    Reference& reference = result.drawn_by.reference;
-    if (const auto opengl = root.find("opengl")) reference.opengl = opengl->string();
-    if (const auto imgui = root.find("imgui")) reference.imgui = imgui->string();
-    if (const auto fonts = root.find("fonts")) reference.fonts = read_fonts(*fonts);
     if (const auto not_drawn = root.find("not_drawn")) result.not_drawn = not_drawn->string();
     const JsonPlace diff = root.require("diff");
     if (!diff.is_null()) result.image = read_diff(diff);
@@ -217,14 +184,12 @@ CaseResult read_result(const JsonPlace& root, const std::vector<CaseFile>& cases
         const JsonPlace golden = one.require("golden");
         GoldenChange change{golden_at(golden, *file), unpacked(one.require("bytes")),
                             unpacked(one.require("replaces"))};
-        if (shown_change(result.fresh, change.file)) golden.fail(in_quotes(golden.string()) + " is given twice");
+        if (change_of(result.fresh, change.file)) golden.fail(in_quotes(golden.string()) + " is given twice");
         result.fresh.push_back(std::move(change));
     });
-    const JsonPlace shown = root.require("shown");
-    if (!shown.string().empty()) result.shown = golden_at(shown, *file);
     const JsonPlace mask = root.require("mask");
     if (!mask.is_null()) result.mask = read_path(mask, file->file.parent_path());
-    const GoldenChange* there_already = shown_change(result.fresh, result.shown);
+    const GoldenChange* there_already = change_of(result.fresh, file->golden());
     const JsonPlace actual = root.require("actual"), golden = root.require("golden");
     result.actual = unpacked(actual).value_or(there_already ? there_already->bytes.value_or("") : "");
     result.golden =
@@ -248,7 +213,6 @@ std::string request_line(const CaseRequest& request) {
     JsonWriter json(out);
     json.begin_object(JsonWriter::Layout::row);
     json.member("name", request.name);
-    json.member("source", kGoldenSources[static_cast<std::size_t>(request.options.source)]);
     json.member("fresh", kFreshGoldens[static_cast<std::size_t>(request.options.fresh)]);
     if (request.options.asked) json.member("case", *request.options.asked);
     json.end_object();
@@ -260,7 +224,6 @@ CaseRequest read_request_line(std::string_view line) {
     const JsonText value = parse_json(line, name);
     const JsonPlace root(value, name);
     CaseRequest out{root.require("name").string()};
-    out.options.source = named<GoldenSource>(root.require("source"), kGoldenSources);
     out.options.fresh = named<FreshGoldens>(root.require("fresh"), kFreshGoldens);
     if (const auto asked = root.find("case")) out.options.asked = asked->string();
     return out;

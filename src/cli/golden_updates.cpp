@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <iostream>
 #include <iterator>
-#include <map>
 #include <optional>
 #include <string_view>
 
@@ -62,49 +61,6 @@ void check_patterns(const picture_tests::CaseReport& read, const std::vector<Cas
     }
 }
 
-/// By folder, what its goldens are drawn with.
-using References = std::map<std::filesystem::path, picture_tests::Reference>;
-
-/// What the goldens of all these cases are drawn with, if those of a report are taken, by folder. Throws InputError if
-/// the report does not say, or its job did not draw all of them.
-References references_of(const picture_tests::CaseReport& read, const std::vector<CaseFile>& cases) {
-    const auto refuse = [&](const std::string& name, const std::string& why) {
-        throw InputError(read.file.string(), cleaned(name), "--new-reference: " + why);
-    };
-    for (const CaseResult& one : read.results) {
-        if (lacks_opengl(one)) refuse(one.file.name, "its picture was not drawn; take the report of a job with OpenGL");
-        if (!one.other_here.empty()) {
-            const std::string file = picture_tests::reference_file(one.file.file.parent_path()).string();
-            refuse(one.file.name, "the job compared it with goldens of another system (" + one.other_here +
-                                      "), so the report may lack some that differ; remove " + file +
-                                      ", run the job again and take its report");
-        }
-    }
-    if (!read.run) {
-        refuse("",
-               "the report does not say what drew the pictures; run the job again with this Mobbscope, and take the "
-               "page of its --html");
-    }
-    std::vector<CaseFile> drawn;
-    std::ranges::copy_if(cases, std::back_inserter(drawn), [](const CaseFile& file) {
-        return picture_tests::read_terms(file).holds(picture_tests::Held::picture);
-    });
-    // A test may have asked for others, which are no files yet.
-    for (const CaseResult& one : read.results) {
-        if (!draws_nothing(one)) drawn.push_back(one.file);
-    }
-    References out;
-    for (const CaseFile& file : drawn) {
-        if (std::ranges::find(read.run->names, file.name) == read.run->names.end()) {
-            refuse(file.name,
-                   "the job did not draw it, or not as it drew the others; take the report of a job that draws all "
-                   "cases, without NAME and --shard, and without a reference.json of another system");
-        }
-        out.emplace(file.file.parent_path(), read.run->reference);
-    }
-    return out;
-}
-
 }  // namespace
 
 bool matches_any(const std::vector<std::string>& patterns, const std::string& name) {
@@ -115,7 +71,7 @@ bool matches_any(const std::vector<std::string>& patterns, const std::string& na
 
 void take_named(std::span<CaseResult> results, const std::vector<std::string>& patterns, std::ostream& say) {
     for (CaseResult& result : results) {
-        if (result.fresh.empty() || !result.other_here.empty()) continue;
+        if (result.fresh.empty()) continue;
         if (patterns.empty() || matches_any(patterns, result.file.name)) take_one(result, say);
     }
 }
@@ -131,43 +87,14 @@ void take_asked(std::span<CaseResult> results, const std::filesystem::path& fold
     }
 }
 
-void check_is_from_here(const std::filesystem::path& folder, const CaseResult& result) {
-    if (result.other_here.empty()) return;
-    throw InputError("--update: " + picture_tests::reference_file(result.file.file.parent_path()).string() +
-                     " says where the goldens are from, and here are " + result.other_here +
-                     "; take them there, or from the report of a job there with mobbscope test " +
-                     shell_word(folder.string()) + " --accept REPORT, or all anew with --update all --new-reference");
-}
-
-void take_as_reference(std::vector<CaseResult>& results, std::ostream& say) {
-    const picture_tests::Summary sum = picture_tests::summary(results);
-    if (sum[picture_tests::CaseOutcome::failed] > 0 || sum[picture_tests::CaseOutcome::skipped] > 0 ||
-        std::ranges::any_of(results, picture_tests::lacks_opengl)) {
-        warn(
-            "nothing is taken, as some of the cases cannot be drawn or are skipped: all goldens of a reference are "
-            "from one place");
-        return;
-    }
-    take_named(results, {}, say);
-    References references;
-    for (const CaseResult& result : results) {
-        if (!draws_nothing(result)) references[result.file.file.parent_path()] = result.drawn_by.reference;
-    }
-    for (const auto& [folder, reference] : references) {
-        picture_tests::write_reference(folder, reference);
-        say << "wrote " << cleaned(picture_tests::reference_file(folder).string()) << '\n';
-    }
-}
-
 picture_tests::RunOptions run_options(const std::string& name, const std::vector<std::string>& named, bool all) {
-    using picture_tests::FreshGoldens, picture_tests::GoldenSource;
-    if (matches_any(named, name)) return {GoldenSource::reference, FreshGoldens::of_all};
-    return {GoldenSource::reference, all ? FreshGoldens::missing : FreshGoldens::of_failed};
+    using picture_tests::FreshGoldens;
+    if (matches_any(named, name)) return {FreshGoldens::of_all};
+    return {all ? FreshGoldens::missing : FreshGoldens::of_failed};
 }
 
 bool take_report(const std::filesystem::path& report, const std::filesystem::path& folder,
-                 const std::vector<CaseFile>& cases, const std::vector<std::string>& patterns, bool new_reference,
-                 std::ostream& say) {
+                 const std::vector<CaseFile>& cases, const std::vector<std::string>& patterns, std::ostream& say) {
     const picture_tests::CaseReport read = picture_tests::read_case_report(report, folder, cases);
     check_patterns(read, cases, patterns);
     const auto is_meant = [&](const std::string& name) { return patterns.empty() || matches_any(patterns, name); };
@@ -175,12 +102,6 @@ bool take_report(const std::filesystem::path& report, const std::filesystem::pat
     bool all = true;
     int taken = 0, known = 0;
     const auto leave_out = [&](const std::string& name, const std::string& why) {
-        if (new_reference) {
-            throw InputError(read.file.string(), cleaned(name),
-                             why +
-                                 "; --new-reference takes all or nothing: mend the case, run the job again and take "
-                                 "its report");
-        }
         warn(name + ": not accepted: " + why);
         all = false;
     };
@@ -194,20 +115,11 @@ bool take_report(const std::filesystem::path& report, const std::filesystem::pat
             leave_out(one.file.name, "it has no golden to take: " + one.message);
             continue;
         }
-        if (!new_reference && !one.other_here.empty()) {
-            warn(one.file.name + ": the report is not from where its goldens are: it was drawn with " + one.other_here);
-        }
         const std::size_t before = changes.size();
         std::ranges::copy_if(one.fresh, std::back_inserter(changes), [](const GoldenChange& change) {
             return picture_tests::golden_bytes(change.file) != change.bytes;
         });
         ++(changes.size() > before ? taken : known);
-    }
-    for (const auto& [of, reference] : new_reference ? references_of(read, cases) : References()) {
-        const std::filesystem::path file = picture_tests::reference_file(of);
-        const std::optional<std::string> now = picture_tests::golden_bytes(file);
-        const std::string text = picture_tests::reference_text(reference);
-        if (now != text) changes.push_back({file, text, now});
     }
     check_bytes(changes, read.file);
     write_goldens(changes);

@@ -3,7 +3,6 @@
 
 #include <cases/case_file.h>
 #include <cases/case_result.h>
-#include <picture_tests/reference.h>
 
 #include <filesystem>
 #include <ostream>
@@ -29,20 +28,12 @@ void take_named(std::span<picture_tests::CaseResult> results, const std::vector<
 /// MachineError.
 void take_asked(std::span<picture_tests::CaseResult> results, const std::filesystem::path& folder, std::ostream& say);
 
-/// Throws InputError if the goldens of a case of the folder are from elsewhere: one taken here would be the odd one.
-void check_is_from_here(const std::filesystem::path& folder, const picture_tests::CaseResult& result);
-
-/// All goldens become what is drawn here, and the folders of those with pictures say so; nothing is taken if a case
-/// cannot be drawn.
-void take_as_reference(std::vector<picture_tests::CaseResult>& results, std::ostream& say);
-
 /// Makes the goldens of a report (case_report.h) those of its cases, byte by byte, all or none: of those that
 /// `patterns` name, without patterns of all. Whether none that was meant is left out; those are said, as are those that
-/// have these goldens already. `new_reference`: all folders of `cases` with pictures say then that they are drawn with
-/// what the job drew with. Throws InputError if the report cannot be read, knows none of them, was not held against the
-/// goldens that are there now, or is not enough for a new reference; MachineError if they cannot be written.
+/// have these goldens already. Throws InputError if the report cannot be read, knows none of them, or was not held
+/// against the goldens that are there now; MachineError if they cannot be written.
 bool take_report(const std::filesystem::path& report, const std::filesystem::path& folder,
                  const std::vector<picture_tests::CaseFile>& cases, const std::vector<std::string>& patterns,
-                 bool new_reference, std::ostream& say);
+                 std::ostream& say);
 
 }  // namespace mobbscope::cli

@@ -15,7 +15,6 @@
 #include <cli/program.h>
 #include <picture_tests/contact_sheet.h>
 #include <picture_tests/picture_maker.h>
-#include <picture_tests/reference.h>
 #include <picture_tests/reports.h>
 #include <picture_tests/run_cases.h>
 #include <render/image/image_diff.h>
@@ -63,7 +62,6 @@ struct TestCommandArguments {
     bool update = false;
     bool update_all = false;                ///< of those that are run
     std::vector<std::string> update_names;  ///< neither: ask
-    bool new_reference = false;             ///< with update_all or accept, of all cases
     std::filesystem::path accept;           ///< the report to take goldens from; empty: none
     bool strict = false;                    ///< an orphaned golden is a failure
     std::filesystem::path output = "mobbscope-test";
@@ -176,9 +174,8 @@ void check_reports(const TestCommandArguments& arguments, const std::vector<Case
     check_extension(arguments.html, ".html", "the report as a page is written as .html; rename it");
     check_extension(arguments.contact_sheet, ".png", "the contact sheet is written as .png; rename it");
     for (const CaseFile& file : all) {
-        for (const auto& read :
-             {file.file, file.golden(), file.plain(), file.draw(), file.plain_draw(), file.plain_state(),
-              file.golden_of(Held::answers), file.golden_of(Held::trace), file.golden_of(Held::fit)})
+        for (const auto& read : {file.file, file.golden(), file.state(), file.golden_of(Held::answers),
+                                 file.golden_of(Held::trace), file.golden_of(Held::fit)})
             note_read(read);
     }
     for (const std::filesystem::path& report : {arguments.junit, arguments.html, arguments.contact_sheet})
@@ -306,13 +303,13 @@ int answer_requests(const TestCommandArguments& arguments) {
     return kDone;
 }
 
-/// Throws InputError if the mask of a case does not fit its golden, or the state of its window has an old name.
+/// Throws InputError if the mask of a case does not fit its golden, or the state of its picture has an old name.
 void check_goldens(const std::vector<CaseFile>& cases) {
     for (const CaseFile& file : cases) {
         std::optional<std::filesystem::path> mask;
         std::optional<PictureSize> golden;
         std::optional<JsonText> state;
-        const std::string state_file = file.plain_state().string();
+        const std::string state_file = file.state().string();
         try {
             const picture_tests::CaseTerms terms = picture_tests::read_terms(file);
             if (terms.skip) continue;
@@ -348,9 +345,7 @@ void take(const TestCommandArguments& arguments, std::vector<CaseResult>& result
     if (!arguments.update) return;
     // Where standard output is a report, the rest goes beside it.
     std::ostream& say = arguments.json ? std::cerr : std::cout;
-    if (arguments.new_reference) {
-        take_as_reference(results, say);
-    } else if (asks(arguments)) {
+    if (asks(arguments)) {
         take_asked(results, arguments.output, say);
     } else {
         take_named(results, arguments.update_names, say);
@@ -361,14 +356,9 @@ void take(const TestCommandArguments& arguments, std::vector<CaseResult>& result
 std::vector<std::string> draw_all(const TestCommandArguments& arguments, const std::vector<CaseFile>& cases,
                                   OrderedResults& results, picture_tests::ContactSheet& sheet) {
     std::vector<picture_tests::CaseOrder> orders;
-    using picture_tests::FreshGoldens, picture_tests::GoldenSource;
-    for (const CaseFile& file : cases) {
-        orders.push_back({file, arguments.new_reference
-                                    ? picture_tests::RunOptions{GoldenSource::here, FreshGoldens::of_all}
-                                    : run_options(file.name, arguments.update_names, arguments.update_all)});
-    }
+    for (const CaseFile& file : cases)
+        orders.push_back({file, run_options(file.name, arguments.update_names, arguments.update_all)});
     const auto take_in = [&](CaseResult result) {
-        if (arguments.update && !arguments.new_reference) check_is_from_here(arguments.folder, result);
         if (!arguments.contact_sheet.empty()) sheet.add(result);
         for (const std::filesystem::path& file : std::exchange(result.read, {})) note_read(file);
         // A run may have thousands, and of those that passed only a page shows pictures, or goldens are taken.
@@ -415,8 +405,7 @@ int draw_and_hold(const TestCommandArguments& arguments) {
                                                                : picture_tests::cases_there(arguments.folder);
     if (!arguments.accept.empty()) {
         check_reports(arguments, all);
-        const bool taken =
-            take_report(arguments.accept, arguments.folder, all, arguments.names, arguments.new_reference, std::cout);
+        const bool taken = take_report(arguments.accept, arguments.folder, all, arguments.names, std::cout);
         flush_results();
         return taken ? kDone : kFailed;
     }
@@ -465,15 +454,6 @@ int draw_and_hold(const TestCommandArguments& arguments) {
     return ok ? kDone : kFailed;
 }
 
-/// A reference is that of all goldens of a folder.
-void check_new_reference(const TestCommandArguments& arguments) {
-    const bool takes = arguments.update_all || !arguments.accept.empty();
-    if (!arguments.new_reference || (takes && arguments.names.empty() && arguments.shard.is_all())) return;
-    throw InputError(
-        "--new-reference: goldens are from one place; take all of them, with --update all or --accept REPORT, and no "
-        "NAME");
-}
-
 /// Throws InputError for an option that says nothing where standard input says which cases are drawn.
 void check_requests(const Command& command, const std::string& from, const std::vector<std::string>& also) {
     for (const GivenOption& option : command.given()) {
@@ -502,7 +482,6 @@ int run_test(const Command& command, TestCommandArguments& arguments) {
     if (arguments.asked && asks(arguments)) {
         throw InputError("--update: standard input asks for cases already; name those whose pictures to take, or all");
     }
-    check_new_reference(arguments);
     return draw_and_hold(arguments);
 }
 
@@ -521,9 +500,6 @@ void add_test_options(Command& command, TestCommandArguments& arguments) {
                     "pass; without names, ask for each",
                     "NAME")
         .any_number();
-    command.add_flag("--new-reference", arguments.new_reference,
-                     "With --update all or --accept: say in reference.json what the goldens are drawn with, where "
-                     "they must be the very same");
     add_parsed(command, "--accept", arguments.accept, parse_file_name,
                "Draw nothing: take the goldens of a report, the folder of --output or the page of --html, byte "
                "by byte, on any system",

@@ -1,38 +1,20 @@
 #include <base/error.h>
 #include <picture_tests/picture_maker.h>
+#include <picture_tests/picture_state.h>
 #include <picture_tests/window_picture.h>
-#include <render/drawlist/draw_list_json.h>
 #include <render/pictures/build_draw_list.h>
 #include <render/pictures/sheet.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::picture_tests {
 
 namespace {
-
-/// The size of the scene without text out of a window of this size. It is small: what is drawn of a scene is held by
-/// the cases without a window.
-PictureSize size_of_scene(PictureSize window) {
-    return {std::max(window.width / 4, kMinSide), std::max(window.height / 4, kMinSide)};
-}
-
-/// A script whose expectation does not hold is a case that fails, like one that cannot be read.
-template <class Work>
-auto work_window(const Work& work) {
-    try {
-        return work();
-    } catch (const app::ExpectationError& error) {
-        throw InputError(error.what());
-    }
-}
-
-const app::Script* script_of(const Shot& shot) { return shot.window->script ? &*shot.window->script : nullptr; }
 
 PictureSize panel_size(const Shot& shot) {
     if (shot.panels.size() == 1) return shot.picture.size;
@@ -54,19 +36,25 @@ std::vector<DrawList> lists_of(const Shot& shot) {
 
 PictureMaker::PictureMaker(Backend backend) : renderer_(backend) {}
 
-Image PictureMaker::make(const Shot& shot) {
-    if (shot.window) {
-        refuse_warnings(renderer_.backend(), renderer_.context().warnings());
-        return work_window([&] {
-            return window_picture(*shot.panels.front().fitted, shot.panels.front().view, shot.scene_file,
-                                  *backend_from_name(renderer_.backend()), shot.picture.size, shot.window->scale,
-                                  script_of(shot));
-        });
+PictureMaker::Made PictureMaker::make(const Shot& shot) {
+    if (!shot.window) {
+        const std::vector<DrawList> lists = panel_lists(shot);
+        return {draw(shot, lists), picture_state(shot, lists)};
     }
-    return make(shot, panel_lists(shot));
+    refuse_warnings(renderer_.backend(), renderer_.context().warnings());
+    try {
+        const PicturePanel& panel = shot.panels.front();
+        WindowPicture window = window_picture(
+            *panel.fitted, panel.view, shot.scene_file, *backend_from_name(renderer_.backend()), shot.picture.size,
+            shot.window->scale, shot.window->script ? &*shot.window->script : nullptr);
+        return {std::move(window.picture), window_state(window.state)};
+    } catch (const app::ExpectationError& error) {
+        // A case that fails, like one that cannot be read.
+        throw InputError(error.what());
+    }
 }
 
-Image PictureMaker::make(const Shot& shot, const std::vector<DrawList>& lists) {
+Image PictureMaker::draw(const Shot& shot, const std::vector<DrawList>& lists) {
     refuse_warnings(renderer_.backend(), renderer_.context().warnings());
     const PictureOptions& options = shot.picture;
     if (lists.size() == 1) return renderer_.draw(lists.front(), options.samples);
@@ -77,27 +65,6 @@ Image PictureMaker::make(const Shot& shot, const std::vector<DrawList>& lists) {
     const Palette& colors = lists.front().palette;
     return make_sheet(cells, shot.columns, colors, options.background.value_or(colors.background),
                       metrics_of(options.size, options.scale), renderer_, options.size);
-}
-
-std::string PictureMaker::draw_lists(const std::vector<DrawList>& lists) {
-    std::ostringstream out;
-    if (lists.size() > 1) out << "[\n";
-    for (std::size_t i = 0; i < lists.size(); ++i) {
-        if (i > 0) out << ",\n";
-        const IdImage ids = renderer_.draw_ids(lists[i]);
-        write_draw_list(out, lists[i], &ids);
-    }
-    if (lists.size() > 1) out << "]\n";
-    return out.str();
-}
-
-PictureMaker::Window PictureMaker::window_without_text(const Shot& shot) {
-    const WindowContents contents = work_window([&] {
-        return window_contents(*shot.panels.front().fitted, shot.panels.front().view, shot.scene_file,
-                               *backend_from_name(renderer_.backend()), shot.picture.size, shot.window->scale,
-                               size_of_scene(shot.picture.size), script_of(shot));
-    });
-    return {renderer_.draw(contents.scene), contents.state};
 }
 
 std::vector<DrawList> panel_lists(const Shot& shot) {

@@ -21,22 +21,15 @@ class PictureMaker {
     std::string_view backend() const { return renderer_.backend(); }
     Renderer& renderer() { return renderer_; }
 
+    struct Made {
+        Image picture;
+        std::string state;  ///< what it shows (picture_state.h)
+    };
     /// Throws InputError if the view cannot be drawn or the window's script fails, MachineError if OpenGL reports an
     /// error or the shader compiler a warning.
-    Image make(const Shot& shot);
+    Made make(const Shot& shot);
     /// The picture of a shot without a window, of what its panels draw (panel_lists). Throws as make does.
-    Image make(const Shot& shot, const std::vector<DrawList>& lists);
-
-    /// What panels draw, as JSON with the number of pixels of each object (draw_list_json.h): an object, or for several
-    /// panels an array of them. Throws as make does.
-    std::string draw_lists(const std::vector<DrawList>& lists);
-
-    /// What a window shows: the scene in it without text, and its state as JSON. Throws as make does.
-    struct Window {
-        Image picture;
-        std::string state;
-    };
-    Window window_without_text(const Shot& shot);
+    Image draw(const Shot& shot, const std::vector<DrawList>& lists);
 
   private:
     Renderer renderer_;

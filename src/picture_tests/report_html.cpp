@@ -183,8 +183,8 @@ void write_pictures(std::ostream& out, const CaseResult& result) {
 
 /// Where the name of what a line is about ends; 0 where no word says so.
 std::size_t end_of_subject(std::string_view line) {
-    constexpr std::array<std::string_view, 6> kVerbs{
-        ": ", ", text: ", " is missing", " is not in the golden", " comes before ", " is called "};
+    constexpr std::array<std::string_view, 6> kVerbs{": ",         " is missing", " is new",
+                                                     " moved by ", " turned by ", " was "};
     bool quoted = false;
     for (std::size_t i = 0; i < line.size(); ++i) {
         if (line[i] == '\'') quoted = !quoted;
@@ -217,16 +217,13 @@ void write_first_lines(std::ostream& out, std::span<const std::string> lines) {
 
 /// What a golden holds, by what follows the name of its case; without one, the scene itself says what is to be.
 std::string_view kind_of_golden(const CaseFile& file, const std::filesystem::path& golden) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kKinds{
-        {{"", "What the scene expects"},
-         {".case.json", "Case"},
-         {".png", "Picture"},
-         {".draw.json", "Draw list"},
-         {".plain.png", "Picture without text"},
-         {".plain.state.json", "State of the window"},
-         {".answers.json", "Answers"},
-         {".trace.json", "Trace"},
-         {".fit.json", "Fit"}}};
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kKinds{{{"", "What the scene expects"},
+                                                                                   {".case.json", "Case"},
+                                                                                   {".png", "Picture"},
+                                                                                   {".state.json", "What is drawn"},
+                                                                                   {".answers.json", "Answers"},
+                                                                                   {".trace.json", "Trace"},
+                                                                                   {".fit.json", "Fit"}}};
     const std::string ending = golden.empty() ? "" : file.ending_of(golden);
     const auto kind = std::ranges::find(kKinds, ending, [](const auto& row) { return row.first; });
     return kind == kKinds.end() ? "Golden" : kind->second;
@@ -252,24 +249,10 @@ void write_words(std::ostream& out, const CaseResult& result) {
     out << "</div>\n";
 }
 
-/// Under the names of the goldens that they begin with.
 void write_notes(std::ostream& out, const CaseResult& result) {
     if (result.remarks.empty()) return;
-    const std::string stem = std::filesystem::path(result.file.name).filename().string() + '.';
-    std::map<std::string, std::vector<std::string>> notes;
-    for (const std::string& remark : result.remarks) {
-        const std::size_t end = remark.starts_with(stem) ? remark.find(": ", stem.size()) : std::string::npos;
-        if (end == std::string::npos) {
-            notes[""].push_back(remark);
-        } else {
-            notes[remark.substr(0, end)].push_back(remark.substr(end + 2));
-        }
-    }
     out << "<details class=\"roomy words\" open><summary>Notes</summary>\n";
-    for (const auto& [golden, lines] : notes) {
-        if (!golden.empty()) write_heading(out, result, result.file.file.parent_path() / golden);
-        write_lines(out, lines);
-    }
+    write_lines(out, result.remarks);
     out << "</details>\n";
 }
 
@@ -370,7 +353,6 @@ void write_facts(std::ostream& out, const RunFacts& facts, std::span<const CaseR
     write_fact(out, "Folder", facts.folder);
     if (!facts.shard.empty()) write_fact(out, "Shard", facts.shard);
     if (const std::string by = drawn_by(facts, results); !by.empty()) write_fact(out, "Drawn by", by);
-    for (const std::string& sentence : other_systems(results)) write_fact(out, "Other system", sentence);
     if (const std::string passed = differing_passes(results); !passed.empty()) write_fact(out, "Passed", passed);
     for (const std::string& orphan : facts.orphans) write_fact(out, "No case has", orphan);
     out << "</dl></details>\n";
@@ -485,7 +467,7 @@ void write_html(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
     }
     write_help(out);
     out << kReportBegins;
-    write_case_report(out, results, runs_of(results), std::filesystem::path(facts.page).parent_path());
+    write_case_report(out, results, std::filesystem::path(facts.page).parent_path());
     out << kReportEnds << "\n<script>\n" << report_assets::embedded("report.js") << "</script>\n</body>\n</html>\n";
 }
 

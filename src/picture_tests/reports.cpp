@@ -1,16 +1,12 @@
 #include <base/markup.h>
 #include <base/text.h>
 #include <cases/case_result.h>
-#include <picture_tests/reference.h>
 #include <picture_tests/reports.h>
 #include <render/image/image_diff.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <filesystem>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -71,34 +67,6 @@ std::string drawn_by(const RunFacts& facts, std::span<const CaseResult> results)
         return std::ranges::all_of(results, draws_nothing) ? "" : "nothing";
     }
     return facts.renderer.empty() ? facts.backend : facts.backend + ", " + facts.renderer;
-}
-
-std::vector<std::string> other_systems(std::span<const CaseResult> results) {
-    struct Folder {
-        std::string other_here;
-        std::array<int, kDecidedBy.size()> decided{};
-    };
-    std::map<std::filesystem::path, Folder> folders;
-    for (const CaseResult& result : results) {
-        if (result.other_here.empty()) continue;
-        Folder& folder = folders[result.file.file.parent_path()];
-        folder.other_here = result.other_here;
-        ++folder.decided[static_cast<std::size_t>(result.decided_by)];
-    }
-    std::vector<std::string> out;
-    constexpr std::array<std::string_view, kDecidedBy.size()> kWords{"pixels", "draw list", "structural similarity",
-                                                                     "the golden without text"};
-    for (const auto& [path, folder] : folders) {
-        std::string decided;
-        for (std::size_t i = 0; i < kWords.size(); ++i) {
-            if (folder.decided[i] == 0) continue;
-            decided +=
-                (decided.empty() ? "" : ", ") + std::to_string(folder.decided[i]) + " by " + std::string(kWords[i]);
-        }
-        out.push_back("Drawn with " + folder.other_here + " (" + reference_file(path).string() +
-                      "); decided: " + decided);
-    }
-    return out;
 }
 
 std::string differing_passes(std::span<const CaseResult> results) {
@@ -163,7 +131,6 @@ void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
         << sum_of(summary(results));
     if (const std::string by = drawn_by(facts, results); !by.empty()) out << "; drawn by " << cleaned(by);
     out << '\n';
-    for (const std::string& sentence : other_systems(results)) out << cleaned(sentence) << '\n';
     if (const std::string differing = differing_passes(results); !differing.empty()) out << differing << '\n';
     if (!updatable.empty()) {
         out << (pictures ? "Look at the pictures. Those that are right become goldens with\n  "
@@ -183,9 +150,6 @@ void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
     json.begin_object("summary", JsonWriter::Layout::row);
     for (std::size_t i = 0; i < sum.counts.size(); ++i) json.member(kOutcomeWords[i].key, sum.counts[i]);
     json.end_object();
-    if (const std::vector<std::string> sentences = other_systems(results); !sentences.empty()) {
-        json.list("other_system", sentences, [&](const std::string& sentence) { json.value(sentence); });
-    }
     json.list("orphans", facts.orphans, [&](const std::string& orphan) { json.value(orphan); });
     json.list("cases", results, [&](const CaseResult& result) {
         json.begin_object();
@@ -196,7 +160,6 @@ void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
         json.member("seconds", result.seconds);
         const bool draws = !draws_nothing(result);
         json.member("tolerance", draws ? std::optional(std::string(name(result.tolerance))) : std::nullopt);
-        json.member("decided_by", draws ? std::optional(std::string(name(result.decided_by))) : std::nullopt);
         json.key("diff");
         result.image ? write_diff(json, *result.image) : json.null();
         json.end_object();
@@ -217,9 +180,6 @@ void write_junit(std::ostream& out, const RunFacts& facts, std::span<const CaseR
     out << "    <properties>\n      <property name=\"backend\"" << attribute("value", facts.backend)
         << "/>\n      <property name=\"renderer\"" << attribute("value", facts.renderer) << "/>\n";
     if (!facts.shard.empty()) out << "      <property name=\"shard\"" << attribute("value", facts.shard) << "/>\n";
-    for (const std::string& sentence : other_systems(results)) {
-        out << "      <property name=\"other system\"" << attribute("value", sentence) << "/>\n";
-    }
     for (const std::string& orphan : facts.orphans) {
         out << "      <property name=\"" << kOrphan << '"' << attribute("value", orphan) << "/>\n";
     }

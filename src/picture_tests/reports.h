@@ -27,10 +27,9 @@ struct RunFacts {
 /// and further lines below it; what is to be known of the run, and the sum.
 void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
 /// {"folder", "backend", "renderer", "shard": "2/3" of a shard, "summary": {...}, "orphans": [...], "cases": [{"name",
-/// "outcome", "message", "remarks": [...], "seconds", "tolerance", "decided_by", "diff": {...} or null}]}; `diff` as in
-/// `mobbscope diff --json`; `tolerance` and `decided_by` are null where draws_nothing, and `backend` is "none" if
-/// that is so of all. Where goldens are from elsewhere (reference.h), "other_system": how was decided, a sentence for
-/// each folder.
+/// "outcome", "message", "remarks": [...], "seconds", "tolerance", "diff": {...} or null}]}; `diff` as in `mobbscope
+/// diff
+/// --json`; `tolerance` is null where draws_nothing, and `backend` is "none" if that is so of all.
 void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
 /// JUnit's XML: a failed picture is a failure, one that could not be drawn an error; with `strict` orphans are a test
 /// case of their own.
@@ -40,10 +39,6 @@ void write_html(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
 
 /// "osmesa, llvmpipe", or that nothing was drawn; empty where there is no picture.
 std::string drawn_by(const RunFacts& facts, std::span<const CaseResult> results);
-
-/// For each folder whose goldens are from elsewhere (reference.h) a sentence: what is other here, and by what its cases
-/// were decided.
-std::vector<std::string> other_systems(std::span<const CaseResult> results);
 
 /// "12 of those that passed differ from their goldens in some pixels, by up to 2 of 255"; empty if none does.
 std::string differing_passes(std::span<const CaseResult> results);

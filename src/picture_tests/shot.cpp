@@ -126,12 +126,4 @@ Shot read_shot(const JsonPlace& place, const std::filesystem::path& folder) {
     return shot;
 }
 
-Shot without_text(Shot shot) {
-    for (PicturePanel& panel : shot.panels) {
-        panel.title.clear();
-        panel.view.labels = false;
-    }
-    return shot;
-}
-
 }  // namespace mobbscope::picture_tests

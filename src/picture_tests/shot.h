@@ -56,7 +56,4 @@ struct Shot {
 /// `folder`: what file names are relative to. Reads and checks the scene too. Throws InputError.
 Shot read_shot(const JsonPlace& place, const std::filesystem::path& folder);
 
-/// The same with no text in its pictures: labels, caption, legend and the panels' titles are off.
-Shot without_text(Shot shot);
-
 }  // namespace mobbscope::picture_tests

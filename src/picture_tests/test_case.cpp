@@ -22,9 +22,9 @@ Case read_case(const std::filesystem::path& file, const std::optional<std::strin
     const std::string name = file.string();
     const JsonText value = parse_json(text ? *text : read_file(file), name);
     const JsonPlace root(value, name);
-    root.allow_only({"$schema",   "mobbscope_case", "hold", "tolerance", "threshold", "allowed",    "mask",
-                     "draw_list", "time_limit",     "skip", "scene",     "fit",       "view",       "panels",
-                     "columns",   "select",         "size", "scale",     "samples",   "background", "window"});
+    root.allow_only({"$schema", "mobbscope_case", "hold", "tolerance", "threshold", "allowed",    "mask",
+                     "state",   "time_limit",     "skip", "scene",     "fit",       "view",       "panels",
+                     "columns", "select",         "size", "scale",     "samples",   "background", "window"});
     if (const auto schema = root.find("$schema")) schema->string();
     Case out;
     out.terms = read_terms(root, file.parent_path());

@@ -3,7 +3,6 @@
 #include <app/script/state_json.h>
 #include <app/window/headless_window.h>
 #include <picture_tests/picture_maker.h>
-#include <render/pictures/build_draw_list.h>
 #include <review/review_screen.h>
 
 #include <nlohmann/json.hpp>
@@ -73,37 +72,12 @@ class WorkedWindow {
     std::optional<app::HeadlessWindow> window_;
 };
 
-/// What the viewport draws, without text.
-DrawList scene_without_text(const app::Session& session, PictureSize size) {
-    ViewState view = session.workspace.view();
-    view.labels = false;
-    const PictureOptions options{.size = size};
-    if (session.workspace.empty()) {
-        DrawList nothing;
-        nothing.size = size;
-        nothing.palette = palette_for(view.theme, options);
-        return nothing;
-    }
-    return build_draw_list(session.workspace.fitted(), view, options,
-                           view.candidates ? session.crowds.choice() : nullptr);
-}
-
 }  // namespace
 
-Image window_picture(const FittedScene& fitted, const ViewState& view, const std::filesystem::path& file,
-                     Backend backend, PictureSize size, double scale, const app::Script* script) {
-    return WorkedWindow(fitted, view, file, backend, size, scale, script).read_back();
-}
-
-WindowContents window_contents(const FittedScene& fitted, const ViewState& view, const std::filesystem::path& file,
-                               Backend backend, PictureSize size, double scale, PictureSize picture,
-                               const app::Script* script) {
-    // Without text from the beginning: where the scene is framed by itself, the words move the camera.
-    ViewState plain = view;
-    plain.labels = false;
-    const WorkedWindow window(fitted, plain, file, backend, size, scale, script);
-    return {scene_without_text(window.session(), picture),
-            app::state_text(app::state_json(window.session()), 1) + '\n'};
+WindowPicture window_picture(const FittedScene& fitted, const ViewState& view, const std::filesystem::path& file,
+                             Backend backend, PictureSize size, double scale, const app::Script* script) {
+    WorkedWindow window(fitted, view, file, backend, size, scale, script);
+    return {window.read_back(), app::state_text(app::state_json(window.session()), 1)};
 }
 
 }  // namespace mobbscope::picture_tests

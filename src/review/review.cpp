@@ -190,7 +190,6 @@ std::string Review::why_not_accept(std::size_t index) const {
     if (outcome == CaseOutcome::passed) return "it passed";
     if (outcome == CaseOutcome::skipped) return "it was skipped";
     if (outcome == CaseOutcome::failed) return "it failed, so there is no golden to take";
-    if (!one.result.other_here.empty()) return "its goldens are from elsewhere: here are " + one.result.other_here;
     if (!can_be_taken(one.result)) return "no golden differs, but its scene expects another answer; correct the scene";
     return "";
 }
@@ -230,7 +229,6 @@ const ReviewPictures& Review::pictures() {
             // Of what passed, and of what there is no other picture of, the file.
             pictures_.golden = picture_of(one.file.golden());
         }
-        if (!one.result.shown.empty()) pictures_.golden_file = one.result.shown;
         if (draws_nothing(one.result)) pictures_.golden_file.clear();
         if (!pictures_.golden || !pictures_.actual) return pictures_;
         ImageDiff found = compared_again(one.result, *pictures_.actual, *pictures_.golden);

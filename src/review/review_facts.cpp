@@ -33,7 +33,7 @@ std::string passed_sentence(const ReviewCase& one) {
         return "No pixel differs by more than " + std::to_string(figures->largest) + " of 255.";
     return counted(figures->differing, "pixel differs", "pixels differ") + ", by up to " +
            std::to_string(figures->largest) + " of 255" +
-           (one.result.decided_by == picture_tests::DecidedBy::pixels ? ": no more than may." : "; see the remarks.");
+           (figures->passes ? ": no more than may." : "; see the remarks.");
 }
 
 /// What it comes to, in a sentence.
@@ -198,7 +198,7 @@ void findings(Ui& ui, const ReviewCase& one, const ReviewPictures& pictures) {
 /// What is to be known besides.
 void remarks(Ui& ui, const ReviewCase& one) {
     if (one.accepted || one.result.remarks.empty()) return;
-    heading(ui, "REMARKS", draws_nothing(one.result) ? "" : "decided by " + std::string(name(one.result.decided_by)));
+    heading(ui, "REMARKS");
     for (const std::string& remark : one.result.remarks) words(ui.style.quiet, remark);
 }
 

@@ -26,7 +26,7 @@ TEST(FindCases, AreAllOfTheFolderAndThoseInItByName) {
     EXPECT_EQ(found[1].name, "b");
     EXPECT_EQ(found[2].name, "deep/c");
     EXPECT_EQ(found[2].golden(), cases.path() / "deep" / "c.png");
-    EXPECT_EQ(found[2].draw(), cases.path() / "deep" / "c.draw.json");
+    EXPECT_EQ(found[2].state(), cases.path() / "deep" / "c.state.json");
 }
 
 TEST(FindCases, AFolderWithoutCasesIsRefused) {
@@ -81,19 +81,21 @@ TEST(OrphanedGoldens, AreOfWhatTheCaseNoLongerHolds) {
 TEST(OrphanedGoldens, AreThoseThatNoCaseHas) {
     const CaseFolder cases;
     cases.add("kept", R"("mask": "mask.png")");
-    cases.write("b", R"({"mobbscope_case": 1, "scene": "scene.draw.json"})");
-    for (const char* file : {"kept.png", "kept.draw.json", "kept.plain.png", "mask.png", "lost.png", "gone.draw.json",
-                             "gone.plain.state.json", "notes.txt", "scene.draw.json"}) {
-        cases.folder().write(file, "");
-    }
+    cases.write("b", R"({"mobbscope_case": 1, "scene": "scene.state.json"})");
+    const std::string state = "{\n  \"mobbscope_state\": 1}";
+    for (const char* file : {"kept.png", "kept.state.json", "mask.png", "lost.png", "gone.state.json", "notes.txt"})
+        cases.folder().write(file, state);
+    cases.folder().write("scene.state.json", "{}");
+    cases.folder().write("another.state.json", "{}");
     std::filesystem::create_directories(cases.path() / "deeper");
     std::filesystem::create_directories(cases.path() / "report");
-    cases.folder().write("deeper/lost.plain.png", "");
+    cases.folder().write("deeper/lost.png", "");
     cases.folder().write("report/report.json", "");
     cases.folder().write("report/kept.actual.png", "");
     const std::filesystem::path& at = cases.path();
-    EXPECT_EQ(orphaned_goldens(at, find_cases(at)), (std::vector{at / "deeper/lost.plain.png", at / "gone.draw.json",
-                                                                 at / "gone.plain.state.json", at / "lost.png"}));
+    EXPECT_EQ(orphaned_goldens(at, find_cases(at)),
+              (std::vector{at / "deeper/lost.png", at / "gone.state.json", at / "lost.png"}))
+        << "what begins otherwise is no golden";
 }
 
 }  // namespace

@@ -30,11 +30,9 @@ TEST(ResultLine, IsReadAsItIsWritten) {
     result.actual = png_bytes(actual);
     result.golden = png_bytes(Image(2, 1));
     result.image = diff(actual, Image(2, 1));
-    result.drawn_by = {"osmesa",
-                       "llvmpipe (LLVM 15.0.6, 256 bits)",
-                       {{{"Inter.otf", "01ab"}, {"Mono.ttf", "cd"}}, "1.86", "Mesa 22.3.6, llvmpipe"}};
-    result.findings = {{file.golden(), "pixels", {}}, {file.draw(), "numbers", {"box of A", "and 1 more"}}};
-    result.fresh = {{file.golden(), "new", "old"}, {file.draw(), "{}", {}}};
+    result.drawn_by = {"osmesa", "llvmpipe (LLVM 15.0.6, 256 bits)"};
+    result.findings = {{file.golden(), "pixels", {}}, {file.state(), "numbers", {"box of A", "and 1 more"}}};
+    result.fresh = {{file.golden(), "new", "old"}, {file.state(), "{}", {}}};
     std::ostringstream line;
     write_result_line(line, result);
     ASSERT_EQ(line.str().find('\n'), line.str().size() - 1) << "one line";
@@ -47,7 +45,7 @@ TEST(ResultLine, IsReadAsItIsWritten) {
     EXPECT_EQ(read.seconds, 1.5);
     EXPECT_EQ(read.tolerance, Tolerance::loose);
     EXPECT_EQ(read.drawn_by.backend, "osmesa");
-    EXPECT_EQ(read.drawn_by.reference, result.drawn_by.reference);
+    EXPECT_EQ(read.drawn_by.renderer, result.drawn_by.renderer);
     EXPECT_EQ(read.actual, result.actual);
     EXPECT_EQ(read.golden, result.golden);
     ASSERT_TRUE(read.image);
@@ -57,7 +55,7 @@ TEST(ResultLine, IsReadAsItIsWritten) {
     write_diff(written_again, *read.image);
     EXPECT_EQ(after.str(), before.str()) << "all that reports tell of the pixels";
     ASSERT_EQ(read.findings.size(), 2u);
-    EXPECT_EQ(read.findings[1].golden, file.draw());
+    EXPECT_EQ(read.findings[1].golden, file.state());
     EXPECT_EQ(read.findings[1].words, result.findings[1].words);
     ASSERT_EQ(read.fresh.size(), 2u);
     EXPECT_EQ(read.fresh[0].file, file.golden());
@@ -86,8 +84,8 @@ std::string line_with(const CaseFile& file, const std::string& golden, const std
 TEST(ResultLine, NamesNoFileButGoldensOfItsCase) {
     const CaseFolder cases;
     const CaseFile file = cases.add("a");
-    for (const char* golden : {".png", ".plain.png", ".plain.state.json", ".case.json"}) {
-        EXPECT_EQ(read_result_line(line_with(file, golden, ".draw.json", "new"), {file}).fresh[0].file,
+    for (const char* golden : {".png", ".answers.json", ".case.json"}) {
+        EXPECT_EQ(read_result_line(line_with(file, golden, ".state.json", "new"), {file}).fresh[0].file,
                   file.beside(golden));
     }
     for (const char* other : {".script", ".sh", ".PNG", "b.png", ""}) {
@@ -97,33 +95,28 @@ TEST(ResultLine, NamesNoFileButGoldensOfItsCase) {
                   std::string::npos)
             << other;
     }
-    for (const char* key : {"shown", "golden"}) {
-        std::string line = line_with(file, ".png", ".draw.json", "new");
-        const std::string there = key == std::string("shown") ? R"("shown": "")" : R"("golden": ".png")";
-        ASSERT_NE(line.find(there), std::string::npos);
-        line.replace(line.find(there), there.size(), '"' + std::string(key) + R"(": "/../../b.png")");
-        EXPECT_NE(input_error([&] { read_result_line(line, {file}); }).find("'/../../b.png' is no golden of a case"),
-                  std::string::npos);
-    }
+    std::string line = line_with(file, ".png", ".state.json", "new");
+    const std::string there = R"("golden": ".png")";
+    ASSERT_NE(line.find(there), std::string::npos);
+    line.replace(line.find(there), there.size(), R"("golden": "/../../b.png")");
+    EXPECT_NE(input_error([&] { read_result_line(line, {file}); }).find("'/../../b.png' is no golden of a case"),
+              std::string::npos);
     EXPECT_NE(input_error([&] { read_result_line(line_with(file, ".png", ".png", "new"), {file}); }).find("twice"),
               std::string::npos);
 }
 
 TEST(RequestLine, IsReadAsItIsWritten) {
-    for (const GoldenSource source : {GoldenSource::reference, GoldenSource::here}) {
-        for (const FreshGoldens fresh : {FreshGoldens::of_failed, FreshGoldens::missing, FreshGoldens::of_all}) {
-            const std::string line = request_line({"two\nlines", {source, fresh}});
-            EXPECT_EQ(line.find('\n'), line.size() - 1) << "one line";
-            const CaseRequest read = read_request_line(line);
-            EXPECT_EQ(read.name, "two\nlines");
-            EXPECT_EQ(read.options.source, source);
-            EXPECT_EQ(read.options.fresh, fresh);
-        }
+    for (const FreshGoldens fresh : {FreshGoldens::of_failed, FreshGoldens::missing, FreshGoldens::of_all}) {
+        const std::string line = request_line({"two\nlines", {fresh}});
+        EXPECT_EQ(line.find('\n'), line.size() - 1) << "one line";
+        const CaseRequest read = read_request_line(line);
+        EXPECT_EQ(read.name, "two\nlines");
+        EXPECT_EQ(read.options.fresh, fresh);
     }
     const CaseRequest asked = read_request_line(request_line({"a", {.asked = "{\n}"}}));
     EXPECT_EQ(asked.options.asked, "{\n}");
     EXPECT_NE(input_error([] { read_request_line(R"({"name": "a"})"); }), "");
-    EXPECT_NE(input_error([] { read_request_line(R"({"name": "a", "source": "x", "fresh": "missing"})"); }), "");
+    EXPECT_NE(input_error([] { read_request_line(R"({"name": "a", "fresh": "x"})"); }), "");
 }
 
 TEST(ResultLine, HasItsMaskRelativeToTheCase) {

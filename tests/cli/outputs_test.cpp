@@ -66,7 +66,7 @@ class Outputs : public ::testing::Test {
         std::filesystem::create_directory(folder.path() / "cases");
         folder.write("cases/c.case.json", R"({"mobbscope_case": 1, "scene": "../scene.json", "size": "80x80"})");
         folder.write("cases/c.png", slurp(folder.path() / "a.png"));
-        folder.write("cases/c.draw.json", "{}");
+        folder.write("cases/c.state.json", "{}");
     }
 
     std::string path(const std::string& name) const { return folder.path() / name; }
@@ -79,7 +79,7 @@ class Outputs : public ::testing::Test {
             return {"test", path("cases"), "--output", path("failed"), option};
         };
         const std::vector<std::string> pictured{"scene.json", "clip.csv", "view.json"};
-        const std::vector<std::string> tested{"cases/c.case.json", "cases/c.png", "cases/c.draw.json"};
+        const std::vector<std::string> tested{"cases/c.case.json", "cases/c.png", "cases/c.state.json"};
         return {
             {{"convert", "-o"}, {"convert", path("scene.json"), "-o"}, ".json", {"scene.json", "clip.csv"}},
             {{"convert", "-o"},

@@ -89,7 +89,7 @@ with_googletest() {
   sed -n 's/^ *[0-9: ]*if it is right: mobbscope //p' "$scratch/said" >"$scratch/commands"
   [ "$(grep -c . "$scratch/commands")" -ge 3 ] || fail "there are no commands"
   while read -r command; do expect 0 bash -c "'$mobbscope' $command"; done <"$scratch/commands"
-  for file in goldens/meeting.{case.json,png,draw.json} goldens/contact.{case.json,answers.json} 'goldens/sub folder/people.case.json' pictures/person.png; do
+  for file in goldens/meeting.{case.json,png,state.json} goldens/contact.{case.json,answers.json} 'goldens/sub folder/people.case.json' pictures/person.png; do
     [ -s "$file" ] || fail "$file is not there"
   done
   tests 0
@@ -101,7 +101,7 @@ with_googletest() {
   before=$(cat 'goldens/sub folder/people.case.json')
   expect 1 build/crowd_test --gtest_filter='Crowd.PeopleStand'
   says 'different: sub folder/people'
-  says 'people.draw.json: '
+  says 'people.state.json: '
   [ -s 'build/mobbscope-test/crowd_test/sub folder/people.heat.png' ] || fail "there is no heat map"
   [ "$(cat 'goldens/sub folder/people.case.json')" = "$before" ] || fail "the case has changed"
   expect 2 "$mobbscope" test goldens meeting --accept build/mobbscope-test/crowd_test
@@ -213,7 +213,7 @@ with_pytest() {
   cp goldens/meeting.answers.json kept
   sed -i 's/"tests": {"time": [0-9]*/"tests": {"time": 99/' goldens/meeting.answers.json
   pytest 1
-  says 'walk.draw.json: '
+  says 'walk.state.json: '
   says 'of time instead of 99'
   cmake -E rename kept goldens/meeting.answers.json
   pytest 1 --mobbscope-goldens elsewhere

@@ -25,7 +25,6 @@ CaseResult result_of(const CaseFile& file, CaseOutcome outcome, const Image& act
     result.file = file;
     result.outcome = outcome;
     result.message = "why";
-    result.shown = file.golden();
     if (!actual.rgba.empty()) result.actual = png_bytes(actual);
     if (!golden.rgba.empty()) result.golden = png_bytes(golden);
     if (!golden.rgba.empty()) result.image = diff(actual, golden);
@@ -55,12 +54,11 @@ TEST(Take, MakesTheGoldensWhatIsFresh) {
     const CaseFolder cases;
     const CaseFile file = cases.add("a");
     CaseResult result = result_of(file, CaseOutcome::different, filled(200), filled(10));
-    result.fresh = {{file.golden(), png_bytes(filled(200))}, {file.draw(), "{}"}};
+    result.fresh = {{file.golden(), png_bytes(filled(200))}, {file.state(), "{}"}};
     ASSERT_TRUE(can_be_taken(result));
-    EXPECT_EQ(take(result), (std::vector<std::filesystem::path>{file.golden(), file.draw()}));
+    EXPECT_EQ(take(result), (std::vector<std::filesystem::path>{file.golden(), file.state()}));
     EXPECT_EQ(read_png(file.golden()).rgba, filled(200).rgba);
-    EXPECT_EQ(slurp(file.draw()), "{}");
-    EXPECT_FALSE(std::filesystem::exists(file.plain()));
+    EXPECT_EQ(slurp(file.state()), "{}");
     EXPECT_EQ(result.outcome, CaseOutcome::passed);
     EXPECT_EQ(result.message, "");
     EXPECT_TRUE(take(result).empty()) << "it is taken";

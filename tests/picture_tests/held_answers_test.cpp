@@ -417,7 +417,7 @@ TEST_F(HeldAnswersTest, WhatTheSceneExpectsIsChecked) {
 TEST_F(HeldAnswersTest, KeysOfPicturesAreRefusedWithoutOne) {
     for (const char* key :
          {R"("size": "160x120")", R"("mask": "m.png")", R"("tolerance": "loose")", R"("window": {})",
-          R"("draw_list": false)", R"("view": {"levels": 1})", R"("panels": [{"view": {"labels": false}}])"}) {
+          R"("state": false)", R"("view": {"levels": 1})", R"("panels": [{"view": {"labels": false}}])"}) {
         const CaseResult result = run(add(R"(["answers"])", key));
         EXPECT_EQ(result.outcome, CaseOutcome::failed) << key;
         EXPECT_PRED2(says, result.message, "the case holds no picture; remove this") << key;

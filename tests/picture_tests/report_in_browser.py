@@ -175,15 +175,8 @@ class Report(unittest.TestCase):
     def test_causes_stand_before_what_follows_from_them(self):
         page = self.open()
         lines = page.evaluate("all('#case1 div.words li').map(line => line.textContent)")
-        causes = [line.startswith(("disk of ", "box of ")) for line in lines]
-        self.assertEqual(causes, sorted(causes, reverse=True), lines)
-        self.assertEqual((causes[0], causes[-1]), (True, False), lines)
-
-    def test_notes_name_a_golden_once(self):
-        page = self.open()
-        notes = page.evaluate("one('#case1 details.words').textContent")
-        self.assertEqual(notes.count("one.draw.json"), 1, notes)
-        self.assertGreater(page.evaluate("all('#case1 details.words li').length"), 1)
+        self.assertIn(" moved by (", lines[0])
+        self.assertEqual([line for line in lines if line.startswith(("disks of ", "boxes of "))], [], lines)
 
     def test_a_text_filters_cases_list_and_counts(self):
         page = self.open()
@@ -197,7 +190,7 @@ class Report(unittest.TestCase):
         self.assertEqual(page.evaluate("one('.shown').textContent"), "2 of 8 shown")
         self.assertEqual(page.evaluate("one('.passed .count').textContent"), "1 of 3")
         # Each word, of the name or of a message.
-        page.write(" disk")
+        page.write(" moved")
         self.assertEqual(page.evaluate(SHOWN), ["alpha/one"])
         page.write(" nowhere")
         self.assertEqual(page.evaluate(SHOWN), [])

@@ -137,7 +137,7 @@ TEST(Reports, WhatDiffersIsSaidOnceTheMostImportantFirst) {
                                  "d: 1 different\n"));
     const auto json = nlohmann::json::parse(written(write_json, {numbers}, {"d", "", ""}));
     EXPECT_EQ(json["backend"], "none");
-    EXPECT_TRUE(json["cases"][0]["tolerance"].is_null() && json["cases"][0]["decided_by"].is_null());
+    EXPECT_TRUE(json["cases"][0]["tolerance"].is_null());
 }
 
 TEST(Reports, TextHoldsNoControlCharacters) {
@@ -212,26 +212,25 @@ TEST(Reports, ThePageShowsTheNumbersOfADifference) {
 
 TEST(Reports, ThePageHasAPartForEachGoldenWithWhatItIsAboutInBold) {
     CaseResult moved = different("moved");
-    moved.findings = {{"moved.png", "50 pixels <differ>", {}},
-                      {"moved.draw.json",
-                       "moved.draw.json: and 3 more",
-                       {"disk of A, sample 0, base: 1 instead of 2", "the tick label '5: s' is missing",
-                        "row 'A' of the legend, text: 'A' instead of 'B'", "<nothing> in particular"}},
-                      {"moved.trace.json", "moved.trace.json: it is empty", {}},
-                      {"moved.new.json", "unheard of", {}}};
+    moved.findings = {
+        {"moved.png", "50 pixels <differ>", {}},
+        {"moved.state.json",
+         "moved.state.json: and 3 more",
+         {"A moved by (1, 0)", "tick '5: s' is missing", "boxes of A: other colours", "<nothing> in particular"}},
+        {"moved.trace.json", "moved.trace.json: it is empty", {}},
+        {"moved.new.json", "unheard of", {}}};
     const std::string page = written(write_html, {moved});
-    EXPECT_EQ(
-        times(page,
-              "<h3>Picture <small>moved.png</small></h3>\n<p class=\"message\">50 pixels &lt;differ&gt;</p>\n"
-              "<h3>Draw list <small>moved.draw.json</small></h3>\n<ul>\n"
-              "<li><strong>disk of A, sample 0, base</strong>: 1 instead of 2</li>\n"
-              "<li><strong>the tick label &#39;5: s&#39;</strong> is missing</li>\n"
-              "<li><strong>row &#39;A&#39; of the legend</strong>, text: &#39;A&#39; instead of &#39;B&#39;</li>\n"
-              "<li>&lt;nothing&gt; in particular</li>\n</ul>\n"
-              "<h3>Trace <small>moved.trace.json</small></h3>\n"
-              "<p class=\"message\">moved.trace.json: it is empty</p>\n"
-              "<h3>Golden <small>moved.new.json</small></h3>\n"),
-        1u)
+    EXPECT_EQ(times(page,
+                    "<h3>Picture <small>moved.png</small></h3>\n<p class=\"message\">50 pixels &lt;differ&gt;</p>\n"
+                    "<h3>What is drawn <small>moved.state.json</small></h3>\n<ul>\n"
+                    "<li><strong>A</strong> moved by (1, 0)</li>\n"
+                    "<li><strong>tick &#39;5: s&#39;</strong> is missing</li>\n"
+                    "<li><strong>boxes of A</strong>: other colours</li>\n"
+                    "<li>&lt;nothing&gt; in particular</li>\n</ul>\n"
+                    "<h3>Trace <small>moved.trace.json</small></h3>\n"
+                    "<p class=\"message\">moved.trace.json: it is empty</p>\n"
+                    "<h3>Golden <small>moved.new.json</small></h3>\n"),
+              1u)
         << page.substr(page.find("<h3>"), 1500);
     EXPECT_EQ(times(page, "<p class=\"message\">50 pixels differ"), 0u) << "the message repeats what is found";
 }
@@ -267,7 +266,7 @@ TEST(Reports, ThePageHasCasesWithoutPicturesToo) {
 TEST(Reports, PicturesThatAreTheSameAreShownOnce) {
     CaseResult renamed =
         with_pictures(result("renamed", CaseOutcome::different, "a name"), grey(8, 8, 30), grey(8, 8, 30));
-    renamed.findings = {{"renamed.draw.json", "a name", {"participant 'A' is called 'B'"}}};
+    renamed.findings = {{"renamed.state.json", "a name", {"A is missing"}}};
     const std::string page = written(write_html, {renamed});
     EXPECT_EQ(parsed(page, "html"),
               "title 1 of 1 picture test did not pass - my pictures\n"
@@ -284,30 +283,6 @@ TEST(Reports, PicturesOfTwoSizesAreComparedByEye) {
               "title 1 of 1 picture test did not pass - my pictures\n"
               "case ≠ different sizes: golden 40x20, actual 8x8\n"
               "command mobbscope test 'my pictures' --update sizes\n");
-}
-
-TEST(Reports, SayOnceByWhatWasDecidedOnAnotherSystem) {
-    std::vector<CaseResult> results{passed("a"), passed("b"), passed("c")};
-    const std::string sentence =
-        "Drawn with Dear ImGui 2 for 1 (my pictures/reference.json); decided: 1 by pixels, 2 by draw list";
-    for (const Writer writer : {write_text, write_json, write_junit, write_html}) {
-        EXPECT_EQ(times(written(writer, results), "decided:"), 0u);
-    }
-    for (CaseResult& result : results) result.other_here = "Dear ImGui 2 for 1";
-    results[1].decided_by = results[2].decided_by = DecidedBy::draw_list;
-    for (const Writer writer : {write_text, write_json, write_junit, write_html}) {
-        EXPECT_EQ(times(written(writer, results), sentence), 1u);
-    }
-    EXPECT_EQ(times(written(write_text, results), "\n"), 2u);
-    EXPECT_EQ(nlohmann::json::parse(written(write_json, results))["other_system"], nlohmann::json{sentence});
-    parsed(written(write_junit, results), "junit");
-    parsed(written(write_html, results), "html");
-
-    results = {different("moved")};
-    results.front().other_here = "Dear ImGui 2 for 1";
-    for (const Writer writer : {write_text, write_json, write_junit, write_html}) {
-        EXPECT_EQ(times(written(writer, results), "--update"), 0u) << "goldens are not taken here";
-    }
 }
 
 TEST(Reports, APassWithPixelsThatDifferIsSaidAndCanBeSorted) {

@@ -1,6 +1,5 @@
 // What becomes of a case: every outcome, told apart.
 #include <base/file.h>
-#include <picture_tests/reference.h>
 #include <picture_tests/run_cases.h>
 #include <render/image/png.h>
 #include <support/png_file.h>
@@ -131,68 +130,111 @@ TEST_F(RunCaseTest, FailsWhenTheShaderCompilerWarns) {
     EXPECT_NE(result.message.find("a varying is never read"), std::string::npos) << result.message;
 }
 
-TEST_F(RunCaseTest, HoldsWhatIsDrawnAgainstItsDrawList) {
+TEST_F(RunCaseTest, IsDifferentWhereTheStateDiffersAndPixelsAgree) {
     const CaseFile two = cases.write("b", R"({"mobbscope_case": 1, "scene": "scene.json", "size": "320x120",
         "panels": [{"view": {"levels": 0}}, {}]})");
     golden_of(two);
-    cases.folder().write("b.draw.json", "[]");
+    cases.folder().write("b.state.json", "[]");
     CaseResult result = run(two);
     EXPECT_EQ(result.outcome, CaseOutcome::different);
-    EXPECT_EQ(result.message.find("b.draw.json: "), 0u) << result.message;
+    EXPECT_EQ(result.message.find("the golden cannot be read: "), 0u) << result.message;
     EXPECT_TRUE(result.image->same);
     take(result);
     EXPECT_EQ(run(two).outcome, CaseOutcome::passed);
 
-    // The same picture within the tolerance, but not the same disks.
-    std::string text = mobbscope::testing::slurp(two.draw());
-    const std::size_t radius = text.find("\"radius\": 0.4");
-    ASSERT_NE(radius, std::string::npos) << text.substr(0, 2000);
-    text.replace(radius, 13, "\"radius\": 0.41");
-    cases.folder().write("b.draw.json", text);
+    std::string text = mobbscope::testing::slurp(two.state());
+    const std::size_t place = text.find("\"translate\": [1, -1]");
+    ASSERT_NE(place, std::string::npos) << text.substr(0, 2000);
+    text.replace(place, 20, "\"translate\": [1.0, -1.00001]");
+    cases.folder().write("b.state.json", text);
     const CaseResult off = run(two);
     EXPECT_EQ(off.outcome, CaseOutcome::different);
-    EXPECT_NE(off.message.find("disk of A, sample 0, radius: 0.4 instead of 0.41"), std::string::npos) << off.message;
+    EXPECT_TRUE(off.image->same);
+    EXPECT_EQ(off.message, "b.state.json: B moved by (0, 1e-05)");
+    EXPECT_EQ(off.findings.back().words.size(), 1u) << "what follows from it is not told";
 }
 
-TEST_F(RunCaseTest, ADrawListIsTakenWithThePictureUnlessTheCaseSaysNo) {
+TEST_F(RunCaseTest, WherePixelsAloneDifferTheStateSaysSo) {
     const CaseFile file = cases.add("a");
-    golden_of(file);
-    EXPECT_TRUE(std::filesystem::exists(file.draw()));
-    const CaseFile without = cases.add("b", R"("draw_list": false)");
-    golden_of(without);
-    EXPECT_FALSE(std::filesystem::exists(without.draw()));
-    cases.folder().write("b.draw.json", "{}");
-    EXPECT_EQ(run(without).outcome, CaseOutcome::passed) << "it is not asked for";
-}
-
-TEST_F(RunCaseTest, OfAGoldenWithoutADrawListThePixelsAreHeld) {
-    const CaseFile file = cases.add("a");
-    golden_of(file);
-    std::filesystem::remove(file.draw());
-    EXPECT_EQ(run(file).outcome, CaseOutcome::passed);
-    EXPECT_TRUE(run(file).fresh.empty());
-    const auto fresh = [&](FreshGoldens wanted) {
-        std::vector<std::filesystem::path> files;
-        for (const GoldenChange& change : run_case(file, maker_.get(), "", {.fresh = wanted}).fresh)
-            files.push_back(change.file);
-        return files;
-    };
-    EXPECT_EQ(fresh(FreshGoldens::missing), std::vector{file.draw()});
-    EXPECT_EQ(fresh(FreshGoldens::of_all), (std::vector{file.golden(), file.draw()}));
-}
-
-TEST_F(RunCaseTest, NumbersOfPixelsInADrawListAreOnlyTold) {
-    const CaseFile file = cases.add("a");
-    golden_of(file);
-    std::string text = read_file(file.draw());
-    const std::size_t pixels = text.find("\"pixels\": ", text.find("\"disks\""));
-    ASSERT_NE(pixels, std::string::npos);
-    text.insert(pixels + 10, "99");
-    cases.folder().write("a.draw.json", text);
+    Image golden = golden_of(file);
+    for (int x = 0; x < 40; ++x) golden.at(x, 1)[0] ^= 0x80;
+    write_png(file.golden(), golden);
     const CaseResult result = run(file);
-    EXPECT_EQ(result.outcome, CaseOutcome::passed) << result.message;
+    EXPECT_EQ(result.outcome, CaseOutcome::different);
+    EXPECT_EQ(result.findings.size(), 1u);
     ASSERT_EQ(result.remarks.size(), 1u);
-    EXPECT_NE(result.remarks[0].find("disk of A, sample 0"), std::string::npos) << result.remarks[0];
+    EXPECT_EQ(result.remarks[0].find("a.state.json is the same, only the pixels differ; drawn with OpenGL "), 0u)
+        << result.remarks[0];
+    EXPECT_NE(words_on(result, "out").find("only the pixels differ"), std::string::npos);
+}
+
+TEST_F(RunCaseTest, TheCauseOfAMoveIsTheAgentThatMoved) {
+    cases.folder().write("three.json", R"({"clips": {"walk": {"dt": 0.5, "samples": [[0, 0, 0.4], [1, 0, 0.4]]}},
+        "agents": [{"name": "A", "clip": "walk"}, {"name": "B", "clip": "walk", "translate": [2, 1]},
+                   {"name": "C", "clip": "walk", "translate": [-1, 4]}]})");
+    const std::string keys = R"({"mobbscope_case": 1, "scene": "three.json", "size": "160x120"})";
+    golden_of(cases.write("a", keys));
+    std::string moved = mobbscope::testing::slurp(cases.path() / "three.json");
+    moved.replace(moved.find("[-1, 4]"), 7, "[-0.9, 4]");
+    cases.folder().write("three.json", moved);
+    const CaseResult result = run(cases.write("a", keys));
+    EXPECT_EQ(result.outcome, CaseOutcome::different);
+    ASSERT_FALSE(result.findings.empty());
+    const Finding& state = result.findings.back();
+    EXPECT_EQ(state.golden.filename(), "a.state.json");
+    EXPECT_EQ(state.words, std::vector<std::string>{"C moved by (0.1, 0)"});
+}
+
+TEST_F(RunCaseTest, TheStateIsTakenWithThePictureUnlessTheCaseSaysNo) {
+    const CaseFile file = cases.add("a");
+    golden_of(file);
+    EXPECT_TRUE(std::filesystem::exists(file.state()));
+    const CaseFile without = cases.add("b", R"("state": false)");
+    golden_of(without);
+    EXPECT_FALSE(std::filesystem::exists(without.state()));
+    cases.folder().write("b.state.json", "{}");
+    CaseResult result = run_case(without, maker_.get(), "", {.fresh = FreshGoldens::of_all});
+    EXPECT_EQ(result.outcome, CaseOutcome::passed) << "it is not asked for";
+    EXPECT_EQ(take(result), std::vector{without.golden()});
+    EXPECT_FALSE(std::filesystem::exists(without.state())) << "nobody reads it";
+}
+
+TEST_F(RunCaseTest, AGoldenWithoutAStateLacksIt) {
+    const CaseFile file = cases.add("a");
+    golden_of(file);
+    std::filesystem::remove(file.state());
+    const CaseResult result = run(file);
+    EXPECT_EQ(result.outcome, CaseOutcome::missing_golden);
+    EXPECT_NE(result.message.find("there is no golden"), std::string::npos);
+    EXPECT_NE(result.message.find("a.state.json"), std::string::npos) << result.message;
+    EXPECT_EQ(result.fresh.size(), 2u);
+}
+
+TEST_F(RunCaseTest, OfAWindowItsStateIsHeld) {
+    cases.folder().write("w.script", "run query.select 0\nrun view.zoom 1.5\n");
+    const CaseFile file = cases.write("w", R"({"mobbscope_case": 1, "scene": "scene.json", "size": "640x400",
+        "window": {"script": "w.script"}})");
+    Image golden = golden_of(file);
+    EXPECT_EQ(run(file).outcome, CaseOutcome::passed);
+
+    // Words of another Dear ImGui are drawn otherwise, and the state decides.
+    for (int x = 0; x < 60; ++x) golden.at(x, 1)[0] ^= 0x80;
+    write_png(file.golden(), golden);
+    EXPECT_EQ(run(file).outcome, CaseOutcome::different);
+    std::string state = read_file(file.state());
+    const std::size_t version = state.find("\"imgui\": \"") + 10;
+    state.replace(version, state.find('"', version) - version, "0.1");
+    cases.folder().write("w.state.json", state);
+    const CaseResult passed = run(file);
+    EXPECT_EQ(passed.outcome, CaseOutcome::passed) << passed.message;
+    ASSERT_EQ(passed.remarks.size(), 1u);
+    EXPECT_NE(passed.remarks[0].find(" for 0.1, so w.state.json decides"), std::string::npos) << passed.remarks[0];
+
+    // The scene is the same, and what the inspector shows is not.
+    cases.folder().write("w.script", "run query.select 0\nrun view.zoom 1.5\nclick agent.0\n");
+    const CaseResult other = run(file);
+    EXPECT_EQ(other.outcome, CaseOutcome::different);
+    EXPECT_NE(other.message.find("w.state.json: selection"), std::string::npos) << other.message;
 }
 
 TEST_F(RunCaseTest, APassWithPixelsThatDifferSaysHowManyAndWhere) {
@@ -234,15 +276,6 @@ TEST_F(RunCaseTest, OnlyWhatTheMaskLetsIsCompared) {
         << other_size.message;
 }
 
-TEST_F(RunCaseTest, AWindowHasNoDrawList) {
-    cases.folder().write("w.draw.json", "");
-    const CaseResult result =
-        run(cases.write("w", R"({"mobbscope_case": 1, "scene": "scene.json", "size": "640x400", "window": {}})"));
-    EXPECT_EQ(result.outcome, CaseOutcome::failed);
-    EXPECT_NE(result.message.find("draw list"), std::string::npos) << result.message;
-    EXPECT_TRUE(result.actual.empty()) << "what failed has no picture to be taken";
-}
-
 TEST_F(RunCaseTest, PanelsAreSeenThroughWhereTheirBackgroundIs) {
     const CaseResult result = run(cases.write("a", R"({"mobbscope_case": 1, "scene": "scene.json", "size": "320x160",
         "background": "transparent", "samples": 1, "panels": [{"title": "one"}, {"title": "two"}]})"));
@@ -268,240 +301,6 @@ TEST_F(RunCaseTest, AScriptOfTheWindowWritesNothing) {
     }
     EXPECT_EQ(read_file(cases.path() / "scene.json"), before);
     EXPECT_FALSE(std::filesystem::exists(cases.path() / "stray.png"));
-}
-
-/// A folder that says where its goldens are from.
-class RunCaseWithReferenceTest : public RunCaseTest {
-  protected:
-    /// Takes all goldens of a case here, and says that they are from here.
-    void take_here(const CaseFile& file) {
-        CaseResult result = run_case(file, maker_.get(), "", {GoldenSource::here, FreshGoldens::of_all});
-        EXPECT_EQ(result.outcome, CaseOutcome::missing_golden) << result.message;
-        take(result);
-        write_reference(cases.path(), reference_of(maker_->renderer()));
-    }
-    /// From now on the goldens are from where a font, or only the rasteriser, is another.
-    void move_elsewhere() {
-        Reference there = reference_of(maker_->renderer());
-        there.fonts.begin()->second = std::string(64, '0');
-        write_reference(cases.path(), there);
-    }
-    void change_rasteriser() {
-        Reference there = reference_of(maker_->renderer());
-        there.opengl = "Mesa 1.0.0, llvmpipe";
-        write_reference(cases.path(), there);
-    }
-    /// Pixels that differ, as another rasteriser's do: a row is a little lighter.
-    void lighten(const std::filesystem::path& golden) {
-        Image image = read_png(golden);
-        for (int x = 0; x < 12; ++x) {
-            for (int c = 0; c < 3; ++c) image.at(x, 1)[c] = static_cast<std::uint8_t>(image.at(x, 1)[c] + 6);
-        }
-        write_png(golden, image);
-    }
-    /// ... or as something else does: a red block.
-    void paint_over(const std::filesystem::path& golden) {
-        Image image = read_png(golden);
-        for (int y = 0; y < 12; ++y) {
-            for (int x = 0; x < 12; ++x) image.at(x, y)[0] = 255;
-        }
-        write_png(golden, image);
-    }
-    /// One disk, and so the boxes around it, 5 cm wider.
-    void widen() {
-        std::string scene = mobbscope::testing::kSmallScene;
-        scene.replace(scene.find("0.45]"), 4, "0.50");
-        cases.folder().write("scene.json", scene);
-    }
-    /// Nothing is held against a golden that is no picture.
-    void spoil(const std::filesystem::path& golden) { cases.folder().write(golden.filename().string(), "spoiled"); }
-};
-
-TEST_F(RunCaseWithReferenceTest, HereThePictureAndTheDrawListAreHeld) {
-    const CaseFile file = cases.add("a");
-    take_here(file);
-    EXPECT_FALSE(std::filesystem::exists(file.plain())) << "the draw list holds the case elsewhere";
-    const CaseResult both = run(file);
-    EXPECT_EQ(both.outcome, CaseOutcome::passed) << both.message;
-    EXPECT_EQ(both.other_here, "");
-    EXPECT_EQ(both.actual, read_file(file.golden()));
-    widen();
-    EXPECT_EQ(run(file).findings.size(), 2u) << "of the picture, and of the draw list";
-}
-
-TEST_F(RunCaseWithReferenceTest, HereAlsoThePictureWithoutTextIfThereIsNoDrawList) {
-    const CaseFile file = cases.add("a", R"("draw_list": false)");
-    take_here(file);
-    EXPECT_NE(read_png(file.golden()).rgba, read_png(file.plain()).rgba) << "there is text";
-    EXPECT_EQ(run(file).outcome, CaseOutcome::passed);
-    spoil(file.plain());
-    CaseResult plain = run(file);
-    EXPECT_EQ(plain.outcome, CaseOutcome::different);
-    EXPECT_NE(plain.message.find("without text: the golden cannot be read"), std::string::npos) << plain.message;
-    EXPECT_EQ(plain.shown, file.plain());
-    EXPECT_EQ(take(plain), (std::vector{file.golden(), file.plain()}));
-    EXPECT_EQ(run(file).outcome, CaseOutcome::passed);
-}
-
-TEST_F(RunCaseWithReferenceTest, ElsewherePixelsComeFirst) {
-    const CaseFile file = cases.add("a");
-    take_here(file);
-    for (const bool other_font : {false, true}) {
-        other_font ? move_elsewhere() : change_rasteriser();
-        const CaseResult result = run(file);
-        EXPECT_EQ(result.outcome, CaseOutcome::passed) << result.message;
-        EXPECT_EQ(result.decided_by, DecidedBy::pixels);
-        EXPECT_NE(result.other_here, "");
-    }
-    spoil(file.draw());
-    EXPECT_EQ(run(file).outcome, CaseOutcome::passed) << "with other fonts words lie elsewhere";
-    change_rasteriser();
-    EXPECT_EQ(run(file).outcome, CaseOutcome::different) << "with the same ones they do not";
-}
-
-TEST_F(RunCaseWithReferenceTest, ElsewhereTheDrawListDecidesWherePixelsDiffer) {
-    const CaseFile file = cases.add("a");
-    take_here(file);
-    change_rasteriser();
-    lighten(file.golden());
-    const CaseResult passed = run(file);
-    EXPECT_EQ(passed.outcome, CaseOutcome::passed) << passed.message;
-    EXPECT_EQ(passed.decided_by, DecidedBy::draw_list);
-    ASSERT_EQ(passed.remarks.size(), 2u);
-    EXPECT_EQ(passed.remarks[0].find("12 of 19200 pixels"), 0u) << passed.remarks[0];
-    EXPECT_NE(passed.remarks[1].find("structural similarity"), std::string::npos) << passed.remarks[1];
-    EXPECT_TRUE(passed.fresh.empty());
-
-    // What is in no draw list, but hides what is.
-    paint_over(file.golden());
-    const CaseResult painted = run(file);
-    EXPECT_EQ(painted.outcome, CaseOutcome::different);
-    EXPECT_EQ(painted.message.find("the largest loss of structural similarity is "), 0u) << painted.message;
-    move_elsewhere();
-    EXPECT_EQ(run(file).outcome, CaseOutcome::passed) << "words of other fonts lose as much";
-
-    widen();
-    const CaseResult wrong = run(file);
-    EXPECT_EQ(wrong.outcome, CaseOutcome::different);
-    EXPECT_EQ(wrong.message.find("a.draw.json: "), 0u) << wrong.message;
-    EXPECT_FALSE(wrong.golden.empty());
-    EXPECT_FALSE(can_be_taken(wrong)) << "here it would be drawn with something else";
-}
-
-TEST(SimilarityLoss, LooksIntoTheSmallestHoleOfAMask) {
-    Image white(80, 60);
-    std::ranges::fill(white.rgba, std::uint8_t{255});
-    Image mask(80, 60);
-    for (int y = 30; y < 38; ++y) std::fill_n(mask.at(40, y), 4 * 8, std::uint8_t{255});
-    for (const bool inside : {false, true}) {
-        Image dot = white;
-        for (int y = 32; y < 36; ++y) std::fill_n(dot.at(inside ? 42 : 20, y), 4 * 4, std::uint8_t{0});
-        EXPECT_EQ(similarity_loss(dot, white, &mask) > kMostLoss, inside);
-        EXPECT_GT(similarity_loss(dot, white, nullptr), kMostLoss);
-    }
-}
-
-TEST_F(RunCaseWithReferenceTest, ElsewhereSimilarityDecidesWhereThereIsNoDrawList) {
-    const CaseFile file = cases.add("a", R"("draw_list": false)");
-    take_here(file);
-    change_rasteriser();
-    lighten(file.golden());
-    const CaseResult passed = run(file);
-    EXPECT_EQ(passed.outcome, CaseOutcome::passed) << passed.message;
-    EXPECT_EQ(passed.decided_by, DecidedBy::ssim);
-    ASSERT_EQ(passed.remarks.size(), 2u);
-    EXPECT_NE(passed.remarks[1].find("the largest loss of structural similarity is 0.00"), std::string::npos);
-    paint_over(file.golden());
-    const CaseResult painted = run(file);
-    EXPECT_EQ(painted.outcome, CaseOutcome::different);
-    EXPECT_NE(painted.message.find("structural similarity"), std::string::npos) << painted.message;
-}
-
-TEST_F(RunCaseWithReferenceTest, WithOtherFontsThePictureWithoutTextIsLookedAt) {
-    const CaseFile file = cases.add("a", R"("draw_list": false)");
-    take_here(file);
-    move_elsewhere();
-    paint_over(file.golden());
-    const CaseResult passed = run(file);
-    EXPECT_EQ(passed.outcome, CaseOutcome::passed) << passed.message;
-    EXPECT_EQ(passed.decided_by, DecidedBy::without_text);
-    widen();
-    const CaseResult wrong = run(file);
-    EXPECT_EQ(wrong.outcome, CaseOutcome::different);
-    EXPECT_EQ(wrong.message.find("without text: "), 0u) << wrong.message;
-    std::filesystem::remove(file.plain());
-    EXPECT_EQ(run(file).outcome, CaseOutcome::missing_golden);
-}
-
-TEST_F(RunCaseWithReferenceTest, ACaseThatNothingHoldsElsewhereLacksAGolden) {
-    const CaseFile file = cases.add("a");
-    golden_of(file);
-    std::filesystem::remove(file.draw());
-    write_reference(cases.path(), reference_of(maker_->renderer()));
-    const CaseResult result = run(file);
-    EXPECT_EQ(result.outcome, CaseOutcome::missing_golden);
-    EXPECT_NE(result.message.find("a.draw.json"), std::string::npos) << result.message;
-}
-
-TEST_F(RunCaseWithReferenceTest, WithoutAReferenceNothingIsDrawnWithoutText) {
-    const CaseFile file = cases.add("a");
-    cases.folder().write("a.plain.png", "no golden of this case");
-    golden_of(file);
-    const CaseResult result = run(file);
-    EXPECT_EQ(result.outcome, CaseOutcome::passed) << result.message;
-    EXPECT_EQ(result.other_here, "");
-    EXPECT_EQ(read_file(file.plain()), "no golden of this case");
-}
-
-TEST_F(RunCaseWithReferenceTest, TakingRemovesTheGoldensThatNobodyReadsAnyMore) {
-    const CaseFile file = cases.add("a");
-    golden_of(file);
-    write_reference(cases.path(), reference_of(maker_->renderer()));
-    cases.folder().write("a.plain.png", "of an earlier version");
-    cases.folder().write("a.plain.draw.json", "{}");
-    CaseResult result = run_case(file, maker_.get(), "", {.fresh = FreshGoldens::of_all});
-    EXPECT_EQ(take(result), (std::vector{file.golden(), file.draw()}));
-    EXPECT_FALSE(std::filesystem::exists(file.plain()));
-    EXPECT_FALSE(std::filesystem::exists(file.plain_draw()));
-}
-
-TEST_F(RunCaseWithReferenceTest, OfAWindowItsStateIsHeld) {
-    cases.folder().write("w.script", "run query.select 0\nrun view.zoom 1.5\n");
-    const CaseFile file = cases.write("w", R"({"mobbscope_case": 1, "scene": "scene.json", "size": "640x400",
-        "window": {"script": "w.script"}})");
-    take_here(file);
-    EXPECT_EQ(read_png(file.plain()).width, 80);
-    EXPECT_EQ(run(file).outcome, CaseOutcome::passed);
-    move_elsewhere();
-    paint_over(file.golden());
-    EXPECT_EQ(run(file).outcome, CaseOutcome::passed);
-
-    // The scene is the same, and what the inspector shows is not.
-    cases.folder().write("w.script", "run query.select 0\nrun view.zoom 1.5\nclick agent.0\n");
-    const CaseResult other = run(file);
-    EXPECT_EQ(other.outcome, CaseOutcome::different);
-    EXPECT_NE(other.message.find("w.plain.state.json: /selection"), std::string::npos) << other.message;
-
-    std::filesystem::remove(file.plain_state());
-    EXPECT_EQ(run(file).outcome, CaseOutcome::missing_golden);
-}
-
-TEST_F(RunCaseWithReferenceTest, FailsWhereTheReferenceIsNone) {
-    const CaseFile file = cases.add("a");
-    take_here(file);
-    cases.folder().write("reference.json", "{}");
-    const CaseResult result = run(file);
-    EXPECT_EQ(result.outcome, CaseOutcome::failed);
-    EXPECT_NE(result.message.find("reference.json"), std::string::npos) << result.message;
-}
-
-TEST_F(RunCaseWithReferenceTest, NoCaseIsCalledAsAGoldenIs) {
-    const CaseFile file = cases.add("a.plain");
-    EXPECT_EQ(run(file).outcome, CaseOutcome::missing_golden) << "without a reference it may be";
-    write_reference(cases.path(), reference_of(maker_->renderer()));
-    const CaseResult result = run(file);
-    EXPECT_EQ(result.outcome, CaseOutcome::failed);
-    EXPECT_NE(result.message.find("rename the case"), std::string::npos) << result.message;
 }
 
 TEST(RunCase, IsSkippedWithoutOpenGL) {

@@ -81,7 +81,7 @@ TEST(ReadCase, WhatMayDifferAndWhereIsTheCasesOwn) {
     EXPECT_FALSE(plain.terms.mask);
     EXPECT_TRUE(plain.terms.draw_list);
     const Case own = read_case(
-        cases.add("own", R"("threshold": "2%", "allowed": "12px", "mask": "own.mask.png", "draw_list": false)").file);
+        cases.add("own", R"("threshold": "2%", "allowed": "12px", "mask": "own.mask.png", "state": false)").file);
     EXPECT_DOUBLE_EQ(own.terms.diff.channel_tolerance, 5.1);
     EXPECT_EQ(own.terms.diff.allowed(640 * 360), 12);
     EXPECT_EQ(own.terms.mask, cases.path() / "own.mask.png");
@@ -91,7 +91,7 @@ TEST(ReadCase, WhatMayDifferAndWhereIsTheCasesOwn) {
     EXPECT_EQ(loose.terms.diff.channel_tolerance, 4);
     EXPECT_EQ(loose.terms.diff.allowed(10'000), 10);
     for (const char* bad :
-         {R"("threshold": 300)", R"("allowed": 12)", R"("allowed": "many")", R"("mask": 1)", R"("draw_list": "no")"}) {
+         {R"("threshold": 300)", R"("allowed": 12)", R"("allowed": "many")", R"("mask": 1)", R"("state": "no")"}) {
         EXPECT_THROW(read_case(cases.add("bad", bad).file), InputError) << bad;
     }
 }

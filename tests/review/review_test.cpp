@@ -199,7 +199,7 @@ TEST(Review, ListsWhatCameOfEachCase) {
 TEST(Review, AcceptsOneOfTheFailingAndGivesItBack) {
     ReviewWorld w;
     const std::string picture = w.files.bytes("moved.png");
-    const std::string numbers = w.files.bytes("moved.draw.json");
+    const std::string numbers = w.files.bytes("moved.state.json");
     w.open();
     w.click("case.moved");
     ASSERT_EQ(w.review().shown().file.name, "moved");
@@ -211,13 +211,13 @@ TEST(Review, AcceptsOneOfTheFailingAndGivesItBack) {
     EXPECT_EQ(outcome_name(w.one("missing")), "missing golden") << "one of them was accepted";
     EXPECT_FALSE(fs::exists(w.files.file("missing.png")));
     EXPECT_NE(w.files.bytes("moved.png"), picture);
-    EXPECT_NE(w.files.bytes("moved.draw.json"), numbers);
+    EXPECT_NE(w.files.bytes("moved.state.json"), numbers);
     EXPECT_EQ(ThreeCases::run("test '" + w.files.cases().string() + "' moved"), 0) << "as --update takes it";
     const std::string taken = w.files.bytes("moved.png");
 
     w.key("Ctrl+Z");
     EXPECT_EQ(w.files.bytes("moved.png"), picture);
-    EXPECT_EQ(w.files.bytes("moved.draw.json"), numbers);
+    EXPECT_EQ(w.files.bytes("moved.state.json"), numbers);
     EXPECT_EQ(outcome_name(w.one("moved")), "different");
     EXPECT_EQ(w.up(), Lines{"Undone: accepting moved"}) << "that it was accepted is true no more";
     w.key("Ctrl+Y");
@@ -264,7 +264,7 @@ TEST(Review, GoldensThatChangedMeanwhileStay) {
     EXPECT_NE(w.said().find("moved.png: has changed on the disk since the case was drawn"), std::string::npos)
         << w.said();
     EXPECT_EQ(w.files.bytes("moved.png"), other);
-    EXPECT_EQ(w.files.bytes("moved.draw.json").find("pictures"), std::string::npos);
+    EXPECT_EQ(w.files.bytes("moved.state.json").find("pictures"), std::string::npos);
     EXPECT_FALSE(w.one("moved").accepted);
     EXPECT_FALSE(w.review().goldens.can_undo());
 
@@ -302,7 +302,7 @@ class SmallFiles {
 TEST(Review, NothingIsHalfWritten) {
     TempFolder folder;
     const fs::path a = folder.path() / "a.png";
-    const fs::path b = folder.path() / "b.draw.json";
+    const fs::path b = folder.path() / "b.state.json";
     const fs::path c = folder.path() / "c.png";
     const std::string large(2000, 'x');
     folder.write("a.png", "old");
@@ -318,7 +318,7 @@ TEST(Review, NothingIsHalfWritten) {
 
     // What cannot be put back is named, and the others are put back.
     folder.write("a.png", large);
-    folder.write("b.draw.json", "old");
+    folder.write("b.state.json", "old");
     std::string said;
     try {
         const SmallFiles full(1000);
@@ -342,7 +342,7 @@ TEST(Review, ANameThatIsNoTextIsOneCasesFault) {
 
 TEST(Review, NamesMayBeginAsOptionsDo) {
     ReviewWorld w;
-    for (const std::string ending : {".case.json", ".png", ".draw.json"}) {
+    for (const std::string ending : {".case.json", ".png", ".state.json"}) {
         fs::rename(w.files.file("moved" + ending), w.files.file("-moved" + ending));
     }
     w.open();
@@ -988,7 +988,7 @@ TEST(Review, OfADamagedReportNothingIsTaken) {
     nlohmann::json report = nlohmann::json::parse(mobbscope::testing::slurp(out / "report.json"));
     for (nlohmann::json& one : report["cases"]) {
         for (nlohmann::json& fresh : one["fresh"]) {
-            if (fresh["golden"] == ".draw.json") fresh["bytes"] = "e30x";  // "{}1"
+            if (fresh["golden"] == ".state.json") fresh["bytes"] = "e30x";  // "{}1"
         }
     }
     write_file(out / "report.json", report.dump());
@@ -996,7 +996,7 @@ TEST(Review, OfADamagedReportNothingIsTaken) {
     w.show("moved");
     w.key("A");
     EXPECT_FALSE(w.one("moved").accepted);
-    EXPECT_NE(w.said().find("moved.draw.json as it would be"), std::string::npos) << w.said();
+    EXPECT_NE(w.said().find("moved.state.json as it would be"), std::string::npos) << w.said();
     EXPECT_EQ(w.files.bytes("moved.png"), before);
 }
 

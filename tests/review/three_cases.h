@@ -35,7 +35,6 @@ class ThreeCases {
             write(name + ".case.json", R"({"mobbscope_case": 1, "scene": ")" + name + R"(.json", "size": "160x120",
                                            "view": {"levels": 1, "camera": {"target": [1, 0, 1], "distance": 8}}})");
         }
-        write("moved.draw.json", "");
         EXPECT_EQ(run("test '" + cases().string() + "' --update all"), 0);
         write("moved.json", walkers("1.3"));
         write("missing.case.json", R"({"mobbscope_case": 1, "scene": "same.json", "size": "160x120"})");

@@ -312,9 +312,10 @@ void RenderPlan::draw(Backend backend) {
             if (job.arguments.ui) {
                 // The window's picture changes the working folder, to which names are relative.
                 writing.finish();
-                write_png(picture.outputs.image, picture_tests::window_picture(
-                                                     *job.paths->fitted(), picture.view, job.arguments.file, backend,
-                                                     job.arguments.picture.size, job.arguments.ui_scale.value_or(1)));
+                write_png(picture.outputs.image,
+                          picture_tests::window_picture(*job.paths->fitted(), picture.view, job.arguments.file, backend,
+                                                        job.arguments.picture.size, job.arguments.ui_scale.value_or(1))
+                              .picture);
             } else {
                 const auto drawn = std::make_shared<Drawn>(
                     draw_scene(job, picture, renderer ? &*renderer : nullptr, film ? &*film : nullptr, patience));
@@ -348,7 +349,7 @@ void render_case(const Command& command, const RenderArguments& arguments) {
     if (lower_extension(arguments.outputs.image) != ".png")
         throw InputError(arguments.outputs.image, "the picture of a case is written as .png; rename the output");
     picture_tests::PictureMaker maker(arguments.backend.value_or(Backend::automatic));
-    write_png(arguments.outputs.image, maker.make(drawn.shot));
+    write_png(arguments.outputs.image, maker.make(drawn.shot).picture);
 }
 
 }  // namespace mobbscope::cli

@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mobbscope {
@@ -208,6 +209,9 @@ struct HighlightLine {
     Dash dash = kSolid;
     friend bool operator==(const HighlightLine&, const HighlightLine&) = default;
 };
+inline constexpr std::array<std::string_view, 7> kHighlightRoles{"selection", "hover",   "candidate", "conflict",
+                                                                 "ghost",     "measure", "ancestor"};
+inline std::string_view name(HighlightLine::Role role) { return kHighlightRoles[static_cast<std::size_t>(role)]; }
 
 /// A filled rectangle with round corners over the picture; a radius of half its side makes a disk.
 struct OverlayPanel {
@@ -227,7 +231,7 @@ struct OverlayLine {
     Dash dash = kSolid;
 };
 
-/// What a line of text is in the picture. JSON has the names.
+/// What a line of text is in the picture.
 enum class TextRole {
     label,    ///< of a part of a diagram
     tick,     ///< a number at the time axis or along the floor
@@ -238,6 +242,9 @@ enum class TextRole {
     header,   ///< of a folded panel
     map,      ///< title of the map of the floor
 };
+inline constexpr std::array<std::string_view, 8> kTextRoles{"label",   "tick",   "name",   "note",
+                                                            "caption", "legend", "header", "map"};
+inline std::string_view name(TextRole role) { return kTextRoles[static_cast<std::size_t>(role)]; }
 
 /// One line of text over the picture.
 struct TextRun {

@@ -92,8 +92,6 @@ constexpr std::array kBoxStates{"level",   "under_test", "apart_in_time", "separ
                                 "overlap", "avoidable",  "hit",           "annotation"};
 constexpr std::array kLegendMarks{"disk", "ring", "double_ring", "box", "line", "remark"};
 constexpr std::array kOverlays{"caption", "legend", "inset"};
-constexpr std::array kHighlightRoles{"selection", "hover", "candidate", "conflict", "ghost", "measure", "ancestor"};
-constexpr std::array kTextRoles{"label", "tick", "name", "note", "caption", "legend", "header", "map"};
 
 template <class Names, class Enum>
 const char* name_in(const Names& names, Enum of) {
@@ -229,8 +227,8 @@ void write_draw_list(std::ostream& stream, const DrawList& list, const IdImage* 
     });
     if (!list.highlights.empty()) {
         rows(out, "highlights", list.highlights, [&](const HighlightLine& line) {
-            members(out, "role", name_in(kHighlightRoles, line.role), "from", line.from, "to", line.to, "color",
-                    color_text(line.color), "width", line.width, "dash", line.dash, "on_screen",
+            members(out, "role", name(line.role), "from", line.from, "to", line.to, "color", color_text(line.color),
+                    "width", line.width, "dash", line.dash, "on_screen",
                     on_screen(seen_by, std::array{line.from, line.to}));
         });
     }
@@ -249,8 +247,8 @@ void write_draw_list(std::ostream& stream, const DrawList& list, const IdImage* 
     });
     rows(out, "marks", list.marks, [&](const OverlayPanel& mark) { write_panel(out, mark); });
     rows(out, "texts", list.texts, [&](const TextRun& text) {
-        members(out, "text", text.text, "role", name_in(kTextRoles, text.role), "at", text.baseline, "size", text.size,
-                "face", text.face == FontFace::mono ? "mono" : "text", "color", color_text(text.color), "on_screen",
+        members(out, "text", text.text, "role", name(text.role), "at", text.baseline, "size", text.size, "face",
+                text.face == FontFace::mono ? "mono" : "text", "color", color_text(text.color), "on_screen",
                 picture.overlaps(text.box));
     });
     out.end_object();

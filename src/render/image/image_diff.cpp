@@ -164,17 +164,6 @@ Image read_mask(const std::filesystem::path& file, PictureSize size, const std::
     return mask;
 }
 
-Image shrunk_mask(const Image& mask, int side, PictureSize size) {
-    Image out(size.width, size.height);
-    std::ranges::fill(out.rgba, std::uint8_t{255});
-    for (int y = 0; y < std::min(mask.height, side * size.height); ++y) {
-        for (int x = 0; x < std::min(mask.width, side * size.width); ++x) {
-            if (!is_compared(&mask, x, y)) std::fill_n(out.at(x / side, y / side), 4, std::uint8_t{0});
-        }
-    }
-    return out;
-}
-
 ImageDiff diff_of_sizes(PictureSize actual, PictureSize reference, const DiffOptions& options) {
     ImageDiff result;
     result.options = options;

@@ -59,10 +59,6 @@ ImageDiff diff_of_sizes(PictureSize actual, PictureSize reference, const DiffOpt
 /// message), or leaves nothing to compare.
 Image read_mask(const std::filesystem::path& file, PictureSize size, const std::filesystem::path& picture);
 
-/// The mask of a picture in which each pixel stands for `side` x `side` of them: one is compared if all are that are
-/// there. `size`: of that picture.
-Image shrunk_mask(const Image& mask, int side, PictureSize size);
-
 /// What a channel (0..3, the last is opacity) adds to what is seen, 0..255.
 int seen_channel(const std::uint8_t* pixel, int channel);
 

@@ -11,7 +11,7 @@
 /// argument has further keys of the case as JSON.
 ///
 /// In one run a name is for one scene with one set of keys. The goldens of "name" are NAME.case.json, NAME.png and
-/// NAME.draw.json in the folder MOBBSCOPE_GOLDENS, a macro. What is drawn otherwise goes to the folder
+/// NAME.state.json in the folder MOBBSCOPE_GOLDENS, a macro. What is drawn otherwise goes to the folder
 /// MOBBSCOPE_OUTPUT. CMake's mobbscope_target_goldens(TARGET DIR) defines both, and MOBBSCOPE_PROGRAM. Variables of the
 /// environment go before macros of that name; MOBBSCOPE_UPDATE=all, or names with commas between them, takes what is
 /// drawn as goldens.
