@@ -58,9 +58,9 @@ Image PictureMaker::make(const Shot& shot) {
     if (shot.window) {
         refuse_warnings(renderer_.backend(), renderer_.context().warnings());
         return work_window([&] {
-            return window_picture(*shot.panels.front().fitted, shot.panels.front().view, shot.scene_file,
-                                  *backend_from_name(renderer_.backend()), shot.picture.size, shot.window->scale,
-                                  script_of(shot));
+            return window_picture(*shot.panels.front().fitted, shot.panels.front().view,
+                                  shot.panels.front().fitted->scene().file, *backend_from_name(renderer_.backend()),
+                                  shot.picture.size, shot.window->scale, script_of(shot));
         });
     }
     return make(shot, panel_lists(shot));
@@ -93,9 +93,10 @@ std::string PictureMaker::draw_lists(const std::vector<DrawList>& lists) {
 
 PictureMaker::Window PictureMaker::window_without_text(const Shot& shot) {
     const WindowContents contents = work_window([&] {
-        return window_contents(*shot.panels.front().fitted, shot.panels.front().view, shot.scene_file,
-                               *backend_from_name(renderer_.backend()), shot.picture.size, shot.window->scale,
-                               size_of_scene(shot.picture.size), script_of(shot));
+        return window_contents(*shot.panels.front().fitted, shot.panels.front().view,
+                               shot.panels.front().fitted->scene().file, *backend_from_name(renderer_.backend()),
+                               shot.picture.size, shot.window->scale, size_of_scene(shot.picture.size),
+                               script_of(shot));
     });
     return {renderer_.draw(contents.scene), contents.state};
 }
