@@ -26,6 +26,11 @@ std::int64_t DiffOptions::allowed(std::int64_t pixels) const {
     return std::max(least, static_cast<std::int64_t>(share));
 }
 
+double DiffOptions::tile_tolerance() const {
+    constexpr double kTile = 0.25;
+    return channel_tolerance > DiffOptions{}.channel_tolerance ? channel_tolerance : kTile;
+}
+
 double parse_channel_tolerance(const std::string& text) {
     std::optional<double> level;
     const std::size_t slash = text.find('/');

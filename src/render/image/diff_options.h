@@ -6,6 +6,9 @@
 
 namespace mobbscope {
 
+/// Tiles of a picture are as wide and high as this in pixels, or up to twice as much, so that they fill it.
+inline constexpr int kTileSide = 32;
+
 struct DiffOptions {
     double channel_tolerance = 3;  ///< a pixel differs if one of its channels does by more than this, 0..255
     /// Pictures differ if more of their compared pixels do than this share, 0..1, and more than `least_pixels`. The
@@ -18,6 +21,11 @@ struct DiffOptions {
     int shift = 0;
     /// See pixel_fraction; beside a share it is at most 0.1 %, so that of a small picture not all may differ.
     std::int64_t least_pixels = 4;
+
+    /// Pictures also differ if the mean of a channel over a tile (kTileSide) does by more than this, 0..255. Pixels
+    /// beyond the channel tolerance are left out, as they are counted. Whoever raises that tolerance allows it
+    /// everywhere: then no mean can differ by more than it does.
+    double tile_tolerance() const;
 
     /// The most pixels that may differ, of so many that are compared.
     std::int64_t allowed(std::int64_t pixels) const;
