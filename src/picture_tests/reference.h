@@ -1,7 +1,7 @@
 /// What the goldens of a folder were drawn with, if that is told: `reference.json` beside the cases,
 ///
 ///     {"mobbscope_reference": 1,
-///      "fonts": {"Inter-Medium.otf": "<SHA-256>", "JetBrainsMono-Regular.ttf": "<SHA-256>"},
+///      "fonts": {"OpenSans-Regular.ttf": "<SHA-256>", "FiraCode-Regular.ttf": "<SHA-256>"},
 ///      "imgui": "1.86",
 ///      "opengl": "Mesa 22.3.6, llvmpipe"}
 ///
@@ -37,7 +37,7 @@ std::string reference_text(const Reference& reference);
 /// Throws MachineError.
 void write_reference(const std::filesystem::path& folder, const Reference& reference);
 
-/// The differences, "Dear ImGui 1.90.1 for 1.86, Inter-Medium.otf 5f2a0c11 for 8d3e90b4"; empty if there are none.
+/// The differences, "Dear ImGui 1.90.1 for 1.86, OpenSans-Regular.ttf 5f2a0c11 for e64e508b"; empty if there are none.
 std::string what_is_other(const Reference& here, const Reference& reference);
 
 /// Whether words have the same pixels here, of a window (in_window) or of a scene: the rasteriser aside.
