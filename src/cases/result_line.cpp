@@ -119,6 +119,7 @@ ImageDiff read_diff(const JsonPlace& place) {
     // Older reports lack it.
     if (const auto tile_mean = place.find("tile_mean")) {
         out.tile_mean = tile_mean->number(0, 255);
+        out.options.tile_tolerance = place.require("tile_threshold").number(0, 255);
         const JsonPlace tile = place.require("tile");
         out.tile = read_bounds(tile);
     }

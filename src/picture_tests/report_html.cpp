@@ -148,7 +148,7 @@ void write_numbers(std::ostream& out, const CaseResult& result) {
         << brief(allowed.channel_tolerance) << " of 255 (" << name(result.tolerance) << ")</dd>\n<dt>Maximum</dt><dd>"
         << diff.largest << " of 255</dd>\n<dt>Mean</dt><dd>" << brief(diff.mean)
         << " of 255</dd>\n<dt>Mean of a tile</dt><dd>up to " << figure(diff.tile_mean, 3) << ", allowed "
-        << brief(allowed.tile_tolerance()) << " of 255</dd>\n<dt>Where</dt><dd>";
+        << brief(allowed.tile_tolerance) << " of 255</dd>\n<dt>Where</dt><dd>";
     if (diff.bounds) {
         out << diff.bounds->width << " x " << diff.bounds->height << " pixels at (" << diff.bounds->x << ", "
             << diff.bounds->y << ")";

@@ -169,7 +169,9 @@ TEST(Overlays, FoldToTheirHeaders) {
 }
 
 TEST(Overlays, TheCaptionOfASceneWithoutAFileSaysWhatIsShown) {
-    const FittedScene fitted = testing::hit_scene();
+    Scene scene = testing::hit_scene().scene();
+    scene.file.clear();
+    const FittedScene fitted(std::move(scene), {});
     ViewState view;
     view.hidden = {"B"};
     EXPECT_TRUE(build_draw_list(fitted, view, PictureSize{640, 360}).headline.starts_with("B is hidden  \u00B7  MOBB"));

@@ -309,7 +309,7 @@ void write_diff(JsonWriter& out, const ImageDiff& diff) {
     out.members("least_pixels", options.least_pixels, "allowed_pixels", diff.allowed(), "shift", options.shift);
     out.member("tile_mean", diff.tile_mean);
     write_bounds(out, "tile", diff.tile);
-    out.member("tile_threshold", options.tile_tolerance());
+    out.member("tile_threshold", options.tile_tolerance);
     out.end_object();
 }
 
@@ -340,7 +340,7 @@ std::string what_differs(const ImageDiff& diff) {
     }
     if (!diff.tile_differs()) return out;
     return out + "; the mean" + within(*diff.tile) + " differs by " + figure(diff.tile_mean, 3) +
-           "/255, allowed: " + level(diff.options.tile_tolerance());
+           "/255, allowed: " + level(diff.options.tile_tolerance);
 }
 
 std::string diff_sentence(const ImageDiff& diff) {

@@ -44,7 +44,7 @@ struct ImageDiff {
     double fraction() const { return pixels > 0 ? static_cast<double>(differing) / static_cast<double>(pixels) : 0; }
     /// The most pixels that may differ.
     std::int64_t allowed() const { return options.allowed(pixels); }
-    bool tile_differs() const { return tile_mean > options.tile_tolerance(); }
+    bool tile_differs() const { return tile_mean > options.tile_tolerance; }
 };
 
 /// Whether ImageDiff::heat is made.
