@@ -139,7 +139,7 @@ Image shaded(int width, int height, bool with_grid = true) {
 }
 
 template <class Change>
-Image with_levels(Image image, const Change& change) {
+Image levels_changed(Image image, const Change& change) {
     for (std::size_t i = 0; i < image.rgba.size(); ++i) {
         if (i % 4 != 3) image.rgba[i] = static_cast<std::uint8_t>(std::clamp(change(image.rgba[i]), 0, 255));
     }
@@ -149,11 +149,11 @@ Image with_levels(Image image, const Change& change) {
 TEST(TileMeans, FindWhatLeansToOneSide) {
     const Image reference = shaded(640, 360);
     const std::pair<const char*, Image> changes[] = {
-        {"3 brighter", with_levels(reference, [](int level) { return level + 3; })},
+        {"3 brighter", levels_changed(reference, [](int level) { return level + 3; })},
         {"gamma 1.02",
-         with_levels(reference,
-                     [](int level) { return static_cast<int>(std::lround(255 * std::pow(level / 255.0, 1.02))); })},
-        {"6 bits a channel", with_levels(reference, [](int level) { return level / 4 * 255 / 63; })},
+         levels_changed(reference,
+                        [](int level) { return static_cast<int>(std::lround(255 * std::pow(level / 255.0, 1.02))); })},
+        {"6 bits a channel", levels_changed(reference, [](int level) { return level / 4 * 255 / 63; })},
         {"without the faint grid", shaded(640, 360, false)}};
     for (const auto& [name, actual] : changes) {
         const ImageDiff result = diff(actual, reference);
@@ -171,7 +171,7 @@ TEST(TileMeans, ForgiveNoise) {
     for (unsigned seed = 1; seed < 6; ++seed) {
         std::minstd_rand random(seed);
         const ImageDiff result =
-            diff(with_levels(reference, [&](int level) { return level + static_cast<int>(random() / 16 % 5) - 2; }),
+            diff(levels_changed(reference, [&](int level) { return level + static_cast<int>(random() / 16 % 5) - 2; }),
                  reference, {}, nullptr, HeatMap::left_out);
         EXPECT_EQ(result.largest, 2);
         EXPECT_TRUE(result.passes) << diff_sentence(result);
