@@ -181,12 +181,13 @@ void make_changes(const Options& options) {
     }
 }
 
-/// Of -2 to 2 levels.
+/// Of -2 to 2 levels. What that would take beyond black or white stays as it is: cut off, its mean would not be 0.
 void add_noise(Image& image, std::uint64_t seed) {
     Uniform random(seed);
     for (std::size_t i = 0; i < image.rgba.size(); ++i) {
-        if (i % 4 != 3)
-            image.rgba[i] = static_cast<std::uint8_t>(std::clamp(image.rgba[i] + random.below(5) - 2, 0, 255));
+        const int by = random.below(5) - 2;
+        if (i % 4 != 3 && image.rgba[i] >= 2 && image.rgba[i] <= 253)
+            image.rgba[i] = static_cast<std::uint8_t>(image.rgba[i] + by);
     }
 }
 

@@ -383,6 +383,43 @@ bool paint_over_tick_label(Image& image, const Drawn& before, Uniform& random, s
     return true;
 }
 
+// No pixel of these differs by more than the tolerance: means of tiles tell.
+
+template <class Change>
+bool change_levels(Image& image, const Change& change) {
+    for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+        if (i % 4 != 3) image.rgba[i] = static_cast<std::uint8_t>(std::clamp(change(image.rgba[i]), 0, 255));
+    }
+    return true;
+}
+
+bool brighten(Image& image, const Drawn&, Uniform&, std::string&) {
+    return change_levels(image, [](int level) { return level + 3; });
+}
+
+bool change_gamma(Image& image, const Drawn&, Uniform&, std::string&) {
+    return change_levels(image,
+                         [](int level) { return static_cast<int>(std::lround(255 * std::pow(level / 255.0, 1.02))); });
+}
+
+bool leave_six_bits(Image& image, const Drawn&, Uniform&, std::string&) {
+    return change_levels(image, [](int level) { return level / 4 * 255 / 63; });
+}
+
+/// It is in the golden or in the picture: which of them makes no difference.
+bool add_faint_grid(Image& image, const Drawn&, Uniform& random, std::string& what) {
+    const int step = 8 + random.below(13), by = random.below(2) == 0 ? 3 : -3;
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            if (x % step != 0 && y % step != 0) continue;
+            for (int c = 0; c < 3; ++c)
+                image.at(x, y)[c] = static_cast<std::uint8_t>(std::clamp(image.at(x, y)[c] + by, 0, 255));
+        }
+    }
+    what = formatted("every %d pixels", step);
+    return true;
+}
+
 constexpr Kind kKinds[] = {
     {"agent 1 mm aside", move_agent<10>, true},
     {"agent 3 mm aside", move_agent<30>, true},
@@ -411,6 +448,10 @@ constexpr Kind kKinds[] = {
     {"level off by one", shift_level},
     {"red block of 16x11 painted", paint_block},
     {"tick label painted over", paint_over_tick_label},
+    {"picture 3 of 255 brighter", brighten},
+    {"gamma 1.02", change_gamma},
+    {"6 bits a channel", leave_six_bits},
+    {"faint grid missing", add_faint_grid},
 };
 
 }  // namespace

@@ -100,7 +100,7 @@ std::vector<CaseFile> search_cases(const std::filesystem::path& folder, std::err
 
 DiffOptions diff_options(Tolerance tolerance) {
     if (tolerance == Tolerance::tight) return {};
-    return {.channel_tolerance = 8, .pixel_fraction = 0.005, .shift = 1};
+    return {.channel_tolerance = 8, .pixel_fraction = 0.005, .shift = 1, .tile_tolerance = 8};
 }
 
 std::filesystem::path CaseFile::beside(std::string_view ending) const {
@@ -217,7 +217,7 @@ CaseTerms read_terms(const JsonPlace& root, const std::filesystem::path& folder)
     if (const auto tolerance = root.find("tolerance")) out.tolerance = read_tolerance(*tolerance);
     out.diff = diff_options(out.tolerance);
     if (const auto threshold = root.find("threshold")) {
-        out.diff.channel_tolerance = read_at(*threshold, [&] { return parse_channel_tolerance(word_of(*threshold)); });
+        read_at(*threshold, [&] { set_threshold(out.diff, word_of(*threshold)); });
     }
     if (const auto allowed = root.find("allowed")) {
         read_at(*allowed, [&] { set_allowance(out.diff, word_of(*allowed)); });

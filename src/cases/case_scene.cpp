@@ -25,9 +25,10 @@ CaseScene read_case_scene(const JsonPlace& place, const std::filesystem::path& f
     const JsonPlace scene = place.require("scene");
     if (scene.is_object()) {
         Scene own = read_scene(scene, folder);
-        own.file = place.file();
+        // The folder alone: a picture must not depend on how its case is called.
+        own.file = folder / "";
         FitAndView seen = FitAndView{own.fit, own.view}.over(place);
-        return {own.file, std::move(own), std::move(seen)};
+        return {place.file(), std::move(own), std::move(seen)};
     }
     const std::filesystem::path file = read_path(scene, folder).lexically_normal();
     Scene read = read_at(scene, [&] { return load_scene(file); });
@@ -44,6 +45,7 @@ Scene scene_of(const CaseFile& file) {
         const JsonPlace first = (*panels)[0];
         read.seen = read.seen.over(first);
     }
+    read.scene.file = read.file;
     read.scene.fit = read.seen.fit;
     read.scene.view = read.seen.view;
     return std::move(read.scene);

@@ -37,7 +37,8 @@ struct FitAndView {
     FitAndView over(const JsonPlace& place) const;
 };
 
-/// The file, which is the case's own where the scene stands in it, the scene, and how the case sees that.
+/// The file, which is the case's own where the scene stands in it, the scene, and how the case sees that. A scene that
+/// stands in a case has no name: its file is the folder, "cases/".
 struct CaseScene {
     std::filesystem::path file;
     Scene scene;

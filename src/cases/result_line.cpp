@@ -106,6 +106,13 @@ ImageDiff read_diff(const JsonPlace& place) {
     out.options.pixel_fraction = place.require("allowed").number(0, 1);
     out.options.least_pixels = place.require("least_pixels").count();
     out.options.shift = place.require("shift").integer(0, 1);
+    // Older reports lack it.
+    if (const auto tile_mean = place.find("tile_mean")) {
+        out.tile_mean = tile_mean->number(0, 255);
+        out.options.tile_tolerance = place.require("tile_threshold").number(0, 255);
+        const JsonPlace tile = place.require("tile");
+        out.tile = read_bounds(tile);
+    }
     return out;
 }
 

@@ -97,20 +97,21 @@ void add_diff_options(Command& command, DiffCommandArguments& arguments) {
     command.add_option("B.png", arguments.b, "The one that it is held against", "").required();
     command.add_option("-o,--output", arguments.heat, "Heat map: B in grey, and what differs glowing", "HEAT.png");
     command.add_option("--strip", arguments.strip, "A, B and the heat map side by side", "STRIP.png");
-    add_parsed(command, "--threshold", arguments.options.channel_tolerance, parse_channel_tolerance,
-               "How far a channel may be off: levels of 255, or a share as 3/255, 1.2%, or a number between 0 "
-               "and 1 (3)",
-               "X");
-    add_parsed(
-        command, "--allowed", arguments.options,
-        [&arguments](const std::string& text) {
+    const auto parsed_by = [&arguments](void (*set)(DiffOptions&, const std::string&)) {
+        return [&arguments, set](const std::string& text) {
             DiffOptions options = arguments.options;
-            set_allowance(options, text);
+            set(options, text);
             return options;
-        },
-        "How many pixels may be farther off: 12px, or a share of those compared, 0.1% or 50ppm (20ppm, or "
-        "4px where that is more)",
-        "P");
+        };
+    };
+    add_parsed(command, "--threshold", arguments.options, parsed_by(set_threshold),
+               "How far a channel may be off: levels of 255, or a share as 3/255, 1.2%, or a number between 0 "
+               "and 1 (3; means of tiles of 32x32 pixels 0.25)",
+               "X");
+    add_parsed(command, "--allowed", arguments.options, parsed_by(set_allowance),
+               "How many pixels may be farther off: 12px, or a share of those compared, 0.1% or 50ppm (20ppm, or "
+               "4px where that is more)",
+               "P");
     add_parsed(command, "--shift", arguments.options.shift, parse_pixel_shift, "1: something may lie a pixel aside (0)",
                "0|1");
     command.add_option("--mask", arguments.mask, "Compares only where this picture is neither black nor transparent",

@@ -146,7 +146,9 @@ void write_numbers(std::ostream& out, const CaseResult& result) {
         << "<dt>Failing pixels</dt><dd>" << diff.differing << " of " << diff.pixels << ", "
         << brief(100 * diff.fraction()) << " %</dd>\n<dt>Allowed</dt><dd>" << diff.allowed() << " beyond "
         << brief(allowed.channel_tolerance) << " of 255 (" << name(result.tolerance) << ")</dd>\n<dt>Maximum</dt><dd>"
-        << diff.largest << " of 255</dd>\n<dt>Mean</dt><dd>" << brief(diff.mean) << " of 255</dd>\n<dt>Where</dt><dd>";
+        << diff.largest << " of 255</dd>\n<dt>Mean</dt><dd>" << brief(diff.mean)
+        << " of 255</dd>\n<dt>Mean of a tile</dt><dd>up to " << figure(diff.tile_mean, 3) << ", allowed "
+        << brief(allowed.tile_tolerance) << " of 255</dd>\n<dt>Where</dt><dd>";
     if (diff.bounds) {
         out << diff.bounds->width << " x " << diff.bounds->height << " pixels at (" << diff.bounds->x << ", "
             << diff.bounds->y << ")";
@@ -302,6 +304,7 @@ std::string how_much(const CaseResult& result) {
     const ImageDiff& diff = *result.image;
     const std::string far = ", up to " + std::to_string(diff.largest) + " of 255";
     if (diff.differing > 0) return counted(diff.differing, "pixel", "pixels") + far;
+    if (diff.tile_differs()) return "the mean of a tile by " + figure(diff.tile_mean, 3) + " of 255";
     return counted(diff.unequal, "pixel", "pixels") + " within the tolerance" + far;
 }
 

@@ -13,6 +13,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace mobbscope::picture_tests {
 
@@ -52,7 +53,9 @@ class WorkedWindow {
         scene.view = view;
         session_.options.may_write = false;
         app::add_review(session_);
-        session_.files.open_scene(scene, {scene.file});
+        std::vector<std::filesystem::path> opened;
+        if (file.has_filename()) opened.push_back(scene.file);
+        session_.files.open_scene(scene, opened);
         const GlContext& drawn_in = *context;
         window_.emplace(std::move(context), session_, size, scale);
         if (script) {

@@ -65,10 +65,10 @@ std::string sentence_of(const Review& review, const ReviewCase& one) {
             out += "An answer is not the one that the scene expects.";
         } else if (numbers) {
             out += "The numbers of " + file + " differ.";
-        } else if (figures && figures->same_size) {
+        } else if (figures && figures->differing > 0) {
             out += counted(figures->differing, "pixel", "pixels") + " of " + file + " differ, by up to " +
                    std::to_string(figures->largest) + " of 255.";
-        } else if (figures) {
+        } else if (figures && !figures->same_size) {
             out += file + " has another size.";
         } else {
             out += finding.message + ".";
@@ -221,6 +221,7 @@ void numbers(Ui& ui, const ReviewCase& one, const ReviewPictures& pictures) {
     text_row(ui, "largest difference", std::to_string(diff.largest) + " of 255");
     text_row(ui, "counts above",
              brief(diff.options.channel_tolerance) + " of 255" + (diff.options.shift > 0 ? ", a pixel aside" : ""));
+    text_row(ui, "mean of a tile", "up to " + figure(diff.tile_mean, 3) + " of 255");
     if (!diff.bounds) return;
     const PixelRect& bounds = *diff.bounds;
     text_row(ui, "within", formatted("%dx%d at %d, %d", bounds.width, bounds.height, bounds.x, bounds.y));

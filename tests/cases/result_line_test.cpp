@@ -30,6 +30,8 @@ TEST(ResultLine, IsReadAsItIsWritten) {
     result.actual = png_bytes(actual);
     result.golden = png_bytes(Image(2, 1));
     result.image = diff(actual, Image(2, 1));
+    result.image->tile_mean = 0.5;
+    result.image->tile = PixelRect{0, 0, 2, 1};
     result.drawn_by = {"osmesa", "llvmpipe (LLVM 15.0.6, 256 bits)"};
     result.findings = {{file.golden(), "pixels", {}}, {file.state(), "numbers", {"box of A", "and 1 more"}}};
     result.fresh = {{file.golden(), "new", "old"}, {file.state(), "{}", {}}};

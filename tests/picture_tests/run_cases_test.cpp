@@ -288,6 +288,15 @@ TEST_F(RunCaseTest, PanelsAreSeenThroughWhereTheirBackgroundIs) {
     EXPECT_GT(opaque, 500);
 }
 
+TEST_F(RunCaseTest, ThePictureDoesNotDependOnTheCasesName) {
+    const std::string own = R"({"mobbscope_case": 1, "size": "640x400", "scene": )" + std::string(kSmallScene);
+    for (const char* more : {"}", R"(, "view": {"boxes": false, "hidden": ["B"]}})", R"(, "window": {}})"}) {
+        const CaseResult one = run(cases.write("one", own + more)), other = run(cases.write("other.name", own + more));
+        ASSERT_FALSE(one.actual.empty()) << one.message;
+        EXPECT_EQ(one.actual, other.actual) << more;
+    }
+}
+
 TEST_F(RunCaseTest, AScriptOfTheWindowWritesNothing) {
     const std::string before = read_file(cases.path() / "scene.json");
     cases.folder().write("save.script", "run file.save\n");

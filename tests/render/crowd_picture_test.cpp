@@ -240,6 +240,7 @@ bool has_caption_on_a_panel(const DrawList& list) {
 TEST_F(CrowdPicture, TheCaptionStandsOnAPanel) {
     Scene pair = run.scene();
     pair.crowd = nullptr;
+    pair.file = "pair.json";
     pair.agents = {{"a", 0, {}, std::nullopt}, {"b", 1, {{3, 0}, 0, 0}, std::nullopt}};
     const FittedScene scene(std::move(pair), {});
     for (const FittedScene* fitted : {&std::as_const(run), &scene}) {

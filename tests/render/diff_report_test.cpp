@@ -24,10 +24,12 @@ TEST(DiffJson, HasAllFigures) {
     JsonWriter out(text);
     write_diff(out, report_difference(231, 87, {3, 0.001, 1}));
     const auto json = nlohmann::json::parse(text.str());
-    EXPECT_EQ(testing::keys(json),
-              (std::set<std::string>{"same", "passes", "same_size", "size_a", "size_b", "pixels", "unequal", "failing",
-                                     "fraction", "maximum", "mean", "unequal_bounds", "bounds", "histogram",
-                                     "threshold", "allowed", "least_pixels", "allowed_pixels", "shift"}));
+    EXPECT_EQ(
+        testing::keys(json),
+        (std::set<std::string>{"same",    "passes",    "same_size", "size_a",        "size_b",       "pixels",
+                               "unequal", "failing",   "fraction",  "maximum",       "mean",         "unequal_bounds",
+                               "bounds",  "histogram", "threshold", "allowed",       "least_pixels", "allowed_pixels",
+                               "shift",   "tile_mean", "tile",      "tile_threshold"}));
     EXPECT_EQ(json["same"], false);
     EXPECT_EQ(json["same_size"], true);
     EXPECT_EQ(json["size_b"], nlohmann::json({640, 360}));
@@ -42,6 +44,9 @@ TEST(DiffJson, HasAllFigures) {
     EXPECT_EQ(json["threshold"], 3);
     EXPECT_EQ(json["allowed"], 0.001);
     EXPECT_EQ(json["shift"], 1);
+    EXPECT_EQ(json["tile_mean"], 0) << "pixels beyond the threshold are left out";
+    EXPECT_TRUE(json["tile"].is_null());
+    EXPECT_EQ(json["tile_threshold"], 0.25);
 }
 
 TEST(DiffJson, WithoutDifferencesThereAreNoBounds) {

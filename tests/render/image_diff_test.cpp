@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <random>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace mobbscope {
@@ -38,8 +41,9 @@ TEST(ImageDiff, EqualPicturesAreTheSame) {
 TEST(ImageDiff, SmallDifferencesCountAsEqual) {
     const Image reference = grey(100, 100);
     Image actual = reference;
-    for (std::size_t i = 0; i < actual.rgba.size(); ++i)
-        actual.rgba[i] = static_cast<std::uint8_t>(i % 4 == 3 ? 252 : 103);
+    for (std::size_t i = 0; i < actual.rgba.size(); ++i) {
+        if (i % 4 != 3) actual.rgba[i] = i % 8 < 4 ? 103 : 97;
+    }
     const ImageDiff result = diff(actual, reference);
     EXPECT_TRUE(result.passes);
     EXPECT_EQ(result.differing, 0);
@@ -119,6 +123,93 @@ TEST(ImageDiff, SameIsOnlyWhatNoByteDiffersIn) {
     EXPECT_EQ(noise.unequal_bounds, (PixelRect{3, 4, 3, 1}));
     EXPECT_EQ(diff_sentence(noise),
               "passes: none of 100 pixels differs by more than 3/255; 2 differ by up to 2/255, within 3x1 at (3, 4)");
+}
+
+/// Levels from 30 to 229, with faint lines a level or two lighter.
+Image shaded(int width, int height, bool with_grid = true) {
+    Image out(width, height);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const int level = 30 + (x + 2 * y) % 200 + (with_grid && (x % 16 == 0 || y % 16 == 0) ? 3 : 0);
+            std::fill_n(out.at(x, y), 3, static_cast<std::uint8_t>(level));
+            out.at(x, y)[3] = 255;
+        }
+    }
+    return out;
+}
+
+template <class Change>
+Image levels_changed(Image image, const Change& change) {
+    for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+        if (i % 4 != 3) image.rgba[i] = static_cast<std::uint8_t>(std::clamp(change(image.rgba[i]), 0, 255));
+    }
+    return image;
+}
+
+TEST(TileMeans, FindWhatLeansToOneSide) {
+    const Image reference = shaded(640, 360);
+    const std::pair<const char*, Image> changes[] = {
+        {"3 brighter", levels_changed(reference, [](int level) { return level + 3; })},
+        {"gamma 1.02",
+         levels_changed(reference,
+                        [](int level) { return static_cast<int>(std::lround(255 * std::pow(level / 255.0, 1.02))); })},
+        {"6 bits a channel", levels_changed(reference, [](int level) { return level / 4 * 255 / 63; })},
+        {"without the faint grid", shaded(640, 360, false)}};
+    for (const auto& [name, actual] : changes) {
+        const ImageDiff result = diff(actual, reference);
+        EXPECT_EQ(result.differing, 0) << name;
+        EXPECT_FALSE(result.passes) << name;
+        EXPECT_EQ(result.bounds, result.tile) << name;
+        EXPECT_NE(diff_sentence(result).find("; the mean within 32x3"), std::string::npos) << diff_sentence(result);
+        const auto glows = [&](std::size_t i) { return result.heat.rgba[4 * i] > 200; };
+        EXPECT_TRUE(glows(0) || glows(640 * 100 + 100)) << name;
+    }
+}
+
+TEST(TileMeans, ForgiveNoise) {
+    const Image reference = shaded(1920, 1080);
+    for (unsigned seed = 1; seed < 6; ++seed) {
+        std::minstd_rand random(seed);
+        const ImageDiff result =
+            diff(levels_changed(reference, [&](int level) { return level + static_cast<int>(random() / 16 % 5) - 2; }),
+                 reference, {}, nullptr, HeatMap::left_out);
+        EXPECT_EQ(result.largest, 2);
+        EXPECT_TRUE(result.passes) << diff_sentence(result);
+        EXPECT_GT(result.tile_mean, 0.05) << "it is noise";
+    }
+}
+
+TEST(TileMeans, TilesFillThePicture) {
+    const Image reference = grey(100, 70);
+    Image actual = reference;
+    paint(actual, {66, 35, 34, 35}, 102);
+    const ImageDiff result = diff(actual, reference);
+    EXPECT_EQ(result.tile, (PixelRect{66, 35, 34, 35})) << "the last of 3 x 2";
+    EXPECT_EQ(result.tile_mean, 2);
+    EXPECT_EQ(diff_sentence(result),
+              "different: none of 7000 pixels differs by more than 3/255; 1190 differ by up to 2/255, within 34x35 at "
+              "(66, 35); the mean within 34x35 at (66, 35) differs by 2/255, allowed: 0.25/255");
+    Image mask = filled(100, 70, 255);
+    paint(mask, {66, 35, 34, 20}, 0);
+    EXPECT_TRUE(diff(actual, reference, {}, &mask).passes) << "15 rows of 34 pixels are too few";
+    EXPECT_TRUE(diff(filled(16, 16, 101), filled(16, 16, 100)).passes) << "and so is a small picture";
+    EXPECT_FALSE(diff(filled(16, 32, 101), filled(16, 32, 100)).passes);
+}
+
+TEST(TileMeans, LeaveOutWhatIsCounted) {
+    const Image reference = grey(100, 100);
+    Image actual = reference;
+    paint(actual, {10, 10, 2, 2}, 255);
+    EXPECT_TRUE(diff(actual, reference).passes) << "four pixels may differ by any amount";
+    EXPECT_EQ(diff(actual, reference).tile, std::nullopt);
+}
+
+TEST(TileMeans, AThresholdThatIsGivenIsAllowedEverywhere) {
+    const Image reference = grey(100, 100), actual = filled(100, 100, 103);
+    EXPECT_FALSE(diff(actual, reference).passes);
+    DiffOptions options;
+    set_threshold(options, "3");
+    EXPECT_TRUE(diff(actual, reference, options).passes);
 }
 
 TEST(ImageDiff, TellsHowMuchAndWhere) {

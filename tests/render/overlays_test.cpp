@@ -168,6 +168,19 @@ TEST(Overlays, FoldToTheirHeaders) {
     }
 }
 
+TEST(Overlays, TheCaptionOfASceneWithoutAFileSaysWhatIsShown) {
+    Scene scene = testing::hit_scene().scene();
+    scene.file.clear();
+    const FittedScene fitted(std::move(scene), {});
+    ViewState view;
+    view.hidden = {"B"};
+    EXPECT_TRUE(build_draw_list(fitted, view, PictureSize{640, 360}).headline.starts_with("B is hidden  \u00B7  MOBB"));
+    view.boxes = false;
+    EXPECT_EQ(build_draw_list(fitted, view, PictureSize{640, 360}).headline, "B is hidden");
+    view.hidden.clear();
+    EXPECT_EQ(overlay(build_draw_list(fitted, view, PictureSize{640, 360}), Overlay::Kind::caption), nullptr);
+}
+
 TEST(Overlays, WhatHasNoRoomIsFoldedAndSaysSo) {
     const FittedScene fitted = testing::hit_scene();
     const DrawList list = build_draw_list(fitted, busy_view(), PictureSize{330, 150});

@@ -20,6 +20,7 @@ inline mobb::ClipPtr walk(int samples) {
 
 inline Scene scene_of(std::vector<mobb::Placement> placements, int samples = 60) {
     Scene scene;
+    scene.file = "scene.json";
     scene.clips.push_back({"walk", std::nullopt, {}, walk(samples)});
     for (const mobb::Placement& placement : placements) {
         const char letter = static_cast<char>('A' + scene.agents.size());

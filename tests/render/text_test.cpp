@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mobbscope {
@@ -81,6 +82,19 @@ TEST(Font, ControlCharactersAreSpaces) {
             EXPECT_TRUE(font.rasterise(code, 12, 0).coverage.empty());
         }
     }
+}
+
+TEST(Font, TheOtherFaceDrawsWhatOneLacks) {
+    const Font& words = Font::of(FontFace::text);
+    for (const char32_t code : std::u32string_view(U"\u2080\u2190\u2191\u2192\u2193\u25B6")) {
+        EXPECT_TRUE(words.has(code));
+        EXPECT_EQ(Font::drawing(FontFace::text, code), FontFace::mono);
+        EXPECT_EQ(words.advance(code, 'A', 12), Font::of(FontFace::mono).advance(code, 0, 12));
+        EXPECT_EQ(words.rasterise(code, 12, 0).coverage, Font::of(FontFace::mono).rasterise(code, 12, 0).coverage);
+    }
+    EXPECT_EQ(Font::drawing(FontFace::text, 'A'), FontFace::text);
+    EXPECT_EQ(Font::drawing(FontFace::mono, 'A'), FontFace::mono);
+    EXPECT_EQ(Font::drawing(FontFace::text, 0x6F22), FontFace::text) << "neither has it";
 }
 
 TEST(Font, AMissingGlyphIsAHollowBox) {

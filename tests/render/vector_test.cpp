@@ -94,8 +94,13 @@ TEST(Vector, PdfHasThePictureSizeAndNoDate) {
     EXPECT_EQ(pdf.rfind("%PDF-", 0), 0U);
     EXPECT_NE(pdf.find("/MediaBox [ 0 0 640 360 ]"), std::string::npos);
     EXPECT_EQ(pdf.find("CreationDate"), std::string::npos);
-    EXPECT_NE(pdf.find("Inter"), std::string::npos) << "its face, so its text is text";
+    EXPECT_NE(pdf.find("OpenSans"), std::string::npos) << "its face, so its text is text";
     EXPECT_NE(pdf.find("/ToUnicode"), std::string::npos);
+    DrawList list = chart();
+    std::erase_if(list.texts, [](const TextRun& text) { return text.face == FontFace::mono; });
+    EXPECT_EQ(bytes_of("x.pdf", list).find("FiraCode"), std::string::npos);
+    list.texts.front().text = "a \u2192 b";
+    EXPECT_NE(bytes_of("x.pdf", list).find("FiraCode"), std::string::npos) << "the face that has an arrow";
 }
 
 TEST(Vector, TheSameListGivesTheSameBytes) {

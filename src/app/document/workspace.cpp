@@ -64,7 +64,7 @@ bool Workspace::modified() const {
 }
 
 std::string Workspace::title() const {
-    std::string whole = scene().file.empty() ? "untitled" : scene().file.stem().string();
+    std::string whole = scene().file.stem().empty() ? "untitled" : scene().file.stem().string();
     if (file) whole = file->filename().string();
     if (!in_excerpt()) return whole;
     std::string title = scene().agents.empty() ? "excerpt" : scene().agents.front().name;

@@ -11,11 +11,13 @@ namespace mobbscope::app {
 
 namespace {
 
-// Heights of a line at scale 1. Words and numbers share one, so that they stand on one line; Inter's em is 1/1.21 of
-// it.
+// Heights of a line at scale 1. Words and numbers share one, so that they stand on one line.
 constexpr float kBody = 16;
 constexpr float kTitle = 21;
 constexpr float kCaption = 13;
+
+/// The em as a share of the line. Letters and digits of one width are wide, so theirs is smaller.
+constexpr float em_of(FontFace face) { return face == FontFace::text ? 0.85f : 0.76f; }
 
 /// What names, units and formulas are written with; of these, those that the font has.
 constexpr std::array<std::pair<ImWchar, ImWchar>, 12> kWanted{{
@@ -33,11 +35,12 @@ constexpr std::array<std::pair<ImWchar, ImWchar>, 12> kWanted{{
     {0x2713, 0x2717},  // ticks and crosses
 }};
 
-ImVector<ImWchar> ranges_of(FontFace face) {
+/// Of what is wanted of a face, the part that a file draws.
+ImVector<ImWchar> ranges_of(FontFace face, FontFace file) {
     ImFontGlyphRangesBuilder builder;
     for (const auto& [first, last] : kWanted) {
         for (ImWchar code = first; code <= last; ++code) {
-            if (Font::of(face).has(code)) builder.AddChar(code);
+            if (Font::of(face).has(code) && Font::drawing(face, code) == file) builder.AddChar(code);
         }
     }
     ImVector<ImWchar> ranges;
@@ -45,30 +48,38 @@ ImVector<ImWchar> ranges_of(FontFace face) {
     return ranges;
 }
 
-/// From the top of a line to its base, as Dear ImGui rounds it.
-float base_line(FontFace face, float height) {
-    const Font& font = Font::of(face);
-    return std::floor(height * font.ascent(1) / (font.ascent(1) + font.descent(1))) + 1;
-}
-
 ImFont* add_font(FontFace face, float height, float scale) {
+    constexpr std::array kFiles{FontFace::text, FontFace::mono};
     // The atlas keeps the pointers.
-    static const ImVector<ImWchar> text = ranges_of(FontFace::text);
-    static const ImVector<ImWchar> mono = ranges_of(FontFace::mono);
-    const std::string_view file = Font::file(face);
-    ImFontConfig config;
-    // It reads the bytes alone, whatever its type says.
-    config.FontData = const_cast<char*>(file.data());
-    config.FontDataSize = static_cast<int>(file.size());
-    config.FontDataOwnedByAtlas = false;
-    config.SizePixels = std::round(height * scale);
-    config.GlyphRanges = (face == FontFace::text ? text : mono).Data;
-    // Large glyphs are smooth without it.
-    config.OversampleH = scale < 1.5f ? 3 : 2;
-    // Digits of one width stand on whole pixels.
-    config.PixelSnapH = face == FontFace::mono;
-    config.GlyphOffset.y = base_line(FontFace::text, config.SizePixels) - base_line(face, config.SizePixels);
-    return ImGui::GetIO().Fonts->AddFont(&config);
+    static const auto ranges = [&] {
+        std::array<std::array<ImVector<ImWchar>, 2>, 2> out;
+        for (std::size_t i = 0; i < 2; ++i) {
+            for (std::size_t j = 0; j < 2; ++j) out[i][j] = ranges_of(kFiles[i], kFiles[j]);
+        }
+        return out;
+    }();
+    const float line = std::round(height * scale);
+    ImFont* font = nullptr;
+    for (const FontFace file : {face, face == FontFace::text ? FontFace::mono : FontFace::text}) {
+        const std::string_view bytes = Font::file(file);
+        ImFontConfig config;
+        // It reads the bytes alone, whatever its type says.
+        config.FontData = const_cast<char*>(bytes.data());
+        config.FontDataSize = static_cast<int>(bytes.size());
+        config.FontDataOwnedByAtlas = false;
+        config.MergeMode = font != nullptr;
+        // Dear ImGui counts the height of the file's own line, not the em.
+        config.SizePixels = line * em_of(face) * Font::file_line(file);
+        config.GlyphRanges = ranges[static_cast<std::size_t>(face)][static_cast<std::size_t>(file)].Data;
+        // Large glyphs are smooth without it.
+        config.OversampleH = scale < 1.5f ? 3 : 2;
+        // Digits of one width stand on whole pixels.
+        config.PixelSnapH = face == FontFace::mono;
+        // It rounds where the base of the file's own line is.
+        config.GlyphOffset.y = std::floor(0.8f * line) - std::floor(line * em_of(face) * Font::file_ascent(face));
+        font = ImGui::GetIO().Fonts->AddFont(&config);
+    }
+    return font;
 }
 
 void add_fonts(Style& style) {
@@ -81,6 +92,10 @@ void add_fonts(Style& style) {
     style.mono = add_font(FontFace::mono, kBody, style.scale);
     ImGui::GetIO().FontDefault = style.body;
     fonts.Build();
+    // Glyphs are made; lines are closer than the files have them.
+    for (const auto& [font, height] : {std::pair{style.body, kBody}, std::pair{style.title, kTitle},
+                                       std::pair{style.caption, kCaption}, std::pair{style.mono, kBody}})
+        font->FontSize = std::round(height * style.scale);
 }
 
 constexpr ImU32 hex(std::uint32_t rgb) { return IM_COL32((rgb >> 16) & 255u, (rgb >> 8) & 255u, rgb & 255u, 255u); }

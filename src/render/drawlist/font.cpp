@@ -20,6 +20,34 @@ constexpr int kMissing = 0;
 
 constexpr char32_t kEllipsis = 0x2026;
 
+const stbtt_fontinfo& info_of(FontFace face) {
+    const auto read = [](FontFace of) {
+        stbtt_fontinfo info;
+        const std::string_view data = Font::file(of);
+        const auto* bytes = reinterpret_cast<const unsigned char*>(data.data());
+        if (data.empty() || !stbtt_InitFont(&info, bytes, stbtt_GetFontOffsetForIndex(bytes, 0))) {
+            throw std::logic_error("an embedded font cannot be read");
+        }
+        return info;
+    };
+    static const stbtt_fontinfo text = read(FontFace::text), mono = read(FontFace::mono);
+    return face == FontFace::text ? text : mono;
+}
+
+struct Glyph {
+    FontFace face;
+    int index;  ///< kMissing: no face has it
+};
+
+Glyph glyph_of(FontFace face, char32_t code) {
+    const bool control = code < 0x20 || (code >= 0x7F && code < 0xA0);
+    for (const FontFace of : {face, face == FontFace::text ? FontFace::mono : FontFace::text}) {
+        const int index = stbtt_FindGlyphIndex(&info_of(of), control ? ' ' : static_cast<int>(code));
+        if (index != kMissing) return {of, index};
+    }
+    return {face, kMissing};
+}
+
 /// A frame of one pixel. Fonts bring one of their own, but so heavy that a row of them looks like a censor's bar.
 GlyphBitmap hollow_box(float advance, float size) {
     const int side = std::max(1, static_cast<int>(advance * 0.14f));
@@ -37,15 +65,6 @@ GlyphBitmap hollow_box(float advance, float size) {
 
 }  // namespace
 
-Font::Font(std::string_view data) {
-    const auto info = std::make_shared<stbtt_fontinfo>();
-    const auto* bytes = reinterpret_cast<const unsigned char*>(data.data());
-    if (data.empty() || !stbtt_InitFont(info.get(), bytes, stbtt_GetFontOffsetForIndex(bytes, 0))) {
-        throw std::logic_error("an embedded font cannot be read");
-    }
-    info_ = info;
-}
-
 std::string_view Font::file(FontFace face) { return render_assets::embedded(file_name(face)); }
 
 std::string_view Font::file_name(FontFace face) {
@@ -56,25 +75,35 @@ std::string_view Font::file_sha256(FontFace face) {
     return face == FontFace::text ? MOBBSCOPE_FONT_TEXT_SHA256 : MOBBSCOPE_FONT_MONO_SHA256;
 }
 
+float Font::file_ascent(FontFace face) {
+    int ascent = 0;
+    stbtt_GetFontVMetrics(&info_of(face), &ascent, nullptr, nullptr);
+    return static_cast<float>(ascent) * stbtt_ScaleForMappingEmToPixels(&info_of(face), 1);
+}
+
+float Font::file_line(FontFace face) {
+    return stbtt_ScaleForMappingEmToPixels(&info_of(face), 1) / stbtt_ScaleForPixelHeight(&info_of(face), 1);
+}
+
+FontFace Font::drawing(FontFace face, char32_t code) { return glyph_of(face, code).face; }
+
 const Font& Font::of(FontFace face) {
-    static const Font text(file(FontFace::text));
-    static const Font mono(file(FontFace::mono));
+    static const Font text(FontFace::text), mono(FontFace::mono);
     return face == FontFace::text ? text : mono;
 }
 
-int Font::glyph(char32_t code) const {
-    const bool control = code < 0x20 || (code >= 0x7F && code < 0xA0);
-    return stbtt_FindGlyphIndex(info_.get(), control ? ' ' : static_cast<int>(code));
-}
-
-bool Font::has(char32_t code) const { return glyph(code) != kMissing; }
+bool Font::has(char32_t code) const { return glyph_of(face_, code).index != kMissing; }
 
 float Font::advance(char32_t code, char32_t next, float size) const {
+    const auto [face, index] = glyph_of(face_, code);
+    const stbtt_fontinfo& info = info_of(face);
     int advance = 0;
-    const int here = glyph(code);
-    stbtt_GetGlyphHMetrics(info_.get(), here, &advance, nullptr);
-    if (next != 0) advance += stbtt_GetGlyphKernAdvance(info_.get(), here, glyph(next));
-    return static_cast<float>(advance) * stbtt_ScaleForMappingEmToPixels(info_.get(), size);
+    stbtt_GetGlyphHMetrics(&info, index, &advance, nullptr);
+    if (next != 0) {
+        const Glyph after = glyph_of(face_, next);
+        if (after.face == face) advance += stbtt_GetGlyphKernAdvance(&info, index, after.index);
+    }
+    return static_cast<float>(advance) * stbtt_ScaleForMappingEmToPixels(&info, size);
 }
 
 float Font::width(std::string_view utf8, float size) const {
@@ -86,29 +115,22 @@ float Font::width(std::string_view utf8, float size) const {
     return width;
 }
 
-float Font::ascent(float size) const {
-    int ascent = 0;
-    stbtt_GetFontVMetrics(info_.get(), &ascent, nullptr, nullptr);
-    return static_cast<float>(ascent) * stbtt_ScaleForMappingEmToPixels(info_.get(), size);
-}
-
-float Font::descent(float size) const {
-    int descent = 0;
-    stbtt_GetFontVMetrics(info_.get(), nullptr, &descent, nullptr);
-    return static_cast<float>(-descent) * stbtt_ScaleForMappingEmToPixels(info_.get(), size);
-}
+// What letters with accents take; the files' own lines are higher by up to an eighth.
+float Font::ascent(float size) const { return 0.97f * size; }
+float Font::descent(float size) const { return 0.24f * size; }
 
 GlyphBitmap Font::rasterise(char32_t code, float size, float shift) const {
-    const float scale = stbtt_ScaleForMappingEmToPixels(info_.get(), size);
-    const int index = glyph(code);
+    const auto [face, index] = glyph_of(face_, code);
+    const stbtt_fontinfo& info = info_of(face);
+    const float scale = stbtt_ScaleForMappingEmToPixels(&info, size);
     if (index == kMissing) return hollow_box(advance(code, 0, size), size);
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-    stbtt_GetGlyphBitmapBoxSubpixel(info_.get(), index, scale, scale, shift, 0, &x0, &y0, &x1, &y1);
+    stbtt_GetGlyphBitmapBoxSubpixel(&info, index, scale, scale, shift, 0, &x0, &y0, &x1, &y1);
     GlyphBitmap bitmap{x1 - x0, y1 - y0, x0, y0, {}};
     bitmap.coverage.resize(static_cast<std::size_t>(bitmap.width) * static_cast<std::size_t>(bitmap.height));
     if (!bitmap.coverage.empty()) {
-        stbtt_MakeGlyphBitmapSubpixel(info_.get(), bitmap.coverage.data(), bitmap.width, bitmap.height, bitmap.width,
-                                      scale, scale, shift, 0, index);
+        stbtt_MakeGlyphBitmapSubpixel(&info, bitmap.coverage.data(), bitmap.width, bitmap.height, bitmap.width, scale,
+                                      scale, shift, 0, index);
     }
     return bitmap;
 }

@@ -1,15 +1,12 @@
-/// The two faces that pictures are lettered in, both part of the program.
+/// The two faces that pictures are lettered in, both part of the program. What one of them lacks the other draws.
 #pragma once
 
 #include <base/name_list.h>
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
-
-struct stbtt_fontinfo;
 
 namespace mobbscope {
 
@@ -32,26 +29,29 @@ class Font {
     static const Font& of(FontFace face);
     /// The font file itself, for others that draw glyphs. Valid as long as the program runs.
     static std::string_view file(FontFace face);
-    static std::string_view file_name(FontFace face);    ///< "Inter-Medium.otf"
+    static std::string_view file_name(FontFace face);    ///< "OpenSans-Regular.ttf"
     static std::string_view file_sha256(FontFace face);  ///< 64 hexadecimal digits
+    static float file_ascent(FontFace face);  ///< of the file's own line, above the baseline, as a share of the em
+    static float file_line(FontFace face);    ///< its height, likewise
+    /// The face that draws a code point where `face` is asked for: that, or the other where only the other has it.
+    static FontFace drawing(FontFace face, char32_t code);
 
     /// Pixels from pen start to pen end. `size` is the em's height in pixels.
     float width(std::string_view utf8, float size) const;
-    float ascent(float size) const;   ///< above the baseline, pixels
-    float descent(float size) const;  ///< below the baseline, pixels, >= 0
+    float ascent(float size) const;   ///< of a line, above the baseline, pixels
+    float descent(float size) const;  ///< of a line, below the baseline, pixels, >= 0
     /// Pixels to advance after a code point, including kerning with `next` (0: none).
     float advance(char32_t code, char32_t next, float size) const;
-    /// Whether there is a glyph for a code point; a hollow box stands for what there is none for. Control characters
+    /// Whether a face has a glyph for a code point; a hollow box stands for what there is none for. Control characters
     /// are spaces.
     bool has(char32_t code) const;
     /// The glyph with its pen `shift` (0..1) of a pixel to the right.
     GlyphBitmap rasterise(char32_t code, float size, float shift) const;
 
   private:
-    explicit Font(std::string_view data);
-    int glyph(char32_t code) const;
+    explicit Font(FontFace face) : face_(face) {}
 
-    std::shared_ptr<const stbtt_fontinfo> info_;
+    FontFace face_;
 };
 
 /// `text`, or its beginning and an ellipsis, so that it is at most `width` pixels wide.

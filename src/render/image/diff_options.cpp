@@ -26,7 +26,7 @@ std::int64_t DiffOptions::allowed(std::int64_t pixels) const {
     return std::max(least, static_cast<std::int64_t>(share));
 }
 
-double parse_channel_tolerance(const std::string& text) {
+void set_threshold(DiffOptions& options, const std::string& text) {
     std::optional<double> level;
     const std::size_t slash = text.find('/');
     if (slash != std::string::npos) {
@@ -42,7 +42,7 @@ double parse_channel_tolerance(const std::string& text) {
         throw std::invalid_argument(in_quotes(text) +
                                     " is no tolerance; give levels from 0 to 255 such as 3, or 3/255, or 1.2%");
     }
-    return *level;
+    options.channel_tolerance = options.tile_tolerance = *level;
 }
 
 void set_allowance(DiffOptions& options, const std::string& text) {

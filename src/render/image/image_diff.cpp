@@ -35,6 +35,45 @@ int least_difference(const std::uint8_t* pixel, const Image& other, int x, int y
     return least;
 }
 
+/// What is within the tolerance may lean to one side: sets the tile whose mean differs most. Tiles of which less than
+/// half of kTileSide squared is compared are too small for a mean.
+void find_tile(ImageDiff& result, const Image& actual, const Image& reference,
+               std::span<const std::int16_t> differences) {
+    const int columns = std::max(1, reference.width / kTileSide), rows = std::max(1, reference.height / kTileSide);
+    for (int tile = 0; tile < columns * rows; ++tile) {
+        const auto edge = [](int size, int index, int tiles) {
+            return static_cast<int>(std::int64_t{size} * index / tiles);
+        };
+        const int column = tile % columns, left = edge(reference.width, column, columns);
+        const int right = edge(reference.width, column + 1, columns);
+        const int row = tile / columns, top = edge(reference.height, row, rows);
+        const int bottom = edge(reference.height, row + 1, rows);
+        std::array<int, 4> sums{};
+        int pixels = 0;
+        for (int y = top; y < bottom; ++y) {
+            const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(reference.width);
+            for (int x = left; x < right; ++x) {
+                const int found = differences[first + static_cast<std::size_t>(x)];
+                if (found == kNotCompared) continue;
+                ++pixels;
+                if (found == 0) continue;
+                const std::uint8_t *here = actual.at(x, y), *there = reference.at(x, y);
+                const int unshifted = result.options.shift > 0 ? difference(here, there) : found;
+                if (unshifted > result.options.channel_tolerance) continue;
+                for (int c = 0; c < 4; ++c)
+                    sums[static_cast<std::size_t>(c)] += seen_channel(here, c) - seen_channel(there, c);
+            }
+        }
+        if (2 * pixels < kTileSide * kTileSide) continue;
+        for (const int sum : sums) {
+            const double mean = static_cast<double>(std::abs(sum)) / pixels;
+            if (mean <= result.tile_mean) continue;
+            result.tile_mean = mean;
+            result.tile = {left, top, right - left, bottom - top};
+        }
+    }
+}
+
 void grow(std::optional<PixelRect>& rect, int x, int y) {
     if (!rect) rect = PixelRect{x, y, 1, 1};
     const int right = std::max(rect->x + rect->width, x + 1);
@@ -214,8 +253,13 @@ ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& o
         }
     }
     if (result.pixels > 0) result.mean = static_cast<double>(sum) / static_cast<double>(result.pixels);
-    result.passes = result.differing <= result.allowed();
-    if (heat == HeatMap::drawn) result.heat = heat_map(reference, differences, options.channel_tolerance);
+    if (result.unequal > 0) find_tile(result, actual, reference, differences);
+    result.passes = result.differing <= result.allowed() && !result.tile_differs();
+    if (result.tile_differs() && !result.bounds) result.bounds = result.tile;
+    if (heat == HeatMap::drawn) {
+        // A mean differs by all that is unequal.
+        result.heat = heat_map(reference, differences, result.tile_differs() ? 0 : options.channel_tolerance);
+    }
     return result;
 }
 
@@ -252,6 +296,9 @@ void write_diff(JsonWriter& out, const ImageDiff& diff) {
     const DiffOptions& options = diff.options;
     out.members("threshold", options.channel_tolerance, "allowed", options.pixel_fraction);
     out.members("least_pixels", options.least_pixels, "allowed_pixels", diff.allowed(), "shift", options.shift);
+    out.member("tile_mean", diff.tile_mean);
+    write_bounds(out, "tile", diff.tile);
+    out.member("tile_threshold", options.tile_tolerance);
     out.end_object();
 }
 
@@ -263,7 +310,7 @@ std::string what_differs(const ImageDiff& diff) {
     const std::string beyond = " by more than " + level(diff.options.channel_tolerance);
     const auto plural = [](std::int64_t count) { return count == 1 ? "differs" : "differ"; };
     const auto within = [](const PixelRect& at) {
-        return ", within " + size_word({at.width, at.height}) + " at (" + std::to_string(at.x) + ", " +
+        return " within " + size_word({at.width, at.height}) + " at (" + std::to_string(at.x) + ", " +
                std::to_string(at.y) + ")";
     };
     if (diff.same) return "none of " + all + " pixels differs";
@@ -271,13 +318,18 @@ std::string what_differs(const ImageDiff& diff) {
         return "none of " + all + " pixels looks different; " +
                (diff.options.shift > 0 ? "something lies a pixel aside" : "colours under transparent ones differ");
     }
-    if (!diff.bounds) {
-        return "none of " + all + " pixels differs" + beyond + "; " + std::to_string(diff.unequal) + ' ' +
-               plural(diff.unequal) + " by up to " + level(diff.largest) + within(*diff.unequal_bounds);
+    std::string out;
+    if (diff.differing == 0) {
+        out = "none of " + all + " pixels differs" + beyond + "; " + std::to_string(diff.unequal) + ' ' +
+              plural(diff.unequal) + " by up to " + level(diff.largest) + ',' + within(*diff.unequal_bounds);
+    } else {
+        out = std::to_string(diff.differing) + " of " + all + " pixels (" + percent(diff.fraction()) + ") " +
+              plural(diff.differing) + beyond + ", up to " + level(diff.largest) + ',' + within(*diff.bounds) +
+              "; allowed: " + std::to_string(diff.allowed());
     }
-    return std::to_string(diff.differing) + " of " + all + " pixels (" + percent(diff.fraction()) + ") " +
-           plural(diff.differing) + beyond + ", up to " + level(diff.largest) + within(*diff.bounds) +
-           "; allowed: " + std::to_string(diff.allowed());
+    if (!diff.tile_differs()) return out;
+    return out + "; the mean" + within(*diff.tile) + " differs by " + figure(diff.tile_mean, 3) +
+           "/255, allowed: " + level(diff.options.tile_tolerance);
 }
 
 std::string diff_sentence(const ImageDiff& diff) {

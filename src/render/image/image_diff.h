@@ -25,8 +25,9 @@ struct ImageDiff {
     PictureSize actual_size{};  ///< of the two pictures
     PictureSize reference_size{};
     bool same_size = false;
-    bool same = false;           ///< no byte of a compared pixel differs
-    bool passes = false;         ///< the verdict: no more pixels than allowed differ beyond the tolerance
+    bool same = false;  ///< no byte of a compared pixel differs
+    /// The verdict: no more pixels than allowed differ beyond the tolerance, and no tile's mean differs beyond its own.
+    bool passes = false;
     std::int64_t pixels = 0;     ///< compared: all, or those of the mask
     std::int64_t unequal = 0;    ///< of them, those that look different, by however little
     std::int64_t differing = 0;  ///< of them, those beyond the tolerance
@@ -35,12 +36,15 @@ struct ImageDiff {
     /// Compared pixels by their difference, the largest of their channels (with a shift: the least found).
     std::array<std::int64_t, 256> histogram{};
     std::optional<PixelRect> unequal_bounds{};  ///< of the unequal pixels
-    std::optional<PixelRect> bounds{};          ///< of the differing pixels
-    Image heat;  ///< where they differ, see heat_map.h; empty if the sizes differ or it was left out
+    std::optional<PixelRect> bounds{};          ///< of the differing pixels; without any, the tile if its mean differs
+    double tile_mean = 0;                       ///< largest difference of a tile's means (DiffOptions), 0..255
+    std::optional<PixelRect> tile{};            ///< that has it; none if it is 0
+    Image heat;  ///< where they differ, see heat_map; empty if the sizes differ or it was left out
 
     double fraction() const { return pixels > 0 ? static_cast<double>(differing) / static_cast<double>(pixels) : 0; }
     /// The most pixels that may differ.
     std::int64_t allowed() const { return options.allowed(pixels); }
+    bool tile_differs() const { return tile_mean > options.tile_tolerance; }
 };
 
 /// Whether ImageDiff::heat is made.
@@ -75,13 +79,14 @@ Image heat_map(const Image& reference, std::span<const std::int16_t> differences
 
 /// {"same", "passes", "same_size", "size_a": [w, h], "size_b", "pixels", "unequal", "failing", "fraction", "maximum",
 /// "mean", "unequal_bounds", "bounds": null | {"x", "y", "width", "height"}, "histogram": [256], "threshold",
-/// "allowed", "least_pixels", "allowed_pixels", "shift"}: A is the actual picture, B the reference; differences are
-/// 0..255, `fraction` and `allowed` shares 0..1; `failing` is ImageDiff::differing, the rest as there. Of pictures
-/// whose sizes differ no pixels are compared.
+/// "allowed", "least_pixels", "allowed_pixels", "shift", "tile_mean", "tile": null | as bounds, "tile_threshold"}: A is
+/// the actual picture, B the reference; differences are 0..255, `fraction` and `allowed` shares 0..1; `failing` is
+/// ImageDiff::differing, the rest as there. Of pictures whose sizes differ no pixels are compared.
 void write_diff(JsonWriter& out, const ImageDiff& diff);
 
 /// "different: 412 of 230400 pixels (0.18 %) differ by more than 3/255, up to 87/255, within 120x40 at (300, 12);
-/// allowed: 4". A picture that passes is "same" where no byte differs, else "passes: ...".
+/// allowed: 4"; if means differ also "; the mean within 32x36 at (64, 36) differs by 1.5/255, allowed: 0.25/255". A
+/// picture that passes is "same" where no byte differs, else "passes: ...".
 std::string diff_sentence(const ImageDiff& diff);
 
 /// The same without the verdict at its beginning.

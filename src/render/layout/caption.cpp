@@ -90,8 +90,8 @@ std::string at_time(double time) { return formatted(" at %.2f s", time); }
 Caption scene_caption(const FittedScene& fitted, std::span<const DrawnAgent> agents, const ViewState& view,
                       std::optional<double> box_tests) {
     Caption caption;
-    caption.title = fitted.scene().file.empty() ? "scene" : fitted.scene().file.stem().string();
-    caption.headlines = {caption.title};
+    caption.title = fitted.scene().file.stem().string();
+    if (!caption.title.empty()) caption.headlines = {caption.title};
     if (view.boxes) caption.detail = fit_words(fitted.options()) + kDot + boxes_text(agents, view.levels);
     if (box_tests) caption.detail += kDot + figure(*box_tests, 3) + " box tests a query";
     if (!names_fit(shown_count(agents)) && !is_in_grid(fitted.scene(), view)) {

@@ -22,7 +22,7 @@ struct Caption {
     Rgba mark{0};       ///< colour of the dot before the headline; opacity 0: none
 };
 
-/// What the scene is and which boxes are shown, with their volume.
+/// What the scene is called and which boxes are shown, with their volume. Of a scene without a file the detail alone.
 /// `box_tests`: of a query of the trees; none: they are not told.
 Caption scene_caption(const FittedScene& fitted, std::span<const DrawnAgent> agents, const ViewState& view,
                       std::optional<double> box_tests = {});

@@ -79,6 +79,8 @@ void Picture::mention_view(Caption& caption) const {
         mention(caption, least == most ? "at " + least + " s" : "from " + least + " to " + most + " s");
     }
     if (is_in_grid(scene, view_)) mention(caption, "in a grid, not where they are");
+    // A caption without a headline is not shown.
+    if (caption.headlines.empty() && !caption.detail.empty()) caption.headlines = {std::exchange(caption.detail, {})};
 }
 
 const PictureFrame& Picture::aim() {

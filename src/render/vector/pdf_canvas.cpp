@@ -136,28 +136,32 @@ class PdfCanvas : public VectorCanvas {
     }
 
     void text(const TextRun& text) override {
-        const PdfFace& face = PdfFace::of(text.face);
         const Font& font = Font::of(text.face);
-        std::vector<cairo_glyph_t> glyphs;
-        std::vector<cairo_text_cluster_t> clusters;
         const std::string utf8 = cleaned(text.text);
         const std::vector<char32_t> codes = code_points(utf8);
-        std::size_t at = 0;
+        std::vector<cairo_glyph_t> glyphs;
+        std::vector<cairo_text_cluster_t> clusters;
+        set(text.color);
+        cairo_set_font_size(context_.get(), text.size);
+        std::size_t begin = 0, at = 0;
         float pen = text.baseline.x;
         for (std::size_t i = 0; i < codes.size(); ++i) {
-            const std::size_t begin = at;
+            const FontFace face = Font::drawing(text.face, codes[i]);
+            const std::size_t before = at;
             read_code_point(utf8, at);
-            glyphs.push_back({face.glyph(codes[i]), pen, text.baseline.y});
-            clusters.push_back({static_cast<int>(at - begin), 1});
-            pen += font.advance(codes[i], i + 1 < codes.size() ? codes[i + 1] : 0, text.size);
+            glyphs.push_back({PdfFace::of(face).glyph(codes[i]), pen, text.baseline.y});
+            clusters.push_back({static_cast<int>(at - before), 1});
+            const bool last = i + 1 == codes.size();
+            pen += font.advance(codes[i], last ? 0 : codes[i + 1], text.size);
+            if (!last && Font::drawing(text.face, codes[i + 1]) == face) continue;
+            cairo_set_font_face(context_.get(), PdfFace::of(face).get());
+            cairo_show_text_glyphs(context_.get(), utf8.data() + begin, static_cast<int>(at - begin), glyphs.data(),
+                                   static_cast<int>(glyphs.size()), clusters.data(), static_cast<int>(clusters.size()),
+                                   cairo_text_cluster_flags_t{});
+            glyphs.clear();
+            clusters.clear();
+            begin = at;
         }
-        cairo_t* c = context_.get();
-        cairo_set_font_face(c, face.get());
-        cairo_set_font_size(c, text.size);
-        set(text.color);
-        cairo_show_text_glyphs(c, utf8.data(), static_cast<int>(utf8.size()), glyphs.data(),
-                               static_cast<int>(glyphs.size()), clusters.data(), static_cast<int>(clusters.size()),
-                               cairo_text_cluster_flags_t{});
     }
 
     std::string finish() override {

@@ -39,7 +39,7 @@ class SvgCanvas : public VectorCanvas {
         attribute(out_, "height", height);
         attribute(out_, "viewBox", "0 0 " + width + ' ' + height);
         attribute(out_, "xml:space", "preserve");
-        // Inter would write "64 x 64" with a cross.
+        // Fira Code would draw "->" as an arrow.
         out_ += ">\n<style>text{font-variant-ligatures:none;white-space:pre}</style>\n";
         if (!title.empty()) out_ += "<title>" + escaped(title) + "</title>\n";
     }
@@ -105,9 +105,7 @@ class SvgCanvas : public VectorCanvas {
         out_ += "<text";
         attribute(out_, "x", number(text.baseline.x));
         attribute(out_, "y", number(text.baseline.y));
-        attribute(out_, "font-family", mono ? "'JetBrains Mono', monospace" : "Inter, sans-serif");
-        attribute(out_, "font-weight",
-                  Font::file_name(text.face).find("Medium") != std::string_view::npos ? "500" : "400");
+        attribute(out_, "font-family", mono ? "'Fira Code', monospace" : "'Open Sans', sans-serif");
         attribute(out_, "font-size", number(text.size));
         // As wide as here, also where the face is another.
         const float width = Font::of(text.face).width(text.text, text.size);
