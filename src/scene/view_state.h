@@ -147,7 +147,7 @@ struct ViewState {
     bool boxes = true;
     bool slice = false;        ///< at the time cursor, the cross-sections of boxes on its plane
     bool ancestors = false;    ///< of the node of `subtree`, or one that is selected, as ghosts
-    bool frame_boxes = false;  ///< a camera that frames the scene by itself has the boxes in it too
+    bool frame_boxes = true;   ///< a camera that frames the scene by itself has the boxes in it too
     bool cost = false;         ///< in the caption of trees: the tests of boxes that a query of them makes
     bool boundary = false;     ///< with a query, on the floor: within it B's path may not begin, or the two collide
     bool floor = true;         ///< grid in metres, and the paths' traces on it
