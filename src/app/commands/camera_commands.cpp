@@ -189,11 +189,11 @@ void frame_box(Views& views, Workspace& workspace, const Bounds& box) {
                 [&](const Camera& camera, const PictureFrame& picture) { return framing_box(camera, picture, box); });
 }
 
-void go_along_with(Views& views, Workspace& workspace, const TestCorners& boxes,
-                   std::span<const Rect> panels) {
+void go_along_with(Views& views, Workspace& workspace, const TestCorners& boxes, std::span<const Rect> panels) {
     const PictureFrame picture = present_picture(views, workspace);
     const double chosen = workspace.view().time_height;
-    views.settle_camera(views.active(), framing_beside(boxes, picture, panels), chosen > 0 ? 0 : picture.space.time_height);
+    views.settle_camera(views.active(), framing_beside(boxes, picture, panels),
+                        chosen > 0 ? 0 : picture.space.time_height);
 }
 
 bool follows(const Workspace& workspace) { return !workspace.view().follow.empty(); }

@@ -24,7 +24,8 @@ namespace mobbscope::app {
 
 class Viewport {
   public:
-    /// Of views that share their camera, and have framed the scene in the last frame, one has all of it in each picture.
+    /// Of views that share their camera, and have framed the scene in the last frame, one has all of it in each
+    /// picture.
     static void frame_together(std::span<Viewport> viewports);
 
     /// Draws the picture of the session's view at a place into the current ImGui child window; of the active view

@@ -74,8 +74,8 @@ Sequence sequence_of(KeptPaths& kept, const ViewState& view, Played played, cons
     return motion(*kept.fitted(), view, film_pace(played, asked.rate.value_or(0)).rate);
 }
 
-/// What caption, legend and map cover in any of 16 pictures of the whole sequence, evenly spread, so that it is the same
-/// whichever of them are asked for.
+/// What caption, legend and map cover in any of 16 pictures of the whole sequence, evenly spread, so that it is the
+/// same whichever of them are asked for.
 std::vector<Rect> panels_of(KeptPaths& kept, const Sequence& sequence, const PictureOptions& options) {
     constexpr int kMostLookedAt = 16;
     const int count = static_cast<int>(std::min<double>(sequence.count, std::numeric_limits<int>::max()));

@@ -39,8 +39,8 @@ struct DiskPiece {
 };
 
 /// Of a tube that stands for disks of an agent: upright ones, which leave some of each other's faces free, or `smooth`
-/// for leaning ones that go on where the last ended. The first number is 0, the lowest bit of the second is `smooth` and
-/// the others are the agent.
+/// for leaning ones that go on where the last ended. The first number is 0, the lowest bit of the second is `smooth`
+/// and the others are the agent.
 inline std::array<std::uint32_t, 2> run_id(int agent, bool smooth) {
     return {0, static_cast<std::uint32_t>(agent) << 1 | (smooth ? 1u : 0u)};
 }

@@ -62,7 +62,8 @@ Camera fit_beside(PictureSize size, std::span<const Rect> panels, const ShownPoi
     const Camera whole = fit(Rect{glm::vec2(0), glm::vec2(size.width, size.height)});
     const glm::vec3 target = space.from_target(*whole.target);
     const ViewProjection projection = make_projection(whole, points, &target, size);
-    if (std::ranges::none_of(panels, [&](const Rect& panel) { return covers(panel, points, projection); })) return whole;
+    if (std::ranges::none_of(panels, [&](const Rect& panel) { return covers(panel, points, projection); }))
+        return whole;
     std::optional<Camera> best;
     for (const Rect& part : free_parts(size, panels)) {
         const Camera there = fit(part);
@@ -222,8 +223,8 @@ Camera turning_camera(const Camera& camera, const ShownPoints& points, const Dra
         for (const double height : {-high, high}) {
             top = std::max(top,
                            height * (cosine / half_y + near * sine) + reach * std::abs(near * cosine - sine / half_y));
-            bottom = std::max(bottom, -height * (cosine / half_y - near * sine) +
-                                          reach * std::abs(near * cosine + sine / half_y));
+            bottom = std::max(
+                bottom, -height * (cosine / half_y - near * sine) + reach * std::abs(near * cosine + sine / half_y));
             sides = std::max(sides, reach * std::hypot(1 / half_x, near * cosine) + near * height * sine);
         }
         // The target goes up the axis until above and below need the same.

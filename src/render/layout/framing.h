@@ -47,8 +47,8 @@ std::vector<Rect> united(std::span<const Rect> panels);
 /// space) in the picture, with a margin, as large as they fit. `panels` (pixels) cover none of them: if they do so in
 /// the whole picture, the points fill the free part where they are largest. Where they would be less than half as large
 /// there, they fill the whole picture. The target is seen in the middle of that part, as deep as the middle of the
-/// points; it is in world metres with time drawn `space.time_height` high, which the view has to keep. A camera that has
-/// a target keeps it.
+/// points; it is in world metres with time drawn `space.time_height` high, which the view has to keep. A camera that
+/// has a target keeps it.
 Camera framed_camera(const Camera& camera, const ShownPoints& points, const DrawnSpace& space, PictureSize size,
                      std::span<const Rect> panels = {}, double margin = kFrameMargin);
 

@@ -166,8 +166,7 @@ class OverlayLayout {
 
     glm::vec2 map_panel() const {
         const float title = Font::of(FontFace::text).width(contents_.map_title, spacing_.text) + spacing_.chevron;
-        return glm::ceil(
-            spacing_.around({std::max(contents_.map.x, title), contents_.map.y + 1.5f * spacing_.line}));
+        return glm::ceil(spacing_.around({std::max(contents_.map.x, title), contents_.map.y + 1.5f * spacing_.line}));
     }
 
     void open_caption() {
@@ -271,7 +270,7 @@ class OverlayLayout {
         const glm::vec2 tip = middle + 0.5f * r * way;
         for (const float side : {-1.0f, 1.0f}) {
             list.overlay_lines.push_back({middle - 0.5f * r * way + side * r * across, tip, list.palette.quiet_text,
-                                           1.3f * metrics_.scale, kSolid});
+                                          1.3f * metrics_.scale, kSolid});
         }
     }
 
@@ -315,7 +314,7 @@ class OverlayLayout {
         const glm::vec2 corner = draw_panel(list, Kind::inset, *map_);
         if (!map_->open) return std::nullopt;
         list.texts.push_back(text_at(TextRole::map, contents_.map_title, FontFace::text, spacing_.text,
-                                      list.palette.quiet_text, corner));
+                                     list.palette.quiet_text, corner));
         const Rect& panel = map_->rect;
         const glm::vec2 at(std::round(panel.center().x - 0.5f * contents_.map.x),
                            panel.max.y - spacing_.padding - contents_.map.y);
