@@ -5,7 +5,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 base_and_radius;
 layout(location = 3) in vec4 top_and_radius;
 layout(location = 4) in uint source;  // number of the disk that has its colour
-layout(location = 5) in uvec2 id;  // x is 0 of a run; then y is 1 where its disks go on where the last ended
+layout(location = 5) in uvec2 id;  // x is 0 of a run; for y see run_id in disk_levels.h
 layout(location = 6) in vec3 above;  // of the disk that stands on it: its centre from this one's, and its radius; or 0
 layout(location = 7) in vec3 below;  // likewise of the one that it stands on
 
@@ -16,6 +16,8 @@ uniform float scale;  // pixels of a metre at distance 1, or anywhere without pe
 uniform float inner;  // radius of the circle inside the corners, in that of the corners
 uniform float near_depth;  // what is nearer to the eye is not drawn
 uniform float most_lean;  // metres over the floor that a disk goes at most
+uniform int agent_depths;  // agents that have depths of their own
+uniform float agent_depth_step;
 uniform vec2 slab;  // lowest and highest height that is drawn: disks are cut there
 
 out vec3 surface_normal;
@@ -70,7 +72,7 @@ void main() {
         vec4 step = top_and_radius - base_and_radius;
         // How far this line of the side leans inwards, on the way up.
         float inwards = -(dot(step.xy, surface_normal.xy) + step.w);
-        if (id == uvec2(0u)) {
+        if (id.x == 0u && (id.y & 1u) == 0u) {
             // Of each disk as much of the face is seen as its successor leaves free, beside its side.
             float face = max(0.0, inwards * back.z);
             float side = max(0.0, step.z * dot(surface_normal.xy, back.xy));
@@ -82,5 +84,7 @@ void main() {
         }
         if (id.x == 0u) local.y += 10.0;  // far from an edge
     }
+    uint agent = id.x == 0u ? id.y >> 1 : id.x - 1u;
+    gl_Position.z += agent_depth_step * float(agent % uint(agent_depths));
     object_id = id;
 }

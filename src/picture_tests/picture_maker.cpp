@@ -27,9 +27,9 @@ PictureSize panel_size(const Shot& shot) {
 std::vector<DrawList> lists_of(const Shot& shot) {
     PictureOptions options = shot.picture;
     options.size = panel_size(shot);
-    std::vector<DrawList> lists;
-    for (const PicturePanel& panel : shot.panels) lists.push_back(build_draw_list(*panel.fitted, panel.view, options));
-    return lists;
+    std::vector<PictureBeside> panels;
+    for (const PicturePanel& panel : shot.panels) panels.push_back({panel.fitted, panel.view});
+    return build_draw_lists(panels, options);
 }
 
 }  // namespace

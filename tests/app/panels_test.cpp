@@ -338,14 +338,6 @@ TEST(StillCamera, ABoxThatIsCutOffOrBelowAPanelIsNotWellSeen) {
     EXPECT_FALSE(is_well_seen(boxes, far, {})) << "small";
 }
 
-TEST(StillCamera, TheFreePartIsTheLargestThatNoPanelCovers) {
-    const std::vector<Rect> panels{{{10, 10}, {500, 60}}, {{850, 10}, {990, 150}}, {{10, 400}, {150, 590}}};
-    const Rect part = free_part({1000, 600}, panels);
-    for (const Rect& panel : panels) EXPECT_FALSE(part.overlaps(panel));
-    EXPECT_GE(part.size().x * part.size().y, 700 * 540);
-    EXPECT_EQ(free_part({1000, 600}, {}).size(), glm::vec2(1000, 600));
-}
-
 TEST(Panels, TheCameraGoesOnFromWhatKeysHaveMade) {
     Window w;
     w.window.shell().feed(KeyPress{Key::n2, true});

@@ -105,12 +105,12 @@ TEST(DiskLevels, WhatRunsGoesOnInTheSameFaceAndJoinsUpInSmoothTubes) {
     EXPECT_NEAR(levels.most_lean(), 0.064f, 3e-3f);
     const Drawn far = seen(levels, lens_of(8));
     ASSERT_FALSE(far.tubes.empty());
-    for (const DiskPiece& tube : far.tubes) EXPECT_EQ(tube.id, kSmooth);
+    for (const DiskPiece& tube : far.tubes) EXPECT_EQ(tube.id, run_id(0, true));
     for (int level = 1; level < DiskLevels::kLevels; ++level) {
         EXPECT_EQ(drawn(levels, 0, level).disks.size(), 1u) << "the last, at level " << level;
     }
     DiskLevels upright(path());
-    for (const DiskPiece& tube : seen(upright, lens_of(8)).tubes) EXPECT_EQ(tube.id, kStairs);
+    for (const DiskPiece& tube : seen(upright, lens_of(8)).tubes) EXPECT_EQ(tube.id, run_id(0, false));
 }
 
 /// From above the height of a disk is not seen, but how far it leans.

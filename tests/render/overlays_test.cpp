@@ -46,7 +46,7 @@ void expect_apart(const DrawList& list) {
     for (std::size_t i = 0; i < list.overlays.size(); ++i) {
         const Overlay& one = list.overlays[i];
         EXPECT_TRUE(picture.contains(one.rect));
-        EXPECT_TRUE(one.rect.contains(one.fold));
+        EXPECT_TRUE(!one.fold || one.rect.contains(*one.fold));
         for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(one.rect.overlaps(list.overlays[j].rect));
         // Nothing else is written there, and what is written there stays on the panel.
         for (const TextRun& run : list.texts) {
@@ -83,22 +83,35 @@ TEST(Overlays, StandInTheirCornersWithoutOverlap) {
     }
 }
 
-TEST(Overlays, TakeNoRoomFromTheScene) {
+/// There is nothing to click in a picture.
+TEST(Overlays, HaveControlsInAWindowAlone) {
     const FittedScene fitted = testing::hit_scene();
-    for (const PictureSize size : kSizes) {
-        ViewState view = busy_view();
-        const glm::vec2 at = build_draw_list(fitted, view, size).projection.project(glm::vec3(0.3f)).value();
-        view.caption = view.legend = false;
-        view.fold_inset = true;
-        const DrawList without = build_draw_list(fitted, view, size);
-        EXPECT_EQ(without.projection.project(glm::vec3(0.3f)).value(), at);
+    for (const bool whole : {false, true}) {
+        for (const bool folded : {false, true}) {
+            ViewState view = busy_view();
+            view.whole_legend = whole;
+            view.fold_caption = view.fold_legend = view.fold_inset = folded;
+            const DrawList picture = build_draw_list(fitted, view, {.size = {1280, 720}});
+            const DrawList window = build_draw_list(fitted, view, {.size = {1280, 720}, .controls = true});
+            // Those of the map are between its corners.
+            const std::size_t others = 2 * picture.overlays.size() + (whole && !folded ? 2 : 0);
+            EXPECT_EQ(window.overlay_lines.size(), picture.overlay_lines.size() + others);
+            ASSERT_EQ(picture.overlays.size(), 3u);
+            for (std::size_t i = 0; i < 3; ++i) {
+                EXPECT_FALSE(picture.overlays[i].fold || picture.overlays[i].more);
+                EXPECT_TRUE(window.overlays[i].fold);
+                EXPECT_LT(picture.overlays[i].rect.size().x, window.overlays[i].rect.size().x + 0.5f);
+            }
+            EXPECT_EQ(overlay(window, Overlay::Kind::legend)->more.has_value(), !folded);
+        }
     }
 }
 
 TEST(Overlays, TheLegendHasSixRowsAndCountsTheRest) {
     const FittedScene fitted = testing::hit_scene();
     ViewState view = busy_view();
-    const DrawList list = build_draw_list(fitted, view, PictureSize{1280, 720});
+    const PictureOptions options{.size = {1280, 720}, .controls = true};
+    const DrawList list = build_draw_list(fitted, view, options);
     ASSERT_GT(list.legend.size(), kLegendRows);
     const Overlay legend = *overlay(list, Overlay::Kind::legend);
     std::vector<std::string> words = words_on(list, legend.rect);
@@ -106,10 +119,10 @@ TEST(Overlays, TheLegendHasSixRowsAndCountsTheRest) {
     EXPECT_EQ(words.back(), "and " + std::to_string(list.legend.size() - kLegendRows) + " more");
     ASSERT_TRUE(legend.more);
     EXPECT_TRUE(legend.rect.contains(*legend.more));
-    EXPECT_FALSE(legend.more->overlaps(legend.fold));
+    EXPECT_FALSE(legend.more->overlaps(*legend.fold));
 
     view.whole_legend = true;
-    const DrawList whole = build_draw_list(fitted, view, PictureSize{1280, 720});
+    const DrawList whole = build_draw_list(fitted, view, options);
     words = words_on(whole, overlay(whole, Overlay::Kind::legend)->rect);
     ASSERT_EQ(words.size(), whole.legend.size());
     for (std::size_t i = 0; i < words.size(); ++i) EXPECT_EQ(words[i], whole.legend[i].text);
@@ -119,7 +132,7 @@ TEST(Overlays, TheLegendHasSixRowsAndCountsTheRest) {
     view.past = Past::pair;
     view.time.reset();
     view.whole_legend = false;
-    const DrawList few = build_draw_list(fitted, view, PictureSize{1280, 720});
+    const DrawList few = build_draw_list(fitted, view, options);
     ASSERT_LE(few.legend.size(), kLegendRows);
     EXPECT_EQ(words_on(few, overlay(few, Overlay::Kind::legend)->rect).size(), few.legend.size());
     EXPECT_FALSE(overlay(few, Overlay::Kind::legend)->more);

@@ -129,6 +129,44 @@ TEST_P(PickTest, AgreesFromInsideABoxAmongDisks) {
     }
 }
 
+/// Of two who walk together, side by side, all faces lie in the same planes.
+TEST_P(PickTest, OfFacesInOnePlaneThoseOfTheFirstAgentAreSeen) {
+    const FittedScene fitted(testing::scene_of({{}, {{0.2, 0.1}, 0, 0}}), {});
+    ViewState view;
+    view.boxes = view.labels = false;
+    view.camera.preset = CameraPreset::free;
+    constexpr PictureSize kSize{320, 240};
+    const auto coplanar = [](const DrawList& list, glm::vec2 pixel) {
+        const std::vector<Pick> picks = pick(list, pixel);
+        if (picks.size() < 2 || std::abs(picks[0].depth - picks[1].depth) > 1e-4f * picks[0].depth) return false;
+        EXPECT_TRUE(picks[0].id.agent == 0 || picks[1].id.agent == 0);
+        return picks[0].id.agent != picks[1].id.agent && picks[0].id.index == picks[1].id.index;
+    };
+    for (const double pitch : {90.0, 40.0, -60.0}) {
+        for (const bool perspective : {true, false}) {
+            int contested = 0, lost = 0;
+            for (int i = 0; i < 6; ++i) {
+                view.camera.pitch_deg = pitch;
+                view.camera.yaw_deg = 30 + 0.01 * i;
+                view.camera.perspective = perspective;
+                const DrawList list = build_draw_list(fitted, view, kSize);
+                const IdImage ids = renderer().draw_ids(list);
+                for (int y = 1; y < kSize.height; y += 2) {
+                    for (int x = 1; x < kSize.width; x += 2) {
+                        const glm::vec2 middle = middle_of_pixel(x, y);
+                        // Not at their rims.
+                        if (!coplanar(list, middle - 0.6f) || !coplanar(list, middle + 0.6f)) continue;
+                        ++contested;
+                        lost += ids.at(x, y) && ids.at(x, y)->agent == 0 ? 0 : 1;
+                    }
+                }
+            }
+            EXPECT_GT(contested, 100) << pitch;
+            EXPECT_EQ(lost, 0) << pitch << (perspective ? " in perspective, of " : ", of ") << contested;
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, PickTest, ::testing::Values(Backend::osmesa, Backend::egl), testing::backend_name);
 
 /// How far from a box's surface a place is, metres: 0 on it.

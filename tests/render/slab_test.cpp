@@ -504,8 +504,8 @@ TEST(FloorPlan, HasThePairUnderTest) {
     EXPECT_NEAR(filled_area(list), expected, 1e-3 * expected);
 }
 
-/// A camera that frames the scene by itself has the boxes in the picture on demand, all corners of them.
-TEST(Framing, HasTheBoxesOnDemand) {
+/// A camera that frames the scene by itself has the boxes in the picture, all corners of them, unless it is not to.
+TEST(Framing, HasTheBoxesUnlessItIsNotTo) {
     const FittedScene fitted = walks_of(mobb::TreeKind::umobb, false);
     for (const bool query : {false, true}) {
         const FittedScene& of = query ? testing::hit_scene(mobb::TreeKind::umobb) : fitted;
@@ -526,7 +526,6 @@ TEST(Framing, HasTheBoxesOnDemand) {
             return outside;
         };
         view.camera.preset = CameraPreset::side;
-        view.frame_boxes = true;
         EXPECT_EQ(corners_outside(), 0) << (query ? "query" : "levels");
         const double with = build_draw_list(of, view, kSlabSize).camera.distance;
         view.frame_boxes = false;

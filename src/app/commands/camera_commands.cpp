@@ -23,8 +23,8 @@ namespace {
 constexpr PictureSize kWithoutWindow{1280, 720};
 
 // The camera that follows a test goes farther back than it needs to, or it would fly at every step.
-constexpr float kSmallTest = 0.25f;   // of the picture's shorter side
-constexpr float kShareOfPart = 0.6f;  // of the free part that is filled
+constexpr float kSmallTest = 0.25f;  // of the picture's shorter side
+constexpr double kTestMargin = 0.8;  // around it
 
 /// In (x, y, t).
 std::vector<glm::dvec3> corners_of_node(const mobb::PlacedTree& tree, int node) {
@@ -176,46 +176,12 @@ bool is_well_seen(const TestCorners& boxes, const PictureFrame& picture, std::sp
     return std::max(extent.x, extent.y) >= kSmallTest * std::min(size.x, size.y);
 }
 
-Rect free_part(PictureSize size, std::span<const Rect> panels) {
-    const Rect all{{0, 0}, glm::vec2(size.width, size.height)};
-    std::array<std::vector<float>, 4> sides{{{all.min.x}, {all.min.y}, {all.max.x}, {all.max.y}}};
-    for (const Rect& panel : panels) {
-        sides[0].push_back(panel.max.x);
-        sides[1].push_back(panel.max.y);
-        sides[2].push_back(panel.min.x);
-        sides[3].push_back(panel.min.y);
-    }
-    Rect best;
-    const auto area = [](const Rect& part) { return part.size().x * part.size().y; };
-    for (const float left : sides[0]) {
-        for (const float top : sides[1]) {
-            for (const float right : sides[2]) {
-                for (const float bottom : sides[3]) {
-                    const Rect part{{left, top}, {right, bottom}};
-                    if (left >= right || top >= bottom || area(part) <= area(best)) continue;
-                    if (std::ranges::none_of(panels, [&](const Rect& panel) { return panel.overlaps(part); })) {
-                        best = part;
-                    }
-                }
-            }
-        }
-    }
-    return best;
-}
-
-Camera framing_in(const TestCorners& boxes, const PictureFrame& picture, const Rect& part) {
-    const glm::vec2 room = glm::max(kShareOfPart * part.size(), glm::vec2(1));
-    const PictureSize fitted{static_cast<int>(std::ceil(room.x)), static_cast<int>(std::ceil(room.y))};
+Camera framing_beside(const TestCorners& boxes, const PictureFrame& picture, std::span<const Rect> panels) {
     ShownPoints points;
     for (const std::vector<glm::dvec3>& box : boxes) {
         for (const glm::dvec3& corner : box) points.add(picture.space.point(corner.x, corner.y, corner.z));
     }
-    Camera camera = picture.camera;
-    camera.target.reset();
-    camera.shift = {0, 0};
-    const Camera near = framed_camera(camera, points, picture.space, fitted);
-    const glm::vec2 middle = 0.5f * glm::vec2(picture.size.width, picture.size.height);
-    return panned(resized(near, fitted, picture.size), part.center() - middle, picture.size);
+    return framed_camera(without_target(picture.camera), points, picture.space, picture.size, panels, kTestMargin);
 }
 
 void frame_box(Views& views, Workspace& workspace, const Bounds& box) {
@@ -223,10 +189,11 @@ void frame_box(Views& views, Workspace& workspace, const Bounds& box) {
                 [&](const Camera& camera, const PictureFrame& picture) { return framing_box(camera, picture, box); });
 }
 
-void go_along_with(Views& views, Workspace& workspace, const TestCorners& boxes, const Rect& part) {
+void go_along_with(Views& views, Workspace& workspace, const TestCorners& boxes, std::span<const Rect> panels) {
     const PictureFrame picture = present_picture(views, workspace);
     const double chosen = workspace.view().time_height;
-    views.settle_camera(views.active(), framing_in(boxes, picture, part), chosen > 0 ? 0 : picture.space.time_height);
+    views.settle_camera(views.active(), framing_beside(boxes, picture, panels),
+                        chosen > 0 ? 0 : picture.space.time_height);
 }
 
 bool follows(const Workspace& workspace) { return !workspace.view().follow.empty(); }

@@ -40,19 +40,16 @@ std::optional<TestCorners> corners_of_test(const Workspace& workspace);
 /// Whether both boxes lie wholly in the part of a picture that no panel covers, and are together not small.
 bool is_well_seen(const TestCorners& boxes, const PictureFrame& picture, std::span<const Rect> panels);
 
-/// The largest part of a picture, upright, that no panel covers.
-Rect free_part(PictureSize size, std::span<const Rect> panels);
-
-/// The camera that has both boxes in the middle of a part of the picture, with so much room around them that smaller
-/// boxes in them and near them are well seen too.
-Camera framing_in(const TestCorners& boxes, const PictureFrame& picture, const Rect& part);
+/// The camera that has both boxes beside the panels, with so much room around them that smaller boxes in them and near
+/// them are well seen too.
+Camera framing_beside(const TestCorners& boxes, const PictureFrame& picture, std::span<const Rect> panels);
 
 /// Brings a box that box_of gave into the middle, as large as it fits.
 void frame_box(Views& views, Workspace& workspace, const Bounds& box);
 
 /// Frames both boxes so, as what the present step brings along: the state of the history that shows the step has the
 /// camera too.
-void go_along_with(Views& views, Workspace& workspace, const TestCorners& boxes, const Rect& part);
+void go_along_with(Views& views, Workspace& workspace, const TestCorners& boxes, std::span<const Rect> panels);
 
 bool follows(const Workspace& workspace);
 

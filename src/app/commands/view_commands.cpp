@@ -30,13 +30,6 @@ bool shows_levels(const Workspace& workspace) { return has_scene(workspace) && !
 
 // --- the camera
 
-/// The scene framed by itself again.
-void frame_by_itself(Camera& camera) {
-    camera.target.reset();
-    camera.distance = 0;
-    camera.shift = {0, 0};
-}
-
 /// The camera turns about its target, and stays as far from it.
 Command see_from(CameraPreset preset, std::string_view id, std::string_view title, std::string_view key,
                  std::string_view doc, std::string_view also) {
@@ -56,7 +49,7 @@ bool may_have_perspective(const Workspace& workspace) {
 void frame_all(Workspace& workspace, Views& views) {
     if (const std::optional<Bounds> slab = box_of_slab(workspace)) return frame_box(views, workspace, *slab);
     workspace.change_view([&](ViewState& view) {
-        frame_by_itself(view.camera);
+        view.camera = without_target(view.camera);
         // What is framed may have become larger since, by another unit or a longer clip.
         if (view.show == Show::space_time && !views.has_chosen_height()) view.time_height = 0;
     });
@@ -135,7 +128,7 @@ void show_other_picture(Workspace& workspace, const std::function<void(ViewState
         if (known != workspace.other_cameras.end() && !view.projection) {
             view.camera = known->second;
         } else {
-            frame_by_itself(view.camera);
+            view.camera = without_target(view.camera);
             // Of a plan north is up, until it is turned.
             if (view.show == Show::plan) view.camera.preset = CameraPreset::top;
         }

@@ -121,18 +121,25 @@ void Views::settle_camera(std::size_t place, const Camera& camera, double time_h
 
 void Views::frame_camera(std::size_t place, const Camera& camera, double time_height) {
     settle_camera(place, camera, time_height);
-    workspace_.framing = camera;
+    constexpr std::size_t kMostFramings = 8;
+    std::vector<Camera>& framings = workspace_.framings;
+    framings.insert(framings.begin(), camera);
+    framings.resize(std::min(framings.size(), kMostFramings));
 }
 
 void Views::resize_pictures(PictureSize to) {
     const std::optional<PictureSize> from = std::exchange(workspace_.picture_size, to);
-    if (!from || from->height == to.height) return;
-    const auto resize = [&](Camera& camera) {
-        if (camera.target) camera = resized(camera, *from, to);
+    if (!from || (from->width == to.width && from->height == to.height)) return;
+    const auto resize = [&](Camera& camera, bool follows) {
+        if (!follows && workspace_.is_framed(camera)) {
+            camera = without_target(camera);
+        } else if (camera.target) {
+            camera = resized(camera, *from, to);
+        }
     };
-    workspace_.history.amend_views([&](ViewState& view) { resize(view.camera); });
-    for (auto& other : workspace_.other_cameras) resize(other.second);
-    if (workspace_.framing) resize(*workspace_.framing);
+    workspace_.history.amend_views([&](ViewState& view) { resize(view.camera, !view.follow.empty()); });
+    for (auto& other : workspace_.other_cameras) resize(other.second, !workspace_.view().follow.empty());
+    workspace_.framings.clear();
 }
 
 void Views::link(bool ViewLinks::*what, bool linked) {

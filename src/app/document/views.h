@@ -44,8 +44,9 @@ class Views {
     void frame_camera(std::size_t place, const Camera& camera, double time_height);
     /// Whether the height of a second is one that somebody has chosen, not that of the last framing.
     bool has_chosen_height() const { return workspace_.view().time_height != workspace_.settled_height; }
-    /// The pictures are of this size now: cameras that stand keep their scale, also those that undo and the way back
-    /// from an excerpt lead to. A suspended workspace follows when it is back.
+    /// The pictures are of this size now. Cameras that framed the scene by themselves frame it again, others that stand
+    /// keep their scale; also those that undo and the way back from an excerpt lead to. A suspended workspace follows
+    /// when it is back.
     void resize_pictures(PictureSize to);
 
     bool follow_test = false;  ///< the camera goes to the pair under test where that is not well in the picture

@@ -1,6 +1,7 @@
 #include <app/document/edit_names.h>
 #include <app/document/workspace.h>
 #include <explain/query_progress.h>
+#include <render/drawlist/camera.h>
 #include <scene/crowd_scene.h>
 #include <scene/motion_graph.h>
 #include <scene/scene_edits.h>
@@ -148,17 +149,18 @@ void Workspace::activate(std::size_t place) {
     changed();
 }
 
+bool Workspace::is_framed(const Camera& camera) const {
+    return std::ranges::any_of(framings, [&](const Camera& one) {
+        return camera.target == one.target && camera.distance == one.distance && camera.shift == one.shift;
+    });
+}
+
 /// Cameras that hold the whole go on to do so when pictures become narrower or wider. The direction stays.
 void Workspace::frame_again() {
     const std::size_t views = document().beside.size() + 1;
-    if (std::exchange(views_framed_, views) == views || !framing) return;
+    if (std::exchange(views_framed_, views) == views) return;
     const auto frame = [this](ViewState& view) {
-        const Camera& camera = view.camera;
-        const bool holds_all = camera.target == framing->target && camera.distance == framing->distance &&
-                               camera.shift == framing->shift && view.follow.empty();
-        if (!holds_all) return;
-        view.camera.target.reset();
-        view.camera.distance = 0;
+        if (view.follow.empty() && is_framed(view.camera)) view.camera = without_target(view.camera);
     };
     amend_quietly([&](Document& next) {
         frame(next.view);

@@ -123,9 +123,9 @@ class Workspace {
     /// Cameras of the pictures that are not shown now, by what they are of: "space-time", "moment", "disk".
     std::map<std::string_view, Camera> other_cameras;
     double settled_height = 0;  ///< metres a second, of the last framing
-    /// The camera that framed the scene by itself last. Views that still stand so frame it again when there are more
-    /// views or fewer, and pictures narrower or wider.
-    std::optional<Camera> framing;
+    /// The cameras that framed the scene by themselves, the latest first. Views that still stand so frame it again when
+    /// pictures become narrower or wider; turning them leaves them so.
+    std::vector<Camera> framings;
 
     /// A candidate of a choice that is pointed out.
     struct PointedOut {
@@ -171,6 +171,8 @@ class Workspace {
     const BlameInScene* blame() const { return blame(*document().fitted).get(); }
     /// The event of the trace that the view shows; requires recorded().
     int step() const;
+    /// Whether a camera stands as one of the framings, turned or not.
+    bool is_framed(const Camera& camera) const;
 
     // Changes.
     /// Keeps what was found out of a tree under standard placements, of the latest few.

@@ -113,9 +113,9 @@ struct OverlayClick {
 std::optional<OverlayClick> overlay_click(const DrawList& list, glm::vec2 pixel) {
     const Overlay* overlay = overlay_at(list, pixel);
     if (!overlay) return std::nullopt;
-    if (holds(overlay->fold, pixel)) {
-        if (overlay->no_room) return OverlayClick{overlay->fold, nullptr, "A larger picture has room for it"};
-        return OverlayClick{overlay->fold, fold_command(overlay->kind), overlay->folded ? "Unfold" : "Fold"};
+    if (holds(*overlay->fold, pixel)) {
+        if (overlay->no_room) return OverlayClick{*overlay->fold, nullptr, "A larger picture has room for it"};
+        return OverlayClick{*overlay->fold, fold_command(overlay->kind), overlay->folded ? "Unfold" : "Fold"};
     }
     if (!overlay->more || !holds(*overlay->more, pixel)) return std::nullopt;
     return OverlayClick{*overlay->more, "view.whole_legend", "Show all rows, or six"};
@@ -171,13 +171,16 @@ KeptPaths& Viewport::paths_of(const Key& key) {
     return *paths_;
 }
 
+PictureOptions Viewport::options_of(const Key& key) {
+    return {.size = key.size, .scale = key.scale, .selected = key.selected, .controls = true};
+}
+
 void Viewport::build(const Key& key, const FollowedChoice* choice) {
     list_.reset();
     why_not_.clear();
     try {
         check(key.size);
-        const PictureOptions options{.size = key.size, .scale = key.scale, .selected = key.selected};
-        list_ = build_draw_list(paths_of(key), key.view, options, choice);
+        list_ = build_draw_list(paths_of(key), key.view, options_of(key), choice);
     } catch (const std::invalid_argument& error) {
         why_not_ = error.what();
     }
@@ -196,7 +199,7 @@ void Viewport::take_off(Ui& ui, const Key& next) {
         return;
     }
     Camera from = list_->camera;
-    const PictureFrame there = picture_frame(paths_of(next), next.view, next.size, next.scale);
+    const PictureFrame there = picture_frame(paths_of(next), next.view, options_of(next));
     // Heights must mean the same all the way.
     if (there.space.time_height != list_->space.time_height || there.moment.has_value() != list_->moment.has_value()) {
         return;
@@ -230,23 +233,26 @@ Viewport::Key Viewport::wanted(const Ui& ui, PictureSize size, const FollowedCho
 }
 
 /// Gives the view a camera that stands.
-void Viewport::stand(Ui& ui, Key& next) {
+void Viewport::stand(Ui& ui, Key& next, const FollowedChoice* choice) {
     Camera& camera = next.view.camera;
     const std::optional<PictureSize> before = ui.workspace.picture_size;
     if (is_active(ui) && before != next.size) laid_out_.size = next.size;
+    const bool has_other_size = std::exchange(size_, next.size) != next.size;
+    if (has_other_size && next.view.follow.empty() && ui.workspace.is_framed(camera)) camera = without_target(camera);
     if (camera.target) {
         if (before && before->height != next.size.height) camera = resized(camera, *before, next.size);
         return;
     }
     try {
         check(next.size);
-        const PictureFrame framed = picture_frame(paths_of(next), next.view, next.size, next.scale);
-        camera.target = framed.camera.target;
-        camera.distance = framed.camera.distance;
+        laid_out_.framed = framed_in(paths_of(next), next.view, options_of(next), choice);
+        const Camera framing = common_camera(std::span(&*laid_out_.framed, 1), next.size);
+        camera.target = framing.target;
+        camera.distance = framing.distance;
+        camera.shift = framing.shift;
         // Targets are measured in it.
-        const double height = framed.moment ? 0 : framed.space.time_height;
-        if (height > 0) next.view.time_height = height;
-        laid_out_.framed = std::pair(camera, height);
+        if (next.view.show == Show::space_time) next.view.time_height = laid_out_.framed->space.time_height;
+        laid_out_.camera = camera;
     } catch (const std::invalid_argument&) {
         // Nothing can be drawn; build says why.
     }
@@ -259,7 +265,7 @@ void Viewport::update_picture(Ui& ui, PictureSize size) {
     Key next = wanted(ui, size, choice);
     if (const auto findings = is_active(ui) && next.view.query ? ui.session.queries.findings() : nullptr)
         paths_of(next).adopt_proof(next.view, {findings, &findings->proof});
-    stand(ui, next);
+    stand(ui, next, choice);
     if (key_ && *key_ == next && !flight_) return;
     if (!(key_ && *key_ == next)) take_off(ui, next);
     key_ = next;
@@ -287,13 +293,33 @@ void Viewport::follow_test(Ui& ui) {
     std::vector<Rect> panels;
     for (const Overlay& overlay : list_->overlays) panels.push_back(overlay.rect);
     if (!boxes || is_well_seen(*boxes, *list_, panels)) return;
-    laid_out_.to_see = std::pair(*boxes, free_part(list_->size, panels));
+    laid_out_.to_see = std::pair(*boxes, std::move(panels));
+}
+
+void Viewport::frame_together(std::span<Viewport> viewports) {
+    std::vector<Framed> all;
+    for (const Viewport& one : viewports) {
+        if (one.laid_out_.framed) all.push_back(*one.laid_out_.framed);
+    }
+    const bool alike = std::ranges::all_of(all, [&](const Framed& one) { return one.space == all.front().space; });
+    if (all.size() < 2 || !alike) return;
+    const Camera camera = common_camera(all, *viewports.front().size_);
+    for (Viewport& one : viewports) {
+        if (!one.laid_out_.framed) continue;
+        one.laid_out_.camera.target = camera.target;
+        one.laid_out_.camera.distance = camera.distance;
+        one.laid_out_.camera.shift = camera.shift;
+        one.key_.reset();
+    }
 }
 
 bool Viewport::settle(Views& views, Workspace& workspace) {
     const LaidOut laid_out = std::exchange(laid_out_, {});
     if (laid_out.size) views.resize_pictures(*laid_out.size);
-    if (laid_out.framed) views.frame_camera(view_place_, laid_out.framed->first, laid_out.framed->second);
+    if (laid_out.framed) {
+        const bool in_space_time = views.at(view_place_).view.show == Show::space_time;
+        views.frame_camera(view_place_, laid_out.camera, in_space_time ? laid_out.framed->space.time_height : 0);
+    }
     if (laid_out.to_see) go_along_with(views, workspace, laid_out.to_see->first, laid_out.to_see->second);
     return laid_out.size || laid_out.framed || laid_out.to_see;
 }
@@ -696,7 +722,7 @@ void Viewport::decorate_overlays(Ui& ui, const ShownPicture& picture) const {
     const glm::vec2 corner(picture.corner.x, picture.corner.y);
     for (const Overlay& overlay : list_->overlays) {
         const std::string name = "overlay." + std::string(std::string_view(fold_command(overlay.kind)).substr(10));
-        ui.marks.add(name, {corner + overlay.fold.min, corner + overlay.fold.max});
+        ui.marks.add(name, {corner + overlay.fold->min, corner + overlay.fold->max});
         if (overlay.more) ui.marks.add(name + ".more", {corner + overlay.more->min, corner + overlay.more->max});
     }
     if (drag_ != Drag::none || !ImGui::IsItemHovered()) return;

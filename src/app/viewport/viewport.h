@@ -9,11 +9,13 @@
 #include <app/viewport/flight.h>
 #include <app/viewport/measuring.h>
 #include <render/drawlist/draw_list.h>
+#include <render/pictures/build_draw_list.h>
 #include <render/pictures/kept_paths.h>
 
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,9 +24,14 @@ namespace mobbscope::app {
 
 class Viewport {
   public:
+    /// Of views that share their camera, and have framed the scene in the last frame, one has all of it in each
+    /// picture.
+    static void frame_together(std::span<Viewport> viewports);
+
     /// Draws the picture of the session's view at a place into the current ImGui child window; of the active view
     /// handles and what is under the mouse too. A press makes a view the active one. A camera that is to frame the
-    /// scene by itself does so here, once, and stands from then on; a picture of another height keeps its scale.
+    /// scene by itself does so here, and stands until the picture has another size; one that somebody has moved keeps
+    /// its scale then.
     void draw(Ui& ui, std::size_t place);
 
     /// What the last frame's layout has found out goes into the document: the size of the pictures, a camera that
@@ -57,16 +64,18 @@ class Viewport {
 
     struct LaidOut {
         std::optional<PictureSize> size;
-        std::optional<std::pair<Camera, double>> framed;     ///< and how high a second is
-        std::optional<std::pair<TestCorners, Rect>> to_see;  ///< in that part of the picture
+        std::optional<Framed> framed;
+        Camera camera;                                                    ///< that has it in the picture
+        std::optional<std::pair<TestCorners, std::vector<Rect>>> to_see;  ///< beside these panels
     };
 
     bool is_active(const Ui& ui) const { return view_place_ == ui.session.views.active(); }
     void update_picture(Ui& ui, PictureSize size);
     Key wanted(const Ui& ui, PictureSize size, const FollowedChoice* choice) const;
-    void stand(Ui& ui, Key& next);
+    void stand(Ui& ui, Key& next, const FollowedChoice* choice);
     void follow_test(Ui& ui);
     KeptPaths& paths_of(const Key& key);
+    static PictureOptions options_of(const Key& key);
     void build(const Key& key, const FollowedChoice* choice);
     void take_off(Ui& ui, const Key& next);
     void update_highlights(const Ui& ui);
@@ -104,6 +113,7 @@ class Viewport {
     std::shared_ptr<const RecordedQuery> recorded_;  ///< kept, as long as it is shown
     std::size_t view_place_ = 0;                     ///< of the session's views
     std::optional<Key> key_;                         ///< what the document asks for, a flight apart
+    std::optional<PictureSize> size_;                ///< of the last picture
     std::optional<DrawList> list_;
     std::string why_not_;  ///< there is no list: the reason
     std::optional<Flight> flight_;

@@ -345,6 +345,7 @@ double Shell::frame(PictureSize size, double now) {
     s.size = size;
     s.laid_out_until = now + std::min(wanted, kSignFrame);
     bool changed = false;
+    if (s.session.workspace.document().links.camera) Viewport::frame_together(s.viewports);
     // The active one first: it says of which size pictures are, and what the others frame is of that size already.
     for (std::size_t i = 0; i < s.viewports.size(); ++i) {
         Viewport& viewport = s.viewports[(s.session.views.active() + i) % s.viewports.size()];

@@ -94,7 +94,7 @@ void check_selection(const RenderJob& job) {
     for (const RenderPicture& picture : job.pictures) {
         const PictureOptions& options = job.arguments.picture;
         DrawList list;
-        static_cast<PictureFrame&>(list) = picture_frame(*job.paths, picture.view, options.size, options.scale);
+        static_cast<PictureFrame&>(list) = picture_frame(*job.paths, picture.view, options);
         try {
             return highlight_selected(job, picture.view, list);
         } catch (const std::invalid_argument& error) {

@@ -74,38 +74,19 @@ Sequence sequence_of(KeptPaths& kept, const ViewState& view, Played played, cons
     return motion(*kept.fitted(), view, film_pace(played, asked.rate.value_or(0)).rate);
 }
 
-bool lies_within(const DrawList& list, const DiskInstance& disk, const Rect& rect) {
-    const auto is_inside = [&](glm::vec3 point) {
-        const auto pixel = list.projection.project(point);
-        return pixel && rect.contains({*pixel, *pixel});
-    };
-    return std::ranges::any_of(rim_directions(), [&](glm::vec3 way) {
-        return is_inside(disk.base + disk.radius * way) || is_inside(disk.top + disk.top_radius * way);
-    });
-}
-
-/// Pixels from the top of the picture to below the caption, if that covers some of a path; at most half of all. Of 16
-/// pictures of the whole sequence, evenly spread, so that it is the same whichever of them are asked for.
-int covering_caption(KeptPaths& kept, const Sequence& sequence, const PictureOptions& options) {
+/// What caption, legend and map cover in any of 16 pictures of the whole sequence, evenly spread, so that it is the
+/// same whichever of them are asked for.
+std::vector<Rect> panels_of(KeptPaths& kept, const Sequence& sequence, const PictureOptions& options) {
     constexpr int kMostLookedAt = 16;
-    const ViewState begun = sequence.view(0);
-    if (!begun.labels || !begun.caption) return 0;
     const int count = static_cast<int>(std::min<double>(sequence.count, std::numeric_limits<int>::max()));
     const int looked_at = std::min(count, kMostLookedAt);
-    float height = 0;
-    bool covers = false;
+    std::vector<Rect> out;
     for (int i = 0; i < looked_at; ++i) {
         const double part = looked_at > 1 ? static_cast<double>(i) / (looked_at - 1) : 0;
-        const DrawList list = build_draw_list(kept, sequence.view(static_cast<int>(part * (count - 1))), options);
-        for (const Overlay& overlay : list.overlays) {
-            if (overlay.kind != Overlay::Kind::caption) continue;
-            height = std::max(height, overlay.rect.max.y);
-            covers = covers || std::ranges::any_of(list.disks, [&](const DiskInstance& disk) {
-                         return lies_within(list, disk, overlay.rect);
-                     });
-        }
+        const Framed one = framed_in(kept, sequence.view(static_cast<int>(part * (count - 1))), options);
+        out.insert(out.end(), one.panels.begin(), one.panels.end());
     }
-    return covers ? std::min(static_cast<int>(std::ceil(height)), options.size.height / 2) : 0;
+    return united(out);
 }
 
 }  // namespace
@@ -137,22 +118,24 @@ std::vector<RenderPicture> pictures_of(KeptPaths& kept, const ViewState& view, c
         throw InputError(option + ": these are " + brief(last - first + 1) + " pictures; at most " +
                          std::to_string(kMostPictures) + " are made at once");
     }
-    // Where the camera counts from somebody who walks, each picture frames the scene by itself.
+    const bool frames = !view.camera.target && !is_near_followed(view, arguments);
+    const std::vector<Rect> panels = frames ? panels_of(kept, sequence, arguments.picture) : std::vector<Rect>();
+    const auto framing = [&](const ViewState& seen) {
+        return film_camera(kept, seen, arguments.picture.size, played, panels);
+    };
+    // Where the target counts from somebody who walks, each picture has its own.
     const bool walks = played == Played::motion && !view.follow.empty();
-    if (!view.camera.target && !walks && !is_near_followed(view, arguments)) {
-        const ViewState framed = sequence.view(0);
+    if (frames && !walks) {
         ViewState seen = view;
-        const auto see_below = [&](int top) {
-            seen.camera = film_camera(kept, framed, arguments.picture.size, played, top);
-            sequence = sequence_of(kept, seen, played, asked);
-        };
-        see_below(0);
-        if (const int top = covering_caption(kept, sequence, arguments.picture)) see_below(top);
+        seen.camera = framing(sequence.view(0));
+        sequence = sequence_of(kept, seen, played, asked);
     }
     const int digits = std::max(kLeastDigits, static_cast<int>(std::to_string(static_cast<int>(last)).size()));
     std::vector<RenderPicture> out;
     for (int i = static_cast<int>(first); i <= static_cast<int>(last); ++i) {
-        out.push_back({sequence.view(i), numbered(arguments.outputs, i, digits)});
+        ViewState seen = sequence.view(i);
+        if (frames && walks) seen.camera = framing(seen);
+        out.push_back({std::move(seen), numbered(arguments.outputs, i, digits)});
     }
     return out;
 }

@@ -74,6 +74,13 @@ Camera framing(const Camera& camera, glm::dvec3 min, glm::dvec3 max, PictureSize
     return out;
 }
 
+Camera without_target(Camera camera) {
+    camera.target.reset();
+    camera.distance = 0;
+    camera.shift = {0, 0};
+    return camera;
+}
+
 Camera between(const Camera& from, const Camera& to, double t) {
     if (t <= 0) return from;
     if (t >= 1) return to;

@@ -68,6 +68,7 @@ struct DrawnSpace {
     glm::dvec3 origin{0};    ///< x, y in metres, t in seconds
     double time_height = 1;  ///< metres drawn per second, > 0
     glm::dvec3 anchor{0};    ///< x, y, t that the targets of cameras are counted from
+    friend bool operator==(const DrawnSpace&, const DrawnSpace&) = default;
 
     glm::vec3 point(double x, double y, double t) const {
         return glm::vec3(glm::dvec3(x - origin.x, y - origin.y, (t - origin.z) * time_height));
@@ -268,16 +269,17 @@ struct LegendEntry {
     std::string text;
 };
 
-/// The caption, the legend or the map of the floor: a panel in a corner of its own, which a click folds to its header.
+/// The caption, the legend or the map of the floor: a panel in a corner of its own, which may be folded to its header.
 struct Overlay {
     enum class Kind { caption, legend, inset };
     Kind kind = Kind::caption;
     Rect rect;                 ///< what it covers
-    Rect fold;                 ///< where a click folds or unfolds it
+    std::optional<Rect> fold;  ///< with controls: where a click folds or unfolds it
     bool folded = false;       ///< its header alone is there
     bool no_room = false;      ///< ... as the picture is too small for the rest; the header says so
     std::string whole{};       ///< all that it says where words of it are left out; empty: none are
-    std::optional<Rect> more;  ///< of a legend with more rows than it shows by itself: where a click shows all, or few
+    /// With controls, of a legend with more rows than it shows by itself: where a click shows all, or few.
+    std::optional<Rect> more;
 };
 
 /// From where a scene is seen: all that moving the camera needs to know.

@@ -238,7 +238,7 @@ void write_draw_list(std::ostream& stream, const DrawList& list, const IdImage* 
     });
     rows(out, "overlays", list.overlays, [&](const Overlay& overlay) {
         members(out, "name", name_in(kOverlays, overlay.kind), "min", overlay.rect.min, "max", overlay.rect.max,
-                "folded", overlay.folded, "no_room", overlay.no_room, "more", overlay.more.has_value());
+                "folded", overlay.folded, "no_room", overlay.no_room);
     });
     rows(out, "panels", list.panels, [&](const OverlayPanel& panel) { write_panel(out, panel); });
     rows(out, "overlay_lines", list.overlay_lines, [&](const OverlayLine& line) {

@@ -13,7 +13,7 @@
 ///      "highlights": [{"role", "from", "to", "color", "width", "dash", "on_screen"}],   only where there are any
 ///      "headline": "...",
 ///      "legend": [{"mark", "color", "text"}],
-///      "overlays": [{"name", "min", "max", "folded", "no_room", "more"}],
+///      "overlays": [{"name", "min", "max", "folded", "no_room"}],
 ///      "panels": [{"min", "max", "radius", "fill", "border", "border_width"}],
 ///      "overlay_lines": [{"from", "to", "color", "width", "dash"}],
 ///      "marks": [as panels],

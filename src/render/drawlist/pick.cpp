@@ -162,7 +162,10 @@ std::vector<Pick> pick(const DrawList& list, glm::vec2 pixel) {
         Span span = inside(disk, ray);
         if (slab) keep_in_slab(span);
         // From inside a disk nothing of it is drawn.
-        if (!span.empty() && span.enter >= nearest) add(disk.id, disk.order, span.enter, 0);
+        if (span.empty() || span.enter < nearest) continue;
+        const double depth = projection.perspective ? depth_at_origin + ahead * span.enter : 1;
+        const double behind = static_cast<double>(agent_depth_step(projection)) * (disk.id.agent % kAgentDepths);
+        add(disk.id, disk.order, span.enter, -behind / depth);
     }
     for (const BoxInstance& box : list.boxes) {
         if (!box.pickable || !is_seen(slab, box)) continue;

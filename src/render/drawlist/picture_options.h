@@ -22,6 +22,7 @@ struct PictureOptions {
     /// The agent that is selected, by the name that views have for it: of many it stands out and the rest dims. Empty:
     /// none.
     std::string selected{};
+    bool controls = false;  ///< with what folds its overlays, as a window has it
 };
 
 /// The smallest and largest side of a picture, and the most pixels that it may have.

@@ -52,18 +52,11 @@ ShownPoints ShownPoints::of_like(SharedValues<DiskInstance> disks) const {
     return out;
 }
 
-glm::vec3 ShownPoints::front() const {
-    return disks_.empty() ? points_.front() : disks_.front().base + disks_.front().radius * rim_directions().front();
-}
-
-glm::vec3 ShownPoints::back() const {
-    if (!points_.empty()) return points_.back();
-    const DiskInstance& disk = disks_.back();
-    return disk.top + disk.top_radius * rim_directions().back();
-}
+void ShownPoints::add(const ShownPoints& points) { others_.push_back(points); }
 
 float ShownPoints::most(glm::vec3 along, glm::vec3 also, float factor) const {
     float most = std::numeric_limits<float>::lowest();
+    for (const ShownPoints& other : others_) most = std::max(most, other.most(along, also, factor));
     const auto see = [&](glm::vec3 p) { most = std::max(most, glm::dot(p, along) + glm::dot(p, also) * factor); };
     for (const glm::vec3& point : points_) see(point);
     if (disks_.empty()) return most;

@@ -24,14 +24,12 @@ class ShownPoints {
 
     void add(glm::vec3 point) { points_.push_back(point); }
     void add(std::span<const glm::vec3> points) { points_.insert(points_.end(), points.begin(), points.end()); }
+    void add(const ShownPoints& points);
 
     /// The same points of disks that differ from these in colour alone: nothing is measured again.
     ShownPoints of_like(SharedValues<DiskInstance> disks) const;
 
-    bool empty() const { return points_.empty() && disks_.empty(); }
-    /// The first and the last that were added, disks first. Not of an empty set.
-    glm::vec3 front() const;
-    glm::vec3 back() const;
+    bool empty() const { return points_.empty() && disks_.empty() && others_.empty(); }
 
     /// The most of dot(p, along) + factor * dot(p, also); the lowest float of an empty set.
     float most(glm::vec3 along, glm::vec3 also = glm::vec3(0), float factor = 0) const;
@@ -43,6 +41,7 @@ class ShownPoints {
     SharedValues<DiskInstance> disks_;
     std::shared_ptr<const std::vector<Block>> blocks_;
     std::vector<glm::vec3> points_;
+    std::vector<ShownPoints> others_;  ///< that were added
 };
 
 }  // namespace mobbscope

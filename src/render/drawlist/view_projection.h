@@ -75,6 +75,17 @@ class ShownPoints;
 ViewProjection make_projection(const Camera& camera, const ShownPoints& points, const glm::vec3* target,
                                PictureSize size);
 
+/// Disks of different agents may have faces in one plane, which rounding would mix. So each agent's disks lie a hair
+/// behind those of the agent before it, and those of the first are seen. Agents so far apart in the list share a depth:
+/// the last of them still lies within a pixel of its place.
+inline constexpr int kAgentDepths = 64;
+
+/// That hair in clip space.
+inline float agent_depth_step(const ViewProjection& projection) {
+    constexpr float kShare = 4e-6f;  // of the scene's depth, at most
+    return 2 * kShare * (projection.perspective ? projection.near_depth : 1);
+}
+
 /// Over the viewer's left shoulder, so that shapes read the same from every side. Unit length.
 inline glm::vec3 towards_light(const ViewProjection& projection) {
     return glm::normalize(projection.back - 0.9f * projection.right + 0.5f * projection.up);

@@ -215,7 +215,7 @@ const DiskLevels::Level& DiskLevels::level(int index) {
             }
             const DiskInstance& a = disks_[first];
             const DiskInstance& b = disks_[last];
-            made->pieces.push_back({a.base, a.radius, b.base, b.radius, steps ? kStairs : kSmooth});
+            made->pieces.push_back({a.base, a.radius, b.base, b.radius, run_id(a.id.agent, !steps)});
             made->sources.push_back(static_cast<std::uint32_t>((first + last) / 2));
             first = last;
         }

@@ -32,16 +32,18 @@ struct DiskPiece {
     float radius = 0;   ///< below
     glm::vec3 top{0};   ///< centre above
     float top_radius = 0;
-    std::array<std::uint32_t, 2> id{0, 0};  ///< of a disk; else kStairs or kSmooth: a tube, which has no upper face
+    std::array<std::uint32_t, 2> id{0, 0};  ///< of a disk, or run_id of a tube, which has no upper face
     /// Of the disks that stand on it and that it stands on: how far from its own the centre lies, and the radius; what
     /// they hide of its faces need not be drawn. Radius 0: there is none.
     glm::vec3 above{0}, below{0};
 };
 
-/// What a tube stands for: upright disks, which leave some of each other's faces free, or leaning ones that go on where
-/// the last ended.
-inline constexpr std::array<std::uint32_t, 2> kStairs{0, 0};
-inline constexpr std::array<std::uint32_t, 2> kSmooth{0, 1};
+/// Of a tube that stands for disks of an agent: upright ones, which leave some of each other's faces free, or `smooth`
+/// for leaning ones that go on where the last ended. The first number is 0, the lowest bit of the second is `smooth`
+/// and the others are the agent.
+inline std::array<std::uint32_t, 2> run_id(int agent, bool smooth) {
+    return {0, static_cast<std::uint32_t>(agent) << 1 | (smooth ? 1u : 0u)};
+}
 
 /// Disks in drawing order as pieces.
 std::vector<DiskPiece> pieces_of(const std::vector<DiskInstance>& disks);

@@ -337,6 +337,8 @@ bool DiskPass::draw_more(const DrawList& list, std::size_t most, DrawStatistics&
     // Without perspective nothing is too near to be drawn.
     program_.set("near_depth", projection.perspective ? projection.near_depth : std::numeric_limits<float>::lowest());
     program_.set("most_lean", levels_->most_lean());
+    program_.set("agent_depths", kAgentDepths);
+    program_.set("agent_depth_step", agent_depth_step(projection));
     program_.set("slab", slab_of(list));
     program_.set("back", projection.back);
     // With two corners at the sides the outline is right, however few the others are.

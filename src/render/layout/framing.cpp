@@ -1,11 +1,16 @@
+#include <render/drawlist/pen.h>
 #include <render/layout/framing.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <optional>
 
 namespace mobbscope {
 
@@ -29,6 +34,47 @@ double reach_around(const ShownPoints& points, glm::dvec3 axis) {
         reach = std::max(reach, static_cast<double>(points.most(glm::vec3(way))) - glm::dot(way, axis));
     }
     return reach / std::cos(std::numbers::pi / kWays);
+}
+
+/// Whether some of the convex hull of the points is seen in a panel: no line keeps the two apart. All points lie before
+/// the eye.
+bool covers(const Rect& panel, const ShownPoints& points, const ViewProjection& projection) {
+    constexpr int kWays = 32;
+    const glm::vec2 size(projection.size.width, projection.size.height);
+    const glm::mat4 rows = glm::transpose(projection.clip_from_world);
+    for (int i = 0; i < kWays; ++i) {
+        const glm::vec2 way(on_circle<double>(i, kWays));
+        const glm::vec2 nearest(way.x > 0 ? panel.min.x : panel.max.x, way.y > 0 ? panel.min.y : panel.max.y);
+        // Of a point times its w: how much farther that way it is seen than the panel begins.
+        const glm::vec4 beyond = 0.5f * way.x * size.x * (rows[3] + rows[0]) +
+                                 0.5f * way.y * size.y * (rows[3] - rows[1]) - glm::dot(way, nearest) * rows[3];
+        if (points.most(glm::vec3(beyond)) + beyond.w <= 0) return false;
+    }
+    return true;
+}
+
+/// The camera that `fit` makes for the whole picture, if no panel covers the points there; else for the free part where
+/// it stands nearest.
+template <class Fit>
+Camera fit_beside(PictureSize size, std::span<const Rect> panels, const ShownPoints& points, const DrawnSpace& space,
+                  const Fit& fit) {
+    constexpr double kMostTimesFarther = 2;
+    const Camera whole = fit(Rect{glm::vec2(0), glm::vec2(size.width, size.height)});
+    const glm::vec3 target = space.from_target(*whole.target);
+    const ViewProjection projection = make_projection(whole, points, &target, size);
+    if (std::ranges::none_of(panels, [&](const Rect& panel) { return covers(panel, points, projection); }))
+        return whole;
+    std::optional<Camera> best;
+    for (const Rect& part : free_parts(size, panels)) {
+        const Camera there = fit(part);
+        if (!best || there.distance < best->distance) best = there;
+    }
+    return best && best->distance <= kMostTimesFarther * whole.distance ? *best : whole;
+}
+
+/// How far the middle of a part is from that of the picture, as Camera::shift has it.
+glm::dvec2 shift_to(const Rect& part, PictureSize size) {
+    return (glm::dvec2(part.center()) / glm::dvec2(size.width, size.height) - 0.5) * glm::dvec2(1, -1);
 }
 
 }  // namespace
@@ -74,8 +120,54 @@ void add_floor_points(ShownPoints& points, const DrawnSpace& space, const FloorE
     for (const double t : {floor_extent.t0, floor_extent.t1}) points.add(space.point(foot.x, foot.y, t));
 }
 
+std::vector<Rect> free_parts(PictureSize size, std::span<const Rect> panels) {
+    const Rect all{{0, 0}, glm::vec2(size.width, size.height)};
+    std::array<std::vector<float>, 4> sides{{{all.min.x}, {all.min.y}, {all.max.x}, {all.max.y}}};
+    for (const Rect& panel : panels) {
+        sides[0].push_back(std::ceil(panel.max.x));
+        sides[1].push_back(std::ceil(panel.max.y));
+        sides[2].push_back(std::floor(panel.min.x));
+        sides[3].push_back(std::floor(panel.min.y));
+    }
+    std::vector<Rect> free;
+    for (const float left : sides[0]) {
+        for (const float top : sides[1]) {
+            for (const float right : sides[2]) {
+                for (const float bottom : sides[3]) {
+                    const Rect part{{left, top}, {right, bottom}};
+                    if (left >= right || top >= bottom || !all.contains(part)) continue;
+                    if (std::ranges::none_of(panels, [&](const Rect& panel) { return panel.overlaps(part); }))
+                        free.push_back(part);
+                }
+            }
+        }
+    }
+    std::vector<Rect> out;
+    std::ranges::copy_if(free, std::back_inserter(out), [&](const Rect& part) {
+        return std::ranges::none_of(free, [&](const Rect& o) { return o.contains(part) && !part.contains(o); });
+    });
+    return out;
+}
+
+std::vector<Rect> united(std::span<const Rect> panels) {
+    std::vector<Rect> out;
+    for (Rect one : panels) {
+        for (auto other = out.begin(); other != out.end();) {
+            if (!other->overlaps(one)) {
+                ++other;
+                continue;
+            }
+            one = {glm::min(one.min, other->min), glm::max(one.max, other->max)};
+            out.erase(other);
+            other = out.begin();
+        }
+        out.push_back(one);
+    }
+    return out;
+}
+
 Camera framed_camera(const Camera& camera, const ShownPoints& points, const DrawnSpace& space, PictureSize size,
-                     double margin, int free_top) {
+                     std::span<const Rect> panels, double margin) {
     const Orientation seen = orientation(camera);
     Camera out = camera;
     out.preset = CameraPreset::free;
@@ -83,52 +175,68 @@ Camera framed_camera(const Camera& camera, const ShownPoints& points, const Draw
     out.pitch_deg = seen.pitch_deg;
     out.perspective = seen.perspective;
     if (camera.target) return out;
-
-    // Half of what the height below the top shows is tangent * distance; the points fill it without the margin.
-    const PictureSize below{size.width, size.height - free_top};
-    const double part = static_cast<double>(below.height) / size.height;
-    const double tangent = std::tan(camera.fov_deg * kDegree / 2) * part;
-    Camera within = out;
-    within.fov_deg = 2 * std::atan(tangent / (1 + margin)) / kDegree;
-    const ViewProjection fitted = make_projection(within, points, nullptr, below);
-    const glm::dvec3 back(fitted.back);
-    const double depth = glm::dot(glm::dvec3(fitted.eye) - middle_of(points), back);
-    out.target = space.to_target(glm::dvec3(fitted.eye) - back * depth);
-    out.distance = seen.perspective ? depth : (1 + margin) / static_cast<double>(fitted.scale.y) / tangent;
-    if (free_top > 0) out.shift.y = -0.5 * free_top / size.height;
-    return out;
+    const glm::dvec3 middle = middle_of(points);
+    const auto fit = [&](const Rect& part) {
+        // Half of what the height of the part shows is tangent * distance; the points fill it without the margin.
+        const PictureSize there{static_cast<int>(part.size().x), static_cast<int>(part.size().y)};
+        const double tangent = std::tan(camera.fov_deg * kDegree / 2) * there.height / size.height;
+        Camera within = out;
+        within.fov_deg = 2 * std::atan(tangent / (1 + margin)) / kDegree;
+        const ViewProjection fitted = make_projection(within, points, nullptr, there);
+        const glm::dvec3 back(fitted.back);
+        const double depth = glm::dot(glm::dvec3(fitted.eye) - middle, back);
+        Camera fits = out;
+        fits.target = space.to_target(glm::dvec3(fitted.eye) - back * depth);
+        fits.distance = seen.perspective ? depth : (1 + margin) / static_cast<double>(fitted.scale.y) / tangent;
+        fits.shift = shift_to(part, size);
+        return fits;
+    };
+    return fit_beside(size, panels, points, space, fit);
 }
 
 Camera turning_camera(const Camera& camera, const ShownPoints& points, const DrawnSpace& space, PictureSize size,
-                      int free_top) {
-    Camera out = framed_camera(camera, points, space, size, kFrameMargin, free_top);
-    if (camera.target) return out;
-    // Half of what the picture shows at the target without its margin, in distances to it.
-    const double half_of_all = std::tan(out.fov_deg * kDegree / 2) / (1 + kFrameMargin);
-    const double half_x = half_of_all * size.width / size.height;
-    const double half_y = half_of_all * (static_cast<double>(size.height - free_top) / size.height);
-    const double cosine = std::cos(out.pitch_deg * kDegree);
-    const double sine = std::sin(out.pitch_deg * kDegree);
-    const double near = out.perspective ? 1 : 0;  // what comes nearer grows
+                      std::span<const Rect> panels) {
+    const Camera seen = framed_camera(camera, points, space, size);
+    if (camera.target) return seen;
+    const double cosine = std::cos(seen.pitch_deg * kDegree);
+    const double sine = std::sin(seen.pitch_deg * kDegree);
+    const double near = seen.perspective ? 1 : 0;  // what comes nearer grows
 
-    // All points lie in an upright cylinder about the axis of the turn. Of its rims each needs the eye this far from
-    // the middle, for the picture's upper and lower edge and its sides.
+    // All points lie in an upright cylinder about the axis of the turn.
     const glm::dvec3 middle = middle_of(points);
     const double reach = reach_around(points, middle);
     const double high = static_cast<double>(points.most({0, 0, 1})) - middle.z;
-    double top = 0, bottom = 0, sides = 0;
-    for (const double height : {-high, high}) {
-        top = std::max(top, height * (cosine / half_y + near * sine) + reach * std::abs(near * cosine - sine / half_y));
-        bottom = std::max(bottom,
-                          -height * (cosine / half_y - near * sine) + reach * std::abs(near * cosine + sine / half_y));
-        sides = std::max(sides, reach * std::hypot(1 / half_x, near * cosine) + near * height * sine);
+    constexpr int kCorners = 32;
+    ShownPoints around;
+    for (int i = 0; i < kCorners; ++i) {
+        const glm::dvec2 corner = reach / std::cos(std::numbers::pi / kCorners) * on_circle<double>(i, kCorners);
+        for (const double height : {-high, high}) around.add(glm::vec3(middle + glm::dvec3(corner, height)));
     }
-    // The target goes up the axis until above and below need the same.
-    const double up = cosine > 1e-6 ? std::clamp((top - bottom) * half_y / (2 * cosine), -high, high) : 0;
-    out.distance = std::max({top - up * (cosine / half_y + near * sine), bottom + up * (cosine / half_y - near * sine),
-                             sides - up * near * sine, 1e-3});
-    out.target = space.to_target(middle + glm::dvec3(0, 0, up));
-    return out;
+    const auto fit = [&](const Rect& part) {
+        // Half of what the part shows at the target without its margin, in distances to it.
+        const double half_of_all = std::tan(seen.fov_deg * kDegree / 2) / (1 + kFrameMargin) / size.height;
+        const double half_x = half_of_all * static_cast<double>(part.size().x);
+        const double half_y = half_of_all * static_cast<double>(part.size().y);
+        // Of the cylinder's rims each needs the eye this far from the middle, for the part's upper and lower edge and
+        // its sides.
+        double top = 0, bottom = 0, sides = 0;
+        for (const double height : {-high, high}) {
+            top = std::max(top,
+                           height * (cosine / half_y + near * sine) + reach * std::abs(near * cosine - sine / half_y));
+            bottom = std::max(
+                bottom, -height * (cosine / half_y - near * sine) + reach * std::abs(near * cosine + sine / half_y));
+            sides = std::max(sides, reach * std::hypot(1 / half_x, near * cosine) + near * height * sine);
+        }
+        // The target goes up the axis until above and below need the same.
+        const double up = cosine > 1e-6 ? std::clamp((top - bottom) * half_y / (2 * cosine), -high, high) : 0;
+        Camera fits = seen;
+        fits.distance = std::max({top - up * (cosine / half_y + near * sine),
+                                  bottom + up * (cosine / half_y - near * sine), sides - up * near * sine, 1e-3});
+        fits.target = space.to_target(middle + glm::dvec3(0, 0, up));
+        fits.shift = shift_to(part, size);
+        return fits;
+    };
+    return fit_beside(size, panels, around, space, fit);
 }
 
 void project(PictureFrame& frame, const ShownPoints& points) {

@@ -3,11 +3,13 @@
 
 #include <render/drawlist/draw_list.h>
 #include <render/drawlist/shown_points.h>
+#include <render/image/rect.h>
 #include <render/parts/floor_and_axes.h>
 #include <scene/drawn_agent.h>
 
 #include <limits>
 #include <span>
+#include <vector>
 
 namespace mobbscope {
 
@@ -35,18 +37,24 @@ void add_floor_points(ShownPoints& points, const DrawnSpace& space, const FloorE
 /// How much wider and higher than what it frames a picture is.
 inline constexpr double kFrameMargin = 0.1;
 
+/// The parts of a picture, upright and in whole pixels, that no panel covers and that no larger one contains.
+std::vector<Rect> free_parts(PictureSize size, std::span<const Rect> panels);
+
+/// Those that overlap as one.
+std::vector<Rect> united(std::span<const Rect> panels);
+
 /// The explicit camera (preset free, with a target) that looks from where `camera` does and has all `points` (drawn
-/// space) in the picture, with a margin, as large as they fit. It depends on nothing else: neither words nor panels nor
-/// boxes move it. The target is seen in the middle of the picture, as deep as the middle of the points; it is in world
-/// metres with time drawn `space.time_height` high, which the view has to keep. A camera that has a target keeps it.
-/// `free_top`: so many pixels at the top of the picture, fewer than it is high, stay free; the target is in the middle
-/// of the rest.
+/// space) in the picture, with a margin, as large as they fit. `panels` (pixels) cover none of them: if they do so in
+/// the whole picture, the points fill the free part where they are largest. Where they would be less than half as large
+/// there, they fill the whole picture. The target is seen in the middle of that part, as deep as the middle of the
+/// points; it is in world metres with time drawn `space.time_height` high, which the view has to keep. A camera that
+/// has a target keeps it.
 Camera framed_camera(const Camera& camera, const ShownPoints& points, const DrawnSpace& space, PictureSize size,
-                     double margin = kFrameMargin, int free_top = 0);
+                     std::span<const Rect> panels = {}, double margin = kFrameMargin);
 
 /// Likewise, but it may be turned about its target: all points are in the picture from every side.
 Camera turning_camera(const Camera& camera, const ShownPoints& points, const DrawnSpace& space, PictureSize size,
-                      int free_top = 0);
+                      std::span<const Rect> panels = {});
 
 /// Sets what is seen through the frame's camera. `points`: what is near and far.
 void project(PictureFrame& frame, const ShownPoints& points);

@@ -25,21 +25,26 @@ struct PanelSpacing {
     float text = 0;     ///< size of the legend's words and of headers, pixels
     float padding = 0;  ///< between a panel's edge and what is on it
     float gap = 0;      ///< between panels
-    float chevron = 0;  ///< the square that a chevron stands in
+    float line = 0;     ///< height of a line of text
+    float chevron = 0;  ///< side of the square that a chevron stands in; 0: there are none
     float header = 0;   ///< height of a folded panel
-    explicit PanelSpacing(const Metrics& metrics)
+    PanelSpacing(const Metrics& metrics, bool controls)
         : text(metrics.small),
           padding(panel_padding(metrics.small)),
           gap(std::round(0.5f * metrics.pad)),
-          chevron(line_height(FontFace::text, metrics.small)),
-          header(chevron + 2 * std::round(0.5f * padding)) {}
+          line(line_height(FontFace::text, metrics.small)),
+          chevron(controls ? line : 0),
+          header(line + 2 * std::round(0.5f * padding)) {}
 
     glm::vec2 around(glm::vec2 content) const { return content + 2 * padding; }
+    /// Where the words of a folded panel begin, from its left edge.
+    float before_words() const { return chevron > 0 ? 0.5f * (header - line) + chevron + 0.3f * text : padding; }
     /// A folded panel with that text; without one the chevron alone.
     glm::vec2 header_size(const std::string& words, bool dot) const {
+        if (words.empty()) return glm::vec2(header);
         const float dot_room = dot ? 0.9f * text : 0;
-        const float width = words.empty() ? 0 : 0.3f * text + dot_room + Font::of(FontFace::text).width(words, text);
-        return {std::ceil(chevron + width + padding), header};
+        const float width = dot_room + Font::of(FontFace::text).width(words, text);
+        return {std::ceil(before_words() + width + padding), header};
     }
 };
 
@@ -80,23 +85,33 @@ bool same_words(std::string a, std::string b) {
 
 class OverlayLayout {
   public:
-    OverlayLayout(DrawList& list, const OverlayContents& contents, const ViewState& view, const Metrics& metrics)
-        : list_(list),
+    OverlayLayout(PictureSize size, const OverlayContents& contents, const ViewState& view, const Metrics& metrics,
+                  bool controls)
+        : size_(size),
           contents_(contents),
           view_(view),
           metrics_(metrics),
-          spacing_(metrics),
-          area_{glm::vec2(metrics.pad), glm::vec2(list.size.width, list.size.height) - metrics.pad},
-          words_room_(kWidestWords * area_.size().x) {}
-
-    std::optional<Rect> add() {
+          spacing_(metrics, controls),
+          area_{glm::vec2(metrics.pad), glm::vec2(size.width, size.height) - metrics.pad},
+          words_room_(kWidestWords * area_.size().x) {
         fold_all();
         open_caption();
         open_legend();
         open_map();
-        if (caption_) draw_caption();
-        if (legend_) draw_legend();
-        return map_ ? draw_map() : std::nullopt;
+    }
+
+    std::vector<Rect> rects() const {
+        std::vector<Rect> out;
+        for (const std::optional<Place>* place : {&caption_, &legend_, &map_}) {
+            if (*place) out.push_back((*place)->rect);
+        }
+        return out;
+    }
+
+    std::optional<Rect> add_to(DrawList& list) const {
+        if (caption_) draw_caption(list);
+        if (legend_) draw_legend(list);
+        return map_ ? draw_map(list) : std::nullopt;
     }
 
   private:
@@ -140,7 +155,7 @@ class OverlayLayout {
         for (const std::optional<Place>* place : {&caption_, &legend_, &map_}) {
             if (*place && (*place)->open) covered += area_of((*place)->rect.size());
         }
-        return covered <= kMostCovered * static_cast<float>(list_.size.width) * static_cast<float>(list_.size.height);
+        return covered <= kMostCovered * static_cast<float>(size_.width) * static_cast<float>(size_.height);
     }
 
     void open(std::optional<Place>& place, const Rect& rect) {
@@ -151,8 +166,7 @@ class OverlayLayout {
 
     glm::vec2 map_panel() const {
         const float title = Font::of(FontFace::text).width(contents_.map_title, spacing_.text) + spacing_.chevron;
-        return glm::ceil(
-            spacing_.around({std::max(contents_.map.x, title), contents_.map.y + 1.5f * spacing_.chevron}));
+        return glm::ceil(spacing_.around({std::max(contents_.map.x, title), contents_.map.y + 1.5f * spacing_.line}));
     }
 
     void open_caption() {
@@ -220,70 +234,70 @@ class OverlayLayout {
     // --- drawing
 
     /// Panel and chevron; of a folded one the header's words. Returns the upper left corner of what it holds.
-    glm::vec2 draw_panel(Kind kind, const Place& place, Rgba dot = Rgba(0)) {
-        list_.panels.push_back(text_panel(place.rect, list_.palette, spacing_.text));
-        const float square = spacing_.chevron;
-        const float inset = 0.5f * (spacing_.header - square);
-        Overlay overlay{kind, place.rect, place.rect, !place.open, place.no_room, {}, std::nullopt};
-        if (place.open) {
+    glm::vec2 draw_panel(DrawList& list, Kind kind, const Place& place, Rgba dot = Rgba(0)) const {
+        list.panels.push_back(text_panel(place.rect, list.palette, spacing_.text));
+        Overlay overlay{kind, place.rect, {}, !place.open, place.no_room, {}, {}};
+        const bool has_chevron = spacing_.chevron > 0;
+        if (has_chevron && place.open) {
             // As large as a folded panel is high, so that it is easily hit.
             overlay.fold = {{place.rect.max.x - spacing_.header, place.rect.min.y},
                             {place.rect.max.x, place.rect.min.y + spacing_.header}};
-            add_chevron(overlay.fold.center(), {0, 1});
-        } else {
-            const glm::vec2 corner = place.rect.min + inset;
-            add_chevron(corner + 0.5f * square, {1, 0});
-            float x = corner.x + square + 0.3f * spacing_.text;
-            if (dot.a > 0 && !place.header.empty()) {
+            add_chevron(list, overlay.fold->center(), {0, 1});
+        } else if (has_chevron) {
+            overlay.fold = place.rect;
+            add_chevron(list, place.rect.min + 0.5f * spacing_.header, {1, 0});
+        }
+        if (!place.open && !place.header.empty()) {
+            const float top = place.rect.min.y + 0.5f * (spacing_.header - spacing_.line);
+            float x = place.rect.min.x + spacing_.before_words();
+            if (dot.a > 0) {
                 const float r = 0.3f * spacing_.text;
-                const glm::vec2 middle(x + r, corner.y + 0.52f * square);
-                list_.panels.push_back({{middle - r, middle + r}, r, dot, Rgba(0), 0});
+                const glm::vec2 middle(x + r, top + 0.52f * spacing_.line);
+                list.panels.push_back({{middle - r, middle + r}, r, dot, Rgba(0), 0});
                 x += 0.9f * spacing_.text;
             }
-            if (!place.header.empty()) {
-                list_.texts.push_back(text_at(TextRole::header, place.header, FontFace::text, spacing_.text,
-                                              list_.palette.quiet_text, {x, corner.y}));
-            }
+            list.texts.push_back(text_at(TextRole::header, place.header, FontFace::text, spacing_.text,
+                                         list.palette.quiet_text, {x, top}));
         }
-        list_.overlays.push_back(overlay);
+        list.overlays.push_back(overlay);
         return place.rect.min + spacing_.padding;
     }
 
     /// An angle that points along x or y.
-    void add_chevron(glm::vec2 middle, glm::vec2 way) {
+    void add_chevron(DrawList& list, glm::vec2 middle, glm::vec2 way) const {
         const float r = 0.26f * spacing_.text;
         const glm::vec2 across(way.y, way.x);
         const glm::vec2 tip = middle + 0.5f * r * way;
         for (const float side : {-1.0f, 1.0f}) {
-            list_.overlay_lines.push_back({middle - 0.5f * r * way + side * r * across, tip, list_.palette.quiet_text,
-                                           1.3f * metrics_.scale, kSolid});
+            list.overlay_lines.push_back({middle - 0.5f * r * way + side * r * across, tip, list.palette.quiet_text,
+                                          1.3f * metrics_.scale, kSolid});
         }
     }
 
-    void draw_caption() {
-        list_.headline = contents_.caption.headlines.front();
-        const glm::vec2 corner = draw_panel(Kind::caption, *caption_, contents_.caption.mark);
+    void draw_caption(DrawList& list) const {
+        list.headline = contents_.caption.headlines.front();
+        const glm::vec2 corner = draw_panel(list, Kind::caption, *caption_, contents_.caption.mark);
         const Caption& caption = contents_.caption;
         const CaptionLines& shown = caption_lines_;
         if (!caption_->open || !same_words(in_a_line(shown.headline), caption.headlines.front()) ||
             !same_words(in_a_line(shown.detail), caption.detail)) {
-            list_.overlays.back().whole = caption.headlines.front();
-            if (!caption.detail.empty()) list_.overlays.back().whole += '\n' + caption.detail;
+            list.overlays.back().whole = caption.headlines.front();
+            if (!caption.detail.empty()) list.overlays.back().whole += '\n' + caption.detail;
         }
-        if (caption_->open) add_caption(list_, caption, shown, corner, metrics_.scale);
+        if (caption_->open) add_caption(list, caption, shown, corner, metrics_.scale);
     }
 
-    void draw_legend() {
-        list_.legend = contents_.legend;
-        glm::vec2 corner = draw_panel(Kind::legend, *legend_);
+    void draw_legend(DrawList& list) const {
+        list.legend = contents_.legend;
+        glm::vec2 corner = draw_panel(list, Kind::legend, *legend_);
         if (!legend_->open) return;
-        add_color_bars(list_, contents_.bars, corner, spacing_.text);
+        add_color_bars(list, contents_.bars, corner, spacing_.text);
         corner.y += color_bars_size(contents_.bars, spacing_.text).y;
-        if (!add_legend(list_, rows_, corner, spacing_.text, words_room_)) {
-            std::string& whole = list_.overlays.back().whole;
+        if (!add_legend(list, rows_, corner, spacing_.text, words_room_)) {
+            std::string& whole = list.overlays.back().whole;
             for (const LegendEntry& row : rows_) whole += (whole.empty() ? "" : "\n") + row.text;
         }
-        if (list_.legend.size() <= kLegendRows) return;
+        if (spacing_.chevron == 0 || list.legend.size() <= kLegendRows) return;
         const Rect& panel = legend_->rect;
         const float row = legend_row(spacing_.text);
         const bool whole = rows_.size() > kLegendRows + 1;
@@ -291,23 +305,23 @@ class OverlayLayout {
         Rect more{{panel.min.x, panel.max.y - row - 0.5f * spacing_.padding}, panel.max};
         if (whole) {
             more.min = panel.max - spacing_.header;
-            add_chevron(more.center(), {0, -1});
+            add_chevron(list, more.center(), {0, -1});
         }
-        list_.overlays.back().more = more;
+        list.overlays.back().more = more;
     }
 
-    std::optional<Rect> draw_map() {
-        const glm::vec2 corner = draw_panel(Kind::inset, *map_);
+    std::optional<Rect> draw_map(DrawList& list) const {
+        const glm::vec2 corner = draw_panel(list, Kind::inset, *map_);
         if (!map_->open) return std::nullopt;
-        list_.texts.push_back(text_at(TextRole::map, contents_.map_title, FontFace::text, spacing_.text,
-                                      list_.palette.quiet_text, corner));
+        list.texts.push_back(text_at(TextRole::map, contents_.map_title, FontFace::text, spacing_.text,
+                                     list.palette.quiet_text, corner));
         const Rect& panel = map_->rect;
         const glm::vec2 at(std::round(panel.center().x - 0.5f * contents_.map.x),
                            panel.max.y - spacing_.padding - contents_.map.y);
         return Rect{at, at + contents_.map};
     }
 
-    DrawList& list_;
+    PictureSize size_;
     const OverlayContents& contents_;
     const ViewState& view_;
     const Metrics& metrics_;
@@ -322,8 +336,13 @@ class OverlayLayout {
 }  // namespace
 
 std::optional<Rect> add_overlays(DrawList& list, const OverlayContents& contents, const ViewState& view,
-                                 const Metrics& metrics) {
-    return OverlayLayout(list, contents, view, metrics).add();
+                                 const Metrics& metrics, bool controls) {
+    return OverlayLayout(list.size, contents, view, metrics, controls).add_to(list);
+}
+
+std::vector<Rect> overlay_rects(PictureSize size, const OverlayContents& contents, const ViewState& view,
+                                const Metrics& metrics, bool controls) {
+    return OverlayLayout(size, contents, view, metrics, controls).rects();
 }
 
 }  // namespace mobbscope

@@ -1,5 +1,5 @@
 /// Caption, legend and map of the floor: panels over the scene, each in a corner of its own that it keeps whatever the
-/// step, the level or the camera is. They take no room from the scene.
+/// step, the level or the camera is.
 #pragma once
 
 #include <render/drawlist/draw_list.h>
@@ -32,8 +32,12 @@ inline constexpr float kMostCovered = 0.35f;
 
 /// Adds the caption at the upper left, the map at the upper right and the legend at the lower left. What the view
 /// folds, and what has no room beside those before it in the order caption, legend, map, is there as its header.
-/// Returns where the map's lines go; none where it is folded.
+/// `controls`: with what folds them. Returns where the map's lines go; none where it is folded.
 std::optional<Rect> add_overlays(DrawList& list, const OverlayContents& contents, const ViewState& view,
-                                 const Metrics& metrics);
+                                 const Metrics& metrics, bool controls);
+
+/// What the panels that add_overlays adds cover.
+std::vector<Rect> overlay_rects(PictureSize size, const OverlayContents& contents, const ViewState& view,
+                                const Metrics& metrics, bool controls);
 
 }  // namespace mobbscope

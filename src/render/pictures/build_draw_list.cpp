@@ -122,17 +122,53 @@ DrawList build_draw_list(KeptPaths& kept, const ViewState& view, const PictureOp
 
 PictureFrame picture_frame(const FittedScene& fitted, const ViewState& view, PictureSize size, double scale) {
     KeptPaths kept = nothing_kept(fitted);
-    return picture_frame(kept, view, size, scale);
+    return picture_frame(kept, view, {.size = size, .scale = scale});
 }
 
-PictureFrame picture_frame(KeptPaths& kept, const ViewState& view, PictureSize size, double scale) {
-    return with_picture(kept, view, {.size = size, .scale = scale}, nullptr,
-                        [](Picture& picture) { return picture.aim(); });
+PictureFrame picture_frame(KeptPaths& kept, const ViewState& view, const PictureOptions& options,
+                           const FollowedChoice* choice) {
+    return with_picture(kept, view, options, choice, [](Picture& picture) { return picture.aim(); });
 }
 
-Camera film_camera(KeptPaths& kept, const ViewState& view, PictureSize size, Played played, int free_top) {
+Framed framed_in(KeptPaths& kept, const ViewState& view, const PictureOptions& options, const FollowedChoice* choice) {
+    return with_picture(kept, view, options, choice, [](Picture& picture) { return picture.framed(); });
+}
+
+Camera common_camera(std::span<const Framed> framed, PictureSize size) {
+    ShownPoints points;
+    std::vector<Rect> panels;
+    double margin = 0;
+    for (const Framed& one : framed) {
+        points.add(one.points);
+        panels.insert(panels.end(), one.panels.begin(), one.panels.end());
+        margin = std::max(margin, one.margin);
+    }
+    return framed_camera(framed.front().camera, points, framed.front().space, size, united(panels), margin);
+}
+
+std::vector<DrawList> build_draw_lists(std::span<const PictureBeside> pictures, const PictureOptions& options) {
+    std::vector<KeptPaths> paths;
+    std::vector<Framed> framed;
+    for (const PictureBeside& picture : pictures) {
+        framed.push_back(framed_in(paths.emplace_back(picture.fitted), picture.view, options));
+    }
+    std::vector<DrawList> out;
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        std::vector<Framed> beside;
+        for (std::size_t j = 0; j < pictures.size(); ++j) {
+            if (framed[j].camera == framed[i].camera && framed[j].space == framed[i].space) beside.push_back(framed[j]);
+        }
+        ViewState view = pictures[i].view;
+        view.camera = common_camera(beside, options.size);
+        out.push_back(build_draw_list(paths[i], view, options));
+    }
+    return out;
+}
+
+Camera film_camera(KeptPaths& kept, const ViewState& view, PictureSize size, Played played,
+                   std::span<const Rect> panels) {
     return with_picture(kept, view, {.size = size}, nullptr,
-                        [&](Picture& picture) { return picture.film_camera(played, free_top); });
+                        [&](Picture& picture) { return picture.film_camera(played, panels); });
 }
 
 }  // namespace mobbscope

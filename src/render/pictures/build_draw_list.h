@@ -3,14 +3,18 @@
 
 #include <render/drawlist/draw_list.h>
 #include <render/drawlist/picture_options.h>
+#include <render/drawlist/shown_points.h>
+#include <render/image/rect.h>
 #include <render/pictures/played.h>
 #include <scene/fitted_scene.h>
 #include <scene/view_state.h>
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace mobbscope {
 
@@ -41,12 +45,35 @@ DrawList build_draw_list(KeptPaths& kept, const ViewState& view, const PictureOp
 /// The frame of the picture that build_draw_list would make, without making it: for what moves the camera. Throws as it
 /// does.
 PictureFrame picture_frame(const FittedScene& fitted, const ViewState& view, PictureSize size, double scale = 0);
-PictureFrame picture_frame(KeptPaths& kept, const ViewState& view, PictureSize size, double scale = 0);
+PictureFrame picture_frame(KeptPaths& kept, const ViewState& view, const PictureOptions& options,
+                           const FollowedChoice* choice = nullptr);
 
-/// The camera of a film that goes on from such a picture: it has in it what the picture frames, and all boxes that the
-/// film draws (of a run the floor, which boxes may reach out of), below so many pixels that stay free. Of a turn about
-/// its target, from every side.
-Camera film_camera(KeptPaths& kept, const ViewState& view, PictureSize size, Played played, int free_top = 0);
+/// What the camera of a picture has to have in it where the view gives it no target.
+struct Framed {
+    Camera camera;  ///< the view's
+    DrawnSpace space;
+    ShownPoints points;
+    std::vector<Rect> panels;  ///< that cover none of it: caption, legend and map
+    double margin = 0;
+};
+Framed framed_in(KeptPaths& kept, const ViewState& view, const PictureOptions& options,
+                 const FollowedChoice* choice = nullptr);
+
+/// The framed_camera that has all of that in the picture, of pictures with the same camera and space.
+Camera common_camera(std::span<const Framed> framed, PictureSize size);
+
+struct PictureBeside {
+    std::shared_ptr<const FittedScene> fitted;
+    ViewState view;
+};
+/// Pictures of one size side by side: those of the same direction and space are seen from one place, which has in each
+/// picture what it frames. Throws as build_draw_list does.
+std::vector<DrawList> build_draw_lists(std::span<const PictureBeside> pictures, const PictureOptions& options);
+
+/// The camera of a film that goes on from such a picture: it has in it what the picture frames, of a query's steps the
+/// boxes of all of them, beside panels (pixels). Of a turn about its target, from every side.
+Camera film_camera(KeptPaths& kept, const ViewState& view, PictureSize size, Played played,
+                   std::span<const Rect> panels = {});
 
 /// The last choice that a view of a run shows; none if it shows none. `moves`: of the run.
 std::optional<FollowedChoice> choice_in_view(const MoveSet& moves, const ViewState& view);

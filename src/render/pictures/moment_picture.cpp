@@ -185,6 +185,7 @@ class MomentPicture final : public Picture {
         corners_ = floor_corners(floor_extent_, list_.space);
         framed_ = ShownPoints(crowd_ ? corners_ : standing_);
         if (view_.show == Show::plan && view_.boxes) find_sections(kept);
+        if (view_.frame_boxes && !crowd_) frame_boxes();
         // A plan has its numbers along the edges of the floor.
         if (view_.show == Show::plan) framed_.add(std::span(corners_).first(4));
         points_ = framed_;
@@ -216,10 +217,9 @@ class MomentPicture final : public Picture {
         sections_ = std::move(drawn.boxes);
     }
 
-    void frame_boxes_of_film(Played played) override {
-        if (crowd_) return;
+    /// Whenever they have a section.
+    void frame_boxes() {
         for (const BoxInstance& box : sections_) {
-            if (played == Played::turn && level_section(box, 0).empty()) continue;
             for (const glm::vec3 corner : box_corners(box)) framed_.add({corner.x, corner.y, 0});
         }
     }

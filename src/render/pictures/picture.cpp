@@ -4,6 +4,7 @@
 #include <render/layout/framing.h>
 #include <render/parts/paths.h>
 #include <render/parts/sections.h>
+#include <render/pictures/build_draw_list.h>
 #include <render/pictures/picture.h>
 #include <scene/arrangement.h>
 
@@ -83,16 +84,39 @@ void Picture::mention_view(Caption& caption) const {
     if (caption.headlines.empty() && !caption.detail.empty()) caption.headlines = {std::exchange(caption.detail, {})};
 }
 
+const OverlayContents& Picture::said() {
+    if (said_) return *said_;
+    said_ = words();
+    mention_view(said_->caption);
+    if (!view_.caption) said_->caption = {};
+    if (!view_.legend) {
+        said_->legend.clear();
+        said_->bars.clear();
+    }
+    if (!view_.inset) said_->map = {};
+    return *said_;
+}
+
+std::vector<Rect> Picture::panels() {
+    if (!view_.labels) return {};
+    list_.camera = framed_camera(view_.camera, framed_, list_.space, list_.size, {}, margin_);
+    project(list_, points_);
+    return overlay_rects(list_.size, said(), view_, metrics_, options_.controls);
+}
+
+Framed Picture::framed() { return {view_.camera, list_.space, framed_, panels(), margin_}; }
+
 const PictureFrame& Picture::aim() {
-    list_.camera = framed_camera(view_.camera, framed_, list_.space, list_.size, margin_);
+    const std::vector<Rect> beside = view_.camera.target ? std::vector<Rect>() : panels();
+    list_.camera = framed_camera(view_.camera, framed_, list_.space, list_.size, beside, margin_);
     project(list_, points_);
     return list_;
 }
 
-Camera Picture::film_camera(Played played, int free_top) {
-    frame_boxes_of_film(played);
-    if (played == Played::turn) return turning_camera(view_.camera, framed_, list_.space, list_.size, free_top);
-    return framed_camera(view_.camera, framed_, list_.space, list_.size, margin_, free_top);
+Camera Picture::film_camera(Played played, std::span<const Rect> panels) {
+    if (played == Played::steps) frame_boxes_of_steps();
+    if (played == Played::turn) return turning_camera(view_.camera, framed_, list_.space, list_.size, panels);
+    return framed_camera(view_.camera, framed_, list_.space, list_.size, panels, margin_);
 }
 
 std::vector<LabelRequest> Picture::floor_labels() const {
@@ -109,15 +133,7 @@ std::vector<LabelRequest> Picture::floor_labels() const {
 DrawList Picture::draw() {
     aim();
     if (view_.labels) {
-        OverlayContents said = words();
-        mention_view(said.caption);
-        if (!view_.caption) said.caption = {};
-        if (!view_.legend) {
-            said.legend.clear();
-            said.bars.clear();
-        }
-        if (!view_.inset) said.map = {};
-        if (const auto map = add_overlays(list_, said, view_, metrics_)) add_map(*map);
+        if (const auto map = add_overlays(list_, said(), view_, metrics_, options_.controls)) add_map(*map);
     }
     // Labels stay out of the panels.
     LabelLayout layout(list_);

@@ -18,11 +18,14 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace mobbscope {
 
 struct FollowedChoice;  // crowd/simulation/choice.h
+struct Framed;          // render/pictures/build_draw_list.h
 class KeptPaths;        // render/pictures/kept_paths.h
 
 class Picture {
@@ -36,14 +39,16 @@ class Picture {
     /// Aims and draws the rest; once.
     DrawList draw();
     /// As mobbscope::film_camera.
-    Camera film_camera(Played played, int free_top);
+    Camera film_camera(Played played, std::span<const Rect> panels);
+    /// What the camera has to have in the picture, and beside what.
+    Framed framed();
 
   protected:
     /// Throws std::invalid_argument if there is nobody to draw.
     Picture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options);
 
-    /// Adds the boxes that a film draws to what the camera frames; of a run, whose plays come and go, none.
-    virtual void frame_boxes_of_film(Played) {}
+    /// Adds the boxes of all steps of the query to what the camera frames.
+    virtual void frame_boxes_of_steps() {}
     /// What the picture says. Needs the projection.
     virtual OverlayContents words() = 0;
     /// Adds what is drawn; returns what is said beside it. Needs the projection.
@@ -69,7 +74,7 @@ class Picture {
     Metrics metrics_;
     std::vector<DrawnAgent> agents_;
     FloorExtent floor_extent_;
-    ShownPoints framed_;  ///< what the camera frames where it has no target: neither step nor time changes it
+    ShownPoints framed_;  ///< what the camera frames where it has no target
     ShownPoints points_;  ///< all that is drawn: what is near and far
     double margin_ = kFrameMargin;
     DrawList list_;
@@ -77,6 +82,11 @@ class Picture {
   private:
     void dim_all_but_pointed_out();
     void mention_view(Caption& caption) const;
+    /// Needs a projection that has in the picture what the last one will have.
+    const OverlayContents& said();
+    std::vector<Rect> panels();
+
+    std::optional<OverlayContents> said_;  ///< once it is known
 };
 
 /// Paths and boxes of a scene in space-time. `kept`: of the scene; outlives the picture.

@@ -92,7 +92,7 @@ class SpaceTimePicture final : public Picture {
         if (walls_) within_slab([&] { gaps_ = add_proof_walls(list_, *walls_, view_.time, metrics_.scale); });
         if (list_.slab)
             std::erase_if(gaps_, [&](const WallGap& gap) { return !list_.slab->shows(gap.at.z, gap.at.z); });
-        if (view_.frame_boxes) frame_boxes();
+        if (view_.boxes && view_.frame_boxes) frame_boxes();
         points_ = framed_;
         if (!view_.foreground.empty()) add_outlines_to(points_, bounds);
         for (const BoxInstance& box : list_.boxes) points_.add(box_corners(box));
@@ -189,26 +189,21 @@ class SpaceTimePicture final : public Picture {
         }
     }
 
-    /// Boxes of a query come and go with its steps: the roots' stand for them.
+    void frame(const BoxInstance& box) {
+        if (box.state != BoxState::annotation && is_seen(list_.slab, box)) framed_.add(box_corners(box));
+    }
+
+    /// Boxes of a query come and go with its steps: the roots' stand for most of them.
     void frame_boxes() {
-        if (view_.query) {
-            for (const DrawnAgent& agent : agents_) framed_.add(box_corners(node_box(agent, 0, list_.space)));
-            return;
-        }
-        for (const BoxInstance& box : list_.boxes) {
-            if (box.state == BoxState::level) framed_.add(box_corners(box));
+        for (const BoxInstance& box : list_.boxes) frame(box);
+        if (!view_.query) return;
+        for (const DrawnAgent& agent : agents_) {
+            if (!agent.hidden) frame(node_box(agent, 0, list_.space));
         }
     }
 
-    /// Of a query's steps the boxes of every test; of anything else the picture's own stay.
-    void frame_boxes_of_film(Played played) override {
-        if (!view_.boxes) return;
-        if (played != Played::steps) {
-            for (const BoxInstance& box : list_.boxes) {
-                if (box.state != BoxState::annotation && is_seen(list_.slab, box)) framed_.add(box_corners(box));
-            }
-            return;
-        }
+    void frame_boxes_of_steps() override {
+        if (!view_.boxes || !view_.frame_boxes) return;
         for (const DrawnAgent& agent : agents_) {
             if (agent.hidden) continue;
             std::vector<bool> framed(agent.placed.tree().nodes().size());
@@ -217,8 +212,7 @@ class SpaceTimePicture final : public Picture {
                 const int node = agent.index == 0 ? event.a : event.b;
                 if (framed[static_cast<std::size_t>(node)]) continue;
                 framed[static_cast<std::size_t>(node)] = true;
-                const BoxInstance box = node_box(agent, node, list_.space);
-                if (is_seen(list_.slab, box)) framed_.add(box_corners(box));
+                frame(node_box(agent, node, list_.space));
             }
         }
     }
