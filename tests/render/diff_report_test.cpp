@@ -46,7 +46,7 @@ TEST(DiffJson, HasAllFigures) {
     EXPECT_EQ(json["shift"], 1);
     EXPECT_EQ(json["tile_mean"], 0) << "pixels beyond the threshold are left out";
     EXPECT_TRUE(json["tile"].is_null());
-    EXPECT_EQ(json["tile_threshold"], 0.25);
+    EXPECT_EQ(json["tile_threshold"], 0.3);
 }
 
 TEST(DiffJson, WithoutDifferencesThereAreNoBounds) {

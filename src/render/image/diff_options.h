@@ -24,7 +24,7 @@ struct DiffOptions {
 
     /// Pictures also differ if the mean of a channel over a tile (kTileSide) does by more than this, 0..255. Pixels
     /// beyond channel_tolerance are left out, as they are counted.
-    double tile_tolerance = 0.25;
+    double tile_tolerance = 0.3;
 
     /// The most pixels that may differ, of so many that are compared.
     std::int64_t allowed(std::int64_t pixels) const;

@@ -85,7 +85,7 @@ Image heat_map(const Image& reference, std::span<const std::int16_t> differences
 void write_diff(JsonWriter& out, const ImageDiff& diff);
 
 /// "different: 412 of 230400 pixels (0.18 %) differ by more than 3/255, up to 87/255, within 120x40 at (300, 12);
-/// allowed: 4"; if means differ also "; the mean within 32x36 at (64, 36) differs by 1.5/255, allowed: 0.25/255". A
+/// allowed: 4"; if means differ also "; the mean within 32x36 at (64, 36) differs by 1.5/255, allowed: 0.3/255". A
 /// picture that passes is "same" where no byte differs, else "passes: ...".
 std::string diff_sentence(const ImageDiff& diff);
 
