@@ -212,7 +212,7 @@ TEST(Reports, ThePageShowsTheNumbersOfADifference) {
 
 TEST(Reports, ThePageSaysWhichMeanDiffers) {
     const CaseResult lighter = with_pictures(result("a", CaseOutcome::different), grey(64, 64, 102), grey(64, 64, 100));
-    const std::string page = written(write_html, {lighter});
+    const std::string page = written(write_html, {lighter, different("moved")});
     EXPECT_EQ(times(page, "<dt>Mean of a tile</dt><dd>up to 2, allowed 0.3 of 255</dd>"), 1u);
     EXPECT_EQ(times(page, "32 x 32 pixels at (0, 0)"), 1u);
     EXPECT_GE(times(page, "the mean of a tile by 2 of 255"), 1u);
