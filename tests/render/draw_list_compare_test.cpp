@@ -240,7 +240,8 @@ TEST(DrawListCompare, DisksAndBoxesComeFirstAndManyAreCounted) {
 }
 
 TEST(DrawListCompare, OneThatIsGoneMakesNoOtherDiffer) {
-    const DrawList list = build_draw_list(testing::hit_scene(), {}, testing::kGoldenSize);
+    const PictureOptions options{.size = testing::kGoldenSize, .controls = true};
+    const DrawList list = build_draw_list(testing::hit_scene(), {}, options);
     const Json golden = parsed(testing::text_of(list));
     for (const char* key : {"disks", "boxes", "lines", "legend", "overlays", "panels", "overlay_lines", "texts"}) {
         const int count = static_cast<int>(golden[key].size());
