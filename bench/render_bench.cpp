@@ -123,7 +123,7 @@ void zoom_step(benchmark::State& state, int agents) {
     KeptPaths paths = paths_of(bench::crowd(agents));
     ViewState view;
     for (auto _ : state) {
-        const PictureFrame frame = picture_frame(paths, view, kSize);
+        const PictureFrame frame = picture_frame(paths, view, {.size = kSize});
         benchmark::DoNotOptimize(zoomed(frame.camera, 1.15, {640, 360}, kSize));
     }
 }

@@ -2,6 +2,7 @@
 #include <app/commands/camera_commands.h>
 #include <app/ui/style.h>
 #include <app/window/headless_window.h>
+#include <render/drawlist/camera.h>
 #include <render/drawlist/view_projection.h>
 #include <render/gl/gl_context.h>
 #include <render/image/png.h>
@@ -205,7 +206,59 @@ TEST(StillCamera, NothingThatIsShownMovesIt) {
     expect_still("no query");
 }
 
-TEST(StillCamera, ItFramesOnCommandAndKeepsItsScaleWhenTheWindowIsResized) {
+/// The camera that frames the window's view by itself.
+Camera framing_of(const Window& w) {
+    ViewState view = w.session.workspace.view();
+    view.camera = without_target(view.camera);
+    const PictureOptions options{.size = w.session.views.picture->size, .controls = true};
+    return build_draw_list(w.session.workspace.fitted(), view, options).camera;
+}
+
+/// Its direction apart.
+void expect_framed(const Window& w) {
+    const Camera camera = w.session.workspace.view().camera, expected = framing_of(w);
+    EXPECT_EQ(camera.target, expected.target);
+    EXPECT_EQ(camera.distance, expected.distance);
+    EXPECT_EQ(camera.shift, expected.shift);
+}
+
+TEST(StillCamera, ItFramesAgainWhenTheWindowIsResizedUntilItIsMoved) {
+    Window w;
+    const auto resize = [&](PictureSize size) {
+        w.window.resize(size);
+        w.window.settle();
+    };
+    const auto camera = [&] { return w.session.workspace.view().camera; };
+    const Camera opened = camera();
+    expect_framed(w);
+    resize({900, 800});
+    EXPECT_NE(camera(), opened);
+    expect_framed(w);
+    EXPECT_FALSE(w.session.workspace.history.can_undo());
+    // Turned it still holds the whole.
+    const Camera narrow = camera();
+    run_command(w.session, "view.orbit", "20 0");
+    w.window.settle();
+    EXPECT_EQ(camera().target, narrow.target);
+    resize({1300, 700});
+    expect_framed(w);
+    // The picture of a moment has a camera of its own.
+    w.key("M");
+    w.key("M");
+    resize({1000, 900});
+    expect_framed(w);
+    run_command(w.session, "view.pan", "5 0");
+    w.window.settle();
+    const Camera moved = camera();
+    resize({1300, 700});
+    EXPECT_EQ(camera().target, moved.target);
+    w.key("Home");
+    w.window.settle();
+    resize({1200, 800});
+    expect_framed(w);
+}
+
+TEST(StillCamera, AMovedOneKeepsItsScaleWhenTheWindowIsResized) {
     Window w;
     run_command(w.session, "query.select", "0");
     w.window.settle();
@@ -214,9 +267,9 @@ TEST(StillCamera, ItFramesOnCommandAndKeepsItsScaleWhenTheWindowIsResized) {
     w.key("F");
     EXPECT_LT(w.session.workspace.view().camera.distance, 0.9 * opened.distance) << "the pair under test";
     w.key("Home");
+    run_command(w.session, "view.zoom", "1.5");
     w.window.settle();
-    const Camera home = w.session.workspace.view().camera;
-    ASSERT_TRUE(home.target);
+    const Camera near = w.session.workspace.view().camera;
     const auto pixels = [&] {
         const DrawList list =
             build_draw_list(w.session.workspace.fitted(), w.session.workspace.view(), w.session.views.picture->size);
@@ -227,14 +280,12 @@ TEST(StillCamera, ItFramesOnCommandAndKeepsItsScaleWhenTheWindowIsResized) {
     w.window.resize({900, 800});
     w.window.settle();
     ASSERT_NE(w.session.views.picture->size.height, height);
-    EXPECT_EQ(w.session.workspace.view().camera.target, home.target);
+    EXPECT_EQ(w.session.workspace.view().camera.target, near.target);
     EXPECT_NEAR(pixels(), scale, 1e-3 * scale);
     w.session.edits.previous_view();
     w.window.settle();
-    EXPECT_EQ(w.session.workspace.view().camera.target, opened.target);
-    EXPECT_NEAR(w.session.workspace.view().camera.distance * height,
-                opened.distance * w.session.views.picture->size.height, 1e-6 * opened.distance * height)
-        << "where the way back leads, too";
+    EXPECT_NE(w.session.workspace.view().camera.distance, near.distance);
+    expect_framed(w);
 }
 
 TEST(StillCamera, HomeFindsAnotherHeightOfASecondUnlessOneWasChosen) {

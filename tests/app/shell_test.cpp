@@ -162,7 +162,9 @@ TEST_P(ShellTest, ThePictureIsTheOneThatRenderDrawsOfTheSavedView) {
     const PictureSize size{static_cast<int>(rect.size().x), static_cast<int>(rect.size().y)};
 
     const Scene saved = load_scene(file);
-    const Image rendered = Renderer(GetParam()).draw(build_draw_list(FittedScene(saved, saved.fit), saved.view, size));
+    const PictureOptions options{.size = size, .controls = true};
+    const DrawList list = build_draw_list(FittedScene(saved, saved.fit), saved.view, options);
+    const Image rendered = Renderer(GetParam()).draw(list);
     EXPECT_EQ(window->shell().viewport_picture().rgba, rendered.rgba);
     const Image shown = window->shell().read_back();
     int differing = 0;
@@ -211,7 +213,8 @@ TEST_P(ShellTest, WhatIsPointedOutInANewPictureIsDrawnWithAllOfIt) {
     window->settle();
     session.workspace.select({Selection::Kind::path, {0, -1, 0}, -1});
     window->settle();
-    EXPECT_GT(*shell.read_back().at(400, 250), 100) << "the ground is light";
+    const glm::ivec2 corner(shell.marks().all().at("viewport").min + 3.0f);
+    EXPECT_GT(*shell.read_back().at(corner.x, corner.y), 100) << "the ground is light";
     EXPECT_EQ(pointed_out(shell), Roles{HighlightLine::Role::selection});
 }
 
@@ -221,8 +224,9 @@ TEST_P(ShellTest, ThePictureShowsWhatIsSelectedAsRenderDoes) {
     hover_over_a_disk();
     EXPECT_EQ(pointed_out(window->shell()), (Roles{HighlightLine::Role::selection, HighlightLine::Role::hover}));
     const Rect rect = window->shell().marks().all().at("viewport");
-    DrawList list = build_draw_list(session.workspace.fitted(), session.workspace.view(),
-                                    PictureSize{static_cast<int>(rect.size().x), static_cast<int>(rect.size().y)});
+    const PictureOptions options{.size = {static_cast<int>(rect.size().x), static_cast<int>(rect.size().y)},
+                                 .controls = true};
+    DrawList list = build_draw_list(session.workspace.fitted(), session.workspace.view(), options);
     const Image without = Renderer(GetParam()).draw(list);
     const std::string name = session.workspace.fitted().placed_agents()[1].name;
     add_selection(list, session.workspace.fitted(), session.workspace.view(), {name, {AgentPart::Kind::node, 2}},

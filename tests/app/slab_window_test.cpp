@@ -83,7 +83,7 @@ TEST(SlabInTheWindow, IsDraggedOverTheTimeline) {
 
 TEST(SlabInTheWindow, IsFramedByHome) {
     SlabWindow w;
-    w.run("key Home");
+    w.run("run view.frame_boxes\nkey Home");
     const double all = w.window.shell().shown()->camera.distance;
     w.run("run view.slab 0.5:0.7\nkey Home");
     const DrawList& list = *w.window.shell().shown();

@@ -68,6 +68,7 @@ constexpr PictureSize kSmaller{800, 560};
 
 TEST(Suspended, AResizeKeepsTheScaleOfWhatAnExcerptWasTakenFrom) {
     SuspendedWorld w;
+    run_command(w.session, "view.zoom", "1.5");
     const double before = w.pixels_a_metre();
     const auto& agents = w.session.workspace.fitted().placed_agents();
     w.session.excerpts.open(agents[0], agents[1]);
@@ -86,6 +87,7 @@ TEST(Suspended, AResizeKeepsTheScaleOfWhatAnExcerptWasTakenFrom) {
 TEST(Suspended, AResizeKeepsTheScaleOfWhatIsOpenBesideACase) {
     for (const bool shown : {true, false}) {
         SuspendedWorld w;
+        run_command(w.session, "view.zoom", "1.5");
         const double before = w.pixels_a_metre();
         w.review();
         // With the case's scene in the picture, or with no picture at all.

@@ -219,6 +219,7 @@ TEST(Framing, WhoIsHiddenIsNotFramed) {
     for (const Show show : {Show::space_time, Show::moment}) {
         ViewState view;
         view.show = show;
+        view.boxes = view.labels = false;
         const Camera whole = picture_frame(fitted, view, kGoldenSize).camera;
         view.hidden = {names.front()};
         EXPECT_NE(picture_frame(fitted, view, kGoldenSize).camera, whole);

@@ -103,6 +103,7 @@ TEST_P(KeptBuffersTest, SteppingDrawsNoDiskAnew) {
     ViewState view;
     view.query = 0;
     view.step = {Step::Unit::percent, 0};
+    view.camera = build_draw_list(paths_, view, {.size = kSmallSize}).camera;
     const std::size_t all = draw(view, 4).triangles;
     for (int i = 1; i < 10; ++i) {
         view.step = {Step::Unit::percent, 10.0 * i};
@@ -113,13 +114,14 @@ TEST_P(KeptBuffersTest, SteppingDrawsNoDiskAnew) {
         EXPECT_LT(renderer().statistics().triangles, all / 10) << i;
         EXPECT_EQ(drawn.rgba, Renderer(GetParam()).draw(list).rgba) << i;
     }
-    view.camera.preset = CameraPreset::top;
+    view.camera.pitch_deg = 90;
     EXPECT_FALSE(renderer().has_disks(build_draw_list(paths_, view, {.size = kSmallSize}), 4));
     EXPECT_FALSE(renderer().has_disks(build_draw_list(paths_, {}, {.size = {200, 120}}), 4));
 }
 
 TEST_P(KeptBuffersTest, OtherLevelsDrawNoDiskAnew) {
     ViewState view;
+    view.camera = build_draw_list(paths_, view, {.size = kSmallSize}).camera;
     settle(view, 4);
     for (int level = 0; level < 5; ++level) {
         view.levels = {level, level, false};

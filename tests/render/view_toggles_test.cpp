@@ -78,6 +78,7 @@ Toggled toggled(const FittedScene& fitted, ViewState view, const ViewOption& opt
     constexpr PictureSize kSize{1280, 720};
     view.*option.toggle = true;
     DrawList with = build_draw_list(fitted, view, kSize);
+    view.camera = with.camera;
     view.*option.toggle = false;
     return {std::move(with), build_draw_list(fitted, view, kSize)};
 }

@@ -59,9 +59,13 @@ void Session::end_work() {
 }
 
 Session::BeforeDrag Session::before_drag() const {
-    return {workspace.history,       settings,
-            counts.arrivals,         workspace.picture_size,
-            workspace.other_cameras, screen ? screen->look() : std::any()};
+    return {workspace.history,
+            settings,
+            counts.arrivals,
+            workspace.picture_size,
+            workspace.framings,
+            workspace.other_cameras,
+            screen ? screen->look() : std::any()};
 }
 
 void Session::restore(BeforeDrag before) {
@@ -71,6 +75,7 @@ void Session::restore(BeforeDrag before) {
     settings = std::move(before.settings);
     // A border between panels may be what was dragged: cameras stand for the pictures of before.
     workspace.picture_size = before.picture_size;
+    workspace.framings = std::move(before.framings);
     workspace.other_cameras = std::move(before.other_cameras);
     ++counts.restores;
     workspace.changed();

@@ -144,6 +144,7 @@ class Session {
         Settings settings;
         int arrivals = 0;
         std::optional<PictureSize> picture_size;
+        std::vector<Camera> framings;
         std::map<std::string_view, Camera> other_cameras;
         std::any look;  ///< of the screen that is shown
     };

@@ -61,8 +61,8 @@ class Shell {
     const DrawList* shown() const;
     /// What the last picture that was painted of a viewport took.
     const DrawStatistics& statistics() const;
-    /// The viewport's picture with what is selected, as `render` draws it. Throws std::invalid_argument if there is
-    /// none yet.
+    /// The viewport's picture with what is selected, as `render` draws it, and with what folds its overlays. Throws
+    /// std::invalid_argument if there is none yet.
     Image viewport_picture();
 
     /// Of text and panels where the settings say none: another monitor has another.

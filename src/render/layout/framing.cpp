@@ -11,6 +11,7 @@
 #include <iterator>
 #include <numbers>
 #include <optional>
+#include <set>
 
 namespace mobbscope {
 
@@ -122,12 +123,12 @@ void add_floor_points(ShownPoints& points, const DrawnSpace& space, const FloorE
 
 std::vector<Rect> free_parts(PictureSize size, std::span<const Rect> panels) {
     const Rect all{{0, 0}, glm::vec2(size.width, size.height)};
-    std::array<std::vector<float>, 4> sides{{{all.min.x}, {all.min.y}, {all.max.x}, {all.max.y}}};
+    std::array<std::set<float>, 4> sides{{{all.min.x}, {all.min.y}, {all.max.x}, {all.max.y}}};
     for (const Rect& panel : panels) {
-        sides[0].push_back(std::ceil(panel.max.x));
-        sides[1].push_back(std::ceil(panel.max.y));
-        sides[2].push_back(std::floor(panel.min.x));
-        sides[3].push_back(std::floor(panel.min.y));
+        sides[0].insert(std::ceil(panel.max.x));
+        sides[1].insert(std::ceil(panel.max.y));
+        sides[2].insert(std::floor(panel.min.x));
+        sides[3].insert(std::floor(panel.min.y));
     }
     std::vector<Rect> free;
     for (const float left : sides[0]) {
@@ -144,7 +145,7 @@ std::vector<Rect> free_parts(PictureSize size, std::span<const Rect> panels) {
     }
     std::vector<Rect> out;
     std::ranges::copy_if(free, std::back_inserter(out), [&](const Rect& part) {
-        return std::ranges::none_of(free, [&](const Rect& o) { return o.contains(part) && !part.contains(o); });
+        return std::ranges::none_of(free, [&](const Rect& o) { return &o != &part && o.contains(part); });
     });
     return out;
 }

@@ -3,7 +3,6 @@
 
 #include <render/drawlist/draw_list.h>
 #include <render/drawlist/shown_points.h>
-#include <render/image/rect.h>
 #include <render/parts/floor_and_axes.h>
 #include <scene/drawn_agent.h>
 

@@ -125,9 +125,8 @@ PictureFrame picture_frame(const FittedScene& fitted, const ViewState& view, Pic
     return picture_frame(kept, view, {.size = size, .scale = scale});
 }
 
-PictureFrame picture_frame(KeptPaths& kept, const ViewState& view, const PictureOptions& options,
-                           const FollowedChoice* choice) {
-    return with_picture(kept, view, options, choice, [](Picture& picture) { return picture.aim(); });
+PictureFrame picture_frame(KeptPaths& kept, const ViewState& view, const PictureOptions& options) {
+    return with_picture(kept, view, options, nullptr, [](Picture& picture) { return picture.aim(); });
 }
 
 Framed framed_in(KeptPaths& kept, const ViewState& view, const PictureOptions& options, const FollowedChoice* choice) {

@@ -45,8 +45,7 @@ DrawList build_draw_list(KeptPaths& kept, const ViewState& view, const PictureOp
 /// The frame of the picture that build_draw_list would make, without making it: for what moves the camera. Throws as it
 /// does.
 PictureFrame picture_frame(const FittedScene& fitted, const ViewState& view, PictureSize size, double scale = 0);
-PictureFrame picture_frame(KeptPaths& kept, const ViewState& view, const PictureOptions& options,
-                           const FollowedChoice* choice = nullptr);
+PictureFrame picture_frame(KeptPaths& kept, const ViewState& view, const PictureOptions& options);
 
 /// What the camera of a picture has to have in it where the view gives it no target.
 struct Framed {
