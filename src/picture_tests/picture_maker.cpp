@@ -45,8 +45,8 @@ PictureMaker::Made PictureMaker::make(const Shot& shot) {
     try {
         const PicturePanel& panel = shot.panels.front();
         WindowPicture window = window_picture(
-            *panel.fitted, panel.view, panel.fitted->scene().file, *backend_from_name(renderer_.backend()), shot.picture.size,
-            shot.window->scale, shot.window->script ? &*shot.window->script : nullptr);
+            *panel.fitted, panel.view, panel.fitted->scene().file, *backend_from_name(renderer_.backend()),
+            shot.picture.size, shot.window->scale, shot.window->script ? &*shot.window->script : nullptr);
         return {std::move(window.picture), window_state(window.state)};
     } catch (const app::ExpectationError& error) {
         // A case that fails, like one that cannot be read.
