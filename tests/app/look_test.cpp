@@ -48,7 +48,8 @@ TEST_F(LookTest, LinesAreWholePixelsAtEveryScale) {
 
 TEST_F(LookTest, FontsHaveWhatUnitsAndFormulasNeed) {
     const Style look = make_style(Theme::dark, 1);
-    for (const ImWchar code : std::u16string_view(u"\u00B2\u00B7\u00D7\u03B1\u2026\u2080\u2190\u2191\u2192\u2212\u2264\u25B6")) {
+    for (const ImWchar code :
+         std::u16string_view(u"\u00B2\u00B7\u00D7\u03B1\u2026\u2080\u2190\u2191\u2192\u2212\u2264\u25B6")) {
         EXPECT_NE(look.body->FindGlyphNoFallback(code), nullptr) << std::hex << code;
     }
 }
