@@ -59,7 +59,7 @@ TEST_F(PictureStateTest, ACauseIsToldAloneAndInWords) {
     expect("\"rotate_deg\": 90", "\"rotate_deg\": 93", "B turned by 3 degrees");
     expect("\"start\": 0.5", "\"start\": 0.25", "B's start moved by -0.25 s");
     expect("\"levels\": 1", "\"levels\": 1, \"theme\": \"light\"", "theme light was dark");
-    expect("\"levels\": 1", "\"levels\": 1, \"boxes\": false", "boxes false was true");
+    expect("\"levels\": 1", "\"levels\": 1, \"floor\": false", "floor false was true");
 }
 
 TEST_F(PictureStateTest, WordsThatFollowStandBehindTheCause) {
