@@ -6,6 +6,7 @@
 #include <explain/query_progress.h>
 #include <explain/trace_comparison.h>
 #include <render/gl/gl_context.h>
+#include <render/pictures/build_draw_list.h>
 
 #include "app/folder_window.h"
 
