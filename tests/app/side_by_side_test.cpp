@@ -6,6 +6,7 @@
 #include <explain/query_progress.h>
 #include <explain/trace_comparison.h>
 #include <render/gl/gl_context.h>
+#include <render/pictures/build_draw_list.h>
 
 #include "app/folder_window.h"
 
@@ -208,7 +209,7 @@ float margin(const DrawList& list) {
 
 TEST(SideBySide, APictureHoldsTheWholeHoweverNarrowItIs) {
     SideBySide w;
-    w.run("run view.front\nrun view.frame_all");
+    w.run("run view.frame_boxes\nrun view.front\nrun view.frame_all");
     const Camera alone = w.here().camera;
     ASSERT_GT(margin(*w.window.shell().shown()), 0);
     for (const char* more : {"run view.split", "run compare.add moving", "run compare.add aabb"}) {
@@ -223,7 +224,7 @@ TEST(SideBySide, APictureHoldsTheWholeHoweverNarrowItIs) {
     EXPECT_EQ(w.session.workspace.fitted().options().tree, mobb::TreeKind::umobb) << "the neighbour is active";
     w.run("run view.split");
     const Camera again = w.here().camera;
-    EXPECT_NEAR(again.distance, alone.distance, 0.01 * alone.distance) << "but for the boxes of the other tree";
+    EXPECT_NEAR(again.distance, alone.distance, 0.01 * alone.distance) << "the former frame";
     w.run("run view.split\nkey Ctrl+Z");
     ASSERT_EQ(w.session.views.count(), 1u);
     EXPECT_EQ(w.here().camera, again) << "after undo, too";
@@ -232,6 +233,28 @@ TEST(SideBySide, APictureHoldsTheWholeHoweverNarrowItIs) {
     const double near = w.here().camera.distance;
     w.run("run view.split");
     EXPECT_NEAR(w.here().camera.distance, near, 0.15 * near) << "but for the title's height";
+}
+
+/// The boxes of each tree reach elsewhere.
+TEST(SideBySide, ViewsThatShareTheirCameraAreFramedTogether) {
+    SideBySide w;
+    w.run("run compare.fits mobb umobb aabb\nrun view.level 1\nrun view.frame_all");
+    for (const std::size_t place : {0u, 1u, 2u}) {
+        const SceneView seen = w.at(place);
+        EXPECT_EQ(seen.view.camera, w.here().camera);
+        const DrawList list = build_draw_list(*seen.fitted, seen.view, w.session.views.picture->size);
+        const glm::vec2 size(list.size.width, list.size.height);
+        ASSERT_FALSE(list.boxes.empty());
+        for (const BoxInstance& box : list.boxes) {
+            for (const glm::vec3& corner : box_corners(box)) {
+                const glm::vec2 at = list.projection.project(corner).value_or(glm::vec2(-1));
+                EXPECT_TRUE(at.x >= 0 && at.y >= 0 && at.x <= size.x && at.y <= size.y) << place;
+            }
+        }
+    }
+    w.run("size 1200x900");
+    EXPECT_EQ(w.at(2).view.camera, w.at(0).view.camera);
+    EXPECT_TRUE(w.session.workspace.is_framed(w.here().camera));
 }
 
 TEST(SideBySide, ViewsOutliveExcerptsAndEndWithTheirScene) {

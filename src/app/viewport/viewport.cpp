@@ -298,12 +298,15 @@ void Viewport::follow_test(Ui& ui) {
 
 void Viewport::frame_together(std::span<Viewport> viewports) {
     std::vector<Framed> all;
+    PictureSize size;
     for (const Viewport& one : viewports) {
-        if (one.laid_out_.framed) all.push_back(*one.laid_out_.framed);
+        if (!one.laid_out_.framed) continue;
+        all.push_back(*one.laid_out_.framed);
+        size = *one.size_;
     }
     const bool alike = std::ranges::all_of(all, [&](const Framed& one) { return one.space == all.front().space; });
     if (all.size() < 2 || !alike) return;
-    const Camera camera = common_camera(all, *viewports.front().size_);
+    const Camera camera = common_camera(all, size);
     for (Viewport& one : viewports) {
         if (!one.laid_out_.framed) continue;
         one.laid_out_.camera.target = camera.target;
