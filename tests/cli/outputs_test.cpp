@@ -270,6 +270,8 @@ class WaitingWriter {
         ::mkfifo(pipe.c_str(), 0600);
         reader_ = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
         child_ = start_program({"diff", a, b, "-o", folder.path() / "heat.png", "--strip", pipe}, {}, [&] {
+            // A job of nohup ignores them, and so would the program.
+            for (const int signal : {SIGTERM, SIGINT, SIGHUP}) ::signal(signal, SIG_DFL);
             if (!nameless && !refuse_nameless_files()) ::_exit(77);
         });
     }
