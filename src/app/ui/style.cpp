@@ -2,7 +2,6 @@
 #include <render/drawlist/font.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -19,47 +18,25 @@ constexpr float kCaption = 13;
 /// The em as a share of the line. Letters and digits of one width are wide, so theirs is smaller.
 constexpr float em_of(FontFace face) { return face == FontFace::text ? 0.85f : 0.76f; }
 
-/// What names, units and formulas are written with; of these, those that the font has.
-constexpr std::array<std::pair<ImWchar, ImWchar>, 12> kWanted{{
-    {0x0020, 0x024F},  // Latin
-    {0x0370, 0x03FF},  // Greek
-    {0x0400, 0x045F},  // Cyrillic
-    {0x1E00, 0x1EFF},  // Latin with more accents
-    {0x2010, 0x203A},  // dashes, quotes, ellipsis
-    {0x2070, 0x209C},  // superscripts and subscripts
-    {0x2190, 0x21B5},  // arrows
-    {0x2200, 0x22A5},  // mathematics
-    {0x2318, 0x2326},  // keys
-    {0x2500, 0x257F},  // lines of boxes
-    {0x25A0, 0x25FF},  // geometric shapes
-    {0x2713, 0x2717},  // ticks and crosses
-}};
-
-/// Of what is wanted of a face, the part that a file draws.
-ImVector<ImWchar> ranges_of(FontFace face, FontFace file) {
-    ImFontGlyphRangesBuilder builder;
-    for (const auto& [first, last] : kWanted) {
-        for (ImWchar code = first; code <= last; ++code) {
-            if (Font::of(face).has(code) && Font::drawing(face, code) == file) builder.AddChar(code);
-        }
-    }
-    ImVector<ImWchar> ranges;
-    builder.BuildRanges(&ranges);
-    return ranges;
-}
+/// What names, units and formulas are written with, as Dear ImGui takes it: it skips what a file has no glyph for.
+constexpr ImWchar kWanted[] = {0x0020, 0x024F,  // Latin
+                               0x0370, 0x03FF,  // Greek
+                               0x0400, 0x045F,  // Cyrillic
+                               0x1E00, 0x1EFF,  // Latin with more accents
+                               0x2010, 0x203A,  // dashes, quotes, ellipsis
+                               0x2070, 0x209C,  // superscripts and subscripts
+                               0x2190, 0x21B5,  // arrows
+                               0x2200, 0x22A5,  // mathematics
+                               0x2318, 0x2326,  // keys
+                               0x2500, 0x257F,  // lines of boxes
+                               0x25A0, 0x25FF,  // geometric shapes
+                               0x2713, 0x2717,  // ticks and crosses
+                               0};
 
 ImFont* add_font(FontFace face, float height, float scale) {
-    constexpr std::array kFiles{FontFace::text, FontFace::mono};
-    // The atlas keeps the pointers.
-    static const auto ranges = [&] {
-        std::array<std::array<ImVector<ImWchar>, 2>, 2> out;
-        for (std::size_t i = 0; i < 2; ++i) {
-            for (std::size_t j = 0; j < 2; ++j) out[i][j] = ranges_of(kFiles[i], kFiles[j]);
-        }
-        return out;
-    }();
     const float line = std::round(height * scale);
     ImFont* font = nullptr;
+    // The other file brings what the first lacks.
     for (const FontFace file : {face, face == FontFace::text ? FontFace::mono : FontFace::text}) {
         const std::string_view bytes = Font::file(file);
         ImFontConfig config;
@@ -70,7 +47,7 @@ ImFont* add_font(FontFace face, float height, float scale) {
         config.MergeMode = font != nullptr;
         // Dear ImGui counts the height of the file's own line, not the em.
         config.SizePixels = line * em_of(face) * Font::file_line(file);
-        config.GlyphRanges = ranges[static_cast<std::size_t>(face)][static_cast<std::size_t>(file)].Data;
+        config.GlyphRanges = kWanted;
         // Large glyphs are smooth without it.
         config.OversampleH = scale < 1.5f ? 3 : 2;
         // Digits of one width stand on whole pixels.
