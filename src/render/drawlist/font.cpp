@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace render_assets {
 std::string_view embedded(std::string_view name);
@@ -46,6 +47,17 @@ Glyph glyph_of(FontFace face, char32_t code) {
         if (index != kMissing) return {of, index};
     }
     return {face, kMissing};
+}
+
+/// A glyph of the fixed-width face among words is as wide as its ink, and this share of the em on either side.
+constexpr float kBearing = 0.05f;
+bool is_borrowed(FontFace asked, FontFace drawing) { return asked == FontFace::text && drawing == FontFace::mono; }
+
+/// From where to where a glyph has ink, in units of the font.
+std::pair<int, int> ink_of(const stbtt_fontinfo& info, int glyph) {
+    int begin = 0, end = 0;
+    stbtt_GetGlyphBox(&info, glyph, &begin, nullptr, &end, nullptr);
+    return {begin, end};
 }
 
 /// A frame of one pixel. Fonts bring one of their own, but so heavy that a row of them looks like a censor's bar.
@@ -97,6 +109,10 @@ bool Font::has(char32_t code) const { return glyph_of(face_, code).index != kMis
 float Font::advance(char32_t code, char32_t next, float size) const {
     const auto [face, index] = glyph_of(face_, code);
     const stbtt_fontinfo& info = info_of(face);
+    if (is_borrowed(face_, face) && index != kMissing) {
+        const auto [begin, end] = ink_of(info, index);
+        return static_cast<float>(end - begin) * stbtt_ScaleForMappingEmToPixels(&info, size) + 2 * kBearing * size;
+    }
     int advance = 0;
     stbtt_GetGlyphHMetrics(&info, index, &advance, nullptr);
     if (next != 0) {
@@ -104,6 +120,14 @@ float Font::advance(char32_t code, char32_t next, float size) const {
         if (after.face == face) advance += stbtt_GetGlyphKernAdvance(&info, index, after.index);
     }
     return static_cast<float>(advance) * stbtt_ScaleForMappingEmToPixels(&info, size);
+}
+
+float Font::indent(char32_t code, float size) const {
+    const auto [face, index] = glyph_of(face_, code);
+    if (!is_borrowed(face_, face)) return 0;
+    const stbtt_fontinfo& info = info_of(face);
+    return kBearing * size -
+           static_cast<float>(ink_of(info, index).first) * stbtt_ScaleForMappingEmToPixels(&info, size);
 }
 
 float Font::width(std::string_view utf8, float size) const {
@@ -124,6 +148,7 @@ GlyphBitmap Font::rasterise(char32_t code, float size, float shift) const {
     const stbtt_fontinfo& info = info_of(face);
     const float scale = stbtt_ScaleForMappingEmToPixels(&info, size);
     if (index == kMissing) return hollow_box(advance(code, 0, size), size);
+    shift += indent(code, size);
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
     stbtt_GetGlyphBitmapBoxSubpixel(&info, index, scale, scale, shift, 0, &x0, &y0, &x1, &y1);
     GlyphBitmap bitmap{x1 - x0, y1 - y0, x0, y0, {}};

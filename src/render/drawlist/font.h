@@ -42,6 +42,8 @@ class Font {
     float descent(float size) const;  ///< of a line, below the baseline, pixels, >= 0
     /// Pixels to advance after a code point, including kerning with `next` (0: none).
     float advance(char32_t code, char32_t next, float size) const;
+    /// Pixels from the pen to where the glyph's own origin lies: not 0 where the fixed-width face draws it among words.
+    float indent(char32_t code, float size) const;
     /// Whether a face has a glyph for a code point; a hollow box stands for what there is none for. Control characters
     /// are spaces.
     bool has(char32_t code) const;

@@ -149,7 +149,8 @@ class PdfCanvas : public VectorCanvas {
             const FontFace face = Font::drawing(text.face, codes[i]);
             const std::size_t before = at;
             read_code_point(utf8, at);
-            glyphs.push_back({PdfFace::of(face).glyph(codes[i]), pen, text.baseline.y});
+            glyphs.push_back(
+                {PdfFace::of(face).glyph(codes[i]), pen + font.indent(codes[i], text.size), text.baseline.y});
             clusters.push_back({static_cast<int>(at - before), 1});
             const bool last = i + 1 == codes.size();
             pen += font.advance(codes[i], last ? 0 : codes[i + 1], text.size);
