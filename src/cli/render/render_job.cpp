@@ -290,6 +290,7 @@ void RenderPlan::draw(Backend backend) {
         warn("the fonts of pictures lack " + counted(missing_glyphs_.size(), "character", "characters") +
              " of this scene's names; boxes stand for them");
     }
+    if (jobs_.size() == 1 && jobs_[0].pictures.size() == 1 && !jobs_[0].arguments.ui) compile_quickly();
     std::optional<Renderer> renderer;
     std::size_t all = 0;
     bool films = false;

@@ -194,6 +194,8 @@ std::optional<Backend> backend_from_name(std::string_view name) {
     return std::nullopt;
 }
 
+void compile_quickly() { ::setenv("GALLIVM_PERF", "nopt", 0); }
+
 std::unique_ptr<GlContext> GlContext::open(Backend backend) {
     std::string reasons;
     for (std::size_t i = 0; i < std::size(kBackends); ++i) {
