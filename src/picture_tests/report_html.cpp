@@ -189,7 +189,9 @@ std::size_t end_of_subject(std::string_view line) {
                                                      " moved by ", " turned by ", " was "};
     bool quoted = false;
     for (std::size_t i = 0; i < line.size(); ++i) {
-        if (line[i] == '\'') quoted = !quoted;
+        // An apostrophe within a word is no quote.
+        if (line[i] == '\'' && (quoted ? i + 1 == line.size() || line[i + 1] == ' ' : i == 0 || line[i - 1] == ' '))
+            quoted = !quoted;
         const auto begins = [&](std::string_view verb) { return line.substr(i).starts_with(verb); };
         if (!quoted && std::ranges::any_of(kVerbs, begins)) return i;
     }

@@ -75,7 +75,8 @@ std::string on_one_line(const JsonValue* value) {
     if (!value) return "none";
     if (const auto* number = value->as<double>()) return brief(*number);
     if (const auto* boolean = value->as<bool>()) return *boolean ? "true" : "false";
-    if (value->as<std::string>()) return cleaned(text_of(*value));
+    const std::string text = text_of(*value);
+    if (!text.empty()) return text.find(' ') == std::string::npos ? cleaned(text) : in_quotes(text);
     const auto* elements = value->as<JsonValue::Array>();
     if (!elements) return "none";
     std::string out;

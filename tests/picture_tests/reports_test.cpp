@@ -220,19 +220,19 @@ TEST(Reports, ThePageSaysWhichMeanDiffers) {
 
 TEST(Reports, ThePageHasAPartForEachGoldenWithWhatItIsAboutInBold) {
     CaseResult moved = different("moved");
-    moved.findings = {
-        {"moved.png", "50 pixels <differ>", {}},
-        {"moved.state.json",
-         "moved.state.json: and 3 more",
-         {"A moved by (1, 0)", "tick '5: s' is missing", "boxes of A: other colours", "<nothing> in particular"}},
-        {"moved.trace.json", "moved.trace.json: it is empty", {}},
-        {"moved.new.json", "unheard of", {}}};
+    moved.findings = {{"moved.png", "50 pixels <differ>", {}},
+                      {"moved.state.json",
+                       "moved.state.json: and 3 more",
+                       {"A moved by (1, 0)", "sentence 'A's box: near' was 'B's box'", "boxes of A: other colours",
+                        "<nothing> in particular"}},
+                      {"moved.trace.json", "moved.trace.json: it is empty", {}},
+                      {"moved.new.json", "unheard of", {}}};
     const std::string page = written(write_html, {moved});
     EXPECT_EQ(times(page,
                     "<h3>Picture <small>moved.png</small></h3>\n<p class=\"message\">50 pixels &lt;differ&gt;</p>\n"
                     "<h3>What is drawn <small>moved.state.json</small></h3>\n<ul>\n"
                     "<li><strong>A</strong> moved by (1, 0)</li>\n"
-                    "<li><strong>tick &#39;5: s&#39;</strong> is missing</li>\n"
+                    "<li><strong>sentence &#39;A&#39;s box: near&#39;</strong> was &#39;B&#39;s box&#39;</li>\n"
                     "<li><strong>boxes of A</strong>: other colours</li>\n"
                     "<li>&lt;nothing&gt; in particular</li>\n</ul>\n"
                     "<h3>Trace <small>moved.trace.json</small></h3>\n"
