@@ -212,10 +212,11 @@ StateDifferences compare_states(const std::string& actual, const std::string& go
     const JsonValue *imgui = find(now, {"imgui"}), *golden_imgui = find(before, {"imgui"});
     Leaves all = now;
     all.insert(before.begin(), before.end());
+    std::erase_if(all, [](const auto& leaf) { return leaf.first.size() < 3 || leaf.first.front() != "panels"; });
+    const bool several = !all.empty() && all.begin()->first[1] != all.rbegin()->first[1];
     Lines lines;
     for (const auto& [whole, unused] : all) {
-        if (whole.front() != "panels" || whole.size() < 3) continue;
-        if (all.rbegin()->first[1] != "0") lines.panel = "panel " + whole[1] + ", ";
+        if (several) lines.panel = "panel " + cleaned(whole[1]) + ", ";
         Path path(whole.begin() + 2, whole.end());
         if (path.front() == "scene" && path.size() > 1) path.erase(path.begin());  // of a window
         const JsonValue *a = find(now, whole), *b = find(before, whole);

@@ -150,7 +150,7 @@ TEST_F(RunCaseTest, IsDifferentWhereTheStateDiffersAndPixelsAgree) {
     const CaseResult off = run(two);
     EXPECT_EQ(off.outcome, CaseOutcome::different);
     EXPECT_TRUE(off.image->same);
-    EXPECT_EQ(off.message, "b.state.json: panel 0, B moved by (0, 1e-05)");
+    EXPECT_EQ(off.message, "b.state.json: B moved by (0, 1e-05)");
     EXPECT_EQ(off.findings.back().words.size(), 1u) << "what follows from it is not told";
 }
 

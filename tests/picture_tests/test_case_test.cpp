@@ -79,13 +79,13 @@ TEST(ReadCase, WhatMayDifferAndWhereIsTheCasesOwn) {
     EXPECT_EQ(plain.terms.diff.allowed(640 * 360), 4);
     EXPECT_EQ(plain.terms.diff.channel_tolerance, 3);
     EXPECT_FALSE(plain.terms.mask);
-    EXPECT_TRUE(plain.terms.draw_list);
+    EXPECT_TRUE(plain.terms.state);
     const Case own = read_case(
         cases.add("own", R"("threshold": "2%", "allowed": "12px", "mask": "own.mask.png", "state": false)").file);
     EXPECT_DOUBLE_EQ(own.terms.diff.channel_tolerance, 5.1);
     EXPECT_EQ(own.terms.diff.allowed(640 * 360), 12);
     EXPECT_EQ(own.terms.mask, cases.path() / "own.mask.png");
-    EXPECT_FALSE(own.terms.draw_list);
+    EXPECT_FALSE(own.terms.state);
     const Case loose = read_case(cases.add("loose", R"("tolerance": "loose", "threshold": 4, "allowed": 0.001)").file);
     EXPECT_EQ(loose.terms.diff.shift, 1);
     EXPECT_EQ(loose.terms.diff.channel_tolerance, 4);
