@@ -155,13 +155,15 @@ class Lines {
         };
         std::vector<std::string> here = texts(now), there = texts(before);
         std::erase_if(here, [&](const std::string& text) { return std::erase(there, text) > 0; });
+        // Where ticks stand follows from how far the scene reaches.
+        const Rank rank = role == "tick" ? Rank::camera : Rank::words;
         for (std::size_t i = 0; i < std::max(here.size(), there.size()); ++i) {
             const std::string end = i >= there.size()  ? " is new"
                                     : i >= here.size() ? " is missing"
                                                        : " was " + in_quotes(there[i]);
-            add(Rank::words, panel + role + ' ' + in_quotes(i < here.size() ? here[i] : there[i]) + end);
+            add(rank, panel + role + ' ' + in_quotes(i < here.size() ? here[i] : there[i]) + end);
         }
-        if (here.empty() && there.empty()) add(Rank::words, panel + role + " texts: another number or order");
+        if (here.empty() && there.empty()) add(rank, panel + role + " texts: another number or order");
     }
 
     void add_drawn(const std::string& part, const std::string& key, const JsonValue* now, const JsonValue* before) {

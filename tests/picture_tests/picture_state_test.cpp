@@ -20,7 +20,8 @@ using Lines = std::vector<std::string>;
 class PictureStateTest : public ::testing::Test {
   protected:
     Shot shot(const std::string& more = "") const {
-        return read_case(cases.add("a", (more.empty() ? "" : more + ", ") + R"("size": "320x240")").file).shot;
+        const std::string keys = R"({"mobbscope_case": 1, "scene": "scene.json", "size": "640x360")";
+        return read_case(cases.write("a", keys + (more.empty() ? "" : ", " + more) + "}").file).shot;
     }
     static std::string state(const Shot& of) { return picture_state(of, panel_lists(of)); }
     /// In the scene the first `from` becomes `to`.
@@ -50,23 +51,32 @@ TEST_F(PictureStateTest, IsTheSameOfTheSame) { EXPECT_EQ(told(state(shot()), sta
 
 TEST_F(PictureStateTest, ACauseIsToldAloneAndInWords) {
     const std::string golden = state(shot());
-    const auto expect = [&](const std::string& from, const std::string& to, const Lines& lines) {
-        EXPECT_EQ(told(with(from, to), golden), lines) << from;
+    const auto expect = [&](const std::string& from, const std::string& to, const std::string& line) {
+        EXPECT_EQ(told(with(from, to), golden), Lines{line}) << from;
     };
-    expect("[1, -1]", "[1.1, -1]", {"B moved by (0.1, 0)"});
-    expect("[1, -1]", "[1.001, -1]", {"B moved by (0.001, 0)"});
-    expect("\"rotate_deg\": 90", "\"rotate_deg\": 93", {"B turned by 3 degrees"});
-    expect("\"start\": 0.5", "\"start\": 0.25", {"B's start moved by -0.25 s"});
-    expect("\"levels\": 1", "\"levels\": 2", {"level 2 was 1"});
-    expect("\"levels\": 1", "\"levels\": \"leaves\"", {"level leaves was 1"});
-    expect("\"levels\": 1", "\"levels\": 1, \"theme\": \"light\"", {"theme light was dark"});
+    expect("[1, -1]", "[1.1, -1]", "B moved by (0.1, 0)");
+    expect("[1, -1]", "[1.001, -1]", "B moved by (0.001, 0)");
+    expect("\"rotate_deg\": 90", "\"rotate_deg\": 93", "B turned by 3 degrees");
+    expect("\"start\": 0.5", "\"start\": 0.25", "B's start moved by -0.25 s");
+    expect("\"levels\": 1", "\"levels\": 1, \"theme\": \"light\"", "theme light was dark");
+    expect("\"levels\": 1", "\"levels\": 1, \"floor\": false", "floor false was true");
+}
+
+TEST_F(PictureStateTest, WordsThatFollowStandBehindTheCause) {
+    const std::string golden = state(shot());
+    const Lines deeper = told(with("\"levels\": 1", "\"levels\": 2"), golden);
+    ASSERT_EQ(deeper.size(), 3u);
+    EXPECT_EQ(deeper[0], "level 2 was 1");
+    EXPECT_EQ(deeper[1].find("caption 'MOBB, leaf 2  ·  level 2, "), 0u) << deeper[1];
+    EXPECT_EQ(deeper[2], "legend 'level 2' was 'level 1'");
+    EXPECT_EQ(told(with("\"levels\": 1", "\"levels\": \"leaves\""), golden).front(), "level leaves was 1");
 }
 
 TEST_F(PictureStateTest, OfAnotherClipOrFitItIsSaid) {
     const std::string golden = state(shot());
     const Lines clip = told(with("0.45]", "0.46]"), golden);
-    ASSERT_EQ(clip.size(), 2u);
-    EXPECT_EQ(clip, (Lines{"A's clip is another", "B's clip is another"}));
+    ASSERT_GE(clip.size(), 2u);
+    EXPECT_EQ(Lines(clip.begin(), clip.begin() + 2), (Lines{"A's clip is another", "B's clip is another"}));
     EXPECT_EQ(told(with("\"leaf\": 2", "\"leaf\": 4"), golden).front(), "the fit is another: leaf 4 was 2");
     const Lines renamed = told(with("\"name\": \"B\"", "\"name\": \"C\""), golden);
     ASSERT_GE(renamed.size(), 2u);
@@ -131,8 +141,8 @@ TEST_F(PictureStateTest, TheOrderOfDrawingIsHeld) {
 
 TEST_F(PictureStateTest, ThePanelIsNamedWhereThereAreSeveral) {
     const std::string golden = state(shot(R"("panels": [{"view": {"levels": 0}}, {"view": {"levels": 1}}])"));
-    EXPECT_EQ(told(state(shot(R"("panels": [{"view": {"levels": 0}}, {"view": {"levels": 2}}])")), golden),
-              Lines{"panel 1, level 2 was 1"});
+    const Lines lines = told(state(shot(R"("panels": [{"view": {"levels": 0}}, {"view": {"levels": 2}}])")), golden);
+    EXPECT_EQ(lines.front(), "panel 1, level 2 was 1");
 }
 
 TEST_F(PictureStateTest, LastDigitsOfNumbersAreNotHeld) {

@@ -234,7 +234,8 @@ TEST_F(RunCaseTest, OfAWindowItsStateIsHeld) {
     cases.folder().write("w.script", "run query.select 0\nrun view.zoom 1.5\nclick agent.0\n");
     const CaseResult other = run(file);
     EXPECT_EQ(other.outcome, CaseOutcome::different);
-    EXPECT_NE(other.message.find("w.state.json: selection"), std::string::npos) << other.message;
+    const std::vector<std::string>& words = other.findings.back().words;
+    EXPECT_NE(std::ranges::find(words, "selection kind path was none"), words.end()) << other.message;
 }
 
 TEST_F(RunCaseTest, APassWithPixelsThatDifferSaysHowManyAndWhere) {
