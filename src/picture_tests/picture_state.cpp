@@ -178,7 +178,7 @@ void write_query(JsonWriter& json, const FittedScene& fitted, const ViewState& v
              step_sentence(sides, recorded->trace, step));
 }
 
-void write_panel(JsonWriter& json, const PicturePanel& panel, const DrawList& list) {
+void write_panel_state(JsonWriter& json, const PicturePanel& panel, const DrawList& list) {
     const FittedScene& all = *panel.fitted;
     const FittedScene fitted = is_run(all.scene()) ? fitted_at(all, panel.view) : all;
     const std::vector<DrawnAgent> agents = drawn_agents(fitted, panel.view);
@@ -208,15 +208,15 @@ std::string picture_state(const Shot& shot, const std::vector<DrawList>& lists) 
     json.begin_object();
     json.member("mobbscope_state", kStateVersion);
     json.begin_array("panels");
-    for (std::size_t i = 0; i < lists.size(); ++i) write_panel(json, shot.panels[i], lists[i]);
+    for (std::size_t i = 0; i < lists.size(); ++i) write_panel_state(json, shot.panels[i], lists[i]);
     json.end_array();
     json.end_object();
     return std::move(text).str();
 }
 
 std::string window_state(const std::string& panels) {
-    return "{\"mobbscope_state\": " + std::to_string(kStateVersion) + ", \"imgui\": \"" IMGUI_VERSION
-           "\", \"panels\": [\n" + panels + "]}\n";
+    return "{\"mobbscope_state\": " + std::to_string(kStateVersion) +
+           ", \"imgui\": \"" IMGUI_VERSION "\", \"panels\": [\n" + panels + "]}\n";
 }
 
 }  // namespace mobbscope::picture_tests
