@@ -71,7 +71,7 @@ bool same(const JsonValue& a, const JsonValue& b, double near, double share) {
 }
 
 /// On one line; null: "none".
-std::string value_words(const JsonValue* value) {
+std::string on_one_line(const JsonValue* value) {
     if (!value) return "none";
     if (const auto* number = value->as<double>()) return brief(*number);
     if (const auto* boolean = value->as<bool>()) return *boolean ? "true" : "false";
@@ -79,7 +79,7 @@ std::string value_words(const JsonValue* value) {
     const auto* elements = value->as<JsonValue::Array>();
     if (!elements) return "none";
     std::string out;
-    for (const JsonValue& element : *elements) out += (out.empty() ? "" : ", ") + value_words(&element);
+    for (const JsonValue& element : *elements) out += (out.empty() ? "" : ", ") + on_one_line(&element);
     return '[' + shortened(out, 60) + ']';
 }
 
@@ -100,7 +100,7 @@ class Lines {
     void add(const Path& path, const JsonValue* now, const JsonValue* before) {
         const std::string& about = path.front();
         const std::string& key = path.back();
-        const std::string was = cleaned(key) + ' ' + value_words(now) + " was " + value_words(before);
+        const std::string was = cleaned(key) + ' ' + on_one_line(now) + " was " + on_one_line(before);
         if (about == "agents" && path.size() > 2) return add_agent(path, was, now, before);
         if (about == "words" && path.size() == 2) return add_words(cleaned(key), now, before);
         if (about == "drawn" && path.size() == 3) return add_drawn(cleaned(path[1]) + ": ", key, now, before);
@@ -166,7 +166,7 @@ class Lines {
     }
 
     void add_drawn(const std::string& part, const std::string& key, const JsonValue* now, const JsonValue* before) {
-        if (key == "count") return add(Rank::count, panel + part + value_words(now) + ", was " + value_words(before));
+        if (key == "count") return add(Rank::count, panel + part + on_one_line(now) + ", was " + on_one_line(before));
         if (key == "order") return add(Rank::order, panel + part + "another order");
         add(Rank::drawn, panel + part + (key == "digest" ? "others" : "other " + (key == "colors" ? "colours" : key)));
     }
@@ -227,8 +227,8 @@ StateDifferences compare_states(const std::string& actual, const std::string& go
         if (!a || !b || !same(*a, *b, is_drawn ? 1e-4 : 1e-9, is_drawn ? 2e-5 : 1e-8)) lines.add(path, a, b);
     }
     StateDifferences out{lines.told(), {}};
-    if (imgui && golden_imgui && value_words(imgui) != value_words(golden_imgui))
-        out.other_imgui = value_words(imgui) + " for " + value_words(golden_imgui);
+    if (imgui && golden_imgui && on_one_line(imgui) != on_one_line(golden_imgui))
+        out.other_imgui = on_one_line(imgui) + " for " + on_one_line(golden_imgui);
     return out;
 }
 
