@@ -6,7 +6,7 @@
 ///     bench_guard compare DRAWN DRAWN
 ///
 /// `changes` prints a line for each change, `compare` one for each picture. Lines are of fields with tabs between them,
-/// the first line is their names. Cases of the window are left out.
+/// the first line is their names. Cases of the window, and those that hold no picture, are left out.
 #include "guard_kinds.h"
 
 #include <base/error.h>
@@ -49,7 +49,7 @@ std::vector<NamedShot> read_shots(std::span<const std::string> folders) {
     for (const std::string& folder : folders) {
         for (const CaseFile& file : find_cases(folder)) {
             Case read = read_case(file.file);
-            if (read.terms.skip || read.shot.window) continue;
+            if (read.terms.skip || read.shot.window || !read.terms.holds(Held::picture)) continue;
             std::string name = own_name(folder) + "/" + file.name;
             std::ranges::replace(name, '/', '.');
             out.push_back({std::move(name), std::move(read.shot)});
