@@ -173,7 +173,7 @@ void make_changes(const Options& options) {
                 state == picture_state(golden.here.shot, golden.here.lists))
                 continue;
             const int here = diff(after->picture, golden.here.picture).largest;
-            if (here > kRounding && moved.value_or(1) >= kLeastMove) ++visible;
+            if (here > kRounding && (!moved || *moved >= kLeastMove)) ++visible;
             std::cout << kind.name << '\t' << golden.name << '\t' << what << '\t' << here << '\t'
                       << (moved ? formatted("%.3f", *moved) : "-") << '\t' << compared(after->picture, golden.picture)
                       << '\t' << state_difference(state, golden.state) << std::endl;
