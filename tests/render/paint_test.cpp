@@ -183,8 +183,9 @@ TEST_P(PaintTest, BoxesBesideThePictureAreLeftOutWithoutATrace) {
     for (const float far : {3.0f, 10.0f, 100.0f}) {
         boxes = with_boxes(list, 1, far * list.projection.right, true);
         boxes.boxes.erase(boxes.boxes.begin(), boxes.boxes.end() - 1);
-        const bool is_seen = list.projection.project(boxes.boxes.front().center - boxes.boxes.front().extents[0])->x <
-                             static_cast<float>(list.size.width);
+        const bool is_seen = std::ranges::any_of(box_corners(boxes.boxes.front()), [&](glm::vec3 corner) {
+            return list.projection.project(corner)->x < static_cast<float>(list.size.width);
+        });
         EXPECT_EQ(renderer().draw(boxes).rgba != nothing.rgba, is_seen) << far;
     }
 }
