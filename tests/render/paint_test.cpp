@@ -184,7 +184,7 @@ TEST_P(PaintTest, BoxesBesideThePictureAreLeftOutWithoutATrace) {
         boxes = with_boxes(list, 1, far * list.projection.right, true);
         boxes.boxes.erase(boxes.boxes.begin(), boxes.boxes.end() - 1);
         const bool is_seen = std::ranges::any_of(box_corners(boxes.boxes.front()), [&](glm::vec3 corner) {
-            return list.projection.project(corner)->x < static_cast<float>(list.size.width);
+            return list.projection.project(corner)->x < static_cast<float>(list.size.width + 1);  // lines are wide
         });
         EXPECT_EQ(renderer().draw(boxes).rgba != nothing.rgba, is_seen) << far;
     }
