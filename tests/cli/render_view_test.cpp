@@ -236,10 +236,10 @@ TEST_F(RenderViewTest, WhatIsMeasuredIsDrawn) {
         EXPECT_EQ(run.status, 0) << run.err;
         return slurp(lists);
     };
-    const std::string measured = list({"--measure", "-1,0,0:2,4,2.5"});
+    const std::string measured = list({"--measure", "-3,-1,0:0,3,2.5"});
     EXPECT_NE(measured.find("\"role\": \"measure\""), std::string::npos);
     EXPECT_NE(measured.find("5.000 m, 2.500 s, 2.000 m/s"), std::string::npos);
-    EXPECT_EQ(list({"--measure", "-1,0,0:2,4,2.5", "--no-labels"}).find("2.000 m/s"), std::string::npos);
+    EXPECT_EQ(list({"--measure", "-3,-1,0:0,3,2.5", "--no-labels"}).find("2.000 m/s"), std::string::npos);
     EXPECT_EQ(list({}).find("\"measure\""), std::string::npos);
     expect_refused(render_small({kCrossing, "-o", folder.path() / "o.png", "--measure", "1,2:3,4"}), 2,
                    "give X,Y,T:X,Y,T in metres and seconds");
