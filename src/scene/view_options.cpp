@@ -126,7 +126,9 @@ ViewOption range(ViewOption row, const char* none) {
     row.read = [](const JsonPlace& place, ViewState& view) {
         view.*member = place.is_null() ? std::nullopt : std::optional(read_range(place));
     };
-    row.write = [](JsonWriter& out, const ViewState& view) { out.tuple((view.*member)->least, (view.*member)->most); };
+    row.write = [](JsonWriter& out, const ViewState& view) {
+        view.*member ? out.tuple((view.*member)->least, (view.*member)->most) : out.null();
+    };
     row.parse = [](const std::string& text, ViewState& view) { view.*member = parse_value_range(text); };
     row.text = [none](const ViewState& view) { return view.*member ? to_string(*(view.*member)) : std::string(none); };
     return field<member>(std::move(row));
@@ -269,7 +271,7 @@ std::vector<ViewOption> all_view_options() {
                  [](const JsonPlace& place, ViewState& view) {
                      view.query = place.is_null() ? std::nullopt : std::optional(place.integer(0, kMaxInt));
                  },
-             .write = [](JsonWriter& out, const ViewState& view) { out.value(*view.query); },
+             .write = [](JsonWriter& out, const ViewState& view) { view.query ? out.value(*view.query) : out.null(); },
              .parse =
                  [](const std::string& text, ViewState& view) {
                      const std::optional<int> index = parse_int(text);
@@ -313,7 +315,10 @@ std::vector<ViewOption> all_view_options() {
                  [](const JsonPlace& place, ViewState& view) {
                      view.projection = place.is_null() ? std::nullopt : std::optional(read_projection(place));
                  },
-             .write = [](JsonWriter& out, const ViewState& view) { write_projection(out, *view.projection); }}),
+             .write =
+                 [](JsonWriter& out, const ViewState& view) {
+                     view.projection ? write_projection(out, *view.projection) : out.null();
+                 }}),
         field<&ViewState::time>(
             {.key = "time",
              .what = "The time cursor, global seconds, or none",
@@ -325,7 +330,7 @@ std::vector<ViewOption> all_view_options() {
                      view.time =
                          place.is_null() ? std::nullopt : std::optional(place.number(-mobb::kMaxTime, mobb::kMaxTime));
                  },
-             .write = [](JsonWriter& out, const ViewState& view) { out.value(*view.time); },
+             .write = [](JsonWriter& out, const ViewState& view) { view.time ? out.value(*view.time) : out.null(); },
              .parse =
                  [](const std::string& text, ViewState& view) {
                      view.time.reset();
@@ -454,6 +459,7 @@ std::vector<ViewOption> all_view_options() {
                  },
              .write =
                  [](JsonWriter& out, const ViewState& view) {
+                     if (!view.subtree) return out.null();
                      out.row("participant", view.subtree->agent, "node", view.subtree->node);
                  }}),
         choice<&ViewState::theme, theme_from_name>({.key = "theme",
