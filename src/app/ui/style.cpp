@@ -73,6 +73,12 @@ void add_fonts(Style& style) {
     for (const auto& [font, height] : {std::pair{style.body, kBody}, std::pair{style.title, kTitle},
                                        std::pair{style.caption, kCaption}, std::pair{style.mono, kBody}})
         font->FontSize = std::round(height * style.scale);
+    // Versions of Dear ImGui round where a line's base is in other ways: numbers stand where words do.
+    const float lower = style.body->FindGlyph('H')->Y1 - style.mono->FindGlyph('H')->Y1;
+    for (ImFontGlyph& glyph : style.mono->Glyphs) {
+        glyph.Y0 += lower;
+        glyph.Y1 += lower;
+    }
 }
 
 constexpr ImU32 hex(std::uint32_t rgb) { return IM_COL32((rgb >> 16) & 255u, (rgb >> 8) & 255u, rgb & 255u, 255u); }
