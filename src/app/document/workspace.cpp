@@ -150,9 +150,7 @@ void Workspace::activate(std::size_t place) {
 }
 
 bool Workspace::is_framed(const Camera& camera) const {
-    return std::ranges::any_of(framings, [&](const Camera& one) {
-        return camera.target == one.target && camera.distance == one.distance && camera.shift == one.shift;
-    });
+    return std::ranges::any_of(framings, [&](const Camera& one) { return standing_as(camera, one) == camera; });
 }
 
 /// Cameras that hold the whole go on to do so when pictures become narrower or wider. The direction stays.

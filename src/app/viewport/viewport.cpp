@@ -246,10 +246,7 @@ void Viewport::stand(Ui& ui, Key& next, const FollowedChoice* choice) {
     try {
         check(next.size);
         laid_out_.framed = framed_in(paths_of(next), next.view, options_of(next), choice);
-        const Camera framing = common_camera(std::span(&*laid_out_.framed, 1), next.size);
-        camera.target = framing.target;
-        camera.distance = framing.distance;
-        camera.shift = framing.shift;
+        camera = standing_as(camera, common_camera(std::span(&*laid_out_.framed, 1), next.size));
         // Targets are measured in it.
         if (next.view.show == Show::space_time) next.view.time_height = laid_out_.framed->space.time_height;
         laid_out_.camera = camera;
@@ -309,9 +306,7 @@ void Viewport::frame_together(std::span<Viewport> viewports) {
     const Camera camera = common_camera(all, size);
     for (Viewport& one : viewports) {
         if (!one.laid_out_.framed) continue;
-        one.laid_out_.camera.target = camera.target;
-        one.laid_out_.camera.distance = camera.distance;
-        one.laid_out_.camera.shift = camera.shift;
+        one.laid_out_.camera = standing_as(one.laid_out_.camera, camera);
         one.key_.reset();
     }
 }

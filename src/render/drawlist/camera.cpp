@@ -74,12 +74,14 @@ Camera framing(const Camera& camera, glm::dvec3 min, glm::dvec3 max, PictureSize
     return out;
 }
 
-Camera without_target(Camera camera) {
-    camera.target.reset();
-    camera.distance = 0;
-    camera.shift = {0, 0};
+Camera standing_as(Camera camera, const Camera& other) {
+    camera.target = other.target;
+    camera.distance = other.distance;
+    camera.shift = other.shift;
     return camera;
 }
+
+Camera without_target(const Camera& camera) { return standing_as(camera, Camera{}); }
 
 Camera between(const Camera& from, const Camera& to, double t) {
     if (t <= 0) return from;

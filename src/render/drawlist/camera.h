@@ -28,8 +28,11 @@ Camera zoomed(Camera camera, double factor, glm::vec2 cursor_pixel, PictureSize 
 /// Seen from the same direction: the box from `min` to `max` with a margin around it, its middle in the picture's.
 Camera framing(const Camera& camera, glm::dvec3 min, glm::dvec3 max, PictureSize size);
 
+/// Looks the way that `camera` does, from where `other` stands: with its target, distance and shift.
+Camera standing_as(Camera camera, const Camera& other);
+
 /// The camera that frames the scene by itself, from the same direction.
-Camera without_target(Camera camera);
+Camera without_target(const Camera& camera);
 
 /// On the way from one camera (t <= 0) to another (t >= 1): turned the shorter way, the distance in equal ratios.
 /// Perspective comes or goes half-way.
