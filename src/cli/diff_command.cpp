@@ -106,7 +106,7 @@ void add_diff_options(Command& command, DiffCommandArguments& arguments) {
     };
     add_parsed(command, "--threshold", arguments.options, parsed_by(set_threshold),
                "How far a channel may be off: levels of 255, or a share as 3/255, 1.2%, or a number between 0 "
-               "and 1 (3; means of tiles of 32x32 pixels 0.25)",
+               "and 1 (3; means of tiles of 32x32 pixels 0.3)",
                "X");
     add_parsed(command, "--allowed", arguments.options, parsed_by(set_allowance),
                "How many pixels may be farther off: 12px, or a share of those compared, 0.1% or 50ppm (20ppm, or "

@@ -90,7 +90,7 @@ struct ViewOption {
     bool ViewState::*toggle = nullptr;
     std::vector<std::string> ViewState::*names = nullptr;        ///< of a list of agents' names
     std::function<void(const JsonPlace&, ViewState&)> read{};    ///< throws InputError
-    std::function<void(JsonWriter&, const ViewState&)> write{};  ///< its value
+    std::function<void(JsonWriter&, const ViewState&)> write{};  ///< its value, null where the view has none
     std::function<bool(const ViewState&, const ViewState&)> same{};
     std::function<void(const ViewState& from, ViewState& to)> copy{};
     /// Reads an option's text, of a toggle "true" or "false"; throws std::invalid_argument. Of agents one of them,

@@ -23,8 +23,8 @@ enum class Backend {
 /// "auto", "osmesa" or "egl"; nothing for any other name.
 std::optional<Backend> backend_from_name(std::string_view name);
 
-/// From now on Mesa compiles shaders as fast as it can, not what they draw: a process that draws one picture ends sooner.
-/// Pixels are the same. It is for before the first context, and does nothing where GALLIVM_PERF is set.
+/// Mesa's llvmpipe no longer optimises the shaders that it compiles, so that a process that draws one picture ends
+/// sooner. Pixels are the same. Call it before the first context is opened; it does nothing where GALLIVM_PERF is set.
 void compile_quickly();
 
 /// A context and what it complained about. One thread at a time; a process may hold several, of different kinds. A kind
