@@ -29,6 +29,8 @@ struct BodiesWindow : FolderWindow<TempFolder> {
         window.settle();
         run_command(session, "query.select", "0");
         window.settle();
+        // What was found has made the panel longer: Dear ImGui 1.90 has its scrollbar a frame later.
+        window.settle();
     }
     void click(const std::string& mark) {
         const glm::vec2 at = window.shell().marks().all().at(mark).center();
