@@ -1,15 +1,19 @@
+#include <base/threads.h>
 #include <explain/tree_cost.h>
+#include <mobb/query.h>
+
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <span>
-#include <utility>
+#include <limits>
+#include <mutex>
 
 namespace mobbscope {
 
 namespace {
 
-constexpr std::size_t kTogether = std::size_t{1} << 16;  // placements that are made before they are asked
+constexpr std::size_t kTogether = 4096;  // placements that one thread counts
 
 MeanTests means_of(const MeanTests& sums, std::size_t queries) {
     MeanTests out = sums;
@@ -64,28 +68,64 @@ double apart_from(const mobb::Tree& tree, glm::dvec2 middle) {
     return 2.02 * reach;  // more than rounding
 }
 
-/// Counts the next placements. The roots of those far apart end the query: they all have the tests of the first one,
-/// which alone is asked.
-void count_more(PlacementCount& count, std::size_t more, const std::shared_ptr<const mobb::Tree>& tree,
-                const StandardPlacements& placements) {
-    const double far = apart_from(*tree, placements.middle_a);
-    const std::span trees(&tree, 1);
-    QueryWorkload near;
-    mobb::TestCounts tests_of_far;
-    std::size_t far_ones = 0;
-    for (std::size_t i = count.placements; i < count.placements + more; ++i) {
-        const StandardPlacements::Draw drawn = placements.draw(kCountedSeed, i);
-        const bool is_far = glm::dot(drawn.shift, drawn.shift) > far * far &&
-                            std::abs(drawn.start) < 0.99 * placements.offset;  // the two share time
-        if (is_far && far_ones++ > 0) continue;
-        const ClipQuery query{0, 0, {}, placements.place(drawn)};
-        if (is_far)
-            tests_of_far = count_tests(query, trees);
-        else
-            near.queries.push_back(query);
+/// Standard placements of a tree against itself, asked.
+class PlacementCounter {
+  public:
+    PlacementCounter(const mobb::Tree& tree, const StandardPlacements& placements)
+        : tree_(tree), placements_(placements), a_(tree, {}) {
+        const double far = apart_from(tree, placements.middle_a);
+        if (far >= placements.side / 2) return;
+        far_ = far;
+        tests_of_far_ = tests_of({.shift = {far, 0}});
     }
-    for (const mobb::TestCounts& tests : count_tests(near, trees)) count.add(tests);
-    count.add(tests_of_far, far_ones);
+
+    PlacementCount count(std::size_t first, std::size_t end) const {
+        PlacementCount out;
+        std::size_t far_ones = 0;
+        for (std::size_t i = first; i < end; ++i) {
+            const StandardPlacements::Draw drawn = placements_.draw(kCountedSeed, i);
+            if (is_far(drawn))
+                ++far_ones;
+            else
+                out.add(tests_of(drawn));
+        }
+        out.add(tests_of_far_, far_ones);
+        return out;
+    }
+
+  private:
+    mobb::TestCounts tests_of(const StandardPlacements::Draw& drawn) const {
+        mobb::Statistics statistics;
+        mobb::query(a_, mobb::PlacedTree(tree_, placements_.place(drawn)), statistics);
+        return statistics.tests;
+    }
+    /// The two share time, and their roots are apart: all of these end after the same tests.
+    bool is_far(const StandardPlacements::Draw& drawn) const {
+        return glm::dot(drawn.shift, drawn.shift) > far_ * far_ && std::abs(drawn.start) < 0.99 * placements_.offset;
+    }
+
+    const mobb::Tree& tree_;
+    StandardPlacements placements_;
+    mobb::PlacedTree a_;
+    double far_ = std::numeric_limits<double>::infinity();  ///< m, from middle to middle
+    mobb::TestCounts tests_of_far_{};
+};
+
+/// Counts up to placement `end`, on all processors.
+void count_on(PlacementCount& count, std::size_t end, const PlacementCounter& counter, const Progress& progress) {
+    const std::size_t first = count.placements;
+    std::vector<PlacementCount> parts((end - first + kTogether - 1) / kTogether);
+    limit_worker_threads();
+    std::mutex telling;
+    std::size_t done = 0;
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+        const std::size_t begin = first + i * kTogether;
+        parts[i] = counter.count(begin, std::min(begin + kTogether, end));
+        if (!progress) return;
+        const std::scoped_lock lock(telling);
+        progress(done += parts[i].placements, end - first);
+    });
+    for (const PlacementCount& part : parts) count.add(part);
 }
 
 }  // namespace
@@ -98,6 +138,13 @@ void PlacementCount::add(const mobb::TestCounts& tests, std::size_t times) {
     for (const mobb::TestKind kind : mobb::kTestKinds) sums[kind] += all * static_cast<double>(tests[kind]);
     box_squares += all * boxes * boxes;
     pair_squares += all * pairs * pairs;
+}
+
+void PlacementCount::add(const PlacementCount& others) {
+    placements += others.placements;
+    sums += others.sums;
+    box_squares += others.box_squares;
+    pair_squares += others.pair_squares;
 }
 
 double PlacementCount::standard_error() const {
@@ -126,11 +173,7 @@ std::shared_ptr<const TreeCost> counted_on(const std::shared_ptr<const mobb::Tre
         out->shares = out->expected->node_shares();
     }
     PlacementCount& count = out->count;
-    const std::size_t first = count.placements, end = next_end(count, most);
-    while (count.placements < end) {
-        count_more(count, std::min(end - count.placements, kTogether), tree, out->expected->placements);
-        if (progress) progress(count.placements - first, end - first);
-    }
+    count_on(count, next_end(count, most), PlacementCounter(*tree, out->expected->placements), progress);
     out->queries = count.placements;
     out->tests = means_of(count.sums, count.placements);
     out->levels = divided(out->tests, *out->expected);

@@ -35,6 +35,7 @@ struct PlacementCount {
     double box_squares = 0, pair_squares = 0;
 
     void add(const mobb::TestCounts& tests, std::size_t times = 1);
+    void add(const PlacementCount& others);
     /// Of the mean of box tests or of sample pairs, whichever has the larger one, as a part of that mean. The cost has
     /// none that is larger.
     double standard_error() const;
