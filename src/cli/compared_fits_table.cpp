@@ -58,12 +58,12 @@ void write_compared_level(JsonWriter& out, const ComparedLevel& level) {
 }  // namespace
 
 ClipComparison comparison_of(const std::string& clip, const mobb::ClipPtr& samples,
-                             std::span<const mobb::FitOptions> fits) {
+                             std::span<const mobb::FitOptions> fits, std::size_t most) {
     ClipComparison out{clip, {}, {}};
     std::vector<std::shared_ptr<const TreeCost>> costs;
     for (const mobb::FitOptions& fit : fits) {
         out.trees.push_back(std::make_shared<const mobb::Tree>(samples, fit));
-        costs.push_back(std::make_shared<const TreeCost>(standard_cost(out.trees.back(), tell("asked", "queries"))));
+        costs.push_back(standard_cost(out.trees.back(), most, tell("counted", "placements")));
     }
     out.fits = compared(out.trees, costs);
     return out;

@@ -17,10 +17,10 @@ struct ClipComparison {
     ComparedFits fits;
 };
 
-/// Fits them, and finds out what queries of the clip against itself cost under standard placements. Throws
+/// Fits them, and counts what queries of the clip against itself cost under standard placements, `most` at most. Throws
 /// std::invalid_argument if an option is out of range.
 ClipComparison comparison_of(const std::string& clip, const mobb::ClipPtr& samples,
-                             std::span<const mobb::FitOptions> fits);
+                             std::span<const mobb::FitOptions> fits, std::size_t most);
 
 void print_compared_fits(const ClipComparison& of);
 void write_compared_fits(JsonWriter& out, const ClipComparison& of);

@@ -4,11 +4,10 @@
 #include <cli/compared_fits_table.h>
 #include <cli/options.h>
 #include <cli/program.h>
-#include <cli/what_if_table.h>
-#include <explain/expected_cost.h>
 #include <explain/fit_findings.h>
 #include <explain/level_columns.h>
 #include <explain/node_values.h>
+#include <explain/tree_cost.h>
 #include <explain/tree_json.h>
 #include <import/tracks/csv.h>
 #include <scene/fit_text.h>
@@ -16,7 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <optional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -28,16 +27,35 @@ namespace {
 
 struct FitCommandArguments : FittedArguments {
     bool csv = false;
-    std::optional<std::string> what_if;  ///< a node
-    std::vector<std::string> compare;    ///< fits
+    std::vector<std::string> compare;  ///< fits
+};
+
+/// Counts what the trees of a scene cost, and says how far that is.
+class ClipCosts {
+  public:
+    explicit ClipCosts(const FittedScene& fitted) : fitted_(fitted) {}
+
+    std::shared_ptr<const TreeCost> of(int clip) const {
+        const std::size_t clips = fitted_.scene().clips.size();
+        const std::shared_ptr<const mobb::Tree>& tree = fitted_.shared_tree(clip);
+        std::shared_ptr<const TreeCost> out = standard_cost(tree, most_counted(clips));
+        told_(static_cast<std::size_t>(clip) + 1, clips);
+        return out;
+    }
+
+  private:
+    const FittedScene& fitted_;
+    Progress told_ = tell("counted", "clips");
 };
 
 void print_json(const FittedScene& fitted) {
     JsonWriter out(std::cout);
     out.begin_object();
     out.begin_array("trees");
+    const ClipCosts costs(fitted);
     for (int i = 0; i < static_cast<int>(fitted.scene().clips.size()); ++i) {
-        write_tree(out, fitted.scene().clips[static_cast<std::size_t>(i)].name, fitted.shared_tree(i));
+        const std::shared_ptr<const TreeCost> cost = costs.of(i);
+        write_tree(out, fitted.scene().clips[static_cast<std::size_t>(i)].name, fitted.tree(i), cost.get());
     }
     out.end_array();
     out.end_object();
@@ -47,11 +65,12 @@ void print_json(const FittedScene& fitted) {
 void print_csv(const FittedScene& fitted) {
     std::cout << "clip,tree,leaf,axes,time_scale,index,parent,level,first,count,is_leaf,kind,t0,t1,volume,tightness,"
                  "share,box_tests,empty,floor,overhang,waste\n";
+    const ClipCosts costs(fitted);
     for (int clip = 0; clip < static_cast<int>(fitted.scene().clips.size()); ++clip) {
         const mobb::Tree& tree = fitted.tree(clip);
         const mobb::FitOptions& options = tree.options();
-        const std::optional<ExpectedCost> expected = expected_cost(tree, tree);
-        const NodeValues values(fitted.shared_tree(clip), expected ? expected->node_shares() : std::vector<double>());
+        const std::shared_ptr<const TreeCost> cost = costs.of(clip);
+        const NodeValues values(fitted.shared_tree(clip), cost ? cost->shares : std::vector<double>());
         const auto figure_of = [&values](NodeField field, int node) {
             const double value = values.value(field, node);
             return std::isnan(value) ? std::string() : format_double(value);
@@ -67,7 +86,7 @@ void print_csv(const FittedScene& fitted) {
                       << format_double(tree.t0(node)) << ',' << format_double(tree.t1(node)) << ','
                       << figure_of(NodeField::volume, i) << ',' << figure_of(NodeField::fill, i) << ','
                       << figure_of(NodeField::share, i) << ','
-                      << (expected ? format_double(values.value(NodeField::share, i) * expected->tests.boxes()) : "");
+                      << (cost ? format_double(values.value(NodeField::share, i) * cost->tests.boxes()) : "");
             for (const NodeField field : {NodeField::empty, NodeField::floor, NodeField::overhang, NodeField::waste})
                 std::cout << ',' << figure_of(field, i);
             std::cout << '\n';
@@ -75,27 +94,31 @@ void print_csv(const FittedScene& fitted) {
     }
 }
 
-/// "against itself: 1.56 box tests and 0.768 sample pairs expected, 29 ns (shift over 25.6 m^2, start within +-2 s)"
-std::string expected_words(const ExpectedCost& expected) {
-    return "against itself: " + figure(expected.tests.boxes(), 3) + " box tests and " +
-           figure(expected.tests[mobb::TestKind::samples], 3) + " sample pairs expected, " +
-           figure(cost_of(expected.tests), 3) + " ns (shift over " + figure(expected.placements.area(), 3) +
-           " m^2, start within +-" + brief(expected.placements.offset) + " s)";
+/// "against itself: 1.56 box tests and 0.768 sample pairs counted, 29 ns +- 0.4 % (201728 standard placements, seed 0:
+/// shift over 25.6 m^2, start within +-2 s)"
+std::string counted_words(const TreeCost& cost) {
+    const StandardPlacements& of = cost.expected->placements;
+    return "against itself: " + figure(cost.tests.boxes(), 3) + " box tests and " +
+           figure(cost.tests[mobb::TestKind::samples], 3) + " sample pairs counted, " + figure(cost.ns(), 3) +
+           " ns +- " + figure(100 * cost.count.standard_error(), 1) + " % (" +
+           counted(cost.queries, "standard placement", "standard placements") + ", seed " +
+           std::to_string(kCountedSeed) + ": shift over " + figure(of.area(), 3) + " m^2, start within +-" +
+           brief(of.offset) + " s)";
 }
 
-void print_levels(const mobb::Tree& tree, const std::optional<ExpectedCost>& expected) {
+void print_levels(const mobb::Tree& tree, const TreeCost* counted) {
     const std::vector<mobb::LevelFigures> levels = mobb::level_figures(tree);
     std::vector<Column> columns;
     for (const mobb::LevelColumn& column : mobb::kLevelColumns) {
         columns.push_back({std::string(column.name) + level_unit(column)});
         for (const mobb::LevelFigures& figures : levels) columns.back().push_back(level_text(column, figures));
     }
-    if (expected) {
-        Column tests{"box tests"}, cost{"cost %"};
+    if (counted) {
+        Column tests{"box tests"}, cost{"cost ns"};
         for (std::size_t i = 0; i < levels.size(); ++i) {
-            const MeanTests at = i < expected->levels.size() ? expected->levels[i] : MeanTests();
+            const MeanTests at = i < counted->levels.size() ? counted->levels[i] : MeanTests();
             tests.push_back(figure(at.boxes(), 3));
-            cost.push_back(figure(100 * cost_of(at) / cost_of(expected->tests), 3));
+            cost.push_back(figure(counted->ns(at), 3));
         }
         columns.push_back(std::move(tests));
         columns.push_back(std::move(cost));
@@ -103,7 +126,7 @@ void print_levels(const mobb::Tree& tree, const std::optional<ExpectedCost>& exp
     print_columns(columns);
 }
 
-void print_tree(const std::string& clip, const mobb::Tree& tree) {
+void print_tree(const std::string& clip, const mobb::Tree& tree, const TreeCost* cost) {
     const mobb::FitOptions& options = tree.options();
     std::cout << cleaned(clip) << ": " << counted(tree.clip().count(), "sample", "samples") << " in "
               << brief(tree.clip().duration()) << " s; " << mobb::name(options.tree) << " tree of "
@@ -115,33 +138,18 @@ void print_tree(const std::string& clip, const mobb::Tree& tree) {
     if (kind.chooses_axes()) say("axes " + std::string(mobb::name(options.axes)));
     if (kind.uses_time_scale()) say("time scale " + brief(options.time_scale) + " m/s");
     std::cout << said << (said.empty() ? "\n" : ")\n");
-    const std::optional<ExpectedCost> expected = expected_cost(tree, tree);
-    if (expected) std::cout << "  " << expected_words(*expected) << '\n';
-    print_levels(tree, expected);
-    for (const FitFinding& found : fit_findings(tree, expected)) std::cout << "  notice: " << found.text << '\n';
+    std::cout << "  " << (cost ? counted_words(*cost) : std::string(why_no_cost(tree))) << '\n';
+    print_levels(tree, cost);
+    const std::vector<double> shares = cost ? cost->shares : std::vector<double>();
+    for (const FitFinding& found : fit_findings(tree, shares)) std::cout << "  notice: " << found.text << '\n';
 }
 
 void print_trees(const FittedScene& fitted) {
+    const ClipCosts costs(fitted);
     for (int i = 0; i < static_cast<int>(fitted.scene().clips.size()); ++i) {
-        print_tree(fitted.scene().clips[static_cast<std::size_t>(i)].name, fitted.tree(i));
+        const std::shared_ptr<const TreeCost> cost = costs.of(i);
+        print_tree(fitted.scene().clips[static_cast<std::size_t>(i)].name, fitted.tree(i), cost.get());
     }
-}
-
-/// Of every clip. Prints nothing if one has no such node.
-void print_variants(const FittedScene& fitted, const std::string& node, bool as_json) {
-    std::vector<ClipWhatIf> all;
-    for (int i = 0; i < static_cast<int>(fitted.scene().clips.size()); ++i) {
-        const std::string& clip = fitted.scene().clips[static_cast<std::size_t>(i)].name;
-        all.push_back(what_if_of(clip, fitted.shared_tree(i), node));
-    }
-    if (!as_json) {
-        std::ranges::for_each(all, print_what_if);
-        return;
-    }
-    JsonWriter out(std::cout);
-    out.begin_object();
-    out.list("what_if", all, [&out](const ClipWhatIf& found) { write_what_if(out, found); });
-    out.end_object();
 }
 
 /// Of every clip. Throws InputError for what is no fit.
@@ -157,7 +165,8 @@ void print_comparisons(const Scene& scene, const FitCommandArguments& arguments)
     }
     if (fits.size() < 2) throw InputError("--compare: give two fits or more, such as mobb,leaf=10 moving");
     std::vector<ClipComparison> all;
-    for (const SceneClip& clip : scene.clips) all.push_back(comparison_of(clip.name, clip.clip, fits));
+    for (const SceneClip& clip : scene.clips)
+        all.push_back(comparison_of(clip.name, clip.clip, fits, most_counted(scene.clips.size())));
     if (!arguments.json) {
         std::ranges::for_each(all, print_compared_fits);
         return;
@@ -175,34 +184,19 @@ void run_fit(const FitCommandArguments& arguments) {
         return flush_results();
     }
     const FittedScene trees = fitted(std::move(scene), arguments.fit);
-    if (!arguments.what_if) {
-        const auto print = arguments.csv ? print_csv : arguments.json ? print_json : print_trees;
-        print(trees);
-    } else {
-        try {
-            print_variants(trees, *arguments.what_if, arguments.json);
-        } catch (const std::invalid_argument& error) {
-            throw InputError(arguments.file, error.what());
-        }
-    }
+    const auto print = arguments.csv ? print_csv : arguments.json ? print_json : print_trees;
+    print(trees);
     flush_results();
 }
 
 void add_options_of_fit(Command& command, FitCommandArguments& arguments) {
     const Option json = add_fitted_options(command, arguments, "Levels and nodes as JSON");
     const Option csv = command.add_flag("--csv", arguments.csv, "Nodes as CSV, a row each").excludes(json);
-    const Option what_if =
-        command
-            .add_option(
-                "--what-if", [&arguments](const std::string& node) { arguments.what_if = node; },
-                "What queries would cost if that node, such as 12 or 2.1, had another box or split", "NODE")
-            .excludes(csv);
     command
         .add_list_option(
             "--compare", [&arguments](const std::vector<std::string>& fits) { arguments.compare = fits; },
             "Two fits or more side by side, such as mobb,leaf=10 moving: which is tighter, and which costs less", "FIT")
-        .excludes(csv)
-        .excludes(what_if);
+        .excludes(csv);
 }
 
 }  // namespace

@@ -4,18 +4,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace mobbscope {
 
 namespace {
 
-constexpr double kAlike = 0.005;  // of a number: percentages without decimals do not show less
+constexpr double kSureErrors = 3;  // a difference of fewer standard errors may be chance
 
-void find_best_of(ComparedLevel& level) {
+void find_best_of(ComparedLevel& level, double alike_cost) {
     find_best(level.volume, Better::less);
     find_best(level.fill, Better::more);
-    find_best(level.cost, Better::less);
+    find_best(level.cost, Better::less, alike_cost);
+}
+
+/// Up to which part of them costs may differ by chance. All fits are asked the same placements, so their difference
+/// has a smaller error than this.
+double chance_of(std::span<const std::shared_ptr<const TreeCost>> costs) {
+    double largest = 0;
+    for (const auto& cost : costs) {
+        if (cost && cost->workload == QueryWorkload::Kind::placements)
+            largest = std::max(largest, cost->count.standard_error());
+    }
+    return std::max(kAlike, kSureErrors * std::numbers::sqrt2 * largest);
 }
 
 ComparedLevel empty_level(int level, std::size_t fits) {
@@ -69,7 +81,7 @@ std::vector<TightestOn> tightest_on(const ComparedFits& fits) {
 
 }  // namespace
 
-void find_best(ComparedFigure& figure, Better better) {
+void find_best(ComparedFigure& figure, Better better, double alike) {
     const auto sign = better == Better::less ? 1.0 : -1.0;
     const auto has_more = [&](std::size_t fit) {
         if (!figure.values[fit]) return false;
@@ -78,7 +90,7 @@ void find_best(ComparedFigure& figure, Better better) {
         for (std::size_t i = 0; i < figure.values.size(); ++i) {
             if (i == fit || !figure.values[i]) continue;
             ++others;
-            if (!(sign * (*figure.values[i] - best) > kAlike * std::abs(*figure.values[i]))) return false;
+            if (!(sign * (*figure.values[i] - best) > alike * std::abs(*figure.values[i]))) return false;
         }
         return others > 0;
     };
@@ -115,16 +127,16 @@ ComparedFits compared(std::span<const std::shared_ptr<const mobb::Tree>> trees,
             level.volume.values[fit] = figures[i].volume;
             level.fill.values[fit] = figures[i].tightness;
             // Queries reached no level below those of the cost.
-            if (cost && !cost->levels.empty())
-                level.cost.values[fit] = i < cost->levels.size() ? cost->ns(cost->levels[i]) : 0;
+            if (cost) level.cost.values[fit] = i < cost->levels.size() ? cost->ns(cost->levels[i]) : 0;
         }
         out.leaves.volume.values[fit] = figures.back().volume;
         out.leaves.fill.values[fit] = figures.back().tightness;
-        if (cost) out.cost.values[fit] = cost->ns(cost->tests);
+        if (cost) out.cost.values[fit] = cost->ns();
     }
-    std::ranges::for_each(out.levels, find_best_of);
-    find_best_of(out.leaves);
-    find_best(out.cost, Better::less);
+    const double alike = chance_of(costs);
+    for (ComparedLevel& level : out.levels) find_best_of(level, alike);
+    find_best_of(out.leaves, alike);
+    find_best(out.cost, Better::less, alike);
     return out;
 }
 
@@ -136,7 +148,7 @@ std::string verdict(const ComparedFits& fits) {
     const auto known = std::ranges::count_if(fits.cost.values, [](const auto& cost) { return cost.has_value(); });
     const bool cost_alike = cheapest < 0 && known == std::ssize(fits.names);
     if (tightest.empty() && at_leaves < 0 && cost_alike)
-        return are_two ? "Both are equally tight and cost the same." : "No fit is tightest or cheapest.";
+        return are_two ? "Both are equally tight and cost about the same." : "No fit is tightest or cheapest.";
     std::string out;
     if (tightest.empty()) out = are_two ? "Both are equally tight" : "No fit is tightest";
     for (const TightestOn& each : tightest) {
@@ -161,7 +173,7 @@ std::string verdict(const ComparedFits& fits) {
         else
             out += (one_is ? ", but " : "; ") + name(cheapest) + " costs " + less;
     } else if (cost_alike) {
-        out += are_two ? "; both cost the same" : "; no fit is cheapest";
+        out += are_two ? "; both cost about the same" : "; no fit is cheapest";
     }
     return out + '.';
 }

@@ -17,6 +17,10 @@ namespace mobbscope {
 
 enum class Better { less, more };
 
+/// Numbers of which one is better than the other by no more than this part count as alike: percentages without decimals
+/// do not show less.
+inline constexpr double kAlike = 0.005;
+
 /// A number of each fit.
 struct ComparedFigure {
     std::vector<std::optional<double>> values;  ///< by fit
@@ -44,10 +48,11 @@ struct ComparedFits {
     bool differ_in_depth() const;
 };
 
-/// Finds the best of the numbers, if it is better than every other by more than rounded percentages show.
-void find_best(ComparedFigure& figure, Better better);
+/// Finds the best of the numbers, if it is better than every other by more than a part of that one.
+void find_best(ComparedFigure& figure, Better better, double alike = kAlike);
 
-/// `costs`: by tree; null: not known yet. Requires trees over one clip, as many costs, and no null tree.
+/// `costs`: by tree; null: not known. The best cost is less than the others by more than three standard errors.
+/// Requires trees over one clip, as many costs, and no null tree.
 ComparedFits compared(std::span<const std::shared_ptr<const mobb::Tree>> trees,
                       std::span<const std::shared_ptr<const TreeCost>> costs);
 

@@ -331,4 +331,9 @@ std::optional<ExpectedCost> expected_cost(const mobb::Tree& a, const mobb::Tree&
     return Descent(a, b, most_pairs).run();
 }
 
+std::vector<double> expected_shares(const mobb::Tree& tree) {
+    const std::optional<ExpectedCost> expected = expected_cost(tree, tree);
+    return expected ? expected->node_shares() : std::vector<double>();
+}
+
 }  // namespace mobbscope

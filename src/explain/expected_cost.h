@@ -1,4 +1,5 @@
-/// The tests that a query is expected to make under standard placements, worked out from the boxes without asking one.
+/// The tests that a query is expected to make under standard placements, worked out from the boxes without asking one:
+/// how they are divided among nodes and levels. How many they are is counted (tree_cost.h).
 #pragma once
 
 #include <explain/query_workload.h>
@@ -49,5 +50,7 @@ struct ExpectedCost {
 /// None of a tree of blocks. `most_pairs`: see kExpectedPairs.
 std::optional<ExpectedCost> expected_cost(const mobb::Tree& a, const mobb::Tree& b,
                                           std::size_t most_pairs = kExpectedPairs);
+/// node_shares of a tree against itself; empty of blocks.
+std::vector<double> expected_shares(const mobb::Tree& tree);
 
 }  // namespace mobbscope

@@ -181,9 +181,8 @@ std::optional<FitFinding> leaves(const mobb::Tree& tree, const Trials& trials) {
 
 // --- nodes
 
-std::optional<FitFinding> costly_node(const mobb::Tree& tree, const ExpectedCost& expected) {
-    const std::vector<double> shares = expected.node_shares();
-    std::vector<double> below = shares;  // with all nodes below it
+std::optional<FitFinding> costly_node(const mobb::Tree& tree, std::span<const double> shares) {
+    std::vector<double> below(shares.begin(), shares.end());  // with all nodes below it
     std::vector<double> in_level(static_cast<std::size_t>(tree.depth()));
     const auto count = static_cast<int>(below.size());
     for (int i = count - 1; i > 0; --i)
@@ -374,8 +373,7 @@ std::string mend_words(const mobb::FitOptions& mend, const mobb::FitOptions& now
 
 std::string_view name(FitFinding::Kind kind) { return kKindNames[static_cast<std::size_t>(kind)]; }
 
-std::vector<FitFinding> fit_findings(const mobb::Tree& tree, const std::optional<ExpectedCost>& expected,
-                                     const Progress& progress) {
+std::vector<FitFinding> fit_findings(const mobb::Tree& tree, std::span<const double> shares, const Progress& progress) {
     std::vector<FitFinding> out;
     const auto add = [&](std::optional<FitFinding> found) {
         if (found) out.push_back(std::move(*found));
@@ -390,7 +388,7 @@ std::vector<FitFinding> fit_findings(const mobb::Tree& tree, const std::optional
     }
     add(jump(tree, trials));
     add(radius_spike(tree, trials));
-    if (expected) add(costly_node(tree, *expected));
+    if (!shares.empty()) add(costly_node(tree, shares));
     std::ranges::stable_sort(out, std::ranges::greater(), &FitFinding::cost);
     return out;
 }

@@ -1,10 +1,11 @@
 /// What stands out in a fit, and what would mend it: each finding is measured, not guessed.
 #pragma once
 
-#include <explain/expected_cost.h>
+#include <explain/query_workload.h>
 #include <mobb/tree.h>
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,10 +36,10 @@ std::string_view name(FitFinding::Kind kind);
 std::string mend_words(const mobb::FitOptions& mend, const mobb::FitOptions& now);
 
 /// One of each kind at most, the most costly first. Costs are counted (tests times price), of the fit and of what would
-/// mend it, on the same standard placements of the clip against itself. `expected`: of the tree against itself; without
-/// it no node is found costly. `progress` is told of the placements of each fit that is tried; it may throw to end the
-/// work.
-std::vector<FitFinding> fit_findings(const mobb::Tree& tree, const std::optional<ExpectedCost>& expected,
+/// mend it, on the same standard placements of the clip against itself. `shares`: by node its part of all box tests;
+/// without them no node is found costly. `progress` is told of the placements of each fit that is tried; it may throw
+/// to end the work.
+std::vector<FitFinding> fit_findings(const mobb::Tree& tree, std::span<const double> shares,
                                      const Progress& progress = {});
 
 }  // namespace mobbscope

@@ -55,16 +55,20 @@ StandardPlacements::StandardPlacements(const mobb::Clip& a, const mobb::Clip& b)
     side = std::max(4 * (of_a.reach + of_b.reach), kLeastSide);
 }
 
-mobb::Placement StandardPlacements::b(std::uint64_t seed, std::uint64_t index) const {
+StandardPlacements::Draw StandardPlacements::draw(std::uint64_t seed, std::uint64_t index) const {
     CounterRandom random(seed, index, 0);
     const auto centered = [&random] { return 2 * random.unit() - 1; };
-    mobb::Placement place;
-    place.rotate_deg = 180 * centered();
-    place.start = offset * centered();
-    const double dx = side / 2 * centered();
-    const double dy = side / 2 * centered();
-    place.translate = middle_a + glm::dvec2(dx, dy) - mobb::Rotation::from_degrees(place.rotate_deg)(middle_b);
-    return place;
+    Draw out;
+    out.rotate_deg = 180 * centered();
+    out.start = offset * centered();
+    out.shift.x = side / 2 * centered();
+    out.shift.y = side / 2 * centered();
+    return out;
+}
+
+mobb::Placement StandardPlacements::place(const Draw& drawn) const {
+    const glm::dvec2 turned = mobb::Rotation::from_degrees(drawn.rotate_deg)(middle_b);
+    return {.translate = middle_a + drawn.shift - turned, .rotate_deg = drawn.rotate_deg, .start = drawn.start};
 }
 
 std::string_view name(QueryWorkload::Kind kind) {

@@ -29,8 +29,15 @@ struct StandardPlacements {
     StandardPlacements(const mobb::Clip& a, const mobb::Clip& b);
 
     double area() const { return side * side; }
-    /// B's placement of that number: the same for the same seed, on every machine.
-    mobb::Placement b(std::uint64_t seed, std::uint64_t index) const;
+
+    struct Draw {
+        double rotate_deg = 0, start = 0;  ///< of B
+        glm::dvec2 shift{0};               ///< m, from A's middle to B's
+    };
+    /// What B's placement of that number is made of: the same for the same seed, on every machine.
+    Draw draw(std::uint64_t seed, std::uint64_t index) const;
+    mobb::Placement place(const Draw& drawn) const;
+    mobb::Placement b(std::uint64_t seed, std::uint64_t index) const { return place(draw(seed, index)); }
 };
 
 /// Two clips of a list, each where it is placed.

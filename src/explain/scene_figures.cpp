@@ -66,7 +66,7 @@ const NodeValues& SceneFigures::of(const std::shared_ptr<const FittedScene>& fit
     const std::shared_ptr<const mobb::Tree>& tree = fitted->shared_tree(clip);
     Kept& out = kept(tree, clip);
     if (field == NodeField::share && !out.has_shares) {
-        if (const auto expected = expected_cost(*tree, *tree)) out.values.add_shares(expected->node_shares());
+        out.values.add_shares(expected_shares(*tree));
         out.has_shares = true;
     }
     if (field == NodeField::tests) {

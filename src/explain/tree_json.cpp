@@ -1,4 +1,3 @@
-#include <explain/expected_cost.h>
 #include <explain/fit_findings.h>
 #include <explain/node_values.h>
 #include <explain/tree_json.h>
@@ -9,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -82,11 +82,19 @@ void write_level(JsonWriter& out, const mobb::LevelFigures& figures) {
     out.end_object();
 }
 
-void write_expected(JsonWriter& out, const std::optional<ExpectedCost>& expected) {
+void write_cost(JsonWriter& out, const TreeCost* cost) {
     out.key("expected");
-    if (!expected) return out.null();
-    out.row("box_tests", expected->tests.boxes(), "sample_pairs", expected->tests[mobb::TestKind::samples], "area",
-            expected->placements.area(), "offset", expected->placements.offset);
+    if (!cost) {
+        out.null();
+        out.key("counted");
+        return out.null();
+    }
+    const ExpectedCost& expected = *cost->expected;
+    out.row("box_tests", expected.tests.boxes(), "sample_pairs", expected.tests[mobb::TestKind::samples], "area",
+            expected.placements.area(), "offset", expected.placements.offset);
+    out.key("counted");
+    out.row("box_tests", cost->tests.boxes(), "sample_pairs", cost->tests[mobb::TestKind::samples], "standard_error",
+            cost->count.standard_error(), "placements", cost->queries, "seed", kCountedSeed);
 }
 
 void write_finding(JsonWriter& out, const FitFinding& found) {
@@ -110,19 +118,19 @@ void write_tree_head(JsonWriter& out, const std::string& clip, const mobb::Tree&
 
 }  // namespace
 
-void write_tree(JsonWriter& out, const std::string& clip, const std::shared_ptr<const mobb::Tree>& of) {
-    const mobb::Tree& tree = *of;
-    const std::optional<ExpectedCost> expected = expected_cost(tree, tree);
-    const NodeValues values(of, expected ? expected->node_shares() : std::vector<double>());
+void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree, const TreeCost* cost) {
+    const std::vector<double> shares = cost ? cost->shares : std::vector<double>();
+    // The tree is the caller's.
+    const NodeValues values(std::shared_ptr<const mobb::Tree>(std::shared_ptr<void>(), &tree), shares);
     out.begin_object();
     write_tree_head(out, clip, tree);
-    write_expected(out, expected);
+    write_cost(out, cost);
     out.list("levels", mobb::level_figures(tree),
              [&](const mobb::LevelFigures& figures) { write_level(out, figures); });
     out.begin_array("nodes");
     for (int i = 0; i < values.size(); ++i) write_node(out, values, i);
     out.end_array();
-    out.list("findings", fit_findings(tree, expected), [&](const FitFinding& found) { write_finding(out, found); });
+    out.list("findings", fit_findings(tree, shares), [&](const FitFinding& found) { write_finding(out, found); });
     out.end_object();
 }
 

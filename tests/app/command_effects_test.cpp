@@ -672,11 +672,6 @@ std::vector<CommandCase> cases() {
     });
     edit("tree.leaf", "7", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.fitted().tree(0).options().leaf, 7); });
     edit("tree.levels", "2", [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.fitted().tree(0).depth(), 2); });
-    add({"tree.what_if", "", {{"go.node", "B 1"}}, [](CommandWorld& w) {
-             ASSERT_TRUE(w.session.what_if.found());
-             EXPECT_EQ(w.session.what_if.found()->node, 1);
-             EXPECT_EQ(w.session.keys.section, kWhatIfSection);
-         }});
     edit("tree.time_scale", "2.5",
          [](CommandWorld& w) { EXPECT_EQ(w.session.workspace.fitted().tree(0).time_scale(), 2.5); });
     look("tree.cost_of", "queries",

@@ -9,7 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <thread>
@@ -43,10 +45,12 @@ TEST(Cost, TheWindowHasTheNumbersOfFit) {
     CostWindow w;
     for (const char* kind : {"mobb", "umobb", "moving"}) {
         w.run("tree.kind", kind);
-        const ExpectedCost expected = expected_cost(w.tree(), w.tree()).value();
+        const std::size_t clips = w.session.workspace.scene().clips.size();
+        const auto counted = standard_cost(w.session.workspace.fitted().shared_tree(0), most_counted(clips));
         ASSERT_TRUE(w.cost()) << kind;
-        EXPECT_EQ(w.cost()->tests.by_kind, expected.tests.by_kind);
-        EXPECT_EQ(w.cost()->shares, expected.node_shares());
+        EXPECT_EQ(w.cost()->queries, counted->queries);
+        EXPECT_EQ(w.cost()->tests.by_kind, counted->tests.by_kind);
+        EXPECT_EQ(w.cost()->shares, expected_shares(w.tree()));
         EXPECT_TRUE(w.has("cost.total"));
         EXPECT_TRUE(w.has("cost.kind.samples"));
         EXPECT_TRUE(w.has("cost.kind.time"));
@@ -106,28 +110,38 @@ TEST(Cost, ANodeSaysItsPartUnderTheChosenWorkload) {
               figure(100 * w.cost()->shares[1], 2) + " % of all box tests in the scene's queries");
 }
 
-TEST(Cost, BlocksAreCounted) {
+TEST(Cost, BlocksAreNotCounted) {
     CostWindow w;
     w.run("tree.kind", "blocks");
-    ASSERT_TRUE(w.cost());
-    EXPECT_EQ(w.cost()->queries, kCountedPlacements);
-    EXPECT_TRUE(w.has("level.0"));
-    EXPECT_EQ(fact_of(w.session.workspace, "cost"), "");
+    for (const char* of : {"placements", "queries"}) {
+        w.run("tree.cost_of", of);
+        EXPECT_FALSE(w.cost());
+        EXPECT_FALSE(w.has("cost.total"));
+        EXPECT_TRUE(w.has("level.0"));
+        w.run("go.node", "A 1.0");
+        EXPECT_EQ(fact_of(w.session.workspace, "cost"), "");
+    }
 }
 
-/// Somebody looks: it comes by itself, and once for a tree.
-TEST(Cost, IsFoundOutBesideTheWindowAndKept) {
+/// Somebody looks: the first thousands come by themselves, the others beside the window, and once for a tree.
+TEST(Cost, IsCountedOnBesideTheWindowAndKept) {
     CostWindow w(true);
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    const std::size_t most = w.session.workspace.most_counted();
+    std::size_t fewest = most;
     const auto wait = [&] {
-        while (!w.cost() && std::chrono::steady_clock::now() < end) {
+        const auto is_enough = [&] { return w.cost() && w.cost()->count.is_enough(most); };
+        while (!is_enough() && std::chrono::steady_clock::now() < end) {
             w.window.settle();
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            if (w.cost()) fewest = std::min(fewest, w.cost()->queries);
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
-        return w.cost();
+        return is_enough() ? w.cost() : nullptr;
     };
     const std::shared_ptr<const TreeCost> first = wait();
     ASSERT_TRUE(first);
+    EXPECT_LT(first->count.standard_error(), kCountedError);
+    EXPECT_LT(fewest, first->queries) << "an earlier count was shown";
     w.run("tree.kind", "umobb");
     const std::shared_ptr<const TreeCost> second = wait();
     ASSERT_TRUE(second);

@@ -3,7 +3,7 @@
 #include <base/text.h>
 #include <explain/expected_cost.h>
 #include <explain/level_columns.h>
-#include <explain/what_if.h>
+#include <explain/tree_cost.h>
 #include <scene/fitted_scene.h>
 #include <support/folders.h>
 #include <support/json_keys.h>
@@ -34,8 +34,8 @@ TEST(Fit, JsonIsTheTree) {
     const FittedScene fitted(load_scene(kCrossing), {mobb::TreeKind::umobb, 7, 4, mobb::Axes::covariance, 1.5});
     const mobb::Tree& tree = fitted.tree(1);
     const json& printed = trees[1];
-    EXPECT_EQ(keys(printed), (std::set<std::string>{"clip", "tree", "axes", "leaf", "time_scale", "expected", "levels",
-                                                    "nodes", "findings"}));
+    EXPECT_EQ(keys(printed), (std::set<std::string>{"clip", "tree", "axes", "leaf", "time_scale", "expected", "counted",
+                                                    "levels", "nodes", "findings"}));
     EXPECT_EQ(printed["clip"], "bend");
     EXPECT_EQ(printed["tree"], "umobb");
     EXPECT_EQ(printed["axes"], "covariance");
@@ -79,6 +79,15 @@ TEST(Fit, JsonIsTheTree) {
     EXPECT_EQ(printed["expected"]["sample_pairs"], cost.tests[mobb::TestKind::samples]);
     EXPECT_EQ(printed["expected"]["area"], cost.placements.area());
     EXPECT_EQ(printed["expected"]["offset"], cost.placements.offset);
+    const auto counted = standard_cost(fitted.shared_tree(1), most_counted(2));
+    EXPECT_EQ(keys(printed["counted"]),
+              (std::set<std::string>{"box_tests", "sample_pairs", "standard_error", "placements", "seed"}));
+    EXPECT_EQ(printed["counted"]["box_tests"], counted->tests.boxes());
+    EXPECT_EQ(printed["counted"]["sample_pairs"], counted->tests[mobb::TestKind::samples]);
+    EXPECT_EQ(printed["counted"]["standard_error"], counted->count.standard_error());
+    EXPECT_LT(printed["counted"]["standard_error"], 0.005);
+    EXPECT_EQ(printed["counted"]["placements"], counted->queries);
+    EXPECT_EQ(printed["counted"]["seed"], kCountedSeed);
     const auto figures = mobb::level_figures(tree);
     ASSERT_EQ(printed["levels"].size(), figures.size());
     EXPECT_EQ(printed["levels"][2]["nodes"], figures[2].nodes);
@@ -156,9 +165,9 @@ TEST(Fit, CsvHasARowForEachNode) {
                 const double volume = tree["levels"][k]["volume"];
                 EXPECT_NEAR(volumes[k], volume, 1e-9 * volume);
             }
-            if (!tree["expected"].is_null()) {
-                const double expected = tree["expected"]["box_tests"];
-                EXPECT_NEAR(box_tests, expected, 1e-9 * expected);
+            if (!tree["counted"].is_null()) {
+                const double counted = tree["counted"]["box_tests"];
+                EXPECT_NEAR(box_tests, counted, 1e-9 * counted);
             }
         }
         EXPECT_EQ(row, rows.size());
@@ -177,26 +186,27 @@ TEST(Fit, CsvQuotesNamesAndIsNoJson) {
     }
 }
 
-/// What is expected is by a formula, which blocks have none of: they are counted.
-TEST(Fit, NothingIsExpectedOfBlocks) {
+TEST(Fit, BlocksAreNotCounted) {
     const Result run = run_program({"fit", kCrossing, "--json", "--tree", "blocks"});
     ASSERT_EQ(run.status, 0) << run.err;
     const json tree = json::parse(run.out)["trees"][0];
     EXPECT_TRUE(tree["expected"].is_null());
+    EXPECT_TRUE(tree["counted"].is_null());
     EXPECT_TRUE(tree["nodes"][0]["share"].is_null());
-    EXPECT_EQ(run_program({"fit", kCrossing, "--tree", "blocks"}).out.find("expected"), std::string::npos);
+    const std::string text = run_program({"fit", kCrossing, "--tree", "blocks"}).out;
+    EXPECT_NE(text.find("\n  Blocks are not counted"), std::string::npos) << text;
 }
 
 TEST(Fit, TheTableHasTheColumnsOfALevel) {
     const Result run = run_program({"fit", kCrossing});
-    const std::string headings = "  level   nodes   volume m^2*s   tightness %   box tests   cost %";
+    const std::string headings = "  level   nodes   volume m^2*s   tightness %   box tests   cost ns";
     EXPECT_NE(run.out.find("\n" + headings + "\n"), std::string::npos) << run.out;
     const FittedScene fitted(load_scene(kCrossing), {});
-    const ExpectedCost expected = expected_cost(fitted.tree(0), fitted.tree(0)).value();
+    const auto cost = standard_cost(fitted.shared_tree(0), most_counted(2));
     std::istringstream lines(run.out);
     std::string line;
     for (int i = 0; i < 2; ++i) std::getline(lines, line);
-    EXPECT_EQ(line.rfind("  against itself: " + figure(expected.tests.boxes(), 3) + " box tests and ", 0), 0u) << line;
+    EXPECT_EQ(line.rfind("  against itself: " + figure(cost->tests.boxes(), 3) + " box tests and ", 0), 0u) << line;
     for (int i = 0; i < 2; ++i) std::getline(lines, line);
     std::istringstream root(line);
     std::string shown;
@@ -205,74 +215,10 @@ TEST(Fit, TheTableHasTheColumnsOfALevel) {
         EXPECT_EQ(shown, level_text(column, mobb::level_figures(fitted.tree(0)).front())) << column.name;
     }
     root >> shown;
-    EXPECT_EQ(shown, figure(expected.levels[0].boxes(), 3));
+    EXPECT_EQ(shown, figure(cost->levels[0].boxes(), 3));
     root >> shown;
-    EXPECT_EQ(shown, figure(100 * cost_of(expected.levels[0]) / cost_of(expected.tests), 3));
+    EXPECT_EQ(shown, figure(cost->ns(cost->levels[0]), 3));
     EXPECT_EQ(line.size(), headings.size());
-}
-
-TEST(Fit, WhatIfANodeWereOther) {
-    const Result run = run_program({"fit", kCrossing, "--what-if", "1.0", "--json"});
-    ASSERT_EQ(run.status, 0) << run.err;
-    const json clips = json::parse(run.out)["what_if"];
-    const FittedScene fitted(load_scene(kCrossing), {});
-    ASSERT_EQ(clips.size(), fitted.scene().clips.size());
-    for (std::size_t i = 0; i < clips.size(); ++i) {
-        const json& of = clips[i];
-        EXPECT_EQ(keys(of), (std::set<std::string>{"clip", "node", "tree", "queries", "workload", "area", "offset",
-                                                   "seed", "best", "variants"}));
-        EXPECT_EQ(of["node"], 1);
-        EXPECT_EQ(of["workload"], "placements");
-        const auto tree = fitted.shared_tree(static_cast<int>(i));
-        const QueryWorkload workload =
-            standard_workload(std::array{tree->shared_clip()}, of["queries"].get<std::size_t>(), of["seed"]);
-        EXPECT_EQ(of["area"], workload.area);
-        const WhatIf found = what_if(workload, std::array{tree}, 0, 1);
-        ASSERT_EQ(of["variants"].size(), found.variants.size());
-        EXPECT_EQ(of["best"], &found.best() - found.variants.data());
-        for (std::size_t k = 0; k < found.variants.size(); ++k) {
-            const json& variant = of["variants"][k];
-            EXPECT_EQ(variant["cost"], found.variants[k].cost);
-            EXPECT_EQ(variant["difference"], found.variants[k].difference.mean);
-            EXPECT_EQ(variant["error"], found.variants[k].difference.standard_error);
-            EXPECT_EQ(variant["box_tests"], found.variants[k].tests.boxes());
-            EXPECT_EQ(variant["volume"], found.variants[k].volume);
-        }
-        EXPECT_TRUE(of["variants"][0]["axes"].is_null());
-        EXPECT_EQ(of["variants"][1]["axes"], "covariance");
-        EXPECT_EQ(of["variants"][3]["kind"], "obb3d");
-        EXPECT_TRUE(of["variants"][4]["split"].is_number_integer());
-    }
-}
-
-TEST(Fit, WhatIfIsATable) {
-    const Result run = run_program({"fit", kCrossing, "--what-if", "1"});
-    ASSERT_EQ(run.status, 0) << run.err;
-    EXPECT_NE(run.out.find(", node 1 (level 1): samples 0.."), std::string::npos) << run.out;
-    EXPECT_NE(run.out.find("volume m^2*s   children m^2*s   box tests   sample pairs   cost ns"), std::string::npos);
-    for (const char* what : {"as it is ", "axes covariance ", "axes minarea ", "3D box ", "split "}) {
-        EXPECT_NE(run.out.find(what), std::string::npos) << what;
-    }
-    const Result none = run_program({"fit", kCrossing, "--what-if", "9999"});
-    EXPECT_NE(none.status, 0);
-    EXPECT_NE(none.err.find("the node"), std::string::npos) << none.err;
-    const Result blocks = run_program({"fit", kCrossing, "--what-if", "0", "--tree", "blocks"});
-    EXPECT_NE(blocks.status, 0);
-    EXPECT_NE(blocks.err.find("no node of them can be other"), std::string::npos) << blocks.err;
-}
-
-TEST(Fit, WhatIfIsRefusedWholeWhereAClipHasNoSuchNode) {
-    const TempFolder folder;
-    const auto file = folder.write("two.json", R"({"clips": {
-        "long": {"dt": 1, "samples": [[0, 0, 1], [3, 1, 1], [4, 9, 1]]},
-        "short": {"dt": 1, "samples": [[0, 0, 1]]}}, "fit": {"leaf": 1}})");
-    const Result run = run_program({"fit", file.string(), "--what-if", "1", "--json"});
-    EXPECT_NE(run.status, 0);
-    EXPECT_EQ(run.out, "");
-    const Result empty = run_program({"fit", file.string(), "--what-if", ""});
-    EXPECT_NE(empty.status, 0);
-    EXPECT_EQ(empty.out, "");
-    EXPECT_NE(empty.err.find("the node"), std::string::npos) << empty.err;
 }
 
 TEST(Fit, ColumnsStayApartWhereNumbersAreWiderThanHeadings) {

@@ -326,6 +326,16 @@ TEST(ExpectedCost, OfAStandingTreeIsTheClosedForm) {
                 cost.tests.boxes(), 0.03 * cost.tests.boxes());
 }
 
+/// Half of what disks reach beyond a tube is taken to have been hit before, of someone who stands and sways.
+TEST(ExpectedCost, TakesHalfOfASwayAsHit) {
+    std::vector<mobb::Disk> samples;
+    for (int i = 0; i < 240; ++i) samples.push_back({0.2 * std::cos(0.3 * i), 0.1 * std::sin(0.7 * i), 0.3});
+    const mobb::Tree tree(clip_of(1.0 / 30, samples), {});
+    const ExpectedCost cost = expected_cost(tree, tree).value();
+    EXPECT_NEAR(cost.tests.boxes(), 8.170422, 1e-5);
+    EXPECT_NEAR(cost.tests[TestKind::samples], 13.550898, 1e-5);
+}
+
 TEST(ExpectedCost, CountsWalksOfALeafInTimeAlone) {
     // A has one leaf, B two levels: the leaf walks, and no box is tested below the roots.
     const mobb::Tree a(standing_still(8, 0.5), {.tree = TreeKind::mobb, .leaf = 8}),

@@ -1,4 +1,5 @@
 // What stands out in a fit: each kind on a clip that has it, and not on its twin that has it not.
+#include <explain/expected_cost.h>
 #include <explain/fit_findings.h>
 #include <explain/query_workload.h>
 #include <mobb/level_figures.h>
@@ -37,7 +38,7 @@ mobb::Disk who_stands(int) { return {3, 4, 0.4}; }
 
 std::vector<FitFinding> findings_in(const mobb::ClipPtr& clip, const mobb::FitOptions& options = {}) {
     const mobb::Tree tree(clip, options);
-    return fit_findings(tree, expected_cost(tree, tree));
+    return fit_findings(tree, expected_shares(tree));
 }
 
 std::optional<FitFinding> found(Kind kind, const std::vector<FitFinding>& all) {
@@ -223,7 +224,7 @@ TEST(FitFindings, OfBlocksCostWhatTestsOfBlocksDo) {
 TEST(FitFindings, EndWhereProgressThrows) {
     const mobb::Tree tree(motion(walking), {});
     const auto cancel = [](std::size_t, std::size_t) { throw std::runtime_error("cancelled"); };
-    EXPECT_THROW(fit_findings(tree, std::nullopt, cancel), std::runtime_error);
+    EXPECT_THROW(fit_findings(tree, {}, cancel), std::runtime_error);
 }
 
 TEST(FitFindings, OfBlocksAreOfTheClipAlone) {

@@ -1,4 +1,4 @@
-// What a tree costs: as it is expected, as blocks are counted, and in a scene's queries.
+// What a tree costs: counted in standard placements and divided as expected, and in a scene's queries.
 #include <explain/expected_cost.h>
 #include <explain/tree_cost.h>
 #include <scene/fitted_scene.h>
@@ -6,11 +6,19 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <numeric>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "mobb/random_motion.h"
 
 namespace mobbscope {
 namespace {
@@ -21,43 +29,122 @@ FittedScene crossing_with(mobb::TreeKind kind) {
     return {load_scene(kCrossing), fit};
 }
 
-TEST(TreeCost, IsWhatIsExpected) {
-    const auto tree = crossing_with(mobb::TreeKind::hybrid1).shared_tree(1);
-    const TreeCost cost = standard_cost(tree);
-    const ExpectedCost expected = expected_cost(*tree, *tree).value();
-    EXPECT_EQ(cost.tree, tree);
-    EXPECT_EQ(cost.workload, QueryWorkload::Kind::placements);
-    EXPECT_EQ(cost.queries, 0u);
-    EXPECT_EQ(cost.area, expected.placements.area());
-    EXPECT_EQ(cost.offset, expected.placements.offset);
-    EXPECT_EQ(cost.tests.by_kind, expected.tests.by_kind);
-    EXPECT_EQ(cost.bound.value().by_kind, expected.bound.by_kind);
-    EXPECT_EQ(cost.shares, expected.node_shares());
-    ASSERT_EQ(cost.levels.size(), expected.levels.size());
-    double parts = 0;
-    for (const MeanTests& level : cost.levels) parts += cost.part(level);
-    EXPECT_NEAR(parts, 1, 1e-12);
-    EXPECT_NEAR(cost.part(cost.levels[0]), cost_of(cost.levels[0]) / cost_of(cost.tests), 1e-12);
+/// The same placements, each of them asked.
+std::vector<mobb::TestCounts> asked(const std::shared_ptr<const mobb::Tree>& tree, std::size_t count,
+                                    std::uint64_t seed = kCountedSeed) {
+    return count_tests(standard_workload(std::array{tree->shared_clip()}, count, seed), std::span(&tree, 1));
 }
 
-TEST(TreeCost, BlocksAreCounted) {
+/// Also of those placements that are far apart, which are not asked.
+TEST(TreeCost, IsTheMeanOfStandardPlacements) {
+    mobb::test::Random random(53);
+    for (const mobb::TreeKind kind : mobb::kTreeKinds) {
+        if (mobb::info(kind).has_blocks()) continue;
+        for (int round = 0; round < 3; ++round) {
+            const mobb::FitOptions fit{.tree = kind, .leaf = random.integer(1, 20)};
+            const auto clip = mobb::test::random_motion(random, mobb::test::random_clip(random, 200));
+            const auto tree = std::make_shared<const mobb::Tree>(clip, fit);
+            const auto cost = standard_cost(tree, 10'000);
+            ASSERT_TRUE(cost);
+            EXPECT_EQ(cost->tree, tree);
+            EXPECT_EQ(cost->workload, QueryWorkload::Kind::placements);
+            const std::vector<mobb::TestCounts> tests = asked(tree, cost->queries);
+            const MeanTests mean = mean_tests(tests);
+            for (const mobb::TestKind test : mobb::kTestKinds)
+                EXPECT_DOUBLE_EQ(cost->tests[test], mean[test]) << mobb::name(kind) << ' ' << round;
+            std::vector<double> boxes, pairs;
+            for (const mobb::TestCounts& each : tests) {
+                boxes.push_back(static_cast<double>(each.boxes()));
+                pairs.push_back(static_cast<double>(each[mobb::TestKind::samples]));
+            }
+            double error = 0;
+            for (const Spread& spread : {spread_of(boxes), spread_of(pairs)})
+                if (spread.mean > 0) error = std::max(error, spread.standard_error / spread.mean);
+            EXPECT_NEAR(cost->count.standard_error(), error, 1e-9 + 1e-6 * error) << mobb::name(kind);
+        }
+    }
+}
+
+TEST(TreeCost, IsCountedUntilItsErrorsAreSmall) {
+    const auto tree = crossing_with(mobb::TreeKind::mobb).shared_tree(1);
+    const auto cost = standard_cost(tree);
+    ASSERT_TRUE(cost);
+    EXPECT_LT(cost->count.standard_error(), 0.005);
+    EXPECT_GT(cost->queries, 100'000u);
+    EXPECT_EQ(standard_cost(tree, 50'000)->queries, 50'000u) << "but no more than that";
+}
+
+TEST(TreeCost, IsCountedOn) {
+    const auto tree = crossing_with(mobb::TreeKind::umobb).shared_tree(0);
+    const auto first = counted_on(tree, nullptr, 10'000);
+    ASSERT_TRUE(first);
+    EXPECT_EQ(first->queries, kFirstCounted);
+    std::size_t told = 0;
+    const auto second = counted_on(tree, first.get(), 10'000, [&](std::size_t done, std::size_t all) {
+        told = done;
+        EXPECT_LE(done, all);
+    });
+    EXPECT_EQ(second->queries, 2 * kFirstCounted);
+    EXPECT_EQ(told, kFirstCounted);
+    const auto whole = standard_cost(tree, 10'000);
+    EXPECT_EQ(whole->queries, 10'000u);
+    EXPECT_EQ(counted_on(tree, second.get(), 10'000)->tests.by_kind, whole->tests.by_kind);
+}
+
+TEST(TreeCost, IsDividedAsExpected) {
+    const auto tree = crossing_with(mobb::TreeKind::hybrid1).shared_tree(1);
+    const auto cost = standard_cost(tree, 20'000);
+    const ExpectedCost expected = expected_cost(*tree, *tree).value();
+    EXPECT_EQ(cost->expected->tests.by_kind, expected.tests.by_kind);
+    EXPECT_EQ(cost->shares, expected.node_shares());
+    ASSERT_EQ(cost->levels.size(), expected.levels.size());
+    MeanTests all;
+    for (std::size_t i = 0; i < cost->levels.size(); ++i) {
+        all += cost->levels[i];
+        for (const mobb::TestKind test : mobb::kTestKinds)
+            EXPECT_NEAR(cost->levels[i][test] * expected.tests[test], expected.levels[i][test] * cost->tests[test], 1e-12);
+    }
+    for (const mobb::TestKind test : mobb::kTestKinds) EXPECT_NEAR(all[test], cost->tests[test], 1e-12);
+    EXPECT_NEAR(cost->ns(all), cost->ns(), 1e-9);
+    EXPECT_NEAR(cost->part(cost->levels[0]), cost_of(cost->levels[0]) / cost_of(cost->tests), 1e-12);
+}
+
+TEST(TreeCost, OfBlocksIsNotKnown) {
     const auto tree = crossing_with(mobb::TreeKind::blocks).shared_tree(0);
-    const TreeCost cost = standard_cost(tree);
-    const std::array clips{tree->shared_clip()};
-    const QueryWorkload workload = standard_workload(clips, kCountedPlacements, kCountedSeed);
-    EXPECT_EQ(cost.queries, workload.queries.size());
-    EXPECT_EQ(cost.area, workload.area);
-    EXPECT_EQ(cost.tests.by_kind, mean_tests(count_tests(workload, std::span(&tree, 1))).by_kind);
-    EXPECT_TRUE(cost.levels.empty());
-    EXPECT_TRUE(cost.shares.empty());
-    EXPECT_EQ(cost.ns(cost.tests), cost_of(cost.tests, kBlockTestPrices)) << "blocks have prices of their own";
-    MeanTests half = cost.tests;
-    for (double& tests : half.by_kind) tests /= 2;
-    EXPECT_NEAR(cost.part(half), 0.5, 1e-12);
+    EXPECT_FALSE(standard_cost(tree));
+    EXPECT_NE(why_no_cost(*tree).find("Blocks are not counted"), std::string_view::npos);
+    EXPECT_EQ(why_no_cost(crossing_with(mobb::TreeKind::mobb).tree(0)), "");
+}
+
+TEST(TreeCost, OfAClipThatCannotBePlacedIsNotKnown) {
+    const auto tree = std::make_shared<const mobb::Tree>(
+        std::make_shared<const mobb::Clip>(0.1, std::vector<mobb::Disk>{{mobb::kMaxLength, 0, 1}}), mobb::FitOptions{});
+    EXPECT_FALSE(standard_cost(tree));
+    EXPECT_NE(why_no_cost(*tree), "");
+}
+
+TEST(TreeCost, IsCountedOfManyClipsInSeconds) {
+    EXPECT_EQ(most_counted(1), most_counted(4));
+    EXPECT_LT(most_counted(100), most_counted(4));
+    EXPECT_GE(most_counted(100'000), 100'000u);
+}
+
+/// What is shown is within 2 % of a million other placements.
+TEST(TreeCost, OfRecordingsIsWhatAMillionPlacementsCost) {
+    const std::string folder = kSharedData / "bvh/";
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no recordings in " << folder;
+    for (const char* file : {"long/cmu_03_03_walk-uneven-terrain_amc30hz", "short/cmu_09_01_run_120hz"}) {
+        const Scene scene = load_scene(folder + file + ".bvh");
+        const auto tree = std::make_shared<const mobb::Tree>(scene.clips.front().clip, mobb::FitOptions{});
+        const auto cost = standard_cost(tree);
+        const MeanTests mean = mean_tests(asked(tree, 1'000'000, 53));
+        EXPECT_NEAR(cost->ns(), cost_of(mean), 0.02 * cost_of(mean)) << file;
+        EXPECT_NEAR(cost->tests.boxes(), mean.boxes(), 0.02 * mean.boxes()) << file;
+    }
 }
 
 TEST(TreeCost, OfASceneIsTheMeanOfItsQueries) {
-    for (const mobb::TreeKind kind : {mobb::TreeKind::mobb, mobb::TreeKind::umobb, mobb::TreeKind::blocks}) {
+    for (const mobb::TreeKind kind : {mobb::TreeKind::mobb, mobb::TreeKind::umobb, mobb::TreeKind::moving}) {
         const FittedScene fitted = crossing_with(kind);
         const SceneCosts counted = scene_costs(fitted);
         const std::array trees{fitted.shared_tree(0), fitted.shared_tree(1)};

@@ -226,15 +226,6 @@ std::vector<Command> tree_commands() {
                  .also = "isolate solo subtree only"}),
         Command("node.show_all", "Show all nodes", "Draws all boxes again after those of a node alone.", show_all_nodes,
                 {.enabled = {shows_part, [] { return std::string_view("no node is shown alone"); }}}),
-        Command("tree.what_if", "What if this node were other?",
-                "Measures what queries would cost if the selected node had other axes, another box or another split.",
-                [](WhatIfInspector& what_if, Keys& keys) {
-                    keys.section = kWhatIfSection;
-                    what_if.measure();
-                },
-                {.enabled = {[](const WhatIfInspector& what_if) { return what_if.why_not().empty(); },
-                             [](const WhatIfInspector& what_if) { return what_if.why_not(); }},
-                 .also = "try alternative refit tight"}),
         Command("tree.next_finding", "Next finding",
                 "Says what stands out in the tree in focus, one after the other, and shows where.", next_finding,
                 {.also = "waste loose tight problem warning lint noticed worst advice check"}),

@@ -334,6 +334,7 @@ QueryWorkload::Kind Workspace::workload() const {
 
 std::shared_ptr<const TreeCost> Workspace::cost_of(const FittedScene& of, int clip) const {
     const std::shared_ptr<const mobb::Tree>& tree = of.shared_tree(clip);
+    if (tree->blocks()) return nullptr;
     if (workload() == QueryWorkload::Kind::placements) {
         const auto known = std::ranges::find(standard_costs_, tree, [](const auto& cost) { return cost->tree; });
         return known == standard_costs_.end() ? nullptr : *known;
@@ -367,6 +368,7 @@ std::shared_ptr<const BlameInScene> Workspace::blame(const FittedScene& of) cons
 }
 
 void Workspace::keep_standard_cost(std::shared_ptr<const TreeCost> cost) {
+    std::erase_if(standard_costs_, [&](const auto& known) { return known->tree == cost->tree; });
     standard_costs_.insert(standard_costs_.begin(), std::move(cost));
     if (standard_costs_.size() > kKeptCosts) standard_costs_.pop_back();
 }

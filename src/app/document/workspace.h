@@ -164,9 +164,11 @@ class Workspace {
     /// Which queries costs are about: those that settings choose, where the scene asks any.
     QueryWorkload::Kind workload() const;
     /// What the tree of a clip costs in these, of the fit in use of the document or of one of its views; null: it is
-    /// not known yet.
+    /// not known yet, or why_no_cost says why.
     std::shared_ptr<const TreeCost> cost_of(int clip) const { return cost_of(*document().fitted, clip); }
     std::shared_ptr<const TreeCost> cost_of(const FittedScene& of, int clip) const;
+    /// How many standard placements of a clip are counted at most.
+    std::size_t most_counted() const { return mobbscope::most_counted(scene().clips.size()); }
     /// Whom the queries blame for avoidable overlaps; null if nobody has counted that in this scene and fit.
     const BlameInScene* blame() const { return blame(*document().fitted).get(); }
     /// The event of the trace that the view shows; requires recorded().
@@ -175,7 +177,7 @@ class Workspace {
     bool is_framed(const Camera& camera) const;
 
     // Changes.
-    /// Keeps what was found out of a tree under standard placements, of the latest few.
+    /// Keeps what was counted of a tree under standard placements, in place of an earlier count; of the latest few.
     void keep_standard_cost(std::shared_ptr<const TreeCost> cost);
     /// Likewise what the queries of a scene cost.
     void keep_counted(const std::shared_ptr<const FittedScene>& of, std::shared_ptr<const SceneCosts> costs);

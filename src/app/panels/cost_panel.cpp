@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mobbscope::app {
@@ -38,44 +39,43 @@ std::vector<mobb::TestKind> kinds_of(const MeanTests& tests) {
     return out;
 }
 
-/// "expected: shift over 25.6 m², start within ±2 s"
-std::string workload_words(const TreeCost& cost) {
+/// "201728 counted, \u00B10.4 %: shift over 25.6 m\u00B2, start within \u00B12 s"
+std::string workload_words(const TreeCost& cost, std::size_t most) {
     if (cost.workload == Workload::queries)
         return "the mean of " + counted(cost.queries, "query", "queries") + " of this scene";
-    const std::string how =
-        cost.queries > 0 ? std::to_string(cost.queries) + " counted, seed " + std::to_string(kCountedSeed) : "expected";
-    return how + ": shift over " + figure(cost.area, 3) + " m\u00B2, start within \u00B1" + brief(cost.offset) + " s";
+    const StandardPlacements& of = cost.expected->placements;
+    return std::to_string(cost.queries) +
+           (cost.count.is_enough(most) ? " counted, \u00B1" : " counted so far, \u00B1") +
+           figure(100 * cost.count.standard_error(), 1) + " %: shift over " + figure(of.area(), 3) +
+           " m\u00B2, start within \u00B1" + brief(of.offset) + " s";
 }
 
-/// How the cost is found out: its formula with the numbers that stand in it.
+/// How the cost is found out, and by which formula it is divided.
 std::string formula(const TreeCost& cost) {
     if (cost.workload == Workload::queries)
         return "Tests of all queries of the scene, counted, times their price, by the number of queries.";
-    if (cost.queries > 0)
-        return "Blocks have no formula: the tests of " + std::to_string(cost.queries) +
-               " standard placements of the clip against itself are counted.";
-    std::string out =
-        "Tests that a query of the clip against itself is expected to make, times their price.\n"
-        "EV* = P + sum over pairs (p, q) of inner nodes and over their children (a, b)\n"
-        "      of max(0, K(p,q) - H)/W * (h_a + h_b)/(2T)\n"
-        "P: the chance that the roots share time\n"
-        "K: the area of the shifts at which two boxes meet, m\u00B2, the least of p, q and those above them;\n"
-        "   of 2D boxes A_p + A_q + L_p L_q/(2 pi), areas A and perimeters L\n"
-        "H: the area of those at which the two have collided before: a hit ends the query\n"
-        "h: how long a node lasts, s";
-    out += "\nW = " + figure(cost.area) + " m\u00B2: all shifts.  T = " + figure(cost.offset) +
-           " s: starts are within \u00B1T";
-    if (cost.bound)
-        out += "\nWithout hits (H = 0) it would be " + figure(cost.ns(*cost.bound), 3) + " ns: it is never more.";
-    return out;
+    const StandardPlacements& of = cost.expected->placements;
+    return "Tests of " + counted(cost.queries, "standard placement", "standard placements") +
+           " of the clip against itself (seed " + std::to_string(kCountedSeed) +
+           "), counted,\ntimes their price, by the number of placements.\n\n"
+           "EV* divides the count among nodes and levels. A pair of nodes gets its part of\n"
+           "P + sum over pairs (p, q) of inner nodes and over their children (a, b)\n"
+           "      of max(0, K(p,q) - H)/W * (h_a + h_b)/(2T)\n"
+           "P: the chance that the roots share time\n"
+           "K: the area of the shifts at which two boxes meet, m\u00B2, the least of p, q and those above them;\n"
+           "   of 2D boxes A_p + A_q + L_p L_q/(2 pi), areas A and perimeters L\n"
+           "H: the area of those at which the two have collided before: a hit ends the query\n"
+           "h: how long a node lasts, s\n"
+           "W = " +
+           figure(of.area()) + " m\u00B2: all shifts.  T = " + figure(of.offset) + " s: starts are within \u00B1T";
 }
 
-/// "2D boxes: 13.9 tests x 14 ns = 195 ns, 21 % of the cost"
+/// "2D boxes: 13.9 tests x 14 ns = 195 ns"
 std::string price_words(mobb::TestKind kind, const MeanTests& tests, const TreeCost& cost) {
     MeanTests alone;
     alone[kind] = tests[kind];
     return tested(kind) + ": " + figure(tests[kind]) + " tests x " + brief(cost.prices()[kind]) +
-           " ns = " + figure(cost.ns(alone)) + " ns, " + per_cent(cost.part(alone)) + " of the cost";
+           " ns = " + figure(cost.ns(alone)) + " ns";
 }
 
 std::string price_lines(const MeanTests& tests, const TreeCost& cost) {
@@ -95,13 +95,13 @@ void tell(const std::string& text) {
 }
 
 void total(Ui& ui, const TreeCost& cost) {
-    const std::string ns = figure(cost.ns(cost.tests), 3) + " ns";
+    const std::string ns = figure(cost.ns(), 3) + " ns";
     text_line(ui.style.text, ns + " a query", ui.style.title);
     ui.mark_only("cost.total");
     Rect place = Ui::last_rect();
     place.max.x = place.min.x + text_size(*ui.style.title, ns).x;
     const std::string about = formula(cost) + "\n\n" + price_lines(cost.tests, cost);
-    if (!copies(ui, place, {.value = cost.ns(cost.tests), .unit = "ns", .tip = about})) tell(about);
+    if (!copies(ui, place, {.value = cost.ns(), .unit = "ns", .tip = about})) tell(about);
 }
 
 /// What the numbers are about, to choose where the scene has queries.
@@ -116,8 +116,15 @@ void workload_choice(Ui& ui, const TreeCost* cost) {
     }
     if (!cost) return;
     ImGui::PushFont(ui.style.caption);
-    words(ui, ui.style.quiet, (count > 0 ? "" : "standard placements, ") + workload_words(*cost),
-          {cost->area, cost->offset});
+    if (cost->workload == Workload::queries) {
+        words(ui.style.quiet, workload_words(*cost, ui.workspace.most_counted()));
+    } else {
+        const StandardPlacements& of = cost->expected->placements;
+        words(ui, ui.style.quiet,
+              (count > 0 ? "" : "standard placements, ") + workload_words(*cost, ui.workspace.most_counted()),
+              {static_cast<double>(cost->queries), 100 * cost->count.standard_error(), of.area(), of.offset});
+        words(ui.style.quiet, "EV* divides the count among levels and nodes.");
+    }
     ImGui::PopFont();
 }
 
@@ -188,7 +195,7 @@ struct LevelLayout {
         volume = digits("L00 ") + digits("000000");
         fill = volume + digits(" 100 %");
         bar = fill + ui.px(10);
-        bar_end = width - digits(" 100 %");
+        bar_end = width - digits(" 000.0");
     }
 };
 
@@ -202,7 +209,7 @@ void level_headings(Ui& ui, const LevelLayout& at) {
     draw_text(draw, font, corner, ui.style.quiet, "level");
     ending(at.volume, "m\u00B2\u00B7s");
     ending(at.fill, "fill");
-    ending(at.width, "cost");
+    ending(at.width, "ns");
     ImGui::Dummy({at.width, font.FontSize});
 }
 
@@ -215,22 +222,22 @@ std::string level_tooltip(const mobb::LevelFigures* level, const TreeCost* cost,
     }
     if (cost && i < cost->levels.size()) {
         out += "\nTests of pairs of this level's nodes, a query:\n" + price_lines(cost->levels[i], *cost);
-        out += "together " + per_cent(cost->part(cost->levels[i])) + " of the cost\n";
+        out += "together " + figure(cost->ns(cost->levels[i])) + " ns\n";
     }
     return out + "\nclick to show this level, Ctrl and click to copy a number";
 }
 
-/// The levels: volume, how much of it the disks fill, and their part of the cost.
+/// The levels: volume, how much of it the disks fill, and what they cost.
 void levels(Ui& ui, const std::vector<mobb::LevelFigures>& figures, const TreeCost* cost) {
     // Free boxes may take more room the finer they are: their fits overlap.
     double most = 1e-300, costliest = 1e-300;
     for (const mobb::LevelFigures& level : figures) most = std::max(most, level.volume);
-    std::vector<double> parts;
+    std::vector<double> costs;
     if (cost) {
-        for (const MeanTests& level : cost->levels) parts.push_back(cost->part(level));
-        for (const double part : parts) costliest = std::max(costliest, part);
+        for (const MeanTests& level : cost->levels) costs.push_back(cost->ns(level));
+        for (const double level : costs) costliest = std::max(costliest, level);
         // No query came so deep.
-        if (!parts.empty()) parts.resize(std::max(parts.size(), figures.size()));
+        costs.resize(std::max(costs.size(), figures.size()));
     }
     // The largest has three digits, and all of them its decimals.
     const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(most))), 0, 9);
@@ -265,11 +272,10 @@ void levels(Ui& ui, const std::vector<mobb::LevelFigures>& figures, const TreeCo
         const double fill = level ? level->tightness.value_or(0) : 0;
         ending(at.fill, level && level->tightness ? per_cent(fill) : "-",
                {.value = 100 * fill, .unit = "%", .with_ctrl = true});
-        const double part = index < parts.size() ? parts[index] : 0;
-        ending(at.width, index < parts.size() ? per_cent(part) : "-",
-               {.value = 100 * part, .unit = "%", .with_ctrl = true});
-        if (index < parts.size() && parts[index] > 0 && at.bar_end > at.bar) {
-            const float length = (at.bar_end - at.bar) * static_cast<float>(parts[index] / costliest);
+        const double ns = index < costs.size() ? costs[index] : 0;
+        ending(at.width, index < costs.size() ? figure(ns, 3) : "-", {.value = ns, .unit = "ns", .with_ctrl = true});
+        if (ns > 0 && at.bar_end > at.bar) {
+            const float length = (at.bar_end - at.bar) * static_cast<float>(ns / costliest);
             draw.AddRectFilled({corner.x + at.bar, corner.y + ui.px(4)},
                                {corner.x + at.bar + std::max(ui.px(1), length), corner.y + height - ui.px(4)},
                                to_im(with_alpha(ui.style.palette.accent, drawn || over ? 1.0f : 0.6f)), ui.px(2));
@@ -277,7 +283,7 @@ void levels(Ui& ui, const std::vector<mobb::LevelFigures>& figures, const TreeCo
         if (clicked && !copied) ui.invoke("view.level", std::to_string(i));
         if (!copied) tell(level_tooltip(level, cost, index));
     };
-    const int count = static_cast<int>(std::max(figures.size(), parts.size()));
+    const int count = static_cast<int>(std::max(figures.size(), costs.size()));
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     ui.focus.begin_list(ImGui::GetID("levels"), count);
     for (int i = 0; i < count; ++i) {
@@ -289,7 +295,8 @@ void levels(Ui& ui, const std::vector<mobb::LevelFigures>& figures, const TreeCo
 }
 
 /// Instead of a cost that is not known.
-void no_cost_yet(Ui& ui) {
+void no_cost(Ui& ui, const mobb::Tree& tree) {
+    if (const std::string_view why = why_no_cost(tree); !why.empty()) return words(ui.style.quiet, std::string(why));
     if (ui.workspace.workload() == Workload::placements) return text_line(ui.style.quiet, "\u2026", ui.style.title);
     words(ui.style.quiet, "The tests of all queries are not counted.");
     if (small_button(ui, "Count them", "cost.count")) ui.later([](CostInspector& costs) { costs.count(); });
@@ -304,7 +311,7 @@ void cost_section(Ui& ui, QueryInspector& queries, FitCosts& costs, int clip) {
         ui.later([](CostInspector& all) { all.count(); });
     if (!section(ui, "COST", ui.workspace.scene().clips[static_cast<std::size_t>(clip)].name)) return;
     const std::shared_ptr<const TreeCost> cost = ui.workspace.cost_of(clip);
-    cost ? total(ui, *cost) : no_cost_yet(ui);
+    cost ? total(ui, *cost) : no_cost(ui, ui.workspace.fitted().tree(clip));
     workload_choice(ui, cost.get());
     if (cost) kinds(ui, *cost);
     ImGui::Dummy({0, ui.px(2)});

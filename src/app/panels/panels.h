@@ -43,7 +43,6 @@ void conflict_bars(Ui& ui, const CrowdInspector& crowds, const ChartAxis& time, 
 void last_choice(Ui& ui, CrowdInspector& crowds);  ///< of who is followed in a run, with its candidates
 void selection_panel(Ui& ui);                      ///< all numbers of what is selected
 void node_links(Ui& ui);  ///< the way to the selected node, and the nodes beside and below it; of a sample to its leaf
-void what_if_panel(Ui& ui, WhatIfInspector& what_if);  ///< of a selected node: what another would cost; else nothing
 void timeline(Ui& ui, Playback& playback, QueryInspector& queries,
               QueryPictures& pictures);  ///< two clocks: time and step
 

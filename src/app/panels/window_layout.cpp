@@ -225,7 +225,6 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
                 query_panel(ui, ui.session.queries, pictures);
             }
             selection_panel(ui);
-            what_if_panel(ui, ui.session.what_if);
         });
         if (map.height > 0)
             panel(ui, "map", {right, map.height}, [&] { map_panel(ui, ui.session.maps, pictures.map, map); });
@@ -237,8 +236,6 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     }
     ui.workspace.hovered = ui.hovered;
     ui.workspace.hovered_event = ui.hovered_event;
-    // The picture of the next frame shows it.
-    if (std::exchange(ui.session.what_if.pointed, ui.hovered_variant) != ui.hovered_variant) ui.want_frame_in(0);
     status_bar(ui, ui.session.queries, {io.DisplaySize.x, status});
     ImGui::PopStyleVar();
     ImGui::End();

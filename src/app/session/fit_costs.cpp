@@ -22,20 +22,25 @@ bool FitCosts::Task::operator==(const Task& other) const {
     return in->shared_tree(clip) == other.in->shared_tree(other.clip);
 }
 
-/// Nor is one begun again that failed.
+bool FitCosts::has_failed(const Task& task) const { return std::ranges::find(failed_, task) != failed_.end(); }
+
 bool FitCosts::is_known(const Task& task) const {
-    return workspace_.cost_of(*task.in, task.clip) || std::ranges::find(failed_, task) != failed_.end();
+    return task.counts ? workspace_.counted(*task.in) != nullptr : workspace_.cost_of(*task.in, task.clip) != nullptr;
 }
 
-std::optional<FitCosts::Task> FitCosts::next_unknown(int clip) const {
+std::optional<FitCosts::Task> FitCosts::next_wanted(int clip) const {
     const bool counts = workspace_.workload() == QueryWorkload::Kind::queries;
     // Of the active view somebody asks for it (wants_count).
-    if (counts && (!workspace_.cost_of(clip) || !counts_unasked())) return std::nullopt;
+    if (counts && (!workspace_.derived().costs || !counts_unasked())) return std::nullopt;
+    std::optional<Task> more;
     for (const SceneView& seen : views_of(workspace_.document())) {
         const Task task{seen.fitted, clip, counts};
+        if (has_failed(task)) continue;
         if (!is_known(task)) return task;
+        if (!counts && !more && !workspace_.cost_of(*task.in, clip)->count.is_enough(workspace_.most_counted()))
+            more = task;
     }
-    return std::nullopt;
+    return more;
 }
 
 bool FitCosts::is_shown(const Task& task) const {
@@ -49,16 +54,19 @@ bool FitCosts::is_shown(const Task& task) const {
 
 void FitCosts::begin(const Task& task, std::chrono::milliseconds patience) {
     task_ = task;
+    std::shared_ptr<const TreeCost> so_far;
+    if (!task.counts) so_far = workspace_.cost_of(*task.in, task.clip);
     job_ = std::make_unique<Job>(
         "Costs of a tree",
-        [this, task](JobControl& control) -> Job::Finish {
+        [this, task, so_far, most = workspace_.most_counted()](JobControl& control) -> Job::Finish {
             if (task.counts) {
                 auto costs = std::make_shared<const SceneCosts>(scene_costs(*task.in, progress_of(control)));
                 return [this, of = task.in, costs = std::move(costs)] { workspace_.keep_counted(of, costs); };
             }
-            auto cost =
-                std::make_shared<const TreeCost>(standard_cost(task.in->shared_tree(task.clip), progress_of(control)));
-            return [this, cost = std::move(cost)] { workspace_.keep_standard_cost(cost); };
+            auto cost = counted_on(task.in->shared_tree(task.clip), so_far.get(), most, progress_of(control));
+            return [this, task, cost = std::move(cost)] {
+                cost ? workspace_.keep_standard_cost(cost) : failed_.push_back(task);
+            };
         },
         [&at = *desktop_] { at.wake(); });
     job_->wait(options_.attended ? std::min(patience, options_.patience) : std::chrono::hours(24));
@@ -79,10 +87,10 @@ void FitCosts::update(int clip) {
     take_result();
     std::erase_if(failed_, [&](const Task& task) { return !is_shown(task); });
     if (job_ && !is_shown(task_)) end_work();
-    while (const std::optional<Task> task = next_unknown(clip)) {
+    while (const std::optional<Task> task = next_wanted(clip)) {
         // That of another clip gives way.
         if (job_ && (task_.counts || task_.clip == clip)) return;
-        begin(*task, kAtOnce);
+        begin(*task, is_known(*task) ? std::chrono::milliseconds(0) : kAtOnce);
         take_result();
     }
 }
@@ -90,7 +98,7 @@ void FitCosts::update(int clip) {
 void FitCosts::find_when_idle(int clip) {
     take_result();
     const Task task{workspace_.document().fitted, clip, false};
-    if (job_ || workspace_.workload() != QueryWorkload::Kind::placements || is_known(task)) return;
+    if (job_ || workspace_.workload() != QueryWorkload::Kind::placements || is_known(task) || has_failed(task)) return;
     begin(task, std::chrono::milliseconds(0));
     take_result();
 }

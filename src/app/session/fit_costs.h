@@ -1,4 +1,4 @@
-/// What the trees in focus cost, one for each view: found out beside the window and kept by tree.
+/// What the trees in focus cost, one for each view: counted beside the window, on and on, and kept by tree.
 #pragma once
 
 #include <app/document/workspace.h>
@@ -22,11 +22,11 @@ class FitCosts {
     FitCosts(const FitCosts&) = delete;
     FitCosts& operator=(const FitCosts&) = delete;
 
-    /// Whoever shows the cost of the clip in focus calls this before each frame: under standard placements it is worked
-    /// out of all views, and in the scene's queries counted for the views beside the active one, once it is for that,
-    /// unless these are many.
+    /// Whoever shows the cost of the clip in focus calls this before each frame: standard placements are counted of all
+    /// views, a few at first and then until it is enough, and the scene's queries for the views beside the active one,
+    /// once they are for that, unless these are many.
     void update(int clip);
-    /// For other clips: under standard placements the cost in the active view, where nothing else is under way.
+    /// For other clips: the first standard placements in the active view, where nothing else is under way.
     void find_when_idle(int clip);
     /// The fits of all views over a clip, as far as their costs are known.
     const ComparedFits& compared(int clip);
@@ -49,17 +49,20 @@ class FitCosts {
         bool counts = false;
         bool operator==(const Task& other) const;  ///< the same comes out
     };
+    /// Whether it was begun and came to nothing.
+    bool has_failed(const Task& task) const;
+    /// Whether something was found out; of placements more may be wanted.
     bool is_known(const Task& task) const;
     /// Whether a view still has what the task is about.
     bool is_shown(const Task& task) const;
-    std::optional<Task> next_unknown(int clip) const;
-    /// An attended window waits for it so long at most.
+    std::optional<Task> next_wanted(int clip) const;
+    /// Of placements: the first ones, or more than are known. An attended window waits for it so long at most.
     void begin(const Task& task, std::chrono::milliseconds patience);
     void take_result();
 
     Task task_;  ///< the job's
     std::unique_ptr<Job> job_;
-    std::vector<Task> failed_;  ///< of what views show: not begun again
+    std::vector<Task> failed_;  ///< of what views show, not begun again: what has no cost, too
     struct Compared {
         std::vector<std::shared_ptr<const mobb::Tree>> trees;
         std::vector<std::shared_ptr<const TreeCost>> costs;

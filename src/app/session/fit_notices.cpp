@@ -34,7 +34,7 @@ void FitNotices::look(int clip, const std::function<void()>& then) {
     job_ = std::make_unique<Job>(
         "Looking at a fit",
         [this, tree](JobControl& control) -> Job::Finish {
-            std::vector<FitFinding> found = fit_findings(*tree, expected_cost(*tree, *tree), progress_of(control));
+            std::vector<FitFinding> found = fit_findings(*tree, expected_shares(*tree), progress_of(control));
             return [this, tree, found = std::move(found)]() mutable {
                 if (known_.size() == kTreesKept) known_.pop_front();
                 known_.push_back({tree, std::move(found)});

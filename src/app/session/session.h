@@ -16,7 +16,6 @@
 #include <app/session/query_answers.h>
 #include <app/session/recovery.h>
 #include <app/session/sweep_inspector.h>
-#include <app/session/what_if_inspector.h>
 
 #include <any>
 #include <deque>
@@ -98,7 +97,6 @@ class Session {
     CostInspector costs{workspace, jobs, answers};
     FitCosts fit_costs{workspace, notifications, options, desktop};
     SweepInspector sweeps{workspace, notifications, options, desktop};
-    WhatIfInspector what_if{workspace, jobs};
     FitNotices notices{workspace, notifications, options, desktop};
     Excerpts excerpts{workspace, jobs, playback, crowds, counts};
     Files files{{workspace, jobs, edits, imports, dialogs, notifications, playback, settings, settings_file, counts,
@@ -113,8 +111,7 @@ class Session {
     static auto parts(AnySession& s) {
         return std::tie(s.options, s.settings, s.workspace, s.views, s.queries, s.figures, s.nodes, s.notifications,
                         s.queue, s.keys, s.dialogs, s.jobs, s.playback, s.edits, s.imports, s.crowds, s.maps, s.answers,
-                        s.costs, s.fit_costs, s.sweeps, s.what_if, s.notices, s.excerpts, s.files, s.crowd_maker,
-                        s.recovery);
+                        s.costs, s.fit_costs, s.sweeps, s.notices, s.excerpts, s.files, s.crowd_maker, s.recovery);
     }
 
     /// The screen of a type, which add_screen was given.

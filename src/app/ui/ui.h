@@ -81,7 +81,6 @@ struct Ui {
 
     Selection hovered{};       ///< what is under the mouse in this frame, in any panel: the session's in the next
     int hovered_event = -1;    ///< likewise, of the query in view
-    int hovered_variant = -1;  ///< likewise, of what is tried in place of a node
     double frame_seconds = 0;  ///< that the last frame took; 0: not to be shown, as it is never the same
 
     /// Names the last widget for scripts.

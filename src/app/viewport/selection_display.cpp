@@ -25,15 +25,14 @@ bool is_hidden(const SceneView& seen, const PlacedAgent& who) {
     return std::ranges::find(seen.view.hidden, name_in_view(scene, who)) != seen.view.hidden.end();
 }
 
-/// Whose a selection is, under another tree if one is given; none if it is not in the picture.
-std::optional<DrawnAgent> owner_in_view(const SceneView& seen, const Selection& what,
-                                        const mobb::Tree* tree = nullptr) {
+/// Whose a selection is; none if it is not in the picture.
+std::optional<DrawnAgent> owner_in_view(const SceneView& seen, const Selection& what) {
     const FittedScene& fitted = *seen.fitted;
     if (!what.on_path() || !index_in_view(fitted, seen.view, what.path)) return std::nullopt;
     const auto who = placed_agent_of(fitted, what.path);
     if (!who || is_hidden(seen, *who)) return std::nullopt;
     DrawnAgent drawn = drawn_agent_of(fitted, *who);
-    drawn.placed = {tree ? *tree : fitted.tree(who->clip), shown_placement(fitted, seen.view, *who)};
+    drawn.placed = {fitted.tree(who->clip), shown_placement(fitted, seen.view, *who)};
     return drawn;
 }
 
@@ -51,23 +50,6 @@ void add_ancestors_of(DrawList& list, const SceneView& seen, const Selection& se
         return;
     }
     if (seen.view.subtree) add_ancestors_of_part(list, drawn_agents(*seen.fitted, seen.view), seen.view, scale);
-}
-
-/// The box that is tried in place of the selected node's, or those of its children where it is split otherwise.
-void add_variant(DrawList& list, const Session& session, float scale) {
-    const WhatIf* found = session.what_if.found();
-    const auto pointed = static_cast<std::size_t>(session.what_if.pointed);  // of none beyond all
-    if (!found || pointed >= found->variants.size()) return;
-    const NodeVariant& variant = found->variants[pointed];
-    const auto owner = owner_in_view(active_view(session), session.workspace.selection, variant.tree.get());
-    if (!owner) return;
-    if (variant.change.split.value_or(0) == 0) {
-        add_highlight(list, *owner, {AgentPart::Kind::node, found->node}, Role::ghost, scale);
-        return;
-    }
-    for (const int child : variant.tree->children(found->node)) {
-        add_highlight(list, *owner, {AgentPart::Kind::node, child}, Role::ghost, scale);
-    }
 }
 
 /// The two nodes of the event that is under the mouse in another panel.
@@ -116,7 +98,6 @@ void add_highlights(DrawList& list, const Session& session, float scale) {
     add_ancestors_of(list, active_view(session), session.workspace.selection, scale);
     add_pointed_out(list, active_view(session), session.workspace.selection, session.workspace.hovered, scale);
     add_hovered_event(list, session, scale);
-    add_variant(list, session, scale);
     add_candidate(list, session, scale);
     add_other_of_conflict(list, session, scale);
     if (const auto line = measured_in_view(session.workspace)) add_measured_line(list, *line, scale);

@@ -93,7 +93,7 @@ Caption scene_caption(const FittedScene& fitted, std::span<const DrawnAgent> age
     caption.title = fitted.scene().file.stem().string();
     if (!caption.title.empty()) caption.headlines = {caption.title};
     if (view.boxes) caption.detail = fit_words(fitted.options()) + kDot + boxes_text(agents, view.levels);
-    if (box_tests) caption.detail += kDot + figure(*box_tests, 3) + " box tests a query";
+    if (box_tests) caption.detail += kDot + figure(*box_tests, 2) + " box tests a query";
     if (!names_fit(shown_count(agents)) && !is_in_grid(fitted.scene(), view)) {
         const std::string left_out = std::to_string(shown_count(agents)) +
                                      (fitted.scene().agents.empty() ? " clips" : " agents") + ", unnamed here";

@@ -12,6 +12,10 @@ namespace mobbscope {
 
 namespace {
 
+/// Placements of all clips that a caption's mean is counted over: nobody waits for it, and its error is half a per
+/// cent.
+constexpr std::size_t kMostForCaption = std::size_t{1} << 18;
+
 /// The old values where the new ones are the same: whoever depends on them sees by the pointer that nothing changed.
 std::shared_ptr<const std::vector<double>> same_or_new(const std::shared_ptr<const std::vector<double>>& old,
                                                        std::vector<double> values) {
@@ -81,14 +85,17 @@ const FloorLines& KeptPaths::boundary(const ViewState& view) {
     return boundary_->second;
 }
 
-double KeptPaths::box_tests() {
-    if (!box_tests_) {
-        const auto& trees = fitted_->fits()[fitted_->fit_in_use()]->trees;
-        double sum = 0;
-        for (const auto& tree : trees) sum += standard_cost(tree).tests.boxes();
-        box_tests_ = sum / static_cast<double>(trees.size());
+std::optional<double> KeptPaths::box_tests() {
+    if (box_tests_) return *box_tests_;
+    const auto& trees = fitted_->fits()[fitted_->fit_in_use()]->trees;
+    const std::size_t most = std::max(kFirstCounted, kMostForCaption / trees.size());
+    double sum = 0;
+    for (const auto& tree : trees) {
+        const std::shared_ptr<const TreeCost> cost = standard_cost(tree, most);
+        if (!cost) return box_tests_.emplace();
+        sum += cost->tests.boxes();
     }
-    return *box_tests_;
+    return box_tests_.emplace(sum / static_cast<double>(trees.size()));
 }
 
 /// Of one that is drawn without a query.
@@ -153,7 +160,8 @@ void KeptPaths::find_heat(std::span<const DrawnAgent> agents, const Palette& pal
         all.insert(all.end(), of_clip.begin(), of_clip.end());
     }
     ColoredFigure figure = colored_figure(info(field));
-    figure.title = field == NodeField::tests ? "tests of boxes that hold them" : "expected tests that hold them";
+    figure.title =
+        field == NodeField::tests ? "tests of boxes that hold them" : "part of all tests of boxes that hold them";
     heat_->scale = color_scale(figure, all);
     for (const auto& [clip, of_clip] : values) {
         auto colors = std::make_shared<std::vector<Rgba>>();

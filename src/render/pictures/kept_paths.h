@@ -73,8 +73,9 @@ class KeptPaths {
     /// floor_boundary of a view's query.
     const FloorLines& boundary(const ViewState& view);
 
-    /// Of a query of the scene's trees in standard placements, each against itself: the mean over the clips.
-    double box_tests();
+    /// Of a query of the scene's trees in standard placements, each against itself: the mean over the clips, counted.
+    /// None where one of them has no cost (why_no_cost).
+    std::optional<double> box_tests();
 
   private:
     void add_places_of_all(const DrawList& list, std::span<const DrawnAgent> agents);
@@ -130,7 +131,7 @@ class KeptPaths {
     };
     std::optional<Asked> asked_;
     std::optional<std::pair<int, FloorLines>> boundary_;  ///< by query
-    std::optional<double> box_tests_;
+    std::optional<std::optional<double>> box_tests_;
     std::optional<Shapes> shapes_;
     Colors colors_;
     SharedValues<DiskInstance> disks_;
