@@ -11,8 +11,6 @@ namespace mobbscope {
 /// Bytes that any process may spend, and more for each byte of the files that it has read: what is honest needs less.
 inline constexpr std::size_t kFreeBytes = std::size_t{512} << 20;
 inline constexpr std::size_t kBytesPerByteRead = 1000;
-/// So many times that may be spent in all, one thing after the other: that bounds the time.
-inline constexpr std::size_t kSpendings = 4;
 
 /// Raises the budget by a file that was read.
 void raise_budget(std::size_t bytes_read);

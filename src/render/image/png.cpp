@@ -220,8 +220,10 @@ Image read_png_bytes(std::string_view bytes, const std::string& name) {
                          "the picture of " + size_word(size) + " pixels is too large; up to " +
                              std::to_string(kMostPngPixels) + " pixels are read");
     }
+    constexpr std::size_t kOfRow = 32;  // bytes that take as long as a row takes by itself
     auto spent = std::make_shared<Spent>();
-    spent->add(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) * 4, "the picture", name);
+    spent->add((static_cast<std::size_t>(size.width) * 4 + kOfRow) * static_cast<std::size_t>(size.height),
+               "the picture", name);
     Image image(size.width, size.height);
     image.spent = std::move(spent);
     if (!reader.read_pixels(image)) refuse(reader, name);
