@@ -18,6 +18,9 @@ namespace {
 
 constexpr int kOldestVersion = 7100;
 constexpr int kBitsAsIntegers = 7200;
+// Bytes that numbers may take once they are read. A key takes some 140, stored well packed at least 2.
+constexpr std::size_t kLeastBudget = std::size_t{64} << 20;
+constexpr std::size_t kGrowth = 200;
 constexpr std::size_t kStep = std::size_t{1} << 20;  // bytes that an unpacked array grows by
 
 std::size_t width_of(char type) {
@@ -97,7 +100,8 @@ std::vector<std::int64_t> FbxDocument::integers(Index record) { return read<std:
 std::vector<std::uint32_t> FbxDocument::float_bits(Index record) { return read<std::uint32_t>(record); }
 
 void FbxDocument::charge(Index record, std::uint64_t count, std::size_t bytes_each) {
-    if (count > SIZE_MAX / bytes_each || !numbers_.try_add(count * bytes_each))
+    const std::size_t most = std::max(kLeastBudget, kGrowth * bytes_.size());
+    if (count > (most - numbers_.bytes()) / bytes_each || !numbers_.try_add(count * bytes_each))
         fail(record, "claims " + std::to_string(count) + " numbers, too many for this file; export it again");
 }
 

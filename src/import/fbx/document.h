@@ -73,7 +73,7 @@ class FbxDocument {
     std::vector<std::uint32_t> float_bits(Index record);
 
     /// Counts what a record's numbers take in memory. Throws InputError, naming the record, once all of them together
-    /// take more than the budget.
+    /// take far more than a file of this size could need, or more than the budget.
     void charge(Index record, std::uint64_t count, std::size_t bytes_each);
 
     /// "byte 1234" or "line 12".
