@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <memory>
 #include <system_error>
+#include <utility>
 
 namespace mobbscope {
 
@@ -47,27 +48,32 @@ const std::string& standard_input() {
         std::string read;
         if (!read_on(stdin, read)) throw InputError("-", "cannot be read: " + system_message(errno));
         check_size(read.size(), "-");
+        raise_budget(read.size());
         return read;
     }();
     return bytes;
 }
 
 /// What gzip packed, in one piece or several; the first `most` bytes of it where that is less. Throws InputError.
-std::string unpacked(std::string_view packed, const std::string& name, std::uintmax_t most) {
+InputBytes unpacked(std::string_view packed, const std::string& name, std::uintmax_t most) {
     z_stream stream{};
     constexpr int kGzip = 16;
     if (inflateInit2(&stream, MAX_WBITS + kGzip) != Z_OK) throw std::bad_alloc();
     const std::unique_ptr<z_stream, decltype(&inflateEnd)> end(&stream, inflateEnd);
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));  // it is not written to
     stream.avail_in = static_cast<uInt>(packed.size());
-    std::string out;
+    InputBytes all;
+    std::string& out = all.bytes;
     std::vector<char> buffer(1 << 16);
     for (;;) {
         stream.next_out = reinterpret_cast<Bytef*>(buffer.data());
         stream.avail_out = static_cast<uInt>(buffer.size());
         const int status = inflate(&stream, Z_NO_FLUSH);
         out.append(buffer.data(), buffer.size() - stream.avail_out);
-        if (out.size() >= most) return out.substr(0, static_cast<std::size_t>(most));
+        if (out.size() >= most) {
+            out.resize(static_cast<std::size_t>(most));
+            return all;
+        }
         // Of what was read so far: a bomb shows long before it has grown.
         const std::uintmax_t taken = packed.size() - stream.avail_in;
         const std::uintmax_t limit = std::min(kLargestFile, std::max(kAlwaysUnpacked, kMostGrowth * taken));
@@ -75,16 +81,17 @@ std::string unpacked(std::string_view packed, const std::string& name, std::uint
             throw InputError(name, "unpacks to more than " + bytes_text(limit) +
                                        ", which no table of this size does; unpack it by hand if that is right");
         }
+        all.spent.cover(out.size(), "what gzip packed", name);
         if (status == Z_STREAM_END) {
             const std::string_view left = packed.substr(packed.size() - stream.avail_in);
             // What is padded to whole blocks ends in zeros.
-            if (left.find_first_not_of('\0') == std::string_view::npos) return out;
+            if (left.find_first_not_of('\0') == std::string_view::npos) return all;
             if (!left.starts_with(kPackedMark)) {
                 throw InputError(name, "other bytes follow what gzip packed; pack the file again");
             }
             inflateReset(&stream);
         } else if (status == Z_BUF_ERROR || (status == Z_OK && stream.avail_in == 0 && stream.avail_out > 0)) {
-            if (most < UINTMAX_MAX) return out;
+            if (most < UINTMAX_MAX) return all;
             throw InputError(name, "ends within what gzip packed; get the whole file");
         } else if (status == Z_MEM_ERROR) {
             throw std::bad_alloc();
@@ -129,14 +136,16 @@ std::string read_file(const std::filesystem::path& file) {
     }
     if (!read_on(in.get(), bytes)) throw InputError(name, "cannot be read: " + system_message(errno));
     check_size(bytes.size(), name);  // it may have grown meanwhile
+    raise_budget(bytes.size());
     return bytes;
 }
 
 bool is_standard_input(const std::filesystem::path& file) { return file == "-"; }
 
-std::string read_input(const std::filesystem::path& file) {
-    std::string bytes = is_standard_input(file) ? standard_input() : read_file(file);
-    return bytes.starts_with(kPackedMark) ? unpacked(bytes, file.string(), UINTMAX_MAX) : bytes;
+InputBytes read_input(const std::filesystem::path& file) {
+    InputBytes out{is_standard_input(file) ? standard_input() : read_file(file)};
+    if (!out.bytes.starts_with(kPackedMark)) return out;
+    return unpacked(out.bytes, file.string(), UINTMAX_MAX);
 }
 
 std::string read_beginning(const std::filesystem::path& file, std::size_t most) {
@@ -153,7 +162,7 @@ std::string read_beginning(const std::filesystem::path& file, std::size_t most) 
     }
     if (!bytes.starts_with(kPackedMark)) return bytes;
     try {
-        return unpacked(bytes, file.string(), most);
+        return std::move(unpacked(bytes, file.string(), most).bytes);
     } catch (const InputError&) {
         return "";
     }

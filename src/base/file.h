@@ -1,6 +1,8 @@
 /// Whole files, read and written.
 #pragma once
 
+#include <base/budget.h>
+
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -21,10 +23,16 @@ std::string read_file(const std::filesystem::path& file);
 /// Whether a name stands for standard input: "-", where a command takes a scene or a clip.
 bool is_standard_input(const std::filesystem::path& file);
 
+/// What a command works on, and what unpacking it takes of the budget.
+struct InputBytes {
+    std::string bytes;
+    Spent spent{};
+};
+
 /// The bytes of a file that a command works on, which may be standard input; those that gzip packed come unpacked.
 /// Standard input is read once and kept. Throws InputError as read_file does, and for packed bytes that are damaged,
-/// cut off, or grow beyond what a table would.
-std::string read_input(const std::filesystem::path& file);
+/// cut off, or grow beyond what a table would, or beyond the budget.
+InputBytes read_input(const std::filesystem::path& file);
 
 /// At most the first `most` bytes of that; "" if there is no such file, or none that can be read.
 std::string read_beginning(const std::filesystem::path& file, std::size_t most);

@@ -18,6 +18,9 @@ namespace {
 constexpr std::size_t kMaxDepth = 64;
 constexpr std::size_t kLongestComplaint = 160;
 constexpr std::size_t kLongestToken = 80;
+// Bytes of memory: an object becomes something of the program, such as a query; a string stands in a table.
+constexpr std::size_t kOfObject = 512;
+constexpr std::size_t kOfString = 128;
 
 /// Reads characters and tells which was read last: the parser keeps no positions of its own for values.
 class TrackedIterator {
@@ -135,7 +138,17 @@ class JsonTextBuilder : public nlohmann::json_sax<nlohmann::json> {
     }
 
     /// The string as the text keeps it.
-    const std::string* kept(string_t& string) { return &*out_.strings_.insert(std::move(string)).first; }
+    const std::string* kept(string_t& string) {
+        const std::size_t size = string.size();
+        const auto [at, is_new] = out_.strings_.insert(std::move(string));
+        if (is_new) spend(size + kOfString);
+        return &*at;
+    }
+
+    void spend(std::size_t bytes) {
+        used_ += bytes;
+        out_.spent_.cover(used_, "its JSON", file_);
+    }
 
     bool in_object() const { return !open_.empty() && open_.back().is_object; }
 
@@ -158,6 +171,7 @@ class JsonTextBuilder : public nlohmann::json_sax<nlohmann::json> {
         open_.pop_back();
         const auto first = held_.begin() + static_cast<std::ptrdiff_t>(done.first);
         const auto size = static_cast<std::size_t>(held_.end() - first);
+        spend(size * sizeof(T) + (done.is_object ? kOfObject : 0));
         T* list = std::pmr::polymorphic_allocator<T>(out_.lists_.get()).allocate(size);
         for (std::size_t i = 0; i < size; ++i) std::construct_at(list + i, part(first[static_cast<std::ptrdiff_t>(i)]));
         held_.erase(first, held_.end());
@@ -170,6 +184,11 @@ class JsonTextBuilder : public nlohmann::json_sax<nlohmann::json> {
             out_.root_ = value;
         } else {
             held_.push_back({key, value});
+            // As it grows there are two of it.
+            if (held_.size() > most_held_) {
+                most_held_ = held_.capacity();
+                spend(most_held_ * sizeof(JsonMember));
+            }
         }
     }
 
@@ -207,6 +226,8 @@ class JsonTextBuilder : public nlohmann::json_sax<nlohmann::json> {
     const std::string* key_ = nullptr;
     int key_line_ = 0;
     std::vector<const JsonMember*> sorted_;
+    std::size_t used_ = 0;       ///< bytes
+    std::size_t most_held_ = 0;  ///< that were paid for
     JsonText out_;
 };
 

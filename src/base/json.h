@@ -1,6 +1,8 @@
 /// A parsed JSON text whose values know their line.
 #pragma once
 
+#include <base/budget.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -77,13 +79,15 @@ class JsonText {
         std::make_unique<std::pmr::monotonic_buffer_resource>();
     std::unordered_set<std::string> strings_;
     JsonValue root_;
+    Spent spent_;
 };
 
 /// "/key" as it stands in a JSON pointer (RFC 6901), fit for a message: cleaned, and a long key is shortened.
 std::string pointer_token(std::string_view key);
 
 /// Parses UTF-8 JSON (RFC 8259). `file` stands for the text in messages. Throws InputError with line and column where
-/// the syntax is wrong, a key stands twice in an object, a number is beyond double, or values are nested absurdly deep.
+/// the syntax is wrong, a key stands twice in an object, a number is beyond double, values are nested absurdly deep, or
+/// all of it takes more than the budget (base/budget.h).
 JsonText parse_json(std::string_view text, const std::string& file);
 
 /// The most that JsonPlace::integer can give.

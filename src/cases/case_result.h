@@ -22,7 +22,7 @@ enum class CaseOutcome {
     different,       ///< what is held is not the golden's, or an answer not the expected one
     missing_golden,  ///< there is nothing to hold it against
     failed,          ///< the case cannot be read or drawn
-    skipped,         ///< by the case, or its picture alone, as there is no OpenGL
+    skipped,         ///< by the case, or its picture alone, as there is no OpenGL or no process that draws
 };
 
 /// What reports and the window call an outcome.
@@ -75,7 +75,7 @@ struct CaseResult {
     /// asked for.
     std::vector<GoldenChange> fresh;
     DrawnBy drawn_by;
-    std::string not_drawn;                    ///< why its picture was not drawn, without OpenGL; else empty
+    std::string not_drawn;                    ///< why its picture was not drawn: no OpenGL, no process; else empty
     std::vector<std::filesystem::path> read;  ///< by the process that drew it and not told before; from the root
 };
 

@@ -47,6 +47,14 @@ CaseResult failed(const CaseFile& file, std::string why) {
     return out;
 }
 
+/// Of a case that the machine kept from being drawn: nothing is known of it.
+CaseResult not_drawn(const CaseFile& file, std::string why) {
+    CaseResult out = failed(file, why);
+    out.outcome = CaseOutcome::skipped;
+    out.not_drawn = std::move(why);
+    return out;
+}
+
 /// A process that draws one case after the other.
 class CaseProcess {
   public:
@@ -82,8 +90,8 @@ class CaseProcess {
         if (has_ended) return over(failed(file, how_it_ended_here()));
         if (said_.size() > kMostLine) return over(failed(file, "the process that draws said what is no result"));
         if (seconds() <= (is_ready_ ? limit_ : kPatienceWithItsStart)) return std::nullopt;
-        return over(failed(file, is_ready_ ? "took longer than " + brief(limit_) + " s (time_limit)"
-                                           : "OpenGL did not start within " + brief(kPatienceWithItsStart) + " s"));
+        if (is_ready_) return over(failed(file, "took longer than " + brief(limit_) + " s (time_limit)"));
+        return over(not_drawn(file, "OpenGL did not start within " + brief(kPatienceWithItsStart) + " s"));
     }
 
     /// Until it says something, or a while.
@@ -272,7 +280,7 @@ class CaseProcesses {
             // Fewer do; without any, each case tries anew.
             most_ = std::max<std::size_t>(at_work_.size(), 1);
             const CaseOrder* order = at_work_.empty() ? queue_.next() : nullptr;
-            if (order) told(failed(order->file, why));
+            if (order) told(not_drawn(order->file, why));
             return false;
         }
     }

@@ -5,6 +5,7 @@
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
+#include <cli/text_rows.h>
 #include <conflicts/conflicts.h>
 #include <conflicts/plan_conflicts.h>
 #include <crowd/simulation/simulate.h>
@@ -175,7 +176,8 @@ std::string plan_conflicts_in_words(const std::vector<PlanConflict>& found) {
 
 void print_text(const Findings& findings) {
     const PeopleConflicts& conflicts = findings.conflicts;
-    for (std::size_t i = 0; i < conflicts.size(); ++i) {
+    const std::size_t listed = std::min(conflicts.size(), TextRows::kMost);
+    for (std::size_t i = 0; i < listed; ++i) {
         const PeopleConflict conflict = conflicts[i];
         const Conflict& deepest = conflict.deepest;
         const glm::dvec2 position = findings.position(deepest);
@@ -191,6 +193,7 @@ void print_text(const Findings& findings) {
                   << findings.b_sample(deepest)
                   << (findings.of_plan(deepest) ? plan_conflicts_in_words(findings.in_plan(deepest)) : "") << '\n';
     }
+    tell_left_out(std::cout, conflicts.size() - listed);
     std::cout << conflict_count(conflicts.size(), findings.people.count(), conflicts.seconds()) << "; "
               << conflicts.pairs_tested() << " of " << counted(conflicts.pairs(), "pair", "pairs") << " tested\n";
     if (findings.unforced.value_or(0) > 0)

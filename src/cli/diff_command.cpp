@@ -14,6 +14,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::cli {
@@ -57,8 +58,8 @@ Image strip_of(const DiffCommandArguments& arguments, const Image& a, const Imag
     return at_place(arguments.strip->string(), "", [&] { return make_strip(pictures); });
 }
 
-/// Both or none.
-void write_pictures(const DiffCommandArguments& arguments, const Image& a, const Image& b, const ImageDiff& found) {
+/// Both or none. Takes the pictures: while the largest strips are packed there is no room for them.
+void write_pictures(const DiffCommandArguments& arguments, Image a, Image b, ImageDiff& found) {
     std::string strip, heat;
     std::vector<FileBytes> files;
     if (arguments.heat && found.same_size) {
@@ -66,7 +67,9 @@ void write_pictures(const DiffCommandArguments& arguments, const Image& a, const
         files.push_back({*arguments.heat, heat});
     }
     if (arguments.strip) {
-        strip = png_bytes(strip_of(arguments, a, b, found));
+        const Image pictures = strip_of(arguments, a, b, found);
+        a = b = found.heat = {};
+        strip = png_bytes(pictures);
         files.push_back({*arguments.strip, strip});
     }
     write_files(files);
@@ -77,11 +80,11 @@ void write_pictures(const DiffCommandArguments& arguments, const Image& a, const
 int run_diff(const DiffCommandArguments& arguments) {
     check_picture_name(arguments.heat);
     check_picture_name(arguments.strip);
-    const Image a = read_png(arguments.a);
-    const Image b = read_png(arguments.b);
-    const ImageDiff found = compare(arguments, a, b);
+    Image a = read_png(arguments.a);
+    Image b = read_png(arguments.b);
+    ImageDiff found = compare(arguments, a, b);
     check_outputs(arguments);
-    write_pictures(arguments, a, b, found);
+    write_pictures(arguments, std::move(a), std::move(b), found);
     if (arguments.json) {
         JsonWriter out(std::cout);
         write_diff(out, found);

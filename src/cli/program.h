@@ -24,6 +24,7 @@ enum ExitStatus : int {
     kFailed = 1,     ///< the comparison or check asked for failed
     kBadInput = 2,   ///< bad usage or bad input
     kNoMachine = 3,  ///< the machine lacks something: no GL, cannot write
+    kNotJudged = 4,  ///< tests of which some could not be judged, and none failed
 };
 
 /// Bad usage: the program says what is wrong, names --help, and exits with 2.

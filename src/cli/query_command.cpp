@@ -5,6 +5,7 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <cli/query_comparisons.h>
+#include <cli/text_rows.h>
 #include <explain/avoidable.h>
 #include <explain/body_words.h>
 #include <explain/certificate_file.h>
@@ -114,9 +115,9 @@ void check_bodies(const FittedScene& fitted, const std::filesystem::path& file) 
     throw InputError(file.string(), "", "no query is of two bodies: " + why);
 }
 
-/// A sentence, the proof, the counts, and what else was asked for.
+/// A sentence, the proof, the counts, and what else was asked for. Events of a trace take rows.
 void print_answer(std::ostream& out, std::size_t index, const SceneQuery& query, const Answer& answer,
-                  const AvoidableOverlaps& avoidable, const std::optional<Proven>& proven) {
+                  const AvoidableOverlaps& avoidable, const std::optional<Proven>& proven, TextRows& rows) {
     out << index << ": " << sentence(query, answer.contact) << '\n';
     if (proven) out << "   " << proof_words(proven->proof, proven->ends) << '\n';
     if (proven && proven->margins) out << "   " << margin_words(*proven->margins, cleaned(query.b.name)) << '\n';
@@ -139,7 +140,11 @@ void print_answer(std::ostream& out, std::size_t index, const SceneQuery& query,
     }
     if (answer.trace) {
         out << "   Trace (node of " << cleaned(query.a.name) << " x node of " << cleaned(query.b.name) << ")";
-        const auto print = [&](int step) { print_event(out, step, query, (*answer.trace)[step], avoidable.at(step)); };
+        std::size_t left_out = 0;
+        const auto print = [&](int step) {
+            rows.take() ? print_event(out, step, query, (*answer.trace)[step], avoidable.at(step))
+                        : static_cast<void>(++left_out);
+        };
         if (!answer.steps) {
             out << ":\n";
             for (int step = 0; step < answer.trace->size(); ++step) print(step);
@@ -147,6 +152,7 @@ void print_answer(std::ostream& out, std::size_t index, const SceneQuery& query,
             out << ", " << answer.steps->size() << " of " << counted(answer.trace->size(), "event", "events") << ":\n";
             std::ranges::for_each(*answer.steps, print);
         }
+        tell_left_out(out, left_out, "   ");
         if (answer.trace->stopped()) out << "   Here " << recording_words(*answer.trace) << ".\n";
     }
 }
@@ -208,8 +214,16 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
         json.begin_array("results");
     }
     std::vector<QueryCertificate> proofs;
+    TextRows rows;
+    std::size_t listed = 0;
+    // Of those that are not listed an answer may be expected, but not of all pairs of agents.
+    const bool needs_all = !arguments.certificate.empty() || !fitted.scene().queries.empty();
     for (std::size_t index = 0; index < fitted.queries().size(); ++index) {
+        const bool is_listed = arguments.json || rows.take();
+        if (is_listed) ++listed;
+        if (!is_listed && !needs_all) break;
         const SceneQuery query = fitted.queries()[index];
+        if (!is_listed && !query.expect && arguments.certificate.empty()) continue;
         AvoidableOverlaps avoidable;
         Answer found = judged_answer(fitted, query, arguments, avoidable, blame);
         if (where) found.steps = steps_to_tell(fitted, query, *found.trace, avoidable, *where);
@@ -220,8 +234,8 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
             write_answer(json, index, query, found);
             if (arguments.bodies) write_bodies_of(json, fitted, query, arguments.bone_radius);
             json.end_object();
-        } else {
-            print_answer(std::cout, index, query, found, avoidable, arguments.proof ? proven : std::nullopt);
+        } else if (is_listed) {
+            print_answer(std::cout, index, query, found, avoidable, arguments.proof ? proven : std::nullopt, rows);
             if (arguments.bodies) print_bodies(std::cout, fitted, query, arguments.bone_radius);
         }
         if (!arguments.certificate.empty()) proofs.push_back({static_cast<int>(index), proven->proof});
@@ -234,6 +248,7 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
         if (arguments.details.trace && arguments.details.search == Search::trees) write_blame(json, fitted, blame);
         json.end_object();
     }
+    tell_left_out(std::cout, fitted.queries().size() - listed);
     flush_results();
     if (!arguments.certificate.empty()) write_file(arguments.certificate, certificate_text(fitted, proofs));
     return complaints;

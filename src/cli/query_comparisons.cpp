@@ -3,6 +3,7 @@
 #include <base/text.h>
 #include <cli/program.h>
 #include <cli/query_comparisons.h>
+#include <cli/text_rows.h>
 #include <explain/query_sentence.h>
 #include <explain/trace_comparison.h>
 #include <scene/answer.h>
@@ -223,7 +224,12 @@ int compare_queries(const FittedScene& fitted, const mobb::FitOptions& other, bo
         out.begin_object();
         out.begin_array("comparisons");
     }
+    TextRows rows;
     for (std::size_t index = 0; index < fitted.queries().size(); ++index) {
+        if (!json && !rows.take()) {
+            tell_left_out(std::cout, fitted.queries().size() - index);
+            break;
+        }
         const SceneQuery query = fitted.queries()[index];
         const RecordedQuery recorded = record(fitted, query);
         const FitComparison compared =

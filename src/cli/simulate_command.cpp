@@ -94,7 +94,10 @@ class Report {
         say("simulated " + brief(std::round(counts.simulated * 10) / 10) + " of " + brief(seconds_) +
             " s: " + std::to_string(counts.agents) + " agents, " + std::to_string(counts.choices) + " choices, " +
             std::to_string(counts.off_floor + counts.colliding) + " candidates discarded, " +
-            std::to_string(counts.pivots) + " turned on the way, " + std::to_string(counts.forced) + " forced");
+            std::to_string(counts.pivots) + " turned on the way, " + std::to_string(counts.forced) + " forced" +
+            (is_slow && counts.looked_at > 0
+                 ? "; the next choice has looked at " + std::to_string(counts.looked_at) + " ways on"
+                 : ""));
     }
 
   private:

@@ -25,6 +25,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <iterator>
@@ -211,6 +213,37 @@ void write_contact_sheet(const TestCommandArguments& arguments, const picture_te
 
 // --- the run
 
+/// The signal that asked for the end of the run; 0: none.
+volatile std::sig_atomic_t asked_to_end = 0;
+
+/// While this lives, a signal that would end the program is noted; a second one ends it.
+class EndIsNoted {
+  public:
+    EndIsNoted() {
+        for (std::size_t i = 0; i < kSignals.size(); ++i) {
+            before_[i] = std::signal(kSignals[i], note);
+            if (before_[i] == SIG_IGN) std::signal(kSignals[i], SIG_IGN);
+        }
+    }
+    ~EndIsNoted() {
+        for (std::size_t i = 0; i < kSignals.size(); ++i) std::signal(kSignals[i], before_[i]);
+    }
+    EndIsNoted(const EndIsNoted&) = delete;
+    EndIsNoted& operator=(const EndIsNoted&) = delete;
+
+  private:
+    static constexpr std::array<int, 3> kSignals{SIGINT, SIGTERM, SIGHUP};
+    static void note(int signal) {
+        if (asked_to_end != 0) {
+            remove_unfinished_files();
+            std::signal(signal, SIG_DFL);
+            std::raise(signal);
+        }
+        asked_to_end = signal;
+    }
+    std::array<void (*)(int), kSignals.size()> before_{};
+};
+
 /// The results in the order of the cases, whatever the order in which they come.
 class OrderedResults {
   public:
@@ -227,7 +260,14 @@ class OrderedResults {
         if (next_ == results_.size() || !is_there_[next_]) return nullptr;
         return &results_[next_++];
     }
-    std::vector<CaseResult>& all() { return results_; }
+    /// Those that are there.
+    std::vector<CaseResult> take() {
+        std::vector<CaseResult> out;
+        for (std::size_t i = 0; i < results_.size(); ++i) {
+            if (is_there_[i]) out.push_back(std::move(results_[i]));
+        }
+        return out;
+    }
 
   private:
     std::map<std::string, std::size_t> places_;
@@ -242,7 +282,7 @@ void drop_pictures(CaseResult& result) {
     result.fresh.clear();
 }
 
-/// What is to be said of all results; why nothing could be drawn, or empty.
+/// What is to be said of all results; why a picture could not be drawn, or empty.
 std::string add_facts(RunFacts& facts, std::span<const CaseResult> results) {
     std::string no_opengl;
     for (const CaseResult& result : results) {
@@ -255,12 +295,11 @@ std::string add_facts(RunFacts& facts, std::span<const CaseResult> results) {
     return no_opengl;
 }
 
-/// What is to be seen of what did not pass, and all of it as a report.
-void keep_all(const TestCommandArguments& arguments, std::span<const CaseResult> results) {
-    for (const CaseResult& result : results) keep_pictures(result, arguments.output);
+/// What of all that did not pass goes into the report of the output folder.
+void keep_report(const TestCommandArguments& arguments, std::span<const CaseResult> results, bool is_whole) {
     using picture_tests::Cases;
     const std::string replaced =
-        add_to_case_report(arguments.output, arguments.folder, results, is_part(arguments) ? Cases::some : Cases::all);
+        add_to_case_report(arguments.output, arguments.folder, results, is_whole ? Cases::all : Cases::some);
     if (!replaced.empty()) warn(replaced);
 }
 
@@ -353,6 +392,7 @@ void take(const TestCommandArguments& arguments, std::vector<CaseResult>& result
 }
 
 /// Draws the cases; of each the result goes where it is wanted as soon as it is there. Returns what else went wrong.
+/// Stops where the end is asked for.
 std::vector<std::string> draw_all(const TestCommandArguments& arguments, const std::vector<CaseFile>& cases,
                                   OrderedResults& results, picture_tests::ContactSheet& sheet) {
     std::vector<picture_tests::CaseOrder> orders;
@@ -372,7 +412,50 @@ std::vector<std::string> draw_all(const TestCommandArguments& arguments, const s
         }
     };
     const picture_tests::CaseDrawer drawer{.backend = arguments.backend, .jobs = arguments.jobs};
-    return draw_cases(drawer, arguments.folder, orders, take_in, [] {});
+    struct Ended {};
+    try {
+        return draw_cases(drawer, arguments.folder, orders, take_in, [] {
+            if (asked_to_end != 0) throw Ended();
+        });
+    } catch (const Ended&) {
+        return {};
+    }
+}
+
+/// What is written of a run. What the machine does not take is said, and the rest written all the same: the verdicts
+/// are wanted all the more. True if all was written.
+bool write_all(const TestCommandArguments& arguments, const RunFacts& facts, std::vector<CaseResult>& results) {
+    std::vector<std::string> faults;
+    const auto attempt = [&](const auto& work) {
+        try {
+            work();
+            return true;
+        } catch (const MachineError& error) {
+            if (std::ranges::find(faults, error.what()) == faults.end()) faults.emplace_back(error.what());
+            return false;
+        }
+    };
+    const bool is_whole = facts.ended.empty();
+    if (is_whole) attempt([&] { take(arguments, results); });
+    attempt([&] {
+        for (const CaseResult& result : results) keep_pictures(result, arguments.output);
+    });
+    attempt([&] { keep_report(arguments, results, is_whole && !is_part(arguments)); });
+    attempt([&] { write_report(arguments.junit, picture_tests::write_junit, facts, results); });
+    attempt([&] { write_report(arguments.html, picture_tests::write_html, facts, results); });
+    const bool printed = attempt([&] { print_results(arguments, facts, results); });
+    for (const std::string& fault : faults) complain(fault);
+    if (!printed) {
+        std::string said = sum_of(picture_tests::summary(results));
+        const char* separator = ": ";
+        for (const CaseResult& result : results) {
+            if (result.outcome == picture_tests::CaseOutcome::passed) continue;
+            said.append(separator).append(result.file.name).append(" (").append(name(result.outcome)).append(")");
+            separator = ", ";
+        }
+        complain(said);
+    }
+    return faults.empty();
 }
 
 /// Answers the tests of another program, a case a line.
@@ -428,30 +511,32 @@ int draw_and_hold(const TestCommandArguments& arguments) {
 
     OrderedResults ordered(cases);
     picture_tests::ContactSheet sheet(cases.size());
+    std::optional<EndIsNoted> noted;
+    if (!arguments.json_lines) noted.emplace();  // its lines are written already
     const std::vector<std::string> complaints = draw_all(arguments, cases, ordered, sheet);
     for (const std::string& complaint : complaints) warn(complaint);
-    std::vector<CaseResult>& results = ordered.all();
-    const std::string no_opengl = add_facts(facts, results);
-    if (!arguments.json_lines) {
-        take(arguments, results);
-        keep_all(arguments, results);
-        write_report(arguments.junit, picture_tests::write_junit, facts, results);
-        write_report(arguments.html, picture_tests::write_html, facts, results);
-        print_results(arguments, facts, results);
+    std::vector<CaseResult> results = ordered.take();
+    if (asked_to_end != 0)
+        facts.ended = "ended after " + std::to_string(results.size()) + " of " + counted(cases.size(), "case", "cases");
+    const std::string not_drawn = add_facts(facts, results);
+    bool is_written = arguments.json_lines || write_all(arguments, facts, results);
+    if (!facts.ended.empty()) {
+        noted.reset();
+        std::raise(asked_to_end);
     }
     const bool ok = is_ok(facts, results) && complaints.empty();
-    if (!no_opengl.empty()) {
-        if (ok) throw MachineError(no_opengl);
-        warn(no_opengl);
-    }
+    // What differs weighs more.
+    if (!not_drawn.empty()) ok ? complain(not_drawn) : warn(not_drawn);
     try {
-        write_contact_sheet(arguments, sheet, results);
+        if (!ok || not_drawn.empty() || !facts.backend.empty()) write_contact_sheet(arguments, sheet, results);
     } catch (const MachineError& error) {
-        // What differs weighs more.
-        if (ok) throw;
-        warn(arguments.contact_sheet.string() + ": not written: " + error.what());
+        const std::string message = arguments.contact_sheet.string() + ": not written: " + error.what();
+        ok ? complain(message) : warn(message);
+        is_written = false;
     }
-    return ok ? kDone : kFailed;
+    if (!ok) return kFailed;
+    if (!not_drawn.empty()) return facts.backend.empty() ? kNoMachine : kNotJudged;
+    return is_written ? kDone : kNoMachine;
 }
 
 /// Throws InputError for an option that says nothing where standard input says which cases are drawn.

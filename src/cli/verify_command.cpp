@@ -23,7 +23,7 @@ int run_verify(VerifyCommandArguments& arguments) {
     const mobb::FitOptions fit = loaded.fit;
     const FittedScene scene(std::move(loaded), fit);
     const std::string name = shown_name(arguments.certificate);
-    const std::vector<QueryCertificate> all = read_certificates(read_input(arguments.certificate), name, scene);
+    const std::vector<QueryCertificate> all = read_certificates(read_input(arguments.certificate).bytes, name, scene);
     std::size_t failed = 0;
     for (const QueryCertificate& each : all) {
         const SceneQuery query = scene.queries()[static_cast<std::size_t>(each.query)];

@@ -210,6 +210,13 @@ PeopleConflict put_together(int a, int b, std::span<const Conflict> of_paths) {
     return out;
 }
 
+/// Throws InputError if so many bytes for pairs of a crowd are beyond the budget.
+void cover(Spent& spent, std::size_t bytes) {
+    if (!spent.try_cover(bytes))
+        throw InputError(
+            "too many pairs of the crowd come near each other for the memory; leave agents out, or give --trim");
+}
+
 void keep_each_once(std::vector<std::pair<int, int>>& pairs) {
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -227,12 +234,15 @@ std::vector<std::pair<int, int>> near_pairs(std::span<const mobb::PlacedTree> cr
     std::vector<std::vector<const PathPiece*>> present(std::bit_ceil(pieces.size()));
     std::vector<const PathPiece*> met_by(crowd.size());  // by member: the last piece that was near a piece of it
     std::size_t room = kPairsAtFirst;
+    Spent spent;
     for (const PathPiece& piece : pieces) {
         // Those who walk together are found again with each of their pieces.
         if (pairs.size() > room) {
             keep_each_once(pairs);
             room = std::max(kPairsAtFirst, 2 * pairs.size());
         }
+        // While it grows there are two of it.
+        cover(spent, 2 * pairs.size() * sizeof(pairs[0]));
         grid.for_each_cell(piece, [&](std::size_t cell) {
             std::vector<const PathPiece*>& others = present[cell & (present.size() - 1)];
             std::erase_if(others, [&](const PathPiece* other) { return other->t1 <= piece.t0; });
@@ -296,6 +306,7 @@ PeopleConflicts::PeopleConflicts(std::span<const mobb::PlacedTree> crowd, std::s
     }
     first_path_.push_back(paths);
     if (search == Search::trees) near_ = near_pairs(crowd_);
+    ranked_.reserve(near_.size());
     const std::size_t all =
         search == Search::trees ? near_.size() : crowd_.size() * (std::max<std::size_t>(crowd_.size(), 1) - 1) / 2;
     std::size_t done = 0;
@@ -311,6 +322,7 @@ PeopleConflicts::PeopleConflicts(std::span<const mobb::PlacedTree> crowd, std::s
         });
         for (const auto& [other, conflicts] : met) {
             PeopleConflict found = put_together(person, other, conflicts);
+            cover(spent_, near_.size() * sizeof(near_[0]) + (ranked_.size() + 1) * sizeof(Ranked));
             ranked_.push_back(
                 {found.deepest.least_clearance, found.seconds(), found.worst().t0, found.a, found.b, ranked_.size()});
             if (kept_.size() < kMostKept) kept_.push_back(std::move(found));

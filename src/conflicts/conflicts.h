@@ -1,6 +1,7 @@
 /// Who comes too close to whom: every pair of a crowd that collides, found through the trees.
 #pragma once
 
+#include <base/budget.h>
 #include <mobb/placed_tree.h>
 #include <mobb/query.h>
 #include <scene/crowd_run.h>
@@ -31,7 +32,7 @@ struct Conflict {
 
 /// Pairs (a, b) of indices into the crowd, a < b, of those whose disks may meet; it leaves out no pair that collides
 /// (mobb/predicate.h). In order, each once. Time and memory grow with the number of samples and with how many are near
-/// each other, not with the square of the crowd.
+/// each other, not with the square of the crowd. Throws InputError if they take more than the budget (base/budget.h).
 std::vector<std::pair<int, int>> near_pairs(std::span<const mobb::PlacedTree> crowd);
 
 /// Two people who collide, over all the paths that they walk.
@@ -91,6 +92,7 @@ class PeopleConflicts {
     std::size_t tested_ = 0;
     std::vector<Ranked> ranked_;
     std::vector<PeopleConflict> kept_;  ///< the first that were found
+    Spent spent_;                       ///< of the budget
 };
 
 /// "2 conflicts among 22 agents, 1.3 s in all": a conflict is a pair of people.

@@ -41,9 +41,12 @@ ImportOffer table_offer(const CsvFile& table, const std::filesystem::path& file,
 
 /// What `read` makes of a file, and the clips and the offer of that.
 template <auto read, auto to_clips, auto to_offer>
-ParsedFile parse_once(const std::filesystem::path& file, std::string bytes) {
-    using Parsed = decltype(read(std::move(bytes), file.string()));
-    const auto parsed = std::make_shared<const Parsed>(read(std::move(bytes), file.string()));
+ParsedFile parse_once(const std::filesystem::path& file, InputBytes input) {
+    using Parsed = decltype(read(std::move(input.bytes), file.string()));
+    const auto parsed = std::make_shared<const Parsed>(read(std::move(input.bytes), file.string()));
+    // A table keeps its text.
+    const auto spent =
+        std::make_shared<const Spent>(std::is_same_v<Parsed, CsvFile> ? std::move(input.spent) : Spent());
     const auto checked = [file](const ImportOptions& options) {
         at_place(file.string(), "", [&] { check(options); });
         if (options.columns && !std::is_same_v<Parsed, CsvFile>)
@@ -52,6 +55,7 @@ ParsedFile parse_once(const std::filesystem::path& file, std::string bytes) {
     };
     return {[=](const ImportOptions& options) {
                 checked(options);
+                static_cast<void>(spent);
                 std::vector<ImportedClip> clips = to_clips(*parsed, file, options);
                 for (ImportedClip& clip : clips) warn_of_long_held_step(*clip.clip, clip.facts.warnings);
                 return clips;
@@ -64,7 +68,7 @@ ParsedFile parse_once(const std::filesystem::path& file, std::string bytes) {
 
 /// One kind of file, whatever its name.
 struct FileReader {
-    ParsedFile (*parse)(const std::filesystem::path&, std::string bytes);
+    ParsedFile (*parse)(const std::filesystem::path&, InputBytes input);
     Contents contents;
     /// Whether bytes are of this kind, by their first kHead of them; null: their name tells.
     bool (*holds)(std::string_view) = nullptr;
@@ -178,7 +182,8 @@ ParsedFile parse_clip_file(const std::filesystem::path& file) {
         throw InputError(file.string(), "", "no such file or folder; check the path");
     const char* what = "no reader for this kind of file";
     if (format || is_there) {
-        std::string bytes = read_input(file);
+        InputBytes input = read_input(file);
+        const std::string& bytes = input.bytes;
         if (bytes.empty() && !format) throw InputError(file.string(), "", "is empty; give a table or tracks");
         const FileReader* reader = reader_of(bytes, is_motion);
         if (!reader && is_motion) reader = format->reader;
@@ -187,7 +192,7 @@ ParsedFile parse_clip_file(const std::filesystem::path& file) {
             if (const auto kind = foreign_kind(bytes)) throw InputError(file.string(), "", *kind);
             if (format) reader = format->reader;
         }
-        if (reader) return reader->parse(file, std::move(bytes));
+        if (reader) return reader->parse(file, std::move(input));
         const auto is_control = [](char c) { return c >= 0 && c < ' ' && c != '\t' && c != '\n' && c != '\r'; };
         if (is_utf8(bytes) && std::ranges::none_of(bytes, is_control))
             what = "looks like text, but no table with a header such as id,t,x,y, no rows of numbers and no plan";

@@ -357,6 +357,7 @@ void write_facts(std::ostream& out, const RunFacts& facts, std::span<const CaseR
     write_fact(out, "Result", sum_of(summary(results)));
     write_fact(out, "Folder", facts.folder);
     if (!facts.shard.empty()) write_fact(out, "Shard", facts.shard);
+    if (!facts.ended.empty()) write_fact(out, "The run was", facts.ended);
     if (const std::string by = drawn_by(facts, results); !by.empty()) write_fact(out, "Drawn by", by);
     if (const std::string passed = differing_passes(results); !passed.empty()) write_fact(out, "Passed", passed);
     for (const std::string& orphan : facts.orphans) write_fact(out, "No case has", orphan);

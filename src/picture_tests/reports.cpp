@@ -130,6 +130,7 @@ void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
     out << cleaned(facts.folder) << (facts.shard.empty() ? "" : ", shard " + facts.shard) << ": "
         << sum_of(summary(results));
     if (const std::string by = drawn_by(facts, results); !by.empty()) out << "; drawn by " << cleaned(by);
+    if (!facts.ended.empty()) out << "; " << facts.ended;
     out << '\n';
     if (const std::string differing = differing_passes(results); !differing.empty()) out << differing << '\n';
     if (!updatable.empty()) {
@@ -146,6 +147,7 @@ void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
     json.member("backend", drawn_by(facts, results).empty() ? kDrawsNothing : facts.backend);
     json.member("renderer", facts.renderer);
     if (!facts.shard.empty()) json.member("shard", facts.shard);
+    if (!facts.ended.empty()) json.member("ended", facts.ended);
     const Summary sum = summary(results);
     json.begin_object("summary", JsonWriter::Layout::row);
     for (std::size_t i = 0; i < sum.counts.size(); ++i) json.member(kOutcomeWords[i].key, sum.counts[i]);
@@ -180,6 +182,7 @@ void write_junit(std::ostream& out, const RunFacts& facts, std::span<const CaseR
     out << "    <properties>\n      <property name=\"backend\"" << attribute("value", facts.backend)
         << "/>\n      <property name=\"renderer\"" << attribute("value", facts.renderer) << "/>\n";
     if (!facts.shard.empty()) out << "      <property name=\"shard\"" << attribute("value", facts.shard) << "/>\n";
+    if (!facts.ended.empty()) out << "      <property name=\"ended\"" << attribute("value", facts.ended) << "/>\n";
     for (const std::string& orphan : facts.orphans) {
         out << "      <property name=\"" << kOrphan << '"' << attribute("value", orphan) << "/>\n";
     }

@@ -21,14 +21,15 @@ struct RunFacts {
     std::vector<std::string> orphans{};  ///< goldens that no case has
     bool strict = false;                 ///< whether they make the run fail
     std::string shard{};  ///< "2/3": only every third case, from the second; empty: all that were asked for
+    std::string ended{};  ///< "ended after 12 of 40 cases", of which alone the report tells; empty: all were run
 };
 
 /// Of each case that did not pass, and of each that did although something differs, a line with the most important fact
 /// and further lines below it; what is to be known of the run, and the sum.
 void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
-/// {"folder", "backend", "renderer", "shard": "2/3" of a shard, "summary": {...}, "orphans": [...], "cases": [{"name",
-/// "outcome", "message", "remarks": [...], "seconds", "tolerance", "diff": {...} or null}]}; `diff` as in `mobbscope
-/// diff
+/// {"folder", "backend", "renderer", "shard": "2/3" of a shard, "ended" of a run that was, "summary": {...}, "orphans":
+/// [...], "cases": [{"name", "outcome", "message", "remarks": [...], "seconds", "tolerance", "diff": {...} or null}]};
+/// `diff` as in `mobbscope diff
 /// --json`; `tolerance` is null where draws_nothing, and `backend` is "none" if that is so of all.
 void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
 /// JUnit's XML: a failed picture is a failure, one that could not be drawn an error; with `strict` orphans are a test

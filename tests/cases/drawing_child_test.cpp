@@ -129,6 +129,14 @@ TEST_F(DrawCasesTest, AProcessThatDiesBetweenCasesIsSaidAndReplaced) {
     EXPECT_EQ(complaints, std::vector<std::string>{"after its last case: the process that draws ended with status 5"});
 }
 
+TEST_F(DrawCasesTest, OfWhatNoProcessCanDrawNothingIsKnown) {
+    draw("    b) rm \"$0\"; exit 7 ;;", 1);
+    EXPECT_EQ(message_of("b"), "failed: the process that draws ended with status 7");
+    EXPECT_TRUE(message_of("c").starts_with("skipped: no process that draws can be started: ")) << message_of("c");
+    EXPECT_EQ(result_of("c").not_drawn, result_of("c").message);
+    EXPECT_EQ(sum()[CaseOutcome::skipped], static_cast<int>(kCases) - 2);
+}
+
 TEST_F(DrawCasesTest, AProgramThatIsNotThereIsNoMachine) {
     const auto nothing = [](const CaseResult&) {};
     try {

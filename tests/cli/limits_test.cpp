@@ -12,6 +12,7 @@
 #include <render/image/png.h>
 #include <render/pictures/build_draw_list.h>
 #include <support/folders.h>
+#include <support/gzip.h>
 #include <support/png_file.h>
 #include <support/temp_folder.h>
 
@@ -110,6 +111,75 @@ TEST_F(LimitsTest, ConflictsAreWrittenAsTheyAreFound) {
     constexpr std::int64_t kConflicts = std::int64_t{kCount} * (kCount - 1) / 2;
     // What sorts them is kept, 32 bytes each, and who is near whom; each whole takes over 400.
     EXPECT_LT(peak_memory({"conflicts", crowd(kCount)}) - few, 200 * kConflicts);
+}
+
+std::string repeated(std::string_view text, std::size_t bytes) {
+    std::string out;
+    while (out.size() + text.size() <= bytes) out += text;
+    return out;
+}
+
+TEST_F(LimitsTest, NoSmallPackedFileTakesMuchMemory) {
+#ifdef MOBBSCOPE_SANITIZED
+    GTEST_SKIP() << "a sanitizer's memory is not the program's";
+#endif
+    constexpr std::size_t kUnpacked = std::size_t{63} << 20;
+    const std::string fbx =
+        "; FBX 7.4.0 project file\nFBXHeaderExtension: {\n\tFBXHeaderVersion: 1003\n\tFBXVersion: 7400\n}\n";
+    const struct {
+        const char* name;
+        std::string text;
+        const char* why;
+    } kKinds[] = {
+        {"wide.json.gz", R"({"clips": [)" + repeated("1,", kUnpacked) + "1]}", "its JSON would take"},
+        {"objects.json.gz", R"({"clips": [)" + repeated("{},", kUnpacked) + "1]}", "its JSON would take"},
+        {"nested.json.gz", R"({"clips": [)" + repeated("[[[[]]]],", kUnpacked) + "1]}", "its JSON would take"},
+        {"rows.csv.gz", "x,y\n" + repeated("0,0\n", kUnpacked), "its rows would take"},
+        {"tracks.txt.gz", repeated("1 1 0 0\n", kUnpacked), "its rows would take"},
+        {"deep.ndjson.gz", "{\"track\": " + std::string(kUnpacked, '['), "a line would take"},
+        {"nodes.gltf.gz", R"({"asset": {"version": "2.0"}, "nodes": [)" + repeated("{},", 27'000'000) + "{}]}",
+         "its JSON would take"},
+        {"records.fbx.gz", fbx + repeated("a:1,", kUnpacked) + "1\n", "its records would take"},
+        {"values.fbx.gz", fbx + "a: " + repeated("1,", kUnpacked) + "1\n", "its records would take"},
+        {"cells.txt.gz", "0:" + repeated("(0,0),", kUnpacked), "its cells would take"},
+    };
+    for (const auto& kind : kKinds) {
+        const std::string file = write(kind.name, gzipped(kind.text));
+        ASSERT_LT(std::filesystem::file_size(file), 200'000u) << kind.name;
+        const Result run = run_program({kind.name == std::string_view("rows.csv.gz") ? "fit" : "info", file});
+        expect_refused(run, kind.why);
+        EXPECT_LT(run.peak_memory, 1'000'000'000) << kind.name;
+    }
+    // Unpacked by hand, it is as large as it is.
+    const std::string rows = write("rows.csv", "x,y\n" + repeated("0,0\n", 20'000'000));
+    EXPECT_EQ(run_program({"info", rows, "--dt", "0.1", "--radius", "1"}).status, 0);
+}
+
+TEST_F(LimitsTest, TheLargestPicturesAreComparedInAGigabyte) {
+#ifdef MOBBSCOPE_SANITIZED
+    GTEST_SKIP() << "a sanitizer's memory is not the program's";
+#endif
+    Image black(1 << 25, 1);
+    for (std::size_t i = 3; i < black.rgba.size(); i += 4) black.rgba[i] = 255;
+    const std::string wide = write("wide.png", png_bytes(black));
+    black = {};
+    const Result run = run_program(
+        {"diff", wide, wide, "-o", folder.path() / "h.png", "--strip", folder.path() / "s.png", "--shift", "1"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_LT(run.peak_memory, 1'000'000'000);
+}
+
+TEST_F(LimitsTest, AListAsTextEndsAfterAMillionRows) {
+    // Two of each 1415 agents are 1000405 pairs, which share no time.
+    std::string text = R"({"clips": {"c": {"dt": 0.1, "samples": [[0, 0, 1]]}}, "agents": [)";
+    for (int i = 0; i < 1415; ++i)
+        text += std::string(i > 0 ? "," : "") + R"({"name": ")" + std::to_string(i) + R"(", "clip": "c", "start": )" +
+                std::to_string(i) + "}";
+    const std::filesystem::path out = folder.path() / "out.txt";
+    EXPECT_EQ(run_program({"query", write("crowd.json", text + "]}")}, out).status, 0);
+    const std::string list = read_file(out);
+    EXPECT_TRUE(list.ends_with("\n... and 405 more; --json has all\n")) << list.substr(list.size() - 200);
+    EXPECT_NE(list.find("\n999999: "), std::string::npos);
 }
 
 std::string header_alone(int width, int height) {

@@ -12,16 +12,21 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -165,6 +170,47 @@ TEST_F(AnswersTestCommandTest, RunsWithoutOpenGL) {
     EXPECT_EQ(run.status, 0);
     make_finer();
     EXPECT_EQ(test({"--update", "answers"}).status, 0);
+}
+
+TEST_F(AnswersTestCommandTest, AFullDiskHidesNoVerdict) {
+    std::vector<std::string> answers{"test", cases.path().string(), "answers", "--output", output.string()};
+    // Standard output alone is full.
+    Result run = run_program(answers, "/dev/full");
+    EXPECT_EQ(run.status, 1) << "a missing golden weighs more than what cannot be written";
+    EXPECT_PRED2(says, run.err, "standard output cannot be written");
+    EXPECT_PRED2(says, run.err, "1 without a golden: answers (missing golden)");
+    EXPECT_TRUE(exists("out/report.json"));
+
+    const auto fill_disk = [] {
+        const rlimit none{10, 10};
+        ::setrlimit(RLIMIT_FSIZE, &none);
+    };
+    EXPECT_EQ(run_program(answers, "/dev/null", "/dev/null", fill_disk).status, 1);
+    ASSERT_EQ(test({"--update", "answers"}).status, 0);
+    answers.insert(answers.end(), {"--junit", (output / "junit.xml").string()});
+    EXPECT_EQ(run_program(answers, "/dev/null", "/dev/null", fill_disk).status, 3) << "it passed, and is not written";
+    EXPECT_EQ(run_program(answers).status, 0);
+}
+
+TEST_F(DrawnTestCommandTest, ARunThatIsEndedReportsWhatWasDone) {
+    const CaseFolder two;
+    two.folder().write("slow.script", "frames 1000000\n");
+    two.write("slow", R"({"mobbscope_case": 1, "scene": "scene.json", "size": "640x360", "time_limit": 600,
+                          "window": {"script": "slow.script"}})");
+    two.add("\xff");  // its name is no text: known at once
+    const std::filesystem::path junit = output / "junit.xml";
+    const std::filesystem::path out = cases.folder().write("out.txt", "");
+    const pid_t child = start_program(
+        {"test", two.path().string(), "--jobs", "2", "--output", output.string(), "--junit", junit.string()},
+        {"/dev/null", out, "/dev/null"});
+    std::this_thread::sleep_for(std::chrono::seconds(3));
+    ::kill(child, SIGTERM);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM) << status;
+    EXPECT_PRED2(says, slurp(junit), "value=\"ended after 1 of 2 cases\"");
+    EXPECT_PRED2(says, slurp(out), "1 failed; drawn by nothing; ended after 1 of 2 cases");
+    EXPECT_TRUE(exists("out/report.json"));
 }
 
 TEST_F(AnswersTestCommandTest, EveryReportSaysWhatDiffers) {

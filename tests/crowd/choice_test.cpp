@@ -217,6 +217,21 @@ TEST_F(ChoiceTest, AChoiceHasAPlanThatLastsAsLongAsAsked) {
     EXPECT_TRUE(search.plan().empty());
 }
 
+TEST_F(ChoiceTest, WithinAChoiceEachLookIsTold) {
+    // Of a thousand moves one choice may look for minutes.
+    CrowdRun crowd;
+    crowd.area = {20, 20};
+    crowd.plan = 4;
+    ReservationTable reservations(moves, crowd.area, crowd.grace);
+    int ticks = 0;
+    PlanSearch search(moves, reservations, crowd, [&ticks] { ++ticks; });
+    const Choice choice = choose(moves, reservations, crowd, at_wall(moves, crowd.area, 2), search);
+    EXPECT_GT(ticks, 0);
+    EXPECT_EQ(search.looks(), ticks);
+    PlanSearch ended(moves, reservations, crowd, [] { throw std::runtime_error("enough"); });
+    EXPECT_THROW(choose(moves, reservations, crowd, at_wall(moves, crowd.area, 2), ended), std::runtime_error);
+}
+
 TEST_F(ChoiceTest, AFirstPlayWasPlaced) {
     const Simulation simulation = run(1, 0);
     const Choice choice = choice_of(moves, simulation.run, 4, 0);

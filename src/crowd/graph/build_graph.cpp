@@ -582,7 +582,9 @@ BuiltGraph build_graph(const Scene& recordings, const GraphOptions& options, con
 
 void check_graph(BuiltGraph& built, int least_moves, const Progress& progress) {
     Scene& scene = built.scene;
-    Scene read = parse_scene(to_json(scene), scene.file.string(), scene.file.parent_path());
+    const std::string text = to_json(scene);
+    raise_budget(text.size());  // as if it were read from its file
+    Scene read = parse_scene(text, scene.file.string(), scene.file.parent_path());
     read.file = scene.file;
     const Transitions measured = each_transition(read, progress);
     built.report.joints_checked = measured.moves.size();

@@ -21,6 +21,8 @@ void PlanSearch::Level::find_first(const std::vector<PlayedMove>& of) {
 }
 
 bool PlanSearch::look(int move, const OrientedPlacement& placed, std::span<const PlannedMove> kept) {
+    if (tick_) tick_();
+    ++looks_;
     plan_.clear();
     longest_.clear();
     reach_ = 0;

@@ -5,17 +5,20 @@
 #include <scene/crowd_run.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
 
 class PlanSearch {
   public:
-    /// All must outlive the search.
-    PlanSearch(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run)
-        : moves_(moves), reservations_(reservations), run_(run) {}
+    /// All must outlive the search. `tick` is called before each look, as a choice may need thousands; it may throw.
+    PlanSearch(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run,
+               std::function<void()> tick = {})
+        : moves_(moves), reservations_(reservations), run_(run), tick_(std::move(tick)) {}
 
     /// Begins anew, for a play of an agent that it has not reserved yet. `asked` gets the pairs whose trees were
     /// queried, and must outlive what is looked for.
@@ -24,6 +27,7 @@ class PlanSearch {
         play_ = play;
         asked_ = asked;
         queries_ = 0;
+        looks_ = 0;
     }
 
     /// Looks for moves that can follow `move`, back to back, that stay on the floor, collide with nothing that another
@@ -35,6 +39,7 @@ class PlanSearch {
     const std::vector<PlannedMove>& plan() const { return longest_; }  ///< what look() found
     double seconds() const { return reach_; }                          ///< that it lasts
     std::int64_t queries() const { return queries_; }                  ///< tree queries made since the start
+    std::int64_t looks() const { return looks_; }                      ///< since the start
 
   private:
     /// What is looked at behind one move of a plan, in memory that is used again.
@@ -64,6 +69,7 @@ class PlanSearch {
     const MoveSet& moves_;
     const ReservationTable& reservations_;
     const CrowdRun& run_;
+    std::function<void()> tick_;
     int agent_ = 0;
     int play_ = 0;
     std::vector<AskedPair>* asked_ = nullptr;
@@ -74,6 +80,7 @@ class PlanSearch {
     int left_ = 0;           ///< moves that may still be looked at
     bool collides_ = false;  ///< the one that was looked at last
     std::int64_t queries_ = 0;
+    std::int64_t looks_ = 0;
 };
 
 }  // namespace mobbscope

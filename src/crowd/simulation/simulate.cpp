@@ -65,9 +65,11 @@ class Simulator {
     /// Whoever waits is not left without a word for long, however slow the run is.
     bool is_time_to_tell() const { return std::chrono::steady_clock::now() - told_ > std::chrono::seconds(1); }
 
-    void tell(double time) {
+    /// `looked_at`: in the midst of a choice.
+    void tell(double time, std::int64_t looked_at = 0) {
         told_ = std::chrono::steady_clock::now();
         counts().simulated = time;
+        counts().looked_at = looked_at;
         if (progress_) progress_(counts());
     }
 
@@ -188,7 +190,9 @@ class Simulator {
     const SimulationProgress& progress_;
     ReservationTable reservations_;
     Simulation simulation_;
-    PlanSearch search_{moves_, reservations_, simulation_.run};
+    PlanSearch search_{moves_, reservations_, simulation_.run, [this] {
+                           if (is_time_to_tell()) tell(counts().simulated, search_.looks());
+                       }};
     std::priority_queue<Turn, std::vector<Turn>, std::greater<>> turns_;
     std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
     std::vector<AskedPair> asked_;  ///< at the present choice point

@@ -357,7 +357,12 @@ class BvhParser {
     /// memory is bounded by the size of the text, whatever Frames says.
     void read_rows() {
         std::size_t rows = 0;
-        for (in_.skip_space(); !in_.at_end(); in_.skip_space(), ++rows) read_row();
+        for (in_.skip_space(); !in_.at_end(); in_.skip_space(), ++rows) {
+            read_row();
+            // With what becomes of a row: a sample, and where each joint is.
+            const std::size_t row = sizeof(double) * data_.row_length + sizeof(glm::dvec3) * (2 + data_.joints.size());
+            data_.spent.cover(row * (rows + 1), "its frames", in_.file());
+        }
         if (rows == 0)
             in_.fail(frames_line_, "Frames says " + std::to_string(frames_) +
                                        ", but no row follows; fetch the file again if it was cut off");

@@ -1,6 +1,7 @@
 /// BVH, the motion capture format of Biovision: a hierarchy of joints, then one row of channel values a frame.
 #pragma once
 
+#include <base/budget.h>
 #include <import/skeleton/motion.h>
 
 #include <array>
@@ -31,14 +32,15 @@ struct BvhData {
     std::string time_doubt;      ///< why that is hardly meant, and what to do; else empty
     std::vector<double> values;  ///< row after row; at least one row
     std::vector<std::string> warnings;
+    Spent spent;  ///< of the budget
 
     std::size_t frames() const { return values.size() / row_length; }
 };
 
 /// Reads the text of a file; `file` stands for it in messages. Takes any channel order, position channels on any
 /// joint, several roots, names with blanks, any kind of line end, keywords in any case. Takes the rows that are there:
-/// `warnings` tell if Frames says another number. The memory it takes is bounded by the size of the text. Throws
-/// InputError naming the line.
+/// `warnings` tell if Frames says another number. Throws InputError naming the
+/// line, or if it takes more than the budget.
 BvhData parse_bvh(std::string_view text, const std::string& file);
 
 /// The one animation of a file. Every ROOT is a character; those with a channel move. Which axis is up is guessed.

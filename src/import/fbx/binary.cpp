@@ -62,6 +62,7 @@ class FbxBinaryReader {
             record.values = static_cast<std::uint32_t>(document_.values_.size()) - record.first_value;
             at_ = values_end;
             records.push_back(record);
+            document_.charge_records();
             open.push_back({static_cast<FbxDocument::Index>(records.size() - 1), end});
         }
     }
@@ -145,6 +146,7 @@ class FbxBinaryReader {
                 fail(place, "a value has no known type");
         }
         document_.values_.push_back(value);
+        document_.charge_records();
     }
 
     void take_array(char type, std::size_t end) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <new>
 #include <type_traits>
 #include <utility>
@@ -99,10 +100,9 @@ std::vector<std::int64_t> FbxDocument::integers(Index record) { return read<std:
 std::vector<std::uint32_t> FbxDocument::float_bits(Index record) { return read<std::uint32_t>(record); }
 
 void FbxDocument::charge(Index record, std::uint64_t count, std::size_t bytes_each) {
-    const std::size_t budget = std::max(kLeastBudget, kGrowth * bytes_.size());
-    if (count > (budget - charged_bytes_) / bytes_each)
+    const std::size_t most = std::max(kLeastBudget, kGrowth * bytes_.size());
+    if (count > (most - numbers_.bytes()) / bytes_each || !numbers_.try_add(count * bytes_each))
         fail(record, "claims " + std::to_string(count) + " numbers, too many for this file; export it again");
-    charged_bytes_ += count * bytes_each;
 }
 
 std::string_view FbxDocument::unpacked(Index record, const FbxValue& array, std::size_t width, std::string& room) {

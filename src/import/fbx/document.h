@@ -1,6 +1,8 @@
 /// FBX documents as they are stored: nested records with values, binary or text. What they mean: objects.h.
 #pragma once
 
+#include <base/budget.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -71,7 +73,7 @@ class FbxDocument {
     std::vector<std::uint32_t> float_bits(Index record);
 
     /// Counts what a record's numbers take in memory. Throws InputError, naming the record, once all of them together
-    /// take far more than a file of this size could need.
+    /// take far more than a file of this size could need, or more than the budget.
     void charge(Index record, std::uint64_t count, std::size_t bytes_each);
 
     /// "byte 1234" or "line 12".
@@ -88,6 +90,11 @@ class FbxDocument {
         if (record == kFile) return {0, static_cast<Index>(records_.size())};
         return {record + 1, records_[record].end};
     }
+    /// Counts what the records and values so far take.
+    void charge_records() {
+        spent_.cover(sizeof(FbxRecord) * records_.capacity() + sizeof(FbxValue) * values_.capacity(), "its records",
+                     file_);
+    }
     /// Throws InputError for a version that is too old.
     void set_version(int version);
     template <class Number>
@@ -102,7 +109,8 @@ class FbxDocument {
     bool is_big_endian_ = false;
     std::vector<FbxRecord> records_;
     std::vector<FbxValue> values_;
-    std::size_t charged_bytes_ = 0;
+    Spent spent_;    ///< on records and values
+    Spent numbers_;  ///< on what charge counts
 };
 
 /// Text as it stands in a text file ("a &quot;b&quot;") without escapes.

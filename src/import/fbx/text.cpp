@@ -95,6 +95,7 @@ class FbxTextReader {
             at_ = bytes_.find(':', at_) + 1;
             take_values(record);
             records.push_back(record);
+            document_.charge_records();
             const auto index = static_cast<FbxDocument::Index>(records.size() - 1);
             if (at_ < bytes_.size() && bytes_[at_] == '{') {
                 ++at_;
@@ -171,6 +172,7 @@ class FbxTextReader {
                 if (word.starts_with('*')) take_array(value);
             }
             values.push_back(value);
+            document_.charge_records();
         }
         record.values = static_cast<std::uint32_t>(values.size()) - record.first_value;
     }

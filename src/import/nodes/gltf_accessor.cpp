@@ -97,6 +97,7 @@ Numbers GltfAccessors::read(int index, int type) {
         fail(index, "has " + std::to_string(accessor.count) +
                         " elements, more than the file's bytes can mean; export the file again");
     }
+    spent_.add(sizeof(double) * accessor.count * components, "its accessors", file_);
     std::vector<double> numbers;
     if (accessor.bufferView >= 0) {
         fill_dense(index, components, numbers);

@@ -1,6 +1,7 @@
 /// Numbers out of a glTF file's buffers, each access checked.
 #pragma once
 
+#include <base/budget.h>
 #include <import/nodes/node_scene.h>
 
 #include <cstddef>
@@ -44,6 +45,7 @@ class GltfAccessors {
     const std::string& file_;
     std::size_t numbers_left_;  ///< accessors may overlap, but little data must not become much
     std::map<int, Numbers> read_;
+    Spent spent_;
 };
 
 }  // namespace mobbscope

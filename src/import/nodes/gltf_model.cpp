@@ -22,7 +22,9 @@ using Json = nlohmann::json;
 
 // Files of the field nest about ten deep, extras a little more; recursion over a value must stay on the stack.
 constexpr int kMaxDepth = 100;
-// A parsed value takes 16 bytes at least, so this bounds memory whatever the text holds.
+// Bytes of memory: a value, with the room that arrays grow by; what an array or an object has of its own.
+constexpr std::size_t kOfValue = 48;
+constexpr std::size_t kOfContainer = 128;
 constexpr std::size_t kMaxValues = 10'000'000;
 constexpr std::uint64_t kMaxInteger = std::numeric_limits<int>::max();
 
@@ -34,10 +36,11 @@ constexpr std::array<std::string_view, 5> kHarmless{"KHR_animation_pointer", "KH
                                                     "KHR_mesh_quantization", "EXT_mesh_gpu_instancing",
                                                     "MSFT_texture_dds"};
 
-/// Refuses text that nests too deep or holds too many values, before any memory is spent on it.
-void check_shape(std::string_view text, const std::string& file) {
+/// Refuses text that nests too deep or holds too many values, before any memory is spent on it. Gives what its values
+/// will take.
+Spent check_shape(std::string_view text, const std::string& file) {
     int depth = 0;
-    std::size_t values = 0;
+    std::size_t values = 0, containers = 0;
     for (std::size_t i = 0; i < text.size(); ++i) {
         switch (text[i]) {
             case '"':
@@ -53,6 +56,7 @@ void check_shape(std::string_view text, const std::string& file) {
                         "nests more than " + std::to_string(kMaxDepth) + " deep; take extras and extensions out");
                 }
                 ++values;
+                ++containers;
                 break;
             case ']':
             case '}':
@@ -69,6 +73,9 @@ void check_shape(std::string_view text, const std::string& file) {
         throw InputError(file, "JSON",
                          "holds more than " + std::to_string(kMaxValues) + " values; numbers belong into buffers");
     }
+    Spent spent;
+    spent.add(text.size() + kOfValue * values + kOfContainer * containers, "its JSON", file);
+    return spent;
 }
 
 std::string line_and_column(std::string_view text, std::size_t offset) {
@@ -180,7 +187,7 @@ constexpr std::array<std::pair<std::string_view, int>, 7> kAccessorTypes{{{"SCAL
 class GltfModelReader {
   public:
     GltfModelReader(const GltfPlace& root, const GltfParts& parts, const std::filesystem::path& file)
-        : root_(root), parts_(parts), file_(file) {}
+        : root_(root), parts_(parts), file_(file), name_(file.string()) {}
 
     GltfModel model() {
         if (!root_.value().is_object()) root_.fail("is no JSON object; this is no glTF file");
@@ -216,6 +223,10 @@ class GltfModelReader {
         for (std::size_t i = 0; i < array.size(); ++i) {
             const GltfPlace element = array[i];
             element.require_object();
+            if (to.size() == to.capacity()) {
+                to.reserve(std::max<std::size_t>(4, 2 * to.size()));
+                out_.spent.add(sizeof(Element) * to.capacity(), "its JSON", name_);
+            }
             (this->*read)(element, to.emplace_back());
         }
     }
@@ -497,6 +508,7 @@ class GltfModelReader {
     const GltfPlace& root_;
     const GltfParts& parts_;
     const std::filesystem::path& file_;
+    const std::string name_;
     GltfModel out_;
 };
 
@@ -504,7 +516,7 @@ class GltfModelReader {
 
 GltfModel read_gltf_model(const GltfParts& parts, const std::filesystem::path& file) {
     const std::string name = file.string();
-    check_shape(parts.json, name);
+    const Spent spent = check_shape(parts.json, name);
     const Json value = parse(parts, name);
     return GltfModelReader(GltfPlace(value, name), parts, file).model();
 }

@@ -2,6 +2,7 @@
 /// follows extras as deep as they go, so the text is parsed and checked here, value by value.
 #pragma once
 
+#include <base/budget.h>
 #include <import/nodes/gltf_file.h>
 #include <tiny_gltf.h>
 
@@ -25,6 +26,7 @@ struct GltfModel {
     std::map<std::size_t, std::vector<std::string>> unread{};
     /// Where the body begins in a file without skins, as VRM's animations say it: the node of the hips.
     std::optional<int> hips{};
+    Spent spent{};  ///< of the budget
 };
 
 inline constexpr std::string_view kByPointer = "pointer/";

@@ -81,7 +81,8 @@ class CsvParser {
                    " stands already in line ";
         };
         const bool sorts = table_.has_id && (table_.has_time || table_.has_frame);
-        table_.tracks = sorts ? tracks_.take(file_, twice) : tracks_.take();
+        table_.tracks = sorts ? tracks_.take_sorted(twice) : tracks_.take();
+        table_.spent = tracks_.take_spent();
         if (table_.has_time && in_milliseconds_) table_.rounding = kMillisecond;
         tell();
         return std::move(table_);
@@ -519,7 +520,7 @@ class CsvParser {
     std::vector<std::string> names_;
     std::array<std::optional<ColumnFormula>, std::size(kColumns)> formulas_{};  ///< in order of kColumns
     Remarks remarks_;
-    TrackCollector tracks_;
+    TrackCollector tracks_{file_};
     double last_ = 0;              ///< the time or frame of the last row
     bool in_milliseconds_ = true;  ///< all values of t
     mutable bool decimal_commas_ = false;

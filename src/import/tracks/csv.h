@@ -31,6 +31,7 @@ struct CsvTable {
     std::vector<std::string> others{};      ///< names of columns that were passed over, each once
     /// The rows of each id, "" without an id column; frames increase where there are any. In order of first appearance.
     std::vector<Track> tracks{};
+    Spent spent{};  ///< of the budget
 };
 
 /// Of the options those that say what columns mean count: columns, and radius where it names one. `file` stands for the

@@ -76,6 +76,7 @@ void check_columns(const CsvTable& table, const std::string& file, const ImportO
 
 std::vector<TimedDisk> timed(const Track& track) {
     std::vector<TimedDisk> out;
+    out.reserve(track.points.size());
     for (const TrackPoint& row : track.points) out.push_back({row.frame, {row.x, row.y, row.r}});
     return out;
 }
@@ -120,6 +121,10 @@ class MotionMaker {
         }
         std::vector<mobb::Disk> samples;
         if (stored_dt && !options_.trim) {
+            if (rows_.size() > kMaxSamples)
+                throw std::invalid_argument("there are more than " + std::to_string(kMaxSamples) +
+                                            " rows; give trim, or split the file");
+            samples.reserve(rows_.size());
             for (const TimedDisk& row : rows_) samples.push_back(row.disk);
         } else {
             samples = sample(rows_, sample_grid(rows_.front().t, rows_.back().t, options_.trim, step,

@@ -123,7 +123,8 @@ class JupedsimReader {
         out.rate = read_metadata();
         read_points();
         if (tracks_.empty()) database_.fail("the table trajectory_data has no row; nobody is there");
-        out.tracks = tracks_.take(file_);
+        out.tracks = tracks_.take_sorted();
+        out.spent = tracks_.take_spent();
         return out;
     }
 
@@ -208,7 +209,7 @@ class JupedsimReader {
     std::size_t most_rows_;
     std::size_t rows_ = 0;  ///< read so far of the table in hand
     Database database_;
-    TrackCollector tracks_;
+    TrackCollector tracks_{file_};
 };
 
 }  // namespace

@@ -138,7 +138,7 @@ class PlanReader {
         yaml_.next();
         if (yaml_.type() == YAML_DOCUMENT_START_EVENT) yaml_.fail("holds several documents ('---'); leave one plan");
         if (tracks_.empty()) yaml_.fail(schedule_line_, "the schedule has no step; add agents with t, x, y");
-        TrackFile out = plan_of(tracks_.take(file_), file_);
+        TrackFile out = plan_of(tracks_.take_sorted(), file_, tracks_.take_spent());
         if (without_steps_ > 0) {
             out.warnings.push_back(counted(without_steps_, "agent has", "agents have") + " no step, such as " +
                                    in_quotes(without_step_) + "; left out");
@@ -260,7 +260,7 @@ class PlanReader {
     YamlEvents yaml_;
     const std::string& file_;
     std::size_t most_;  ///< steps that may still come
-    TrackCollector tracks_;
+    TrackCollector tracks_{file_};
     int schedule_line_ = 1;
     int without_steps_ = 0;     ///< agents
     std::string without_step_;  ///< the first of them

@@ -225,11 +225,12 @@ class TextPlanParser {
     void add(Track& track, const TrackPoint& point) {
         if (++count_ > kMaxSamples)
             lines_.fail("there are more than " + std::to_string(kMaxSamples) + " cells; split the plan");
+        spent_.cover(kBytesOfPoint * count_ + kBytesOfTrack * tracks_.size(), "its cells", file_);
         track.points.push_back(point);
     }
 
     TrackFile finished() {
-        TrackFile out = plan_of(std::move(tracks_), file_);
+        TrackFile out = plan_of(std::move(tracks_), file_, std::move(spent_));
         if (*of_ == LineOf::agent) {
             out.warnings.emplace_back(
                 "cells of a line an agent are taken as (row, column), as EECBS and MAPF-LNS2 write them: x is the "
@@ -246,6 +247,7 @@ class TextPlanParser {
     std::optional<LineOf> of_;
     std::optional<double> step_;  ///< the last one
     std::size_t count_ = 0;       ///< cells
+    Spent spent_;
     bool in_tasks_ = false;
     bool has_targets_ = false;
 };

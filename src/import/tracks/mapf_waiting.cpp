@@ -21,6 +21,8 @@ constexpr double kAlwaysFilledInPlan = 10'000;
 // Steps of a plan may be fractions: an agent's are looked for down to such a part of the plan's.
 constexpr int kFinestPart = 100;
 constexpr double kWholeStep = 1e-6;
+// Bytes of memory of a point, with the sample that is made of it.
+constexpr std::size_t kOfWaiting = sizeof(TrackPoint) + sizeof(mobb::Disk);
 
 bool is_whole(double number) { return std::abs(number - std::round(number)) <= kWholeStep; }
 
@@ -97,7 +99,7 @@ void fill(Track& track, const PlanSpan& plan, const std::optional<double>& step)
 
 }  // namespace
 
-TrackFile plan_of(std::vector<Track> tracks, const std::string& file) {
+TrackFile plan_of(std::vector<Track> tracks, const std::string& file, Spent spent) {
     PlanSpan plan;
     const TrackPoint* latest = &tracks.front().points.back();
     std::size_t longest = 0;
@@ -123,11 +125,13 @@ TrackFile plan_of(std::vector<Track> tracks, const std::string& file) {
                              counted(tracks.size(), "agent", "agents") + ", over " + formatted("%.0f", most) +
                              "; check t, or split the plan");
     }
+    spent.cover(static_cast<std::size_t>(points) * kOfWaiting, "waiting until the plan's last step", file);
     for (std::size_t i = 0; i < tracks.size(); ++i) fill(tracks[i], plan, steps[i]);
 
     TrackFile out;
     out.format = "mapf";
     out.tracks = std::move(tracks);
+    out.spent = std::move(spent);
     out.rate_assumption = "a step of the plan counts as one second; give dt (seconds a step) if that is wrong";
     out.unit_assumption = "a cell of the plan counts as one metre; give unit (metres a cell) if that is wrong";
     return out;

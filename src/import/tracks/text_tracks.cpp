@@ -94,7 +94,8 @@ class TextTracksParser {
         }
         if (tracks_.empty()) lines_.fail("the file has no row; " + std::string(kFormats));
         TrackFile out;
-        out.tracks = tracks_.take(file_);
+        out.tracks = tracks_.take_sorted();
+        out.spent = tracks_.take_spent();
         out.warnings = remarks_.warnings();
         if (columns_.format == kTrajnet.format && is_id_first(out.tracks)) {
             columns_ = kPetrackFlat;
@@ -245,12 +246,12 @@ class TextTracksParser {
                 points.push_back({frame, point.x, point.y, point.line, point.frame});
         }
         std::ranges::sort(points, {}, &TrackPoint::line);
-        TrackCollector out;
+        TrackCollector out(file_);
         for (TrackPoint& point : points) {
             const double id = std::exchange(point.r, 0);
             out.add(std::to_string(static_cast<long long>(id)), point);
         }
-        return out.take(file_);
+        return out.take_sorted();
     }
 
     double number(int column, double largest) const {
@@ -406,7 +407,7 @@ class TextTracksParser {
     Remarks remarks_;
     std::optional<double> id_;  ///< of the last row
     std::string id_text_;
-    TrackCollector tracks_;
+    TrackCollector tracks_{file_};
     std::vector<double> heights_;
     bool in_milliseconds_ = true;  ///< all frames; of use where they are times
     int lost_ = 0;

@@ -8,9 +8,14 @@ void TrackCollector::add(std::string_view id, const TrackPoint& point, std::stri
     // Many files have a track's points one after another.
     if (tracks_.empty() || tracks_[last_].id != id) {
         const auto [at, is_new] = index_.try_emplace(std::string(id), tracks_.size());
-        if (is_new) tracks_.push_back({std::string(id), {}, std::string(label)});
+        if (is_new) {
+            tracks_.push_back({std::string(id), {}, std::string(label)});
+            used_ += kBytesOfTrack + 4 * id.size();
+        }
         last_ = at->second;
     }
+    used_ += kBytesOfPoint;
+    spent_.cover(used_, "its rows", file_);
     tracks_[last_].points.push_back(point);
 }
 
@@ -18,15 +23,15 @@ std::string TrackCollector::is_twice(const Track& track, const TrackPoint& point
     return in_quotes(track.id) + " is in frame " + format_double(point.frame) + " already in line ";
 }
 
-std::vector<Track> TrackCollector::take(const std::string& file,
-                                        const std::function<std::string(const Track&, const TrackPoint&)>& twice) {
+std::vector<Track> TrackCollector::take_sorted(
+    const std::function<std::string(const Track&, const TrackPoint&)>& twice) {
     for (Track& track : tracks_) {
         // Most are in order, which is found out sooner than they are sorted.
         if (!std::ranges::is_sorted(track.points, {}, &TrackPoint::frame))
             std::ranges::stable_sort(track.points, {}, &TrackPoint::frame);
         const auto at = std::ranges::adjacent_find(track.points, {}, &TrackPoint::frame);
         if (at == track.points.end()) continue;
-        throw InputError(file, at_line((at + 1)->line), twice(track, *at) + std::to_string(at->line) + "; remove one");
+        throw InputError(file_, at_line((at + 1)->line), twice(track, *at) + std::to_string(at->line) + "; remove one");
     }
     return take();
 }

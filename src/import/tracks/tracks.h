@@ -1,6 +1,7 @@
 /// Crowds as files hold them: many tracks by one clock of frame numbers or seconds; and the clips of tracks.
 #pragma once
 
+#include <base/budget.h>
 #include <base/error.h>
 #include <base/file.h>
 #include <base/text.h>
@@ -64,29 +65,43 @@ struct TrackFile {
     std::string unit_assumption{};
 
     std::vector<std::string> warnings{};  ///< what was passed over, one sentence each
+    Spent spent{};                        ///< of the budget
 };
 
 /// Largest frame number taken; beyond it doubles no longer tell whole numbers apart.
 inline constexpr double kMaxFrame = 9007199254740992.0;
 
+/// Bytes of memory with what becomes of them: a point in the file's tracks, in those that are made of it and in clips;
+/// a track's clip, and what is said of it.
+inline constexpr std::size_t kBytesOfPoint = 128;
+inline constexpr std::size_t kBytesOfTrack = 2048;
+
 /// Puts points into tracks, in any order.
 class TrackCollector {
   public:
-    /// `label`: the track's class; of several the first one stays.
+    /// `file` stands for the file in messages, and must outlive this.
+    explicit TrackCollector(const std::string& file) : file_(file) {}
+
+    /// `label`: the track's class; of several the first one stays. Throws InputError if all of them take more than the
+    /// budget.
     void add(std::string_view id, const TrackPoint& point, std::string_view label = {});
     bool empty() const { return tracks_.empty(); }
 
-    /// The tracks, each in order of its frames. Throws InputError, naming `file` and the line, if a track is at two
-    /// places in one frame; `twice` says so of the first one, up to the line of it.
-    std::vector<Track> take(const std::string& file,
-                            const std::function<std::string(const Track&, const TrackPoint&)>& twice = is_twice);
+    /// The tracks, each in order of its frames. Throws InputError, naming the line, if a track is at two places in one
+    /// frame; `twice` says so of the first one, up to the line of it.
+    std::vector<Track> take_sorted(const std::function<std::string(const Track&, const TrackPoint&)>& twice = is_twice);
     /// As they came.
     std::vector<Track> take() { return std::move(tracks_); }
+    /// What they take of the budget.
+    Spent take_spent() { return std::move(spent_); }
 
   private:
     static std::string is_twice(const Track& track, const TrackPoint& point);
 
+    const std::string& file_;
     std::vector<Track> tracks_;
+    Spent spent_;
+    std::size_t used_ = 0;  ///< bytes
     std::unordered_map<std::string, std::size_t> index_;
     std::size_t last_ = 0;  ///< the track that had a point last
 };

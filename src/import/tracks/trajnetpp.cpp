@@ -25,7 +25,8 @@ class TrajnetppParser {
             lines_.fail(R"(the file has no track; give lines such as {"track": {"f": 0, "p": 1, "x": 0.5, "y": 2}})");
         TrackFile out;
         out.format = "trajnetpp";
-        out.tracks = tracks_.take(file_);
+        out.tracks = tracks_.take_sorted();
+        out.spent = tracks_.take_spent();
         out.rate = rate_.value_or(kUsualRate);
         out.rate_of_steps = true;
         out.least_step = 10;
@@ -42,6 +43,10 @@ class TrajnetppParser {
 
   private:
     void read_line() {
+        // Whatever stands in it: brackets become 64 bytes each. It is given back with the line.
+        constexpr std::size_t kOfByte = 64;
+        Spent spent;
+        spent.add(kOfByte * lines_.line().size(), "a line", file_);
         const Json line = Json::parse(lines_.line(), nullptr, false);
         if (line.is_discarded()) lines_.fail("is no JSON; give one object a line");
         if (line.is_object() && line.contains("track")) {
@@ -102,7 +107,7 @@ class TrajnetppParser {
 
     TextLines lines_;
     const std::string& file_;
-    TrackCollector tracks_;
+    TrackCollector tracks_{file_};
     std::optional<double> rate_;
     int predictions_ = 0;
 };

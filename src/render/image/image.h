@@ -1,10 +1,12 @@
 /// Pixels on the CPU.
 #pragma once
 
+#include <base/budget.h>
 #include <base/color.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,6 +29,7 @@ struct Image {
     int width = 0;
     int height = 0;
     std::vector<std::uint8_t> rgba;
+    std::shared_ptr<const Spent> spent{};  ///< of the budget, of one that was read
 
     Image() = default;
     Image(int w, int h) : width(w), height(h), rgba(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * 4) {}
