@@ -18,6 +18,8 @@ namespace {
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 31;
 
+constexpr const char* kStandardInput = "/dev/stdin";
+
 constexpr std::string_view kPackedMark = "\x1f\x8b";
 // Tables become a fiftieth at most, and a bomb a thousandth.
 constexpr std::uintmax_t kMostGrowth = 200;
@@ -49,6 +51,9 @@ const std::string& standard_input() {
         if (!read_on(stdin, read)) throw InputError("-", "cannot be read: " + system_message(errno));
         check_size(read.size(), "-");
         raise_budget(read.size());
+        // A file may stand behind it, which must not be replaced. What is typed or piped is none.
+        std::error_code ignored;
+        if (std::filesystem::is_regular_file(kStandardInput, ignored)) note_read(kStandardInput);
         return read;
     }();
     return bytes;

@@ -37,18 +37,23 @@ InputBytes read_input(const std::filesystem::path& file);
 /// At most the first `most` bytes of that; "" if there is no such file, or none that can be read.
 std::string read_beginning(const std::filesystem::path& file, std::size_t most);
 
-/// Remembers that a file is read. read_file does by itself; this is for one that will be.
+/// Remembers that a file is read. read_file and read_input do by themselves; this is for one that will be.
+/// Throws InputError if standard output goes to it.
 void note_read(const std::filesystem::path& file);
 
 /// Those that were read since this was asked last, from the root.
 std::vector<std::filesystem::path> take_files_read();
 
-/// Throws InputError if a file is one that was read, by whatever name or link: it must not be replaced by what is made
-/// from it.
+/// Throws InputError if a file is one that was read, by whatever name or link, or from standard input: it must not be
+/// replaced by what is made from it.
 void check_not_read(const std::filesystem::path& file);
 
-/// The file that a name means, through links; where the last one leads to nothing, the file that it would be.
+/// The file that a name means, through links and folders that are not there ("none/.."); where the last link leads to
+/// nothing, the file that it would be.
 std::filesystem::path meant(const std::filesystem::path& file);
+
+/// Whether two names mean one file or folder: what they mean has one place, or one number (hard links).
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /// Throws InputError if a name means a file of another folder, through links: for names that the user does not choose.
 void check_stays_in_folder(const std::filesystem::path& file);

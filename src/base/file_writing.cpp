@@ -60,7 +60,7 @@ std::optional<std::pair<dev_t, ino_t>> identity(const fs::path& file) {
 
 /// By which name a file was read, if it was.
 std::optional<fs::path> name_when_read(const fs::path& file) {
-    const auto present = identity(file);
+    const auto present = identity(meant(file));
     if (!present) return std::nullopt;
     const std::lock_guard lock(read_files().mutex);
     const auto found = read_files().names.find(*present);
@@ -341,6 +341,9 @@ class UnfinishedFile {
 void note_read(const fs::path& file) {
     const auto present = identity(file);
     if (!present) return;
+    struct stat out {};
+    if (::fstat(STDOUT_FILENO, &out) == 0 && S_ISREG(out.st_mode) && *present == std::pair(out.st_dev, out.st_ino))
+        throw InputError(file, "is where standard output goes, which would replace it; redirect that to another file");
     const std::lock_guard lock(read_files().mutex);
     // The present folder may be another later.
     const auto [at, is_new] = read_files().names.insert_or_assign(*present, whole_path(file));
@@ -368,8 +371,16 @@ fs::path meant(const fs::path& file) {
     // A link that leads to nothing yet.
     for (int i = 0; i < kMostLinks && !fs::exists(at, error) && fs::is_symlink(at, error); ++i)
         at = at.parent_path() / fs::read_symlink(at, error);
+    // Behind a folder that is not there stands what no link was followed for: "none/../link".
     fs::path target = fs::weakly_canonical(at, error);
+    if (!error) target = fs::weakly_canonical(target, error);
     return error ? at : target;
+}
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+    const fs::path meant_a = meant(a), meant_b = meant(b);
+    const auto number = identity(meant_a);
+    return meant_a == meant_b || (number && number == identity(meant_b));
 }
 
 void check_stays_in_folder(const fs::path& file) {

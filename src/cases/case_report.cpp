@@ -73,7 +73,7 @@ std::optional<std::filesystem::path> told_folder(const JsonPlace& place, const s
 /// Whether a report that tells of a folder means this one, wherever the report may have been copied to.
 bool is_same_folder(const std::filesystem::path& told, const std::filesystem::path& folder) {
     std::error_code ignored;
-    if (told == whole_path(folder) || std::filesystem::equivalent(told, folder, ignored)) return true;
+    if (is_same_file(told, folder)) return true;
     return !std::filesystem::exists(told, ignored) && own_name(told) == own_name(folder);
 }
 

@@ -90,7 +90,9 @@ AskedCases::AskedCases(AskedCasesOptions options)
 CaseResult AskedCases::drawn(const CaseFile& file, const std::string& asked) {
     picture_tests::RunOptions options = run_options(file.name, options_.update_names, options_.update_all);
     options.asked = asked;
-    return drawer_.draw({file, std::move(options)});
+    CaseResult result = drawer_.draw({file, std::move(options)});
+    for (const std::filesystem::path& read : std::exchange(result.read, {})) note_read(read);
+    return result;
 }
 
 std::string AskedCases::answer(std::string_view line) {
@@ -128,15 +130,24 @@ std::string AskedCases::answer_to(const JsonPlace& request) {
     const CaseFile file = picture_tests::case_named(options_.folder, name);
     CaseResult result;
     std::ostringstream wrote;
+    const auto failed = [&](const std::string& why) {
+        return answer_line(CaseOutcome::failed, name) + "failed: " + cleaned(name) + ": " + why + '\n';
+    };
     try {
         const std::string text = case_text(request, file);
         const auto [before, is_new] = asked_.emplace(name, text);
         if (!is_new && before->second != text) {
             // What was found of the first stays.
-            return answer_line(CaseOutcome::failed, name) + "failed: " + cleaned(name) +
-                   ": another test has asked for this name with another scene or other keys; give each its own name\n";
+            return failed(
+                "another test has asked for this name with another scene or other keys; give each its own name");
         }
         result = drawn(file, text);
+        try {
+            check_not_read(options_.output / picture_tests::kReportFile);
+            check_kept(result, options_.output);
+        } catch (const InputError& error) {
+            return failed(cleaned(error.what()));
+        }
         if (!result.fresh.empty() && (options_.update_all || matches_any(options_.update_names, name))) {
             take_named({&result, 1}, {}, wrote);
         }

@@ -1,6 +1,7 @@
 #include <base/error.h>
 #include <base/text.h>
 #include <cases/case_report.h>
+#include <cases/weak_cases.h>
 #include <cli/golden_updates.h>
 #include <cli/program.h>
 #include <picture_tests/run_cases.h>
@@ -40,7 +41,10 @@ Reply ask(const CaseResult& result, const std::filesystem::path& folder, std::os
 }
 
 void take_one(CaseResult& result, std::ostream& say) {
+    std::vector<std::string> on_case;
+    if (brings_case(result)) on_case = words_on_brought_case(result);
     for (const std::filesystem::path& file : take(result)) say << "wrote " << cleaned(file.string()) << '\n';
+    for (const std::string& line : on_case) say << cleaned(line) << '\n';
 }
 
 /// Throws InputError for a pattern that names no case, or none of the report.
@@ -99,6 +103,7 @@ bool take_report(const std::filesystem::path& report, const std::filesystem::pat
     check_patterns(read, cases, patterns);
     const auto is_meant = [&](const std::string& name) { return patterns.empty() || matches_any(patterns, name); };
     std::vector<GoldenChange> changes;
+    std::vector<std::string> on_cases;
     bool all = true;
     int taken = 0, known = 0;
     const auto leave_out = [&](const std::string& name, const std::string& why) {
@@ -115,6 +120,16 @@ bool take_report(const std::filesystem::path& report, const std::filesystem::pat
             leave_out(one.file.name, "it has no golden to take: " + one.message);
             continue;
         }
+        if (brings_case(one)) {
+            check_bytes(one.fresh, read.file);
+            // Who has it in hand by its name has looked at it: a case decides what its goldens are worth.
+            if (std::ranges::find(patterns, one.file.name) == patterns.end()) {
+                leave_out(one.file.name, "the report brings " + one.file.file.string() +
+                                             ", which is the case itself, no golden; name the case to take it");
+                continue;
+            }
+            std::ranges::move(words_on_brought_case(one), std::back_inserter(on_cases));
+        }
         const std::size_t before = changes.size();
         std::ranges::copy_if(one.fresh, std::back_inserter(changes), [](const GoldenChange& change) {
             return picture_tests::golden_bytes(change.file) != change.bytes;
@@ -126,6 +141,7 @@ bool take_report(const std::filesystem::path& report, const std::filesystem::pat
     for (const GoldenChange& change : changes) {
         say << (change.bytes ? "wrote " : "removed ") << cleaned(change.file.string()) << '\n';
     }
+    for (const std::string& line : on_cases) say << cleaned(line) << '\n';
     const std::string of = cleaned(read.file.string());
     if (known > 0) say << counted(known, "case has", "cases have") << " the goldens of " << of << " already\n";
     if (taken > 0 || (known == 0 && changes.empty()))

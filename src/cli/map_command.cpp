@@ -54,7 +54,7 @@ void parse_axes(const std::string& text, MapOrder& order) {
         throw std::invalid_argument("a map has two axes; write them like dx=-5:5,dy=-5:5");
     order.across = parse_axis(text.substr(0, comma));
     order.up = parse_axis(text.substr(comma + 1));
-    check(order, {});
+    check(order);
 }
 
 /// "256x256"
@@ -113,7 +113,7 @@ void run_map(MapCommandArguments& arguments) {
     const SceneQuery query = scene.queries()[static_cast<std::size_t>(arguments.query)];
     if (arguments.fit.brute) arguments.order.search = Search::direct;
     try {
-        check(arguments.order, query.b.placement);
+        check(arguments.order, query.b.placement, scene.tree(query.b.clip).clip());
     } catch (const std::invalid_argument& error) {
         throw InputError(arguments.file, "query " + std::to_string(arguments.query) + ": " + error.what());
     }

@@ -57,12 +57,14 @@ struct Proven {
     std::vector<TraversalEnd> ends;
     Certificate proof;
     std::optional<Margins> margins;  ///< of a miss in common time
+    std::string doubt;               ///< see doubt_words
 };
 
 Proven prove(const FittedScene& fitted, const SceneQuery& query) {
     const mobb::PlacedTree a = fitted.placed(query.a), b = fitted.placed(query.b);
     const RecordedQuery recorded = record(fitted, query);
-    Proven out{traversal_ends(a, b, recorded.trace), certify(a, b, recorded), {}};
+    Proven out{traversal_ends(a, b, recorded.trace), certify(a, b, recorded), {}, {}};
+    out.doubt = doubt_words(cleaned(query.a.name), a.placed_clip(), cleaned(query.b.name), b.placed_clip());
     out.margins = margins_of(a.placed_clip(), b.placed_clip(), out.proof);
     return out;
 }
@@ -121,6 +123,7 @@ void print_answer(std::ostream& out, std::size_t index, const SceneQuery& query,
     out << index << ": " << sentence(query, answer.contact) << '\n';
     if (proven) out << "   " << proof_words(proven->proof, proven->ends) << '\n';
     if (proven && proven->margins) out << "   " << margin_words(*proven->margins, cleaned(query.b.name)) << '\n';
+    if (proven && !proven->doubt.empty()) out << "   Not proven: " << proven->doubt << ".\n";
     out << "   Tests: " << answer.tests[mobb::TestKind::time] << " of time";
     for (const mobb::BoxKind kind : mobb::kBoxKinds) {
         if (mobb::info(kind).in_paper || answer.tests[kind] > 0) {

@@ -8,6 +8,7 @@
 #include <cases/drawing_child.h>
 #include <cases/golden_change.h>
 #include <cases/result_line.h>
+#include <cases/weak_cases.h>
 #include <cli/asked_cases.h>
 #include <cli/command_line.h>
 #include <cli/golden_updates.h>
@@ -65,7 +66,7 @@ struct TestCommandArguments {
     bool update_all = false;                ///< of those that are run
     std::vector<std::string> update_names;  ///< neither: ask
     std::filesystem::path accept;           ///< the report to take goldens from; empty: none
-    bool strict = false;                    ///< an orphaned golden is a failure
+    bool strict = false;                    ///< orphaned goldens and weak cases are failures
     std::filesystem::path output = "mobbscope-test";
     bool json = false;
     bool json_lines = false;
@@ -143,16 +144,19 @@ int parse_jobs(const std::string& text) {
 
 /// Throws InputError if the pictures would go where the goldens are, MachineError if they cannot go where they are to.
 void check_output_folder(const TestCommandArguments& arguments) {
-    std::error_code ignored;
-    // Neither needs to be there yet.
-    if (whole_path(arguments.output) == whole_path(arguments.folder) ||
-        std::filesystem::equivalent(arguments.output, arguments.folder, ignored)) {
+    if (is_same_file(arguments.output, arguments.folder)) {
         throw InputError("--output: " + in_quotes(arguments.output.string()) +
                          " is where the goldens are; give another folder");
     }
+    std::error_code ignored;
     if (std::filesystem::exists(arguments.output, ignored) && !std::filesystem::is_directory(arguments.output)) {
         throw MachineError(arguments.output.string() + ": pictures cannot be written there: it is no folder");
     }
+}
+
+void check_report_files(const TestCommandArguments& arguments) {
+    for (const std::filesystem::path& report : {arguments.junit, arguments.html, arguments.contact_sheet})
+        if (!report.empty()) check_not_read(report);
 }
 
 /// Throws InputError if a report would replace a golden or has a name that its kind does not, or as check_output_folder
@@ -180,9 +184,16 @@ void check_reports(const TestCommandArguments& arguments, const std::vector<Case
                                  file.golden_of(Held::trace), file.golden_of(Held::fit)})
             note_read(read);
     }
-    for (const std::filesystem::path& report : {arguments.junit, arguments.html, arguments.contact_sheet})
-        check_not_read(report);
+    check_report_files(arguments);
     check_output_folder(arguments);
+}
+
+/// Throws InputError if anything of what is left beside goldens would replace what was read. Scenes and masks are
+/// known when all is drawn.
+void check_left(const TestCommandArguments& arguments, std::span<const CaseResult> results) {
+    check_report_files(arguments);
+    check_not_read(arguments.output / picture_tests::kReportFile);
+    for (const CaseResult& result : results) check_kept(result, arguments.output);
 }
 
 using WriteReport = void (*)(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
@@ -191,7 +202,6 @@ using WriteReport = void (*)(std::ostream& out, const RunFacts& facts, std::span
 void write_report(const std::filesystem::path& file, WriteReport write, const RunFacts& facts,
                   std::span<const CaseResult> results) {
     if (file.empty()) return;
-    check_not_read(file);  // again: scenes and masks are known now
     std::ostringstream text;
     write(text, facts, results);
     picture_tests::make_folder_of(file);
@@ -206,7 +216,6 @@ void write_contact_sheet(const TestCommandArguments& arguments, const picture_te
     const std::optional<Image> drawn = at_place(arguments.contact_sheet.string(), "",
                                                 [&] { return sheet.draw(results, arguments.columns, renderer); });
     if (!drawn) return warn("there is no case for a contact sheet");
-    check_not_read(arguments.contact_sheet);
     picture_tests::make_folder_of(arguments.contact_sheet);
     write_png(arguments.contact_sheet, *drawn);
 }
@@ -375,6 +384,20 @@ std::vector<std::string> orphans_of(const TestCommandArguments& arguments, const
     return out;
 }
 
+/// "NAME: why" for each way in which one of the cases sees hardly anything.
+std::vector<std::string> weak_cases(const std::vector<CaseFile>& cases) {
+    std::vector<std::string> out;
+    for (const CaseFile& file : cases) {
+        try {
+            for (const std::string& how : weaknesses(file, picture_tests::read_terms(file)))
+                out.push_back(file.name + ": " + how);
+        } catch (const InputError&) {
+            // What is wrong with a case is told where it is drawn.
+        }
+    }
+    return out;
+}
+
 /// Whether a person is asked which pictures to take.
 bool asks(const TestCommandArguments& arguments) {
     return arguments.update && !arguments.update_all && arguments.update_names.empty();
@@ -506,6 +529,7 @@ int draw_and_hold(const TestCommandArguments& arguments) {
     }
     RunFacts facts{.folder = arguments.folder.string(), .backend = {}, .renderer = {}, .page = arguments.html.string()};
     facts.strict = arguments.strict;
+    if (arguments.strict) facts.weak = weak_cases(cases);
     if (!arguments.shard.is_all()) facts.shard = text_of(arguments.shard);
     if (!arguments.json_lines && arguments.names.empty()) facts.orphans = orphans_of(arguments, all);
 
@@ -519,6 +543,7 @@ int draw_and_hold(const TestCommandArguments& arguments) {
     if (asked_to_end != 0)
         facts.ended = "ended after " + std::to_string(results.size()) + " of " + counted(cases.size(), "case", "cases");
     const std::string not_drawn = add_facts(facts, results);
+    if (!arguments.json_lines) check_left(arguments, results);
     bool is_written = arguments.json_lines || write_all(arguments, facts, results);
     if (!facts.ended.empty()) {
         noted.reset();
@@ -589,7 +614,11 @@ void add_test_options(Command& command, TestCommandArguments& arguments) {
                "Draw nothing: take the goldens of a report, the folder of --output or the page of --html, byte "
                "by byte, on any system",
                "REPORT");
-    command.add_flag("--strict", arguments.strict, "Exit with 1 if there is a golden that no case has");
+    command.add_flag(
+        "--strict", arguments.strict,
+        "Exit with 1 if there is a golden that no case has, or a case that sees hardly anything: one that "
+        "is skipped, or lets over a tenth of its pixels, or 64 of 255 levels, differ, or whose mask leaves "
+        "under 1 % of it");
     add_parsed(command, "--output", arguments.output, parse_file_name,
                "Where the pictures of what did not pass go (mobbscope-test)", "FOLDER");
     const Option json = command.add_flag("--json", arguments.json, "The report as JSON on standard output");

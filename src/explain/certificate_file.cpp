@@ -4,6 +4,7 @@
 #include <base/text.h>
 #include <explain/certificate_file.h>
 #include <explain/margins.h>
+#include <explain/proof_words.h>
 #include <scene/scene_json.h>
 
 #include <set>
@@ -89,6 +90,8 @@ void write_certificate(JsonWriter& out, const FittedScene& fitted, const QueryCe
     out.key("margins");
     const mobb::PlacedTree a = fitted.placed(query.a), b = fitted.placed(query.b);
     write_margins(out, margins_of(a.placed_clip(), b.placed_clip(), proof));
+    const std::string doubt = doubt_words(query.a.name, a.placed_clip(), query.b.name, b.placed_clip());
+    if (!doubt.empty()) out.member("not_proven", doubt);
     out.end_object();
 }
 

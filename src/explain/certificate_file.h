@@ -4,8 +4,8 @@
 ///      "tiles": [{"t0": 0, "t1": 5, "direction": [1, 0], "speed": 0, "gap": 0.2}],
 ///      "margins": {"growth": 0.1, "shift_in_time": 0.4, "free_region": [[-0.2, -9], ...], "bounded": true}}]}
 ///
-/// The margins are of a miss, else null; a shift in time of null may be as long as it likes. Who checks a proof needs
-/// none of them.
+/// The margins are of a miss, else null; a shift in time of null may be as long as it likes. "not_proven" is there
+/// where doubles hold times badly, and says how badly (doubt_words). Who checks a proof needs none of them.
 #pragma once
 
 #include <explain/certificate.h>

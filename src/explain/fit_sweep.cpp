@@ -820,8 +820,8 @@ SweepResult sweep_fits(std::span<const mobb::ClipPtr> clips, const QueryWorkload
                        const Progress& progress, const SweepPass& pass) {
     check(order);
     for (const ClipQuery& query : workload.queries) {
-        mobb::checked(query.place_a);
-        mobb::checked(query.place_b);
+        mobb::checked(query.place_a, clips[static_cast<std::size_t>(query.clip_a)]->most_start());
+        mobb::checked(query.place_b, clips[static_cast<std::size_t>(query.clip_b)]->most_start());
     }
     return FitSearch(clips, workload, order, progress, pass).run();
 }

@@ -2,6 +2,7 @@
 #include <base/threads.h>
 #include <explain/least_clearance.h>
 #include <explain/placement_map.h>
+#include <explain/query_sentence.h>
 #include <mobb/query.h>
 
 #include <glm/common.hpp>
@@ -44,6 +45,11 @@ double& along(mobb::Placement& placement, MapAxis axis) {
 double along(const mobb::Placement& placement, MapAxis axis) {
     mobb::Placement copy = placement;
     return along(copy, axis);
+}
+
+/// Those that a map shows.
+std::int64_t tests_of(const mobb::Statistics& statistics) {
+    return statistics.tests.boxes() + statistics.tests[mobb::TestKind::samples];
 }
 
 /// Asks the cells of a row.
@@ -128,8 +134,7 @@ class MapRows {
             query.b.placement = placement(x, y);
             mobb::Statistics statistics;
             const bool hit = mobbscope::ask(fitted_, query, map_.order.search, statistics).has_value();
-            const mobb::TestCounts& tests = statistics.tests;
-            set(x, y, static_cast<double>(tests.boxes() + tests[mobb::TestKind::samples]), hit);
+            set(x, y, static_cast<double>(tests_of(statistics)), hit);
         }
     }
 
@@ -242,7 +247,7 @@ std::string_view name(MapShow show) { return kShowNames[static_cast<std::size_t>
 std::optional<MapShow> map_show_from_name(std::string_view name) { return enumerator_named<MapShow>(kShowNames, name); }
 std::span<const std::string_view> map_show_names() { return kShowNames; }
 
-void check(const MapOrder& order, const mobb::Placement& b) {
+void check(const MapOrder& order) {
     if (order.across.axis == order.up.axis)
         throw std::invalid_argument("both axes are " + std::string(name(order.up.axis)) + "; give two different ones");
     for (const MapRange& range : {order.across, order.up}) {
@@ -257,11 +262,15 @@ void check(const MapOrder& order, const mobb::Placement& b) {
         if (cells < 1 || cells > kMostMapCells)
             throw std::invalid_argument("a map has 1 to " + std::to_string(kMostMapCells) + " cells along a side");
     }
+}
+
+void check(const MapOrder& order, const mobb::Placement& b, const mobb::Clip& clip) {
+    check(order);
     for (const double x : {order.across.from, order.across.to}) {
         for (const double y : {order.up.from, order.up.to}) {
-            if (!mobb::is_valid(moved(b, order, {x, y})))
+            if (!mobb::is_valid(moved(b, order, {x, y}), clip.most_start()))
                 throw std::invalid_argument("B would stand where none may, beyond " + brief(mobb::kMaxLength) + " m, " +
-                                            brief(mobb::kMaxDegrees) + " degrees or " + brief(mobb::kMaxTime) +
+                                            brief(mobb::kMaxDegrees) + " degrees or " + brief(clip.most_start()) +
                                             " s; give smaller ranges");
         }
     }
@@ -271,6 +280,13 @@ mobb::Placement moved(const mobb::Placement& b, const MapOrder& order, glm::dvec
     mobb::Placement out = b;
     along(out, order.across.axis) += by.x;
     along(out, order.up.axis) += by.y;
+    return out;
+}
+
+mobb::Placement placed_at(const mobb::Placement& b, const MapOrder& order, glm::dvec2 at) {
+    mobb::Placement out = b;
+    along(out, order.across.axis) = at.x;
+    along(out, order.up.axis) = at.y;
     return out;
 }
 
@@ -311,20 +327,33 @@ std::string map_words(const PlacementMap& map, const std::string& a, const std::
     return b + how + ", " + a + " stays: " + share + " % of " + grouped(map.hits.size()) + " placements collide";
 }
 
-std::string cell_words(const PlacementMap& map, int x, int y) {
-    const double value = map.value(x, y);
-    std::string answer = map.hit(x, y) ? "they collide" : "they never collide";
-    switch (map.order.show) {
+PlacedAnswer answer_at(const FittedScene& fitted, const SceneQuery& query, MapShow show, Search search) {
+    const mobb::PlacedTree a = fitted.placed(query.a), b = fitted.placed(query.b);
+    if (show == MapShow::clearance) {
+        const ClipDisks disks_a(a.tree().clip()), disks_b(b.tree().clip());
+        const auto near = least_clearance(a.placed_clip(), disks_a, b.placed_clip(), disks_b);
+        const double value = near ? near->clearance : std::numeric_limits<double>::infinity();
+        return {value < 0, value};
+    }
+    mobb::Statistics statistics;
+    const bool hit = ask(fitted, query, search, statistics).has_value();
+    if (show == MapShow::answer) return {hit, hit ? 1.0 : 0.0};
+    return {hit, static_cast<double>(tests_of(statistics))};
+}
+
+std::string placed_words(MapShow show, const PlacedAnswer& answer) {
+    const std::string words = answer.hit ? "they collide" : "they never collide";
+    switch (show) {
         case MapShow::answer:
             break;
         case MapShow::clearance:
-            if (std::isinf(value)) return "they share no time";
-            return answer + (value < 0 ? ", overlapping by " : ", at least ") + to_thousandth(std::abs(value)) +
-                   (value < 0 ? " m" : " m apart");
+            if (std::isinf(answer.value)) return "they share no time";
+            return words + (answer.hit ? ", overlapping by " : ", at least ") + with_unit(std::abs(answer.value), "m") +
+                   (answer.hit ? "" : " apart");
         case MapShow::tests:
-            return answer + ": " + counted(static_cast<std::int64_t>(value), "test", "tests");
+            return words + ": " + counted(static_cast<std::int64_t>(answer.value), "test", "tests");
     }
-    return answer;
+    return words;
 }
 
 std::string offset_words(const MapOrder& order, glm::dvec2 offset) {
@@ -349,7 +378,7 @@ std::optional<glm::ivec2> PlacementMap::cell_at(glm::dvec2 offset) const {
 
 PlacementMap map_placements(const FittedScene& fitted, const SceneQuery& query, const MapOrder& order,
                             const MapPass& pass, const Progress& progress) {
-    check(order, query.b.placement);
+    check(order, query.b.placement, fitted.tree(query.b.clip).clip());
     PlacementMap map{order, query.b.placement};
     const auto cells = static_cast<std::size_t>(order.width) * static_cast<std::size_t>(order.height);
     map.values.resize(cells);

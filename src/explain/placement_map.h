@@ -62,11 +62,15 @@ struct MapOrder {
 };
 
 /// Throws std::invalid_argument, saying what is allowed, if a range is not finite, empty or reversed, both are of one
-/// axis, a side has no cells or more than kMostMapCells, or B would stand where no placement may.
-void check(const MapOrder& order, const mobb::Placement& b);
+/// axis, or a side has no cells or more than kMostMapCells.
+void check(const MapOrder& order);
+/// Likewise, and if B would stand where its clip may not be placed.
+void check(const MapOrder& order, const mobb::Placement& b, const mobb::Clip& clip);
 
 /// `b` with `by` added along the two axes.
 mobb::Placement moved(const mobb::Placement& b, const MapOrder& order, glm::dvec2 by);
+/// `b` where the map's two axes are at these values; what they do not change stays.
+mobb::Placement placed_at(const mobb::Placement& b, const MapOrder& order, glm::dvec2 at);
 /// What is added to `from` along the two axes to come to `to`.
 glm::dvec2 offset_between(const mobb::Placement& from, const mobb::Placement& to, const MapOrder& order);
 
@@ -97,6 +101,14 @@ struct PlacementMap {
     std::optional<glm::ivec2> cell_at(glm::dvec2 offset) const;
 };
 
+/// What a cell of a map says, asked of one placement.
+struct PlacedAnswer {
+    bool hit = false;
+    double value = 0;  ///< as PlacementMap::values
+};
+/// Of the query as it is placed. Throws std::invalid_argument where no agent may stand.
+PlacedAnswer answer_at(const FittedScene& fitted, const SceneQuery& query, MapShow show, Search search = Search::trees);
+
 /// Is told of the map when cells at multiples of its step are known: of every 8th, 4th, 2nd and all.
 using MapPass = std::function<void(const PlacementMap&)>;
 
@@ -110,7 +122,7 @@ std::string axis_words(MapAxis axis, const std::string& b);
 /// "B moved, A stays: 23.1 % of 65,536 placements collide"
 std::string map_words(const PlacementMap& map, const std::string& a, const std::string& b);
 /// "they never collide, at least 0.183 m apart"
-std::string cell_words(const PlacementMap& map, int x, int y);
+std::string placed_words(MapShow show, const PlacedAnswer& answer);
 /// "dx +0.25 m, dy -1.50 m"
 std::string offset_words(const MapOrder& order, glm::dvec2 offset);
 

@@ -1,9 +1,11 @@
 #include <base/text.h>
 #include <explain/proof_words.h>
 #include <explain/query_sentence.h>
+#include <import/clip/sample_times.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace mobbscope {
 
@@ -41,6 +43,16 @@ std::string proof_words(const Certificate& certificate, std::span<const Traversa
                       with_unit(certificate.tiles.back().t1 - certificate.tiles.front().t0, "s");
     if (!ends.empty()) out += "; the trees needed " + cost(ends);
     return out + '.';
+}
+
+std::string doubt_words(const std::string& name_a, const mobb::PlacedClip& a, const std::string& name_b,
+                        const mobb::PlacedClip& b) {
+    std::string out;
+    for (const auto& [name, clip] : {std::pair(&name_a, &a), std::pair(&name_b, &b)}) {
+        const std::string doubt = coarse_times(clip->clip(), clip->placement().start);
+        if (!doubt.empty()) out += (out.empty() ? "" : "; ") + *name + ": " + doubt;
+    }
+    return out;
 }
 
 std::string margin_words(const Margins& margins, const std::string& b) {

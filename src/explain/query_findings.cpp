@@ -84,6 +84,9 @@ std::vector<std::string> proof_sentences(const QueryFindings& findings) {
     if (!findings.clearance.least) return {};
     std::vector<std::string> out{proof_words(findings.proof.certificate, findings.proof.ends)};
     if (findings.proof.margins) out.push_back(margin_words(*findings.proof.margins, findings.sides[1].label));
+    const std::span<const DrawnAgent> sides = findings.sides;
+    std::string doubt = doubt_words(sides[0].label, sides[0].clip(), sides[1].label, sides[1].clip());
+    if (!doubt.empty()) out.push_back(std::move(doubt) + '.');
     return out;
 }
 

@@ -3,6 +3,7 @@
 #include <base/text.h>
 #include <import/bvh/bvh.h>
 #include <import/clip/held_steps.h>
+#include <import/clip/sample_times.h>
 #include <import/fbx/fbx.h>
 #include <import/foreign_files.h>
 #include <import/import.h>
@@ -57,7 +58,12 @@ ParsedFile parse_once(const std::filesystem::path& file, InputBytes input) {
                 checked(options);
                 static_cast<void>(spent);
                 std::vector<ImportedClip> clips = to_clips(*parsed, file, options);
-                for (ImportedClip& clip : clips) warn_of_long_held_step(*clip.clip, clip.facts.warnings);
+                for (ImportedClip& clip : clips) {
+                    warn_of_long_held_step(*clip.clip, clip.facts.warnings);
+                    at_place(file.string(), clip.id.empty() ? "" : "track " + in_quotes(clip.id),
+                             [&] { mobb::checked({.start = clip.start}, clip.clip->most_start()); });
+                    warn_of_coarse_times(*clip.clip, clip.start, clip.facts.warnings);
+                }
                 return clips;
             },
             [=](const ImportOptions& options) {

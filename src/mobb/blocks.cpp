@@ -151,6 +151,7 @@ Blocks::Blocks(ClipPtr clip)
       steps_(clip->steps()),
       disks_(clip->samples().data()),
       reach_(clip->reach()),
+      most_start_(clip->most_start()),
       clip_(std::move(clip)) {
     constexpr std::int64_t kWhole = std::int64_t{1} << kLogParts;
     const double sure = 2 * kMinOverlap * per_dt_;  // of a sample; twice, as times are exact to half of it

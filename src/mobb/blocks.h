@@ -84,8 +84,9 @@ class alignas(64) Blocks {
     double dt() const { return dt_; }
     double per_dt() const { return per_dt_; }  ///< 1 / dt()
     bool is_linear() const { return linear_; }
-    const Disk* disks() const { return disks_; }  ///< of the clip
-    double reach() const { return reach_; }       ///< of the clip
+    const Disk* disks() const { return disks_; }       ///< of the clip
+    double reach() const { return reach_; }            ///< of the clip
+    double most_start() const { return most_start_; }  ///< of the clip
 
     int levels() const { return level_count_; }
     /// Blocks of a level, 0 <= level < levels(); samples that each has, but for the last one.
@@ -247,6 +248,7 @@ class alignas(64) Blocks {
     std::vector<float> values_;
     const Disk* disks_;
     double reach_;
+    double most_start_;
     glm::dvec2 origin_{0}, velocity_{0};
     double root_speed_ = 0, radius_ = 0, moving_radius_ = 0;
     ClipPtr clip_;
@@ -265,15 +267,16 @@ struct LinkPlace {
 /// the direct search. It refers to the blocks, which must outlive it and stay where they are.
 class alignas(64) PlacedBlocks {
   public:
-    /// Throws std::invalid_argument, naming the number, unless is_valid(placement).
+    /// Throws std::invalid_argument, naming the number, unless is_valid(placement, blocks.most_start()).
     PlacedBlocks(const Blocks& blocks, const Placement& placement)
-        : PlacedBlocks(blocks, Rotation::from_degrees(checked(placement).rotate_deg), placement.translate,
-                       placement.start, 0, blocks.steps(), nullptr) {}
+        : PlacedBlocks(blocks, Rotation::from_degrees(checked(placement, blocks.most_start()).rotate_deg),
+                       placement.translate, placement.start, 0, blocks.steps(), nullptr) {}
     /// As a Placement, with a rotation that is known. Throws likewise, and unless the squares of cosine and sine add up
     /// to 1, within 1e-9.
     PlacedBlocks(const Blocks& blocks, const Rotation& rotation, glm::dvec2 translate, double start)
-        : PlacedBlocks(blocks, checked(rotation), checked(Placement{.translate = translate, .start = start}).translate,
-                       start, 0, blocks.steps(), nullptr) {}
+        : PlacedBlocks(blocks, checked(rotation),
+                       checked(Placement{.translate = translate, .start = start}, blocks.most_start()).translate, start,
+                       0, blocks.steps(), nullptr) {}
     PlacedBlocks(const Blocks&&, const Placement&) = delete;
     PlacedBlocks(const Blocks&&, const Rotation&, glm::dvec2, double) = delete;
 

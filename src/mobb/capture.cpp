@@ -259,7 +259,7 @@ Capture capture(const PlacedTree& a, const PlacedTree& b, const std::optional<Co
 void check(const Capture& capture) {
     const auto refuse = [](const char* why) { throw std::invalid_argument(why); };
     if (!capture.a.clip || !capture.b.clip) refuse("a captured query needs two clips");
-    for (const CapturedSide* side : {&capture.a, &capture.b}) checked(side->placement);
+    for (const CapturedSide* side : {&capture.a, &capture.b}) checked(side->placement, side->clip->most_start());
     check(capture.fit);
     if (const auto& contact = capture.contact) {
         if (!capture.collides.value_or(false)) refuse("a captured query has a contact, but does not collide");

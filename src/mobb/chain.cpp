@@ -88,6 +88,8 @@ void Chain::append(std::span<const ChainLink> links) {
         if (samples > kMaxSamples) fail("with it the chain has more than 500000000 samples");
         if (static_cast<double>(samples) * tree.clip().dt() > kMaxTime)
             fail("with it the chain lasts longer than 1e12 s");
+        if (mobb::most_start(tree.clip().dt(), static_cast<double>(samples) * tree.clip().dt()) < 0)
+            fail("with it the chain is so long that doubles cannot tell its samples' times apart");
         shift = std::max(shift, bits_for(tree));
         reach = std::max(reach, reach_of(link));
     }

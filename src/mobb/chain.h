@@ -101,6 +101,8 @@ class Chain {
     int until() const { return links_.back().until; }   ///< the chain ends when this sample begins, or would begin
     double duration() const { return until() * dt_; }   ///< chain time at which it ends, seconds
     double until_next() const { return end() * dt_; }   ///< chain time at which a link that is added begins, seconds
+    /// See mobb::most_start: who starts farther from time 0, in seconds, is refused.
+    double most_start() const { return mobb::most_start(dt_, until_next()); }
     /// An upper bound in metres on |x| + |y| + r over the samples.
     double reach() const { return reach_; }
 

@@ -1,7 +1,9 @@
 #include <mobb/clip.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -16,15 +18,19 @@ bool within(double value, double limit) { return std::isfinite(value) && std::ab
 }  // namespace
 
 Clip::Clip(double dt, std::vector<Disk> samples, Motion motion)
-    : dt_(dt), motion_(motion), samples_(std::move(samples)), reach_(0) {
+    : dt_(dt), motion_(motion), samples_(std::move(samples)), most_start_(0), reach_(0) {
     // Written so that NaN fails it.
-    if (!(dt >= kLeastDt) || !std::isfinite(dt))
-        throw std::invalid_argument("dt must be a finite number of at least 1e-12 s");
+    if (!(dt > kLeastDt) || !std::isfinite(dt)) {
+        throw std::invalid_argument(
+            "dt must be a finite number over 2e-9 s: what two samples share for at most 1e-9 s is not tested");
+    }
     if (samples_.empty()) throw std::invalid_argument("a clip needs at least one sample");
     if (samples_.size() > kMaxSamples) {
         throw std::invalid_argument("a clip holds at most 500000000 samples");
     }
     if (until_next() > kMaxTime) throw std::invalid_argument("the clip lasts longer than 1e12 s");
+    most_start_ = mobb::most_start(dt, until_next());
+    if (!(most_start_ >= 0)) throw std::invalid_argument("dt is so near to 2e-9 s that no sample is sure to be tested");
     for (std::size_t i = 0; i < samples_.size(); ++i) {
         const Disk& d = samples_[i];
         const auto fail = [i](const char* what) {
@@ -37,10 +43,18 @@ Clip::Clip(double dt, std::vector<Disk> samples, Motion motion)
     }
 }
 
-void refuse_placement(glm::dvec2, double rotate_deg, double start) {
+void refuse_placement(glm::dvec2, double rotate_deg, double start, double most_start) {
     if (!within(rotate_deg, kMaxDegrees))
         throw std::invalid_argument("rotate_deg must be finite and within 1e9 degrees");
     if (!within(start, kMaxTime)) throw std::invalid_argument("start must be finite and within 1e12 s");
+    if (!within(start, most_start)) {
+        std::array<char, 200> text{};
+        std::snprintf(text.data(), text.size(),
+                      "start %.9g s is too far from 0: doubles tell these samples' times apart within %.3g s; start "
+                      "nearer to 0, or give a larger dt",
+                      start, most_start);
+        throw std::invalid_argument(text.data());
+    }
     throw std::invalid_argument("translate must be finite and within 1e9 m");
 }
 
@@ -49,7 +63,7 @@ void refuse_rotation() {
 }
 
 Rotation Rotation::from_degrees(double degrees) {
-    if (!within(degrees, kMaxDegrees)) refuse_placement({}, degrees, 0);
+    if (!within(degrees, kMaxDegrees)) refuse_placement({}, degrees, 0, kMaxTime);
     // Quarter turns first, so that 90, 180 and 270 degrees are exact and the rest is small.
     const double quarters = std::nearbyint(degrees / 90);
     const double rest = (degrees - quarters * 90) * (std::numbers::pi / 180);

@@ -26,8 +26,23 @@ inline constexpr double kMaxLength = 1e9;
 inline constexpr double kMaxTime = 1e12;
 /// The largest angle of a rotation that is taken, degrees.
 inline constexpr double kMaxDegrees = 1e9;
-/// Seconds from sample to sample: with fewer, speeds and their squares would not all be numbers.
-inline constexpr double kLeastDt = 1e-12;
+
+/// Two half-open time intervals overlap if they share more than this many seconds; sharing an end point is not
+/// overlapping.
+inline constexpr double kMinOverlap = 1e-9;
+/// Seconds from sample to sample are more than this: else what two samples share may never be over kMinOverlap.
+inline constexpr double kLeastDt = 2 * kMinOverlap;
+
+/// How much of each sample's time is not sure, in seconds, of what starts at `start` and lasts `duration`: doubles
+/// round where samples begin and end, and what is shared for at most kMinOverlap is not tested.
+inline double unsure_time(double start, double duration) {
+    return kMinOverlap + 0x1p-52 * (std::abs(start) + 2 * duration);
+}
+/// The largest |start| in seconds, at most kMaxTime, at which that is at most half of dt. So each sample shares enough
+/// time with another one, whoever is there with it. Below 0: there is no such start.
+inline double most_start(double dt, double duration) {
+    return std::min(kMaxTime, 0x1p52 * (dt / 2 - kMinOverlap) - 2 * duration);
+}
 
 /// Sample and node indices are int; a tree has fewer than twice as many nodes as samples.
 inline constexpr std::size_t kMaxSamples = 500'000'000;
@@ -45,7 +60,7 @@ std::span<const std::string_view> motion_names();
 /// freely.
 class Clip {
   public:
-    /// Throws std::invalid_argument, naming the sample, if dt is not finite or below kLeastDt, there is no sample, a
+    /// Throws std::invalid_argument, naming the sample, if dt is not finite or not over kLeastDt, there is no sample, a
     /// number is not finite or beyond kMaxLength, a radius is negative, the clip lasts longer than kMaxTime, or there
     /// are more samples than kMaxSamples.
     Clip(double dt, std::vector<Disk> samples, Motion motion = Motion::held);
@@ -67,6 +82,8 @@ class Clip {
     double duration() const { return steps() * dt_; }  ///< seconds
     /// Seconds from when the clip begins to when the next one of a chain does: a linear one runs on to it for dt.
     double until_next() const { return count() * dt_; }
+    /// See most_start: who starts farther from time 0, in seconds, is refused.
+    double most_start() const { return most_start_; }
     /// An upper bound in metres on |x| + |y| + r over the samples: what the slack of box tests is made from.
     double reach() const { return reach_; }
 
@@ -74,6 +91,7 @@ class Clip {
     double dt_;
     Motion motion_;
     std::vector<Disk> samples_;
+    double most_start_;
     double reach_;
 };
 
@@ -88,22 +106,23 @@ struct Placement {
     friend bool operator==(const Placement&, const Placement&) = default;
 };
 
-/// True if every number is finite and within kMaxLength, kMaxDegrees and kMaxTime.
-inline bool is_valid(const Placement& placement) {
+/// True if every number is finite and within kMaxLength, kMaxDegrees and `most_start`: Clip::most_start of what is
+/// placed.
+inline bool is_valid(const Placement& placement, double most_start = kMaxTime) {
     // Written so that NaN fails it.
     return std::abs(placement.translate.x) <= kMaxLength && std::abs(placement.translate.y) <= kMaxLength &&
-           std::abs(placement.rotate_deg) <= kMaxDegrees && std::abs(placement.start) <= kMaxTime;
+           std::abs(placement.rotate_deg) <= kMaxDegrees && std::abs(placement.start) <= most_start;
 }
 
 /// Throws std::invalid_argument, naming the number of a placement that is_valid does not take.
-[[noreturn]] void refuse_placement(glm::dvec2 translate, double rotate_deg, double start);
+[[noreturn]] void refuse_placement(glm::dvec2 translate, double rotate_deg, double start, double most_start);
 
 /// The placement, or else refuses it: all that is placed is checked so when it is made. Compared with what is not a
-/// number, everything would be apart.
-inline const Placement& checked(const Placement& placement) {
+/// number, everything would be apart; and times that doubles cannot tell apart are shared by nobody.
+inline const Placement& checked(const Placement& placement, double most_start) {
     // By its numbers, which may be in registers.
-    if (!is_valid(placement)) [[unlikely]]
-        refuse_placement(placement.translate, placement.rotate_deg, placement.start);
+    if (!is_valid(placement, most_start)) [[unlikely]]
+        refuse_placement(placement.translate, placement.rotate_deg, placement.start, most_start);
     return placement;
 }
 
@@ -158,7 +177,7 @@ struct StoredDisks {
 /// outlive it and stay where it is.
 class PlacedClip {
   public:
-    /// Throws std::invalid_argument, naming the number, unless is_valid(placement).
+    /// Throws std::invalid_argument, naming the number, unless is_valid(placement, clip.most_start()).
     PlacedClip(const Clip& clip, const Placement& placement)
         : samples_(clip.samples().data()),
           dt_(clip.dt()),
@@ -166,8 +185,8 @@ class PlacedClip {
           steps_(clip.steps()),
           clip_(&clip),
           rotate_deg_(placement.rotate_deg),
-          frame_{Rotation::from_degrees(checked(placement).rotate_deg), placement.translate, placement.start,
-                 clip.reach(), clip.duration()} {}
+          frame_{Rotation::from_degrees(checked(placement, clip.most_start()).rotate_deg), placement.translate,
+                 placement.start, clip.reach(), clip.duration()} {}
     PlacedClip(const Clip&&, const Placement&) = delete;
 
     const Clip& clip() const { return *clip_; }

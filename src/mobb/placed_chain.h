@@ -46,13 +46,13 @@ class ChainSamples {
 /// where it is, and not change meanwhile.
 class PlacedChain {
   public:
-    /// Throws std::invalid_argument, naming the number, unless is_valid(placement).
+    /// Throws std::invalid_argument, naming the number, unless is_valid(placement, chain.most_start()).
     PlacedChain(const Chain& chain, const Placement& placement)
         : chain_(&chain),
           dt_(chain.dt()),
           until_(chain.until()),
-          frame_{Rotation::from_degrees(checked(placement).rotate_deg), placement.translate, placement.start,
-                 chain.reach(), chain.duration()} {}
+          frame_{Rotation::from_degrees(checked(placement, chain.most_start()).rotate_deg), placement.translate,
+                 placement.start, chain.reach(), chain.duration()} {}
     PlacedChain(const Chain&&, const Placement&) = delete;
 
     const Chain& chain() const { return *chain_; }

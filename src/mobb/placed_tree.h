@@ -12,7 +12,7 @@ namespace mobb {
 /// stay where it is.
 class PlacedTree {
   public:
-    /// Throws std::invalid_argument, naming the number, unless is_valid(placement).
+    /// Throws std::invalid_argument, naming the number, unless is_valid(placement, tree.clip().most_start()).
     PlacedTree(const Tree& tree, const Placement& placement)
         : nodes_(tree.nodes().data()), placed_(tree.clip(), placement), tree_(&tree) {}
     PlacedTree(const Tree&&, const Placement&) = delete;

@@ -18,10 +18,6 @@ static_assert(FLT_EVAL_METHOD == 0, "doubles must be evaluated as doubles");
 
 namespace mobb {
 
-/// Two half-open time intervals overlap if they share more than this many seconds; sharing an end point is not
-/// overlapping.
-inline constexpr double kMinOverlap = 1e-9;
-
 inline bool overlap_in_time(double begin_a, double end_a, double begin_b, double end_b) {
     return std::min(end_a, end_b) - std::max(begin_a, begin_b) > kMinOverlap;
 }

@@ -42,6 +42,7 @@ std::string headline(const RunFacts& facts, const Summary& sum, std::size_t case
     if (facts.strict && !facts.orphans.empty()) {
         return counted(facts.orphans.size(), "golden has", "goldens have") + " no case";
     }
+    if (!facts.weak.empty()) return counted(facts.weak.size(), "weakness", "weaknesses") + " of cases";
     const int passed = sum[CaseOutcome::passed], skipped = sum[CaseOutcome::skipped];
     if (passed == 0) return "No picture was compared";
     return counted(passed, "picture test", "picture tests") + " passed" +
@@ -361,6 +362,7 @@ void write_facts(std::ostream& out, const RunFacts& facts, std::span<const CaseR
     if (const std::string by = drawn_by(facts, results); !by.empty()) write_fact(out, "Drawn by", by);
     if (const std::string passed = differing_passes(results); !passed.empty()) write_fact(out, "Passed", passed);
     for (const std::string& orphan : facts.orphans) write_fact(out, "No case has", orphan);
+    for (const std::string& weak : facts.weak) write_fact(out, "Weak case", weak);
     out << "</dl></details>\n";
 }
 

@@ -51,11 +51,36 @@ void write_remarks(std::ostream& out, const CaseResult& result) {
     out << "</system-out>\n";
 }
 
-void write_orphans(std::ostream& out, const RunFacts& facts) {
-    out << "    <testcase" << attribute("classname", facts.folder) << attribute("name", "orphaned goldens")
-        << attribute("time", "0") << ">\n      <failure" << attribute("type", kOrphan)
-        << attribute("message", counted(facts.orphans.size(), "golden has", "goldens have") + " no case") << '>';
-    for (const std::string& orphan : facts.orphans) out << escaped(orphan) << kOrphanAdvice << '\n';
+constexpr std::string_view kWeak = "weak case";
+
+/// What --strict complains of: one kind of it, as a test case of its own.
+struct StrictFailure {
+    std::string_view kind;
+    std::string name, message;
+    const std::vector<std::string>* lines;
+    std::string_view advice;
+};
+
+std::vector<StrictFailure> strict_failures(const RunFacts& facts) {
+    std::vector<StrictFailure> out;
+    if (!facts.strict) return out;
+    if (!facts.orphans.empty()) {
+        out.push_back({kOrphan, "orphaned goldens",
+                       counted(facts.orphans.size(), "golden has", "goldens have") + " no case", &facts.orphans,
+                       kOrphanAdvice});
+    }
+    if (!facts.weak.empty()) {
+        out.push_back(
+            {kWeak, "weak cases", counted(facts.weak.size(), "weakness", "weaknesses") + " of cases", &facts.weak, ""});
+    }
+    return out;
+}
+
+void write_failure(std::ostream& out, const RunFacts& facts, const StrictFailure& failure) {
+    out << "    <testcase" << attribute("classname", facts.folder) << attribute("name", failure.name)
+        << attribute("time", "0") << ">\n      <failure" << attribute("type", failure.kind)
+        << attribute("message", failure.message) << '>';
+    for (const std::string& line : *failure.lines) out << escaped(line) << failure.advice << '\n';
     out << "</failure>\n    </testcase>\n";
 }
 
@@ -82,7 +107,7 @@ std::string differing_passes(std::span<const CaseResult> results) {
 }
 
 bool is_ok(const RunFacts& facts, std::span<const CaseResult> results) {
-    return summary(results).ok() && (!facts.strict || facts.orphans.empty());
+    return summary(results).ok() && strict_failures(facts).empty();
 }
 
 std::string_view if_right(const CaseResult& result) {
@@ -127,6 +152,7 @@ void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
         for (std::size_t i = 1; i < lines.size(); ++i) out << "  " << cleaned(lines[i]) << '\n';
     }
     for (const std::string& orphan : facts.orphans) out << kOrphan << ": " << cleaned(orphan) << kOrphanAdvice << '\n';
+    for (const std::string& weak : facts.weak) out << kWeak << ": " << cleaned(weak) << '\n';
     out << cleaned(facts.folder) << (facts.shard.empty() ? "" : ", shard " + facts.shard) << ": "
         << sum_of(summary(results));
     if (const std::string by = drawn_by(facts, results); !by.empty()) out << "; drawn by " << cleaned(by);
@@ -153,6 +179,7 @@ void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
     for (std::size_t i = 0; i < sum.counts.size(); ++i) json.member(kOutcomeWords[i].key, sum.counts[i]);
     json.end_object();
     json.list("orphans", facts.orphans, [&](const std::string& orphan) { json.value(orphan); });
+    if (facts.strict) json.values("weak", facts.weak);
     json.list("cases", results, [&](const CaseResult& result) {
         json.begin_object();
         json.member("name", result.file.name);
@@ -173,10 +200,10 @@ void write_junit(std::ostream& out, const RunFacts& facts, std::span<const CaseR
     double seconds = 0;
     for (const CaseResult& result : results) seconds += result.seconds;
     Summary found = summary(results);
-    const bool orphans = facts.strict && !facts.orphans.empty();
-    // They are reported as a case of their own.
-    if (orphans) ++found[CaseOutcome::different];
-    const std::string sum = counts(found, results.size() + (orphans ? 1 : 0), seconds);
+    const std::vector<StrictFailure> strict = strict_failures(facts);
+    // Each is reported as a case of its own.
+    found[CaseOutcome::different] += static_cast<int>(strict.size());
+    const std::string sum = counts(found, results.size() + strict.size(), seconds);
     out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
     out << "<testsuites" << sum << ">\n  <testsuite" << attribute("name", facts.folder) << sum << ">\n";
     out << "    <properties>\n      <property name=\"backend\"" << attribute("value", facts.backend)
@@ -198,7 +225,7 @@ void write_junit(std::ostream& out, const RunFacts& facts, std::span<const CaseR
         write_remarks(out, result);
         out << "    </testcase>\n";
     }
-    if (orphans) write_orphans(out, facts);
+    for (const StrictFailure& failure : strict) write_failure(out, facts, failure);
     out << "  </testsuite>\n</testsuites>\n";
 }
 

@@ -19,7 +19,8 @@ struct RunFacts {
     std::string renderer;                ///< what OpenGL calls itself
     std::string page{};                  ///< the page of the run, whose goldens can be taken; empty: there is none
     std::vector<std::string> orphans{};  ///< goldens that no case has
-    bool strict = false;                 ///< whether they make the run fail
+    std::vector<std::string> weak{};     ///< with `strict`: cases that see hardly anything, and why (weak_cases.h)
+    bool strict = false;                 ///< whether orphans and weak cases make the run fail
     std::string shard{};  ///< "2/3": only every third case, from the second; empty: all that were asked for
     std::string ended{};  ///< "ended after 12 of 40 cases", of which alone the report tells; empty: all were run
 };
@@ -28,12 +29,12 @@ struct RunFacts {
 /// and further lines below it; what is to be known of the run, and the sum.
 void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
 /// {"folder", "backend", "renderer", "shard": "2/3" of a shard, "ended" of a run that was, "summary": {...}, "orphans":
-/// [...], "cases": [{"name", "outcome", "message", "remarks": [...], "seconds", "tolerance", "diff": {...} or null}]};
-/// `diff` as in `mobbscope diff
+/// [...], "weak": [...] with --strict, "cases": [{"name", "outcome", "message", "remarks": [...], "seconds",
+/// "tolerance", "diff": {...} or null}]}; `diff` as in `mobbscope diff
 /// --json`; `tolerance` is null where draws_nothing, and `backend` is "none" if that is so of all.
 void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
-/// JUnit's XML: a failed picture is a failure, one that could not be drawn an error; with `strict` orphans are a test
-/// case of their own.
+/// JUnit's XML: a failed picture is a failure, one that could not be drawn an error; with `strict` orphans and weak
+/// cases are a test case each.
 void write_junit(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
 /// One page that needs nothing else: actual picture, golden, difference, and the two in turn.
 void write_html(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);

@@ -36,6 +36,11 @@ std::optional<std::string> fresh_bytes(const CaseResult& result, const std::file
 /// Lines of what differs in one golden: a report is read, not searched.
 constexpr std::size_t kMostWords = 12;
 
+/// All goldens of a case but its picture, whether it holds them or not.
+std::array<std::filesystem::path, 4> number_goldens(const CaseFile& file) {
+    return {file.state(), file.golden_of(Held::answers), file.golden_of(Held::trace), file.golden_of(Held::fit)};
+}
+
 bool is_there(const std::filesystem::path& file) {
     std::error_code ignored;
     return std::filesystem::exists(file, ignored);
@@ -248,8 +253,7 @@ void check_replaces_no_input(const CaseFile& file, const Case& tested, bool aske
     if (asked) written.push_back(file.file);
     for (const std::filesystem::path& golden : written) {
         for (const std::filesystem::path& input : read) {
-            std::error_code ignored;
-            if (!std::filesystem::equivalent(golden, input, ignored)) continue;
+            if (!is_same_file(golden, input)) continue;
             const std::string name = golden.filename().string();
             throw InputError(file.file.string(), "",
                              "the case reads " + name + ", where its golden goes; rename the case or that file");
@@ -393,7 +397,16 @@ std::string words_on(const CaseResult& result, const std::filesystem::path& fold
     return std::move(out).str();
 }
 
+void check_kept(const CaseResult& result, const std::filesystem::path& folder) {
+    const std::string stem = (folder / result.file.name).string();
+    for (const std::string_view what : {".txt", ".actual.png", ".golden.png", ".heat.png"})
+        check_not_read(stem + std::string(what));
+    for (const std::filesystem::path& file : number_goldens(result.file))
+        check_not_read(stem + ".actual" + result.file.ending_of(file));
+}
+
 std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const std::filesystem::path& folder) {
+    check_kept(result, folder);
     const std::filesystem::path stem = folder / result.file.name;
     const bool passed = result.outcome == CaseOutcome::passed;
     if (!passed) make_folder_of(stem);
@@ -417,8 +430,7 @@ std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const
     keep("actual.png", keeps ? png(result.actual) : std::nullopt);
     keep("golden.png", keeps ? png(result.golden) : std::nullopt);
     keep("heat.png", heat ? std::optional(png_bytes(*heat)) : std::nullopt);
-    for (const std::filesystem::path& file : {result.file.state(), result.file.golden_of(Held::answers),
-                                              result.file.golden_of(Held::trace), result.file.golden_of(Held::fit)}) {
+    for (const std::filesystem::path& file : number_goldens(result.file)) {
         keep("actual" + result.file.ending_of(file), keeps ? fresh_bytes(result, file) : std::nullopt);
     }
     return written;

@@ -1,5 +1,6 @@
 #include <base/text.h>
 #include <cases/golden_change.h>
+#include <cases/weak_cases.h>
 #include <review/golden_steps.h>
 #include <review/review.h>
 
@@ -34,8 +35,12 @@ bool is_there_already(const std::vector<GoldenChange>& fresh) {
 std::vector<ReviewNews> GoldenSteps::accept(const std::vector<std::size_t>& indices) {
     std::vector<std::size_t> ready;
     std::string not_accepted;
+    const bool alone = indices.size() == 1 && indices.front() == review_.current();
     for (const std::size_t index : indices) {
-        if (const std::string why = review_.why_not_accept(index); !why.empty()) {
+        std::string why = review_.why_not_accept(index);
+        if (why.empty() && !alone && brings_case(review_.cases()[index].result))
+            why = "the report brings the case itself, no golden; accept it alone, while it is shown";
+        if (!why.empty()) {
             not_accepted += (not_accepted.empty() ? "" : "; ") + review_.cases()[index].file.name + ": " + why;
             continue;
         }
@@ -54,7 +59,7 @@ std::vector<ReviewNews> GoldenSteps::accept(const std::vector<std::size_t>& indi
 
 std::vector<ReviewNews> GoldenSteps::write(const std::vector<std::size_t>& indices) {
     Step step;
-    std::vector<ReviewNews> refused, known;
+    std::vector<ReviewNews> refused, known, on_cases;
     std::exception_ptr first_refusal;
     for (const std::size_t index : indices) {
         ReviewCase& one = review_.change(index);
@@ -66,7 +71,10 @@ std::vector<ReviewNews> GoldenSteps::write(const std::vector<std::size_t>& indic
                 continue;
             }
             if (one.from_output) picture_tests::check_bytes(one.result.fresh, review_.output());
+            std::vector<std::string> words;
+            if (brings_case(one.result)) words = words_on_brought_case(one.result);
             picture_tests::write_goldens(one.result.fresh);
+            for (std::string& line : words) on_cases.push_back({MessageLevel::warning, std::move(line)});
         } catch (const std::exception& error) {
             if (!first_refusal) first_refusal = std::current_exception();
             refused.push_back({MessageLevel::error, error.what()});
@@ -86,6 +94,7 @@ std::vector<ReviewNews> GoldenSteps::write(const std::vector<std::size_t>& indic
     std::vector<ReviewNews> said{{MessageLevel::info, step.said}};
     steps_.push_back(std::move(step));
     ++done_;
+    said.insert(said.end(), on_cases.begin(), on_cases.end());
     said.insert(said.end(), known.begin(), known.end());
     said.insert(said.end(), refused.begin(), refused.end());
     return said;

@@ -15,8 +15,9 @@ class GoldenSteps {
         : review_(review), surroundings_(surroundings) {}
 
     /// Those that can be (Review::why_not_accept): their pictures become goldens, as `mobbscope test --update` makes
-    /// them, and undo takes all back at once. Returns what it did. Throws std::invalid_argument if it can be done with
-    /// none; InputError and MachineError if nothing could be written.
+    /// them, and undo takes all back at once. A case that a report brings itself is taken only where it alone is
+    /// accepted, while it is shown. Returns what it did. Throws std::invalid_argument if it can be done with none;
+    /// InputError and MachineError if nothing could be written.
     std::vector<ReviewNews> accept(const std::vector<std::size_t>& indices);
     bool has_undo() const { return done_ > 0; }
     bool has_redo() const { return done_ < steps_.size(); }

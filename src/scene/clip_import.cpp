@@ -130,7 +130,9 @@ void replace_clips(Scene& scene, const std::vector<ReimportedClip>& clips) {
     const auto follow = [&](int clip, mobb::Placement& placement) {
         const auto at = started.find(clip);
         if (at == started.end()) return false;
-        if (placement.start == at->second) placement.start = scene.clips[static_cast<std::size_t>(clip)].start;
+        const SceneClip& now = scene.clips[static_cast<std::size_t>(clip)];
+        if (placement.start == at->second) placement.start = now.start;
+        mobb::checked(placement, now.clip->most_start());
         return true;
     };
     for (Agent& agent : scene.agents) follow(agent.clip, agent.placement);

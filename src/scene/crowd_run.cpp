@@ -92,7 +92,10 @@ class CrowdReader {
         play.move = move.integer(0, static_cast<int>(scene_.graph->moves.size()) - 1);
         play.placement.translate = place.require("translate").vector<glm::dvec2>(mobb::kMaxLength, "[x, y] in metres");
         play.placement.rotate_deg = place.require("rotate_deg").number(-1e9, 1e9);
-        play.placement.start = place.require("start").number(-mobb::kMaxTime, mobb::kMaxTime);
+        const JsonPlace start = place.require("start");
+        play.placement.start = start.number(-mobb::kMaxTime, mobb::kMaxTime);
+        const mobb::Clip& clip = clip_of(scene_.graph->moves[static_cast<std::size_t>(play.move)]);
+        start.attempt([&] { mobb::checked(play.placement, clip.most_start()); });
         const auto chosen_at = place.find("chosen_at");
         play.chosen_at = chosen_at ? chosen_at->number(-mobb::kMaxTime, play.placement.start) : play.placement.start;
         if (const auto kind = place.find("kind")) play.kind = read_kind(*kind);
@@ -120,7 +123,8 @@ class CrowdReader {
             Stance exit = i == 0 ? from.exit : turned_exit(pair, out.back());
             if (run_.turn_rate == kTurnsAtOnce) exit.heading_deg += next.turn_deg;
             at = following(at, exit, clip_of(from).until_next(), to.entry);
-            if (!mobb::is_valid(at)) pair.fail("leads beyond what can be placed; leave it out");
+            if (!mobb::is_valid(at, clip_of(to).most_start()))
+                pair.fail("leads beyond what can be placed; leave it out");
             last = next.move;
             out.push_back(next);
         }

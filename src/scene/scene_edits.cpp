@@ -22,6 +22,11 @@ constexpr int kMostNumber = 999'999;
 
 Agent& agent_at(Scene& scene, int agent) { return scene.agents.at(static_cast<std::size_t>(agent)); }
 
+/// Throws std::invalid_argument, naming the number, where a clip cannot be placed.
+void check_placement(const Scene& scene, int clip, const mobb::Placement& placement) {
+    mobb::checked(placement, scene.clips.at(static_cast<std::size_t>(clip)).clip->most_start());
+}
+
 /// Queries as their agents are now.
 template <class Change>
 void change_sides(Scene& scene, int agent, const Change& change) {
@@ -183,7 +188,7 @@ void add_agents_for_clips(Scene& scene) {
 }
 
 void place_agent(Scene& scene, int agent, const mobb::Placement& placement) {
-    if (!mobb::is_valid(placement)) throw std::invalid_argument("a placement is too far away or not a number");
+    check_placement(scene, agent_at(scene, agent).clip, placement);
     agent_at(scene, agent).placement = placement;
     change_sides(scene, agent, [&](PlacedAgent& side) { side.placement = placement; });
 }
@@ -208,7 +213,7 @@ void rename_agent(Scene& scene, int agent, const std::string& name) {
 }
 
 int add_agent(Scene& scene, int clip, const mobb::Placement& placement) {
-    if (!mobb::is_valid(placement)) throw std::invalid_argument("a placement is too far away or not a number");
+    check_placement(scene, clip, placement);
     add_agents_for_clips(scene);
     const std::string& wanted = scene.clips.at(static_cast<std::size_t>(clip)).name;
     const ImpliedQueries implied(scene);

@@ -3,6 +3,7 @@
 #include <base/json.h>
 #include <base/text.h>
 #include <import/clip/held_steps.h>
+#include <import/clip/sample_times.h>
 #include <import/clip/sampling.h>
 #include <import/import.h>
 #include <scene/arrangement.h>
@@ -41,13 +42,18 @@ Color read_color(const JsonPlace& place) {
     return *color;
 }
 
-mobb::Placement read_placement(const JsonPlace& place) {
+/// Of a clip, which takes what is to be said of its start.
+mobb::Placement read_placement(const JsonPlace& place, SceneClip& clip) {
     mobb::Placement placement;
     if (const auto translate = place.find("translate")) {
         placement.translate = translate->vector<glm::dvec2>(mobb::kMaxLength, "[x, y] in metres");
     }
     if (const auto degrees = place.find("rotate_deg")) placement.rotate_deg = degrees->number(-1e9, 1e9);
-    if (const auto start = place.find("start")) placement.start = start->number(-mobb::kMaxTime, mobb::kMaxTime);
+    if (const auto start = place.find("start")) {
+        placement.start = start->number(-mobb::kMaxTime, mobb::kMaxTime);
+        start->attempt([&] { mobb::checked(placement, clip.clip->most_start()); });
+        warn_of_coarse_times(*clip.clip, placement.start, clip.facts.warnings);
+    }
     return placement;
 }
 
@@ -230,7 +236,10 @@ class SceneReader {
         if (const auto queries = root_.find("queries")) {
             for (int i = 0; i < queries->size(); ++i) scene_.queries.push_back(read_query((*queries)[i]));
         }
-        if (const auto crowd = root_.find("crowd")) scene_.crowd = read_crowd(*crowd, scene_);
+        if (const auto crowd = root_.find("crowd")) {
+            scene_.crowd = read_crowd(*crowd, scene_);
+            warn_of_plays();
+        }
         if (const auto debug = root_.find("debug")) scene_.debug = read_debug_state(*debug, query_count(scene_));
         if (const auto view = root_.find("view")) {
             scene_.view = read_view(*view);
@@ -270,6 +279,7 @@ class SceneReader {
                 turn->fail("only a clip with a source is turned; turn the samples, and remove this");
             clip.clip = read_samples(place, overrides_.motion);
             warn_of_long_held_step(*clip.clip, clip.facts.warnings);
+            warn_of_coarse_times(*clip.clip, 0, clip.facts.warnings);
         } else {
             place.fail("a clip needs a source, or dt and samples");
         }
@@ -398,7 +408,7 @@ class SceneReader {
         Agent agent;
         agent.name = name.string();
         agent.clip = clip_names_.find(place.require("clip"), "clip");
-        agent.placement = read_placement(place);
+        agent.placement = read_placement(place, clip_at(agent.clip));
         if (const auto color = place.find("color")) agent.color = read_color(*color);
         return agent;
     }
@@ -427,7 +437,7 @@ class SceneReader {
         return std::make_shared<const mobb::Trace>(std::move(trace));
     }
 
-    PlacedAgent read_placed_agent(const JsonPlace& place) const {
+    PlacedAgent read_placed_agent(const JsonPlace& place) {
         if (place.is_string()) {
             const int index = agent_names_.find(place, "agent");
             const Agent& agent = scene_.agents[static_cast<std::size_t>(index)];
@@ -435,7 +445,8 @@ class SceneReader {
         }
         place.allow_only({"clip", "translate", "rotate_deg", "start"});
         const JsonPlace name = place.require("clip");
-        return {name.string(), clip_names_.find(name, "clip"), read_placement(place), -1};
+        const int clip = clip_names_.find(name, "clip");
+        return {name.string(), clip, read_placement(place, clip_at(clip)), -1};
     }
 
     static Expectation read_expectation(const JsonPlace& place, int samples_a, int samples_b) {
@@ -477,6 +488,16 @@ class SceneReader {
         }
     }
 
+    void warn_of_plays() {
+        for (const CrowdAgent& agent : scene_.crowd->agents) {
+            for (const Play& play : agent.plays) {
+                SceneClip& clip = clip_at(scene_.graph->moves[static_cast<std::size_t>(play.move)].clip);
+                warn_of_coarse_times(*clip.clip, play.placement.start, clip.facts.warnings);
+            }
+        }
+    }
+
+    SceneClip& clip_at(int index) { return scene_.clips[static_cast<std::size_t>(index)]; }
     const mobb::Clip& clip_of(const PlacedAgent& who) const {
         return *scene_.clips[static_cast<std::size_t>(who.clip)].clip;
     }

@@ -138,7 +138,7 @@ TEST(CommandTable, ArgumentsAreCheckedInOneSentence) {
     const std::vector<std::array<std::string, 3>> bad{
         {"agent.move", "1", "the place cannot be '1': give two numbers, such as 1.5 -2"},
         {"agent.move", "1 nan", "the place cannot be '1 nan': give two numbers, such as 1.5 -2"},
-        {"agent.move", "1e300 0", "a placement is too far away or not a number"},
+        {"agent.move", "1e300 0", "translate must be finite and within 1e9 m"},
         {"agent.turn", "north", "the angle cannot be 'north': give a number from -1e+09 to 1e+09"},
         {"agent.color", "red", "the colour cannot be 'red': give one like #E69F00, or none"},
         {"agent.rename", "B", "there is an agent 'B' already"},

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <limits>
 #include <string>
 
 namespace mobbscope::app {
@@ -82,6 +83,38 @@ TEST(Map, ADragIsOneEditAndTheAnswerGoesAlong) {
     EXPECT_EQ(w.edits(), 1u);
     run_command(w.session, "edit.undo");
     EXPECT_EQ(w.b(), before);
+}
+
+/// Along a line over the boundary: what is said of the place under the mouse is what the query says after a click.
+TEST(Map, WhatIsSaidOfAPlaceIsWhatAClickThereGives) {
+    MapWindow w;
+    for (const std::string axes : {"dx,dy", "dheading,dstart", "dx,dstart"}) {
+        run_command(w.session, "map.axes", axes);
+        w.window.settle();
+        const auto map = w.map();
+        int hits = 0, misses = 0, unlike_cell = 0;
+        for (int i = 0; i < 60; ++i) {
+            w.move(w.in_map(0.2f + 0.0107f * static_cast<float>(i), 0.513f));
+            ASSERT_TRUE(w.session.maps.told());
+            const MapInspector::Told told = *w.session.maps.told();
+            w.button(true);
+            w.button(false);
+            EXPECT_EQ(w.b(), told.query.b.placement);
+            const bool collides = w.session.workspace.recorded()->contact.has_value();
+            ++(collides ? hits : misses);
+            const Clearance& clearance = w.session.queries.findings()->clearance;
+            PlacedAnswer now{collides, std::numeric_limits<double>::infinity()};
+            if (clearance.least) now.value = clearance.pieces[*clearance.least].clearance;
+            EXPECT_EQ(told.words, placed_words(MapShow::clearance, now));
+            const auto cell = map->cell_at(w.session.maps.place_of_b(*map));
+            ASSERT_TRUE(cell);
+            const PlacedAnswer middle{map->hit(cell->x, cell->y), map->value(cell->x, cell->y)};
+            unlike_cell += told.words != placed_words(MapShow::clearance, middle) ? 1 : 0;
+        }
+        EXPECT_GT(hits, 0) << axes;
+        EXPECT_GT(misses, 0) << axes;
+        EXPECT_GT(unlike_cell, 20) << "of the cell's middle something else is true";
+    }
 }
 
 TEST(Map, IsMadeAnewForAnotherAAndOtherAxes) {

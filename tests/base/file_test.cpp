@@ -268,12 +268,33 @@ TEST(File, WhatWasReadIsKnownByAnyName) {
     std::filesystem::create_symlink("x.csv", folder.path() / "soft.csv");
     EXPECT_NO_THROW(check_not_read(file));
     read_file(folder.path() / "soft.csv");
-    for (const char* name : {"x.csv", "hard.csv", "soft.csv"}) {
+    for (const char* name :
+         {"x.csv", "hard.csv", "soft.csv", "none/../x.csv", "none/../soft.csv", "./none/.././x.csv"}) {
         EXPECT_NE(input_error([&] { check_not_read(folder.path() / name); }).find("soft.csv', which it is made from"),
                   std::string::npos);
     }
     EXPECT_NO_THROW(check_not_read(folder.path() / "new.csv"));
     EXPECT_NO_THROW(check_not_read(folder.write("other.csv", "x")));
+}
+
+TEST(File, NamesOfOneFileAreKnownAsThat) {
+    const TempFolder folder;
+    const auto file = folder.write("x.csv", "x");
+    std::filesystem::create_hard_link(file, folder.path() / "hard.csv");
+    std::filesystem::create_symlink("x.csv", folder.path() / "soft.csv");
+    std::filesystem::create_symlink("new.csv", folder.path() / "dangling.csv");
+    folder.write("other.csv", "x");
+    for (const char* name : {"x.csv", "hard.csv", "soft.csv", "none/../x.csv", "none/../soft.csv"}) {
+        EXPECT_TRUE(is_same_file(file, folder.path() / name)) << name;
+        EXPECT_FALSE(is_same_file(folder.path() / "other.csv", folder.path() / name)) << name;
+    }
+    EXPECT_TRUE(is_same_file(folder.path() / "dangling.csv", folder.path() / "new.csv")) << "neither is there yet";
+    EXPECT_FALSE(is_same_file(folder.path() / "dangling.csv", folder.path() / "newer.csv"));
+    EXPECT_EQ(meant(folder.path() / "none/../soft.csv"), meant(file));
+    // What is written behind a folder that is not there replaces what the link leads to, not the link.
+    write_file(folder.path() / "none/../soft.csv", "y");
+    EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "soft.csv"));
+    EXPECT_EQ(slurp(file), "y");
 }
 
 TEST(File, ALinkOutOfTheFolderIsToldFromOneWithin) {

@@ -79,6 +79,59 @@ TEST_F(Certificates, AreWrittenAsTheFormatSays) {
     EXPECT_TRUE(hit["margins"].is_null());
 }
 
+/// Two who stand in one place, every `dt` seconds from `start` on.
+std::string two_in_one_place(const std::string& dt, const std::string& start) {
+    return R"({"clips": {"c": {"dt": )" + dt + R"(, "samples": [[0, 0, 0.4], [0.1, 0, 0.4], [0.2, 0, 0.4]]}},
+               "agents": [{"name": "A", "clip": "c", "start": )" +
+           start + R"(}, {"name": "B", "clip": "c", "translate": [0, 2], "start": )" + start + "}]}";
+}
+
+TEST_F(Certificates, OfTimesThatDoublesCannotHoldAreNone) {
+    const std::pair<std::string, std::string> lost[] = {
+        {"1e-10", "0"}, {"2e-9", "0"}, {"1e-5", "1e12"}, {"1e-4", "-1e12"}, {"1e-8", "1e8"}};
+    for (const auto& [dt, start] : lost) {
+        SCOPED_TRACE(dt + " from " + start);
+        folder.write("changed.json", two_in_one_place(dt, start));
+        std::filesystem::copy_file(path("proof.json"), path("old.json"),
+                                   std::filesystem::copy_options::overwrite_existing);
+        for (const std::vector<std::string>& command :
+             {std::vector<std::string>{"query", path("changed.json"), "--proof", "--certificate", path("new.json")},
+              {"verify", path("changed.json"), path("old.json")},
+              {"conflicts", path("changed.json"), "--check"},
+              {"query", path("changed.json"), "--tree", "brute"},
+              {"fit", path("changed.json")}}) {
+            const Result run = run_program(command);
+            expect_refused(run, 2,
+                           dt == "1e-10" || dt == "2e-9" ? "/clips/c/dt: dt must be a finite number over 2e-9 s"
+                                                         : "/agents/0/start: start ");
+            EXPECT_EQ(run.out, "");
+        }
+        EXPECT_FALSE(std::filesystem::exists(path("new.json")));
+    }
+}
+
+TEST_F(Certificates, SayWhatDoublesHoldBadly) {
+    const std::pair<std::string, std::string> coarse[] = {{"1e-5", "1e10"}, {"0.03", "-1e12"}, {"1e-8", "0"}};
+    for (const auto& [dt, start] : coarse) {
+        SCOPED_TRACE(dt + " from " + start);
+        folder.write("changed.json", two_in_one_place(dt, start));
+        const Result asked = run_program({"query", path("changed.json"), "--proof", "--certificate", path("new.json")});
+        EXPECT_EQ(asked.status, 0) << asked.err;
+        EXPECT_NE(asked.err.find("warning: "), std::string::npos);
+        EXPECT_NE(asked.err.find(" % of each sample's "), std::string::npos) << asked.err;
+        EXPECT_NE(asked.out.find("Not proven: A: up to "), std::string::npos) << asked.out;
+        const json written = json::parse(slurp(path("new.json")));
+        EXPECT_NE(written["queries"][0]["not_proven"].get<std::string>().find("; B: up to "), std::string::npos);
+        const Result taken = run_program({"verify", path("changed.json"), path("new.json")});
+        EXPECT_EQ(taken.status, 0) << taken.err;
+        EXPECT_NE(taken.out.find("1 of 1 query proven, 1 of them as far as doubles hold their times\n"),
+                  std::string::npos)
+            << taken.out;
+        EXPECT_NE(run_program({"conflicts", path("changed.json")}).err.find(" % of each sample's "), std::string::npos);
+    }
+    EXPECT_FALSE(proof["queries"][0].contains("not_proven"));
+}
+
 TEST_F(Certificates, AreTaken) {
     const Result run = verify(proof.dump());
     EXPECT_EQ(run.status, 0) << run.err;

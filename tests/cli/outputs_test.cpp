@@ -15,6 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <map>
@@ -194,13 +195,19 @@ TEST_F(Outputs, NothingThatIsReadIsReplaced) {
         for (const std::string& read : writer.reads) before[read] = slurp(path(read));
         for (const std::string& read : writer.reads) {
             const std::filesystem::path link = path("link" + std::to_string(number) + writer.extension);
-            if (number++ % 2 == 0) {
-                std::filesystem::create_symlink(path(read), link);
-            } else {
-                std::filesystem::create_hard_link(path(read), link);
-            }
             std::vector<std::string> arguments = writer.arguments;
             arguments.push_back(link);
+            switch (number++ % 3) {
+                case 0:
+                    std::filesystem::create_symlink(path(read), link);
+                    break;
+                case 1:
+                    std::filesystem::create_hard_link(path(read), link);
+                    break;
+                default:
+                    std::filesystem::create_symlink(path(read), link);
+                    arguments.back() = path("none/../" + link.filename().string());
+            }
             SCOPED_TRACE(writer.option.first + ' ' + writer.option.second + ' ' + read);
             expect_refused(run_program(arguments), 2, "would replace");
             std::filesystem::remove(link);
@@ -209,6 +216,65 @@ TEST_F(Outputs, NothingThatIsReadIsReplaced) {
     }
     EXPECT_FALSE(std::filesystem::exists(path("run.json")));
     EXPECT_FALSE(std::filesystem::exists(path("failed")));
+}
+
+TEST_F(Outputs, NothingThatComesFromStandardInputIsReplaced) {
+    int tried = 0;
+    for (const Writer& writer : writers()) {
+        const std::string read = path(writer.reads.front());
+        std::vector<std::string> arguments = writer.arguments;
+        const auto input = std::ranges::find(arguments, read);
+        const bool takes_standard_input = writer.option.first != "diff" && writer.option.first != "graph build";
+        if (input == arguments.end() || !takes_standard_input) continue;
+        *input = "-";
+        const std::filesystem::path link = path("link" + writer.extension);
+        std::filesystem::create_hard_link(read, link);
+        arguments.push_back(link);
+        const std::string before = slurp(read);
+        SCOPED_TRACE(writer.option.first + ' ' + writer.option.second);
+        const auto in_folder = [this] { ASSERT_EQ(::chdir(folder.path().c_str()), 0); };
+        expect_refused(run_program(arguments, {}, read, in_folder), 2, "would replace");
+        EXPECT_EQ(slurp(read), before);
+        std::filesystem::remove(link);
+        ++tried;
+    }
+    EXPECT_GT(tried, 8);
+    // By the names that the system has for it, too.
+    for (const char* name : {"/dev/stdin", "/proc/self/fd/0", "/dev/fd/0"}) {
+        const Result run =
+            run_program({"convert", name, "--radius", "0.3", "-o", path("track.csv")}, {}, path("track.csv"));
+        expect_refused(run, 2, "would replace");
+    }
+}
+
+TEST_F(Outputs, ResultsDoNotReplaceWhatTheyAreMadeFrom) {
+    const std::string before = slurp(path("two.json"));
+    const auto appending = [this] { ::dup2(::open(path("two.json").c_str(), O_WRONLY | O_APPEND), STDOUT_FILENO); };
+    const Result run = run_program({"query", path("two.json")}, {}, "/dev/null", appending);
+    EXPECT_EQ(run.status, 2);
+    EXPECT_NE(run.err.find("two.json: is where standard output goes"), std::string::npos) << run.err;
+    EXPECT_EQ(slurp(path("two.json")), before);
+}
+
+TEST_F(Outputs, PicturesOfWhatDidNotPassReplaceNothingThatWasRead) {
+    // Each has the name of something that a run leaves beside the goldens.
+    for (const std::string name : {"report.json", "c.txt", "c.actual.answers.json"}) {
+        std::filesystem::create_directory(path("left"));
+        folder.write("left/" + name, name.ends_with(".txt") ? slurp(path("track.csv")) : slurp(path("two.json")));
+        folder.write("left/scene.json", R"({"clips": {"c": {"source": "c.txt", "id": "1"}},
+                                            "agents": [{"name": "A", "clip": "c"}, {"name": "B", "clip": "c"}]})");
+        const std::string scene = name.ends_with(".txt") ? "scene.json" : name;
+        const std::filesystem::path cases = path("answered");
+        std::filesystem::create_directory(cases);
+        folder.write("answered/c.case.json",
+                     R"({"mobbscope_case": 1, "hold": ["answers"], "scene": "../left/)" + scene + "\"}");
+        folder.write("left/clip.csv", slurp(path("clip.csv")));
+        const std::string before = slurp(path("left/" + name));
+        expect_refused(run_program({"test", cases, "--output", path("left")}), 2, name + ": would replace");
+        EXPECT_EQ(slurp(path("left/" + name)), before);
+        std::filesystem::remove_all(path("left"));
+        std::filesystem::remove_all(cases);
+    }
 }
 
 TEST_F(Outputs, AReportReplacesNothingThatACaseIsDrawnFrom) {

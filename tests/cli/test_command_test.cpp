@@ -499,6 +499,22 @@ TEST_F(DrawnTestCommandTest, UpdateOfANameAlwaysWrites) {
     EXPECT_PRED2(says, test({"--update", "p*"}).out, "wrote " + (cases.path() / "path.png").string());
 }
 
+TEST_F(DrawnTestCommandTest, ACaseThatSeesHardlyAnythingFailsAStrictRun) {
+    take_all();
+    EXPECT_EQ(test({"--strict"}).status, 0);
+    cases.add("path", R"("allowed": "100%", "view": {"levels": 0}, "state": false)");
+    EXPECT_EQ(test().status, 0) << "it is weak";
+    const std::string junit = (output / "junit.xml").string(), page = (output / "page.html").string();
+    const Result strict = test({"--strict", "--junit", junit, "--html", page});
+    EXPECT_EQ(strict.status, 1);
+    EXPECT_PRED2(says, strict.out, "weak case: path: \"allowed\" lets 100 % of its pixels differ\n");
+    EXPECT_PRED2(says, slurp(junit), "tests=\"3\" failures=\"1\"");
+    EXPECT_PRED2(says, slurp(junit), "lets 100 % of its pixels differ");
+    EXPECT_PRED2(says, slurp(page), "1 weakness of cases");
+    EXPECT_EQ(nlohmann::json::parse(test({"--strict", "--json"}).out)["weak"].size(), 1u);
+    EXPECT_EQ(test({"query/end", "--strict"}).status, 0) << "that one is not run";
+}
+
 TEST_F(DrawnTestCommandTest, AnOrphanedGoldenIsToldAndFailsAStrictRun) {
     take_all();
     cases.folder().write("lost.png", "");
@@ -940,7 +956,9 @@ class AskedTest : public DrawnTestCommandTest {
         all.insert(all.end(), more.begin(), more.end());
         return run_program(all, {}, cases.path() / "lines");
     }
-    Result accept() const { return run_program({"test", goldens.string(), "--accept", output.string()}); }
+    Result accept(const std::vector<std::string>& names = {}) const {
+        return run_program(with({"test", goldens.string(), "--accept", output.string(), "--"}, names));
+    }
 
     const std::filesystem::path goldens = cases.path() / "goldens";
     const std::string scene = kSmallScene;
@@ -954,7 +972,13 @@ TEST_F(AskedTest, GoldensOfTestsStandByThemselves) {
     EXPECT_PRED2(says, run.out, "MOBBSCOPE_UPDATE=a\n\nmissing golden deep/b\nmissing golden: deep/b\n");
     EXPECT_TRUE(run.out.ends_with("MOBBSCOPE_UPDATE=deep/b\n\n")) << run.out;
     EXPECT_FALSE(std::filesystem::exists(goldens));
-    EXPECT_EQ(accept().status, 0) << "a report brings cases that are new";
+    const Result unnamed = accept();
+    EXPECT_EQ(unnamed.status, 1);
+    EXPECT_PRED2(says, unnamed.err, "a: not accepted: the report brings " + (goldens / "a.case.json").string());
+    EXPECT_FALSE(std::filesystem::exists(goldens));
+    const Result named = accept({"a", "deep/b"});
+    EXPECT_EQ(named.status, 0) << "a report brings cases that are new, where they are named";
+    EXPECT_PRED2(says, named.out, "a.case.json is the case itself, no golden: a new one\n");
     EXPECT_PRED2(says, slurp(goldens / "deep/b.case.json"), R"("scene": "../../scene.json",)");
     EXPECT_EQ(run_program({"test", goldens.string(), "--strict"}).status, 0);
     EXPECT_EQ(ask({{"a", scene}, {"deep/b", file}}).out, "passed a\n\npassed deep/b\n\n");
@@ -1048,8 +1072,49 @@ TEST_F(AskedAnswersTest, ACaseThatItsTestHasChangedIsTold) {
     const Result changed = ask({{"a", scene, R"({"hold": ["answers"], "time_limit": 5})"}});
     EXPECT_TRUE(changed.out.starts_with("different a\ndifferent: a\n  a.case.json is not what the test asks for\n"))
         << changed.out;
-    EXPECT_EQ(accept().status, 0);
+    for (const std::vector<std::string>& names : {std::vector<std::string>{}, {"*"}, {"?"}}) {
+        EXPECT_EQ(accept(names).status, 1);
+        EXPECT_FALSE(says(slurp(goldens / "a.case.json"), "time_limit")) << "it is not named";
+    }
+    const Result named = accept({"a"});
+    EXPECT_EQ(named.status, 0);
+    EXPECT_PRED2(says, named.out, "a.case.json is the case itself, no golden: other \"time_limit\"\n");
+    EXPECT_FALSE(says(named.out, "weaker"));
     EXPECT_PRED2(says, slurp(goldens / "a.case.json"), R"("time_limit": 5)");
+}
+
+/// A report that was tampered with, or a test that was.
+TEST_F(AskedAnswersTest, ACaseThatSeesLessIsSaidToDoSo) {
+    ASSERT_EQ(ask({{"a", scene, answers}}, {"--update", "all"}).status, 0);
+    const std::string before = slurp(goldens / "a.case.json");
+    ask({{"a", scene, R"({"hold": ["answers"], "time_limit": 5})"}});
+    nlohmann::json report = nlohmann::json::parse(slurp(output / "report.json"));
+    for (nlohmann::json& fresh : report["cases"][0]["fresh"]) {
+        if (fresh["golden"] != ".case.json") continue;
+        nlohmann::json brought = nlohmann::json::parse(before);
+        brought["skip"] = "never";
+        fresh["bytes"] = base64(brought.dump());
+    }
+    cases.folder().write("out/report.json", report.dump());
+    EXPECT_EQ(accept().status, 1);
+    EXPECT_EQ(slurp(goldens / "a.case.json"), before);
+    const Result named = accept({"a"});
+    EXPECT_EQ(named.status, 0) << named.err;
+    EXPECT_PRED2(says, named.out, "a.case.json is the case itself, no golden: other \"skip\"\n");
+    EXPECT_PRED2(says, named.out, "a.case.json is weaker: it is skipped: never\n");
+    // That the tests are weak now is said where that is asked for.
+    const Result strict = run_program({"test", goldens.string(), "--strict"});
+    EXPECT_EQ(strict.status, 1);
+    EXPECT_PRED2(says, strict.out, "weak case: a: it is skipped: never\n");
+    EXPECT_EQ(run_program({"test", goldens.string()}).status, 0);
+    // What is no case is not taken.
+    for (nlohmann::json& fresh : report["cases"][0]["fresh"]) {
+        if (fresh["golden"] != ".case.json") continue;
+        fresh["bytes"] = base64(R"({"mobbscope_case": 1, "hold": []})");
+        fresh["replaces"] = base64(slurp(goldens / "a.case.json"));
+    }
+    cases.folder().write("out/report.json", report.dump());
+    expect_test_refused(accept({"a"}), "nothing is held");
 }
 
 TEST_F(AskedAnswersTest, FoldersOfGoldensMayShareAReport) {
@@ -1062,17 +1127,17 @@ TEST_F(AskedAnswersTest, FoldersOfGoldensMayShareAReport) {
     };
     expect_test_refused(in_others({"--accept", output.string()}), "tells of the goldens in " + goldens.string());
     in_others({"--asked", "--output", output.string()});
-    EXPECT_EQ(accept().status, 0);
+    EXPECT_EQ(accept({"a"}).status, 0);
     EXPECT_TRUE(std::filesystem::exists(goldens / "a.answers.json"));
     EXPECT_FALSE(std::filesystem::exists(others));
-    EXPECT_EQ(in_others({"--accept", output.string()}).status, 0);
+    EXPECT_EQ(in_others({"a", "--accept", output.string()}).status, 0);
     EXPECT_TRUE(std::filesystem::exists(others + "/a.answers.json"));
     // A report that was copied finds its folder by name.
     std::filesystem::remove_all(goldens);
     ask({{"a", scene, answers}});
     std::filesystem::create_directories(cases.path() / "far/away");
     std::filesystem::rename(output / "report.json", cases.path() / "far/away/report.json");
-    EXPECT_EQ(run_program({"test", goldens.string(), "--accept", (cases.path() / "far/away").string()}).status, 0);
+    EXPECT_EQ(run_program({"test", goldens.string(), "a", "--accept", (cases.path() / "far/away").string()}).status, 0);
 }
 
 TEST_F(AskedAnswersTest, AReportInTheFolderOfItsCasesIsOfThatFolder) {

@@ -153,7 +153,7 @@ TEST(TurnedMoves, NobodyJumpsInAFileThatHasATurnRate) {
 
 TEST(TurnedMoves, OfSamplesThatAreHardlyApartSomeRadiusIsTurned) {
     Scene scene;
-    scene.clips = {walk("blink", 1.4, 0, 3, 1e-11, 0.4)};
+    scene.clips = {walk("blink", 1.4, 0, 3, 3e-9, 0.4)};
     scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
     const FittedScene fitted(scene, {});
     const std::optional<double> radius = MoveSet(fitted, kDefaultTurnRate).turning_radius(0);

@@ -91,6 +91,9 @@ TEST(PlacementMap, EachCellIsWhatItsQuerySays) {
                                                                    statistics.tests[mobb::TestKind::samples]));
                     break;
             }
+            const PlacedAnswer answer = answer_at(fitted, there, show, order.search);
+            ASSERT_EQ(answer.hit, collides) << "asked of that place alone";
+            ASSERT_EQ(answer.value, map.value(x, y));
             hits += collides ? 1 : 0;
             ++cells;
         }
@@ -147,6 +150,17 @@ TEST(PlacementMap, ComesCoarseFirstAndAsksEachCellOnce) {
     }
 }
 
+TEST(PlacementMap, APlaceIsSaidWithAsManyDigitsAsShowIt) {
+    EXPECT_EQ(placed_words(MapShow::clearance, {true, -0.0174}), "they collide, overlapping by 0.017 m");
+    EXPECT_EQ(placed_words(MapShow::clearance, {false, 0.0051}), "they never collide, at least 0.005 m apart");
+    EXPECT_EQ(placed_words(MapShow::clearance, {true, -0.0000123}), "they collide, overlapping by 0.0000123 m");
+    EXPECT_EQ(placed_words(MapShow::clearance, {false, std::numeric_limits<double>::infinity()}), "they share no time");
+    EXPECT_EQ(placed_words(MapShow::answer, {true, 1}), "they collide");
+    EXPECT_EQ(placed_words(MapShow::tests, {false, 1}), "they never collide: 1 test");
+    const mobb::Placement b{{1, 2}, 730, 3};
+    EXPECT_EQ(placed_at(b, {{MapAxis::dheading}, {MapAxis::dx}}, {-10, 0.1}), (mobb::Placement{{0.1, 2}, -10, 3}));
+}
+
 TEST(PlacementMap, EndsWhenToldTo) {
     struct Enough {};
     Random random(38);
@@ -164,12 +178,13 @@ TEST(PlacementMap, EndsWhenToldTo) {
 
 TEST(PlacementMap, RefusesWhatIsNoMap) {
     const MapOrder good{{MapAxis::dx, -5, 5}, {MapAxis::dy, -5, 5}};
-    check(good, {});
+    const mobb::Clip clip(1.0, {{0, 0, 0.5}});
+    check(good, {}, clip);
     const auto refused = [&](auto change, const std::string& word) {
         MapOrder order = good;
         change(order);
         try {
-            check(order, {});
+            check(order, {}, clip);
             ADD_FAILURE() << "taken, but for " << word;
         } catch (const std::invalid_argument& error) {
             EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();

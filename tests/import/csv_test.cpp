@@ -35,6 +35,35 @@ TEST(Csv, BlanksBlankLinesQuotesLineEndsAndByteOrderMarkDoNotMatter) {
     EXPECT_EQ(only(b).samples()[1].r, 0.4);
 }
 
+/// Rows from `first` on, `step` apart, as text.
+std::string rows_from(const std::vector<std::string>& times, const std::string& before) {
+    std::string out = before.empty() ? "t,x,y,r\n" : "id,t,x,y,r\n";
+    for (const std::string& time : times) out += before + time + ",0,0,0.4\n";
+    return out;
+}
+
+TEST(Csv, TimesThatDoublesCannotTellApartAreRefused) {
+    const std::vector<std::string> equal{"1000000000000", "1000000000000.00001", "1000000000000.00002"};
+    const std::vector<std::string> coarse{"1000000000000", "1000000000000.0002", "1000000000000.0004"};
+    for (const std::string before : {"", "a,"}) {
+        EXPECT_NE(input_error([&] {
+                      csv_clips(rows_from(equal, before));
+                  }).find("doubles tell such times apart by 0.00012 s; count times from a later moment"),
+                  std::string::npos)
+            << input_error([&] { csv_clips(rows_from(equal, before)); });
+        EXPECT_NE(input_error([&] {
+                      csv_clips(rows_from(coarse, before));
+                  }).find("its times reach 1e+12 s, where doubles tell times apart by 0.00012 s"),
+                  std::string::npos)
+            << input_error([&] { csv_clips(rows_from(coarse, before)); });
+    }
+    EXPECT_NO_THROW(csv_clips(rows_from({"1700000000.00", "1700000000.04", "1700000000.08"}, "")));
+    EXPECT_NE(input_error([&] {
+                  csv_clips(rows_from({"0", "1e-10", "2e-10"}, ""));
+              }).find("dt must be"),
+              std::string::npos);
+}
+
 TEST(Csv, TracksAreSplitById) {
     const std::string_view text =
         "id,t,x,y,r\n7,0,1,0,0.3\n\"a,\"\"b\",5,2,0,0.3\n7,1,3,0,0.3\n\"a,\"\"b\",7,4,0,0.3\n";

@@ -89,6 +89,47 @@ TEST(Placement, Validity) {
     EXPECT_FALSE(is_valid({.start = std::nextafter(kMaxTime, infinity)}));
 }
 
+/// Whatever other clip is there with it, each sample shares over kMinOverlap with one of the other's, to the largest
+/// start that is taken; and what is refused beyond has samples that may share it with none.
+TEST(Placement, StartsAreTakenAsFarAsTimesAreHeld) {
+    for (const double dt : {2.1e-9, 1e-8, 1e-5, 1.0 / 30, 1.0, 1e6}) {
+        const Clip clip(dt, std::vector<Disk>(50, Disk{0, 0, 0.4}));
+        const double most = clip.most_start();
+        ASSERT_GE(most, 0);
+        EXPECT_TRUE(is_valid({.start = most}, most));
+        EXPECT_FALSE(is_valid({.start = std::nextafter(most, 1e300)}, most));
+        EXPECT_EQ(most < kMaxTime, dt < 4.5e-4) << dt;
+        for (const double sign : {-1.0, 1.0}) {
+            const PlacedClip placed(clip, {.start = sign * most});
+            for (const double shift : {0.0, 0.3, 0.5, 0.7}) {
+                const PlacedClip other(clip, {.start = sign * (most - shift * dt)});
+                for (int i = 1; i + 1 < clip.count(); ++i) {
+                    double longest = 0;
+                    for (int j = 0; j < clip.count(); ++j) {
+                        longest = std::max(longest, std::min(placed.time(i + 1), other.time(j + 1)) -
+                                                        std::max(placed.time(i), other.time(j)));
+                    }
+                    ASSERT_GT(longest, kMinOverlap) << dt << ", " << shift << ", sample " << i;
+                }
+            }
+            if (most == kMaxTime) continue;
+            try {
+                PlacedClip(clip, {.start = sign * (1.001 * most + 1e-3)});
+                ADD_FAILURE() << dt;
+            } catch (const std::invalid_argument& error) {
+                EXPECT_NE(std::string(error.what()).find("is too far from 0"), std::string::npos) << error.what();
+            }
+        }
+    }
+}
+
+TEST(Clip, ATimeStepThatNothingCanBeSharedOfIsRefused) {
+    for (const double dt : {1e-12, 1e-10, 1e-9, 2e-9}) {
+        EXPECT_THROW(Clip(dt, {{0, 0, 0.4}}), std::invalid_argument) << dt;
+    }
+    EXPECT_NO_THROW(Clip(2.1e-9, {{0, 0, 0.4}}));
+}
+
 TEST(Rotation, RefusesWhatIsNoAngle) {
     for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1.1e9, -1.1e9}) {
         try {

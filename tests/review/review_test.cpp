@@ -3,6 +3,7 @@
 #include <app/commands/situations.h>
 #include <app/script/state_json.h>
 #include <app/window/headless_window.h>
+#include <base/base64.h>
 #include <render/gl/gl_context.h>
 #include <render/image/png.h>
 #include <review/review_screen.h>
@@ -977,6 +978,38 @@ TEST(Review, AnswersAreShownInWordsAndAccepted) {
     EXPECT_TRUE(w.window->shell().marks().all().contains("held.scene"));
     EXPECT_EQ(w.review().why_not_accept(w.review().index_of("answers")),
               "no golden differs, but its scene expects another answer; correct the scene");
+}
+
+TEST(Review, ACaseThatAReportBringsIsTakenAloneAndSaid) {
+    ReviewWorld w;
+    const fs::path out = w.files.path() / "out";
+    EXPECT_NE(ThreeCases::run("test '" + w.files.cases().string() + "' --output '" + out.string() + "'"), 0);
+    const std::string before = w.files.bytes("moved.case.json");
+    nlohmann::json brought = nlohmann::json::parse(before);
+    brought["allowed"] = "100%";
+    nlohmann::json report = nlohmann::json::parse(mobbscope::testing::slurp(out / "report.json"));
+    for (nlohmann::json& one : report["cases"]) {
+        if (one["name"] != "moved") continue;
+        one["fresh"].push_back(
+            {{"golden", ".case.json"}, {"bytes", base64(brought.dump())}, {"replaces", base64(before)}});
+    }
+    write_file(out / "report.json", report.dump());
+    w.reviews.open(w.files.cases(), out);
+    w.show("moved");
+    run_command(w.session, "review.mark_failing");
+    run_command(w.session, "review.accept_marked");
+    EXPECT_TRUE(w.one("missing").accepted) << w.said();
+    EXPECT_FALSE(w.one("moved").accepted);
+    EXPECT_NE(w.said().find("moved: the report brings the case itself"), std::string::npos) << w.said();
+    EXPECT_EQ(w.files.bytes("moved.case.json"), before);
+    w.key("A");
+    EXPECT_TRUE(w.one("moved").accepted) << w.said();
+    EXPECT_NE(w.said().find("moved.case.json is the case itself, no golden: other \"allowed\""), std::string::npos)
+        << w.said();
+    EXPECT_NE(w.said().find("moved.case.json is weaker: the share of pixels in \"allowed\" grows"), std::string::npos);
+    EXPECT_EQ(w.files.bytes("moved.case.json"), brought.dump());
+    w.key("Ctrl+Z");
+    EXPECT_EQ(w.files.bytes("moved.case.json"), before);
 }
 
 TEST(Review, OfADamagedReportNothingIsTaken) {

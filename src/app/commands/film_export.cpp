@@ -91,7 +91,7 @@ Said run_line(const std::string& line, Said said, JobControl& control) {
 
 void start_film(Session& session, const PictureOrder& order, const std::filesystem::path& file) {
     check_file_name(file);
-    session.files.check_may_write(file);
+    session.files.check_may_export(file);
     static_cast<void>(find_ffmpeg(file));
     const auto work = [fitted = session.workspace.document().fitted, title = session.workspace.title(), order, file,
                        program = program_word(session.options.program),

@@ -58,7 +58,7 @@ void extent(MapInspector& maps, const std::string& text) {
     MapOrder order;
     order.across = {maps.choice.across, across->first, across->second};
     order.up = {maps.choice.up, up->first, up->second};
-    check(order, {});
+    check(order);
     maps.choice.extent = {order.across, order.up};
 }
 
@@ -71,7 +71,7 @@ void range(MapInspector& maps, const std::string& text) {
 }
 
 void place_in_map(MapInspector& maps, const std::string& text) {
-    maps.place_b(two_numbers(text, "the place in the map"));
+    maps.place_b(maps.axes(), two_numbers(text, "the place in the map"));
 }
 
 std::string present_extent(const MapInspector& maps) {
@@ -87,10 +87,7 @@ std::string present_range(const MapInspector& maps) {
 }
 
 std::string present_place(const MapInspector& maps) {
-    MapOrder order;
-    order.across.axis = maps.choice.across;
-    order.up.axis = maps.choice.up;
-    const glm::dvec2 at = offset_between({}, maps.query().b.placement, order);
+    const glm::dvec2 at = offset_between({}, maps.query().b.placement, maps.axes());
     return format_double(at.x) + ' ' + format_double(at.y);
 }
 

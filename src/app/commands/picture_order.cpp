@@ -280,7 +280,7 @@ std::string png_of(const Session& session, const PictureOrder& order) {
 
 std::size_t write_picture(const Session& session, const PictureOrder& order, const std::filesystem::path& file) {
     check_file_name(file);
-    session.files.check_may_write(file);
+    session.files.check_may_export(file);
     if (!is_picture_name(file)) throw InputError(file.string(), "", std::string(kPictureAndFilmNames));
     const std::string bytes =
         session.picture_maker->file_bytes(file, draw_list_of(session.workspace, order), order.options.samples);

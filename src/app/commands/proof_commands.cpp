@@ -43,7 +43,7 @@ void to_neighbour(Workspace& workspace, QueryInspector& queries, bool forward) {
 
 void save_proof(Session& session, const std::string& file) {
     if (file.empty()) return session.dialogs.open(Dialog::save_proof);
-    session.files.check_may_write(file);
+    session.files.check_may_export(file);
     const int query = *session.workspace.view().query;
     write_file(file,
                certificate_text(session.workspace.fitted(), {{query, session.queries.findings()->proof.certificate}}));

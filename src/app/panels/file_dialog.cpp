@@ -108,8 +108,8 @@ void take_written(Session& session, const FileQuestion& question) {
     const bool film = session.dialogs.now == Dialog::export_file && session.dialogs.exporting.film;
     path = with_extension(path, film ? ".mp4" : question.extension);
     std::error_code ignored;
-    const bool keeps_own = session.dialogs.now == Dialog::save_as && session.workspace.file &&
-                           std::filesystem::equivalent(path, *session.workspace.file, ignored);
+    const bool keeps_own =
+        session.dialogs.now == Dialog::save_as && session.workspace.file && is_same_file(path, *session.workspace.file);
     if (!keeps_own && !input.confirming && std::filesystem::exists(path, ignored)) {
         input.confirming = true;
         input.fresh = true;

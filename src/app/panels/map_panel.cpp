@@ -163,7 +163,7 @@ void histogram(Ui& ui, const MapInspector& maps, const PlacementMap& map, const 
 }
 
 /// The mouse in the map: what is there, and B goes where it is pressed.
-void mouse(Ui& ui, const MapInspector& maps, const PlacementMap& map, const Rect& area) {
+void mouse(Ui& ui, MapInspector& maps, const PlacementMap& map, const Rect& area) {
     const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
     const ImGuiIO& io = ImGui::GetIO();
     const auto value_at = [&](ImVec2 pixel) {
@@ -175,7 +175,8 @@ void mouse(Ui& ui, const MapInspector& maps, const PlacementMap& map, const Rect
     const glm::dvec2 at = value_at(io.MousePos);
     const std::string why = maps.why_not_placed();
     const bool pressed = ImGui::IsItemActivated(), dragged = active && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0);
-    if ((pressed || dragged) && why.empty()) ui.later([at](MapInspector& now) { now.place_b(at); });
+    if ((pressed || dragged) && why.empty())
+        ui.later([axes = map.order, at](MapInspector& now) { now.place_b(axes, at); });
     if (hovered && io.MouseWheel != 0) {
         const double factor = std::pow(0.85, static_cast<double>(io.MouseWheel));
         const auto zoomed = [factor](MapRange range, double about) {
@@ -185,9 +186,8 @@ void mouse(Ui& ui, const MapInspector& maps, const PlacementMap& map, const Rect
         ui.later([extent](MapInspector& now) { now.choice.extent = extent; });
     }
     if (!hovered && !active) return;
-    const auto cell = map.cell_at(at);
-    if (!cell) return;
-    std::string text = place_words(map.order, at) + "\n" + cell_words(map, cell->x, cell->y);
+    // Of the very place where a click would put B: beside a boundary the cell's middle may say the other answer.
+    std::string text = place_words(map.order, at) + "\n" + maps.words_at(map.order, at);
     text += "\n" + (why.empty() ? std::string("Click or drag: it goes there. Wheel: zooms") : why);
     // Beside the map, which it would cover.
     ImGui::SetNextWindowPos({area.min.x - ui.px(12), io.MousePos.y}, ImGuiCond_Always, {1, 0.5f});

@@ -262,11 +262,17 @@ ScriptAction make_size(StatementWords& words) {
 }
 
 ScriptAction make_picture(StatementWords& words) {
-    return [file = words.file(".png")](ScriptRun& run) { write_png(file, run.host.shell().read_back()); };
+    return [file = words.file(".png")](ScriptRun& run) {
+        check_not_read(file);
+        write_png(file, run.host.shell().read_back());
+    };
 }
 
 ScriptAction make_viewport(StatementWords& words) {
-    return [file = words.file(".png")](ScriptRun& run) { write_png(file, run.host.shell().viewport_picture()); };
+    return [file = words.file(".png")](ScriptRun& run) {
+        check_not_read(file);
+        write_png(file, run.host.shell().viewport_picture());
+    };
 }
 
 /// To a file, or where the script prints.

@@ -27,9 +27,13 @@ void carry_over(Workspace& from, JobPurpose purpose, Workspace& to) {
     std::erase_if(from.jobs, [](const RunningJob& running) { return !running.job; });
 }
 
-bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
-    std::error_code ignored;
-    return std::filesystem::equivalent(a, b, ignored);
+/// Throws InputError if a file is the source of a clip.
+void check_is_no_source(const Scene& scene, const std::filesystem::path& file) {
+    for (const SceneClip& clip : scene.clips) {
+        if (!clip.source || !is_same_file(file, source_path(scene, clip))) continue;
+        throw InputError(file.string(), "",
+                         "clip " + in_quotes(clip.name) + " comes from this file; give another name");
+    }
 }
 
 /// "crossing.json", or "3 files".
@@ -311,6 +315,13 @@ void Files::check_may_write(const std::filesystem::path& file) const {
                      "nothing is written here: a picture test only looks; remove this from its script");
 }
 
+void Files::check_may_export(const std::filesystem::path& file) const {
+    check_may_write(file);
+    if (parts_.workspace.file && is_same_file(file, *parts_.workspace.file))
+        throw InputError(file.string(), "", "is what is open; give another output");
+    check_is_no_source(parts_.workspace.scene(), file);
+}
+
 void Files::save_as(const std::filesystem::path& file) {
     check_may_write(file);
     if (parts_.workspace.empty()) throw InputError("there is nothing to save: open a scene or a clip first");
@@ -318,10 +329,10 @@ void Files::save_as(const std::filesystem::path& file) {
     if (lower_extension(file) != ".json") {
         throw InputError(file.string(), "", "scenes are written as .json; rename the output");
     }
-    if (parts_.workspace.in_excerpt() && parts_.workspace.file && same_file(file, *parts_.workspace.file)) {
+    if (parts_.workspace.in_excerpt() && parts_.workspace.file && is_same_file(file, *parts_.workspace.file)) {
         throw InputError(file.string(), "", "this is what the two were taken from; save them under another name");
     }
-    if (parts_.workspace.file && same_file(file, *parts_.workspace.file) &&
+    if (parts_.workspace.file && is_same_file(file, *parts_.workspace.file) &&
         std::exchange(parts_.workspace.file_time, time_of(file)) != time_of(file)) {
         throw InputError(file.string(), "",
                          "another program has written it since it was opened: save under another name, or once more "
@@ -329,11 +340,7 @@ void Files::save_as(const std::filesystem::path& file) {
     }
     const bool was_removed =
         parts_.workspace.file && parts_.workspace.file_time && file == *parts_.workspace.file && !time_of(file);
-    for (const SceneClip& clip : parts_.workspace.scene().clips) {
-        if (!clip.source || !same_file(file, source_path(parts_.workspace.scene(), clip))) continue;
-        throw InputError(file.string(), "",
-                         "clip " + in_quotes(clip.name) + " comes from this file; save under another name");
-    }
+    check_is_no_source(parts_.workspace.scene(), file);
     std::vector<std::filesystem::path> changed = look_at_files();
     // What is gone is said below.
     std::erase_if(changed, [&](const auto& each) { return each == file || !time_of(each); });

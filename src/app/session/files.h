@@ -75,6 +75,8 @@ class Files {
     void tell_of_changed_files();
     /// Throws InputError if nothing may be written (SessionOptions::may_write).
     void check_may_write(const std::filesystem::path& file) const;
+    /// The same for what is made from what is open: throws InputError too if it would replace that, or a clip's source.
+    void check_may_export(const std::filesystem::path& file) const;
 
     /// Does `then`, at once or when the person has said what becomes of unsaved changes.
     void after_asking(const std::function<void()>& then);

@@ -27,12 +27,10 @@ MapInspector::Key MapInspector::key_now() const {
     key.a = fitted.tree(asked.a.clip).shared_clip();
     key.b = fitted.tree(asked.b.clip).shared_clip();
     key.place_a = asked.a.placement;
-    key.order.across.axis = choice.across;
-    key.order.up.axis = choice.up;
+    key.order = axes();
     key.order.show = choice.show;
     // Where B is along the axes does not matter: numbers in the map are those of its placement.
-    key.reference = moved(asked.b.placement, key.order, -offset_between({}, asked.b.placement, key.order));
-    if (choice.across == MapAxis::dheading || choice.up == MapAxis::dheading) key.reference.rotate_deg = 0;
+    key.reference = placed_at(asked.b.placement, key.order, {0, 0});
     if (choice.extent) {
         std::tie(key.order.across, key.order.up) = *choice.extent;
     } else {
@@ -111,15 +109,38 @@ std::string MapInspector::why_not_placed() const {
     return "";
 }
 
-void MapInspector::place_b(glm::dvec2 at) {
+MapOrder MapInspector::axes() const {
+    MapOrder out;
+    out.across.axis = choice.across;
+    out.up.axis = choice.up;
+    return out;
+}
+
+SceneQuery MapInspector::query_at(const MapOrder& axes, glm::dvec2 at) const {
+    SceneQuery out = query();
+    out.b.placement = placed_at(out.b.placement, axes, at);
+    return out;
+}
+
+const std::string& MapInspector::words_at(const MapOrder& axes, glm::dvec2 at) {
+    const auto fitted = workspace_.shown();
+    SceneQuery there = query_at(axes, at);
+    if (told_ && told_->fitted == fitted && told_->query == there && told_->show == choice.show) return told_->words;
+    std::string words;
+    try {
+        words = placed_words(choice.show, answer_at(*fitted, there, choice.show));
+    } catch (const std::invalid_argument& error) {
+        words = error.what();
+    }
+    told_ = {fitted, std::move(there), choice.show, std::move(words)};
+    return told_->words;
+}
+
+void MapInspector::place_b(const MapOrder& axes, glm::dvec2 at) {
     if (const std::string why = why_not_placed(); !why.empty())
         throw std::invalid_argument("B cannot be placed: " + why);
     const PlacedAgent b = query().b;
-    MapOrder order;
-    order.across.axis = choice.across;
-    order.up.axis = choice.up;
-    const mobb::Placement placement = moved(b.placement, order, at - offset_between({}, b.placement, order));
-    if (!mobb::is_valid(placement)) throw std::invalid_argument("no agent may stand so far away");
+    const mobb::Placement placement = query_at(axes, at).b.placement;
     if (placement == b.placement) return;
     workspace_.edit({name_of_placing(b.name, b.placement, placement).title, "drag"},
                     [&](Scene& scene) { place_agent(scene, b.agent, placement); });
@@ -130,6 +151,7 @@ void MapInspector::end_work() {
     key_.reset();
     made_.reset();
     before_.reset();
+    told_.reset();
 }
 
 }  // namespace mobbscope::app

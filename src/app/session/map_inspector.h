@@ -57,8 +57,22 @@ class MapInspector {
     glm::dvec2 place_of_b(const PlacementMap& map) const;
     /// Why B cannot be placed; empty: it can.
     std::string why_not_placed() const;
-    /// Places B along the axes of the map; what a drag does is one edit. Throws std::invalid_argument.
-    void place_b(glm::dvec2 at);
+    /// B moved to a place in a map: what is asked there, and where place_b puts it.
+    SceneQuery query_at(const MapOrder& axes, glm::dvec2 at) const;
+    /// What the map would say of exactly that place: "they never collide, at least 0.183 m apart".
+    const std::string& words_at(const MapOrder& axes, glm::dvec2 at);
+    /// The place that was asked for last, and what was said of it.
+    struct Told {
+        std::shared_ptr<const FittedScene> fitted;
+        SceneQuery query;
+        MapShow show;
+        std::string words;
+    };
+    const std::optional<Told>& told() const { return told_; }
+    /// Places B along the axes; what a drag does is one edit. Throws std::invalid_argument.
+    void place_b(const MapOrder& axes, glm::dvec2 at);
+    /// The axes that are chosen, without ranges.
+    MapOrder axes() const;
 
     void end_work();
 
@@ -84,6 +98,7 @@ class MapInspector {
     std::shared_ptr<Made> made_;  ///< the job's, until another's has more to show
     std::shared_ptr<Made> before_;
     std::unique_ptr<Job> job_;
+    std::optional<Told> told_;
 };
 
 }  // namespace mobbscope::app

@@ -37,8 +37,11 @@ void check(const ImportOptions& options) {
     const double* const metres = options.radius ? std::get_if<double>(&*options.radius) : nullptr;
     require(!metres || (*metres >= 0 && *metres <= mobb::kMaxLength),
             "radius must be from 0 to " + format_double(mobb::kMaxLength) + " metres");
-    require(!options.dt || (*options.dt >= mobb::kLeastDt && *options.dt <= mobb::kMaxTime),
-            "dt must be from " + format_double(mobb::kLeastDt) + " to " + format_double(mobb::kMaxTime) + " seconds");
+    require(!options.dt || (*options.dt > mobb::kLeastDt && *options.dt <= mobb::kMaxTime),
+            "dt must be over " + format_double(mobb::kLeastDt) +
+                " seconds, as what two samples share for at most 1e-9 s "
+                "is not tested, and at most " +
+                format_double(mobb::kMaxTime));
     if (options.columns) chosen_columns(*options.columns);
 }
 

@@ -1,4 +1,5 @@
 #include <base/text.h>
+#include <import/clip/sample_times.h>
 #include <import/clip/sampling.h>
 
 #include <algorithm>
@@ -42,6 +43,7 @@ double sample_count(double begin, double end, double step) {
 
 SampleGrid sample_grid(double first, double last, const std::optional<std::pair<double, double>>& trim, double step,
                        std::size_t most) {
+    check_file_times(step, std::max(std::abs(first), std::abs(last)));
     const double length = last - first;
     const auto [from, to] = trim.value_or(std::pair{0.0, length});
     if (from > length) {

@@ -1,4 +1,5 @@
 #include <import/clip/column_choice.h>
+#include <import/clip/sample_times.h>
 #include <import/clip/sampling.h>
 #include <import/tracks/csv.h>
 #include <import/tracks/remarks.h>
@@ -77,7 +78,8 @@ class CsvParser {
         if (tracks_.empty())
             throw InputError(file_, at_line(lines_.number()), "there is no row after the header; add samples");
         const auto twice = [this](const Track& track, const TrackPoint& row) {
-            return time_word() + ' ' + format_double(row.frame) + " of track " + in_quotes(track.id) +
+            return time_word() + ' ' + format_double(row.frame) +
+                   (table_.has_time ? rounded_time_hint(row.frame) : "") + " of track " + in_quotes(track.id) +
                    " stands already in line ";
         };
         const bool sorts = table_.has_id && (table_.has_time || table_.has_frame);
@@ -459,6 +461,7 @@ class CsvParser {
         fail(column_of_time(),
              time_word() + " does not come after " + format_double(last_) +
                  " of the row before; sort the rows and remove doubles" +
+                 (time == last_ && table_.has_time ? rounded_time_hint(time) : "") +
                  (likely.empty() || options_.columns
                       ? ""
                       : ", or, if these are several tracks, say which column names them, such as columns id=" +

@@ -1,9 +1,11 @@
 // Tables to clips: samples, radii, and what a table offers to each option.
+#include <import/clip/sample_times.h>
 #include <import/clip/sampling.h>
 #include <import/tracks/csv.h>
 #include <import/tracks/track_steps.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -111,6 +113,10 @@ class MotionMaker {
 
         const double fps = options_.fps.value_or(kDefaultFps);
         const double step = stored_dt.value_or(1 / fps);
+        if (has_time_ && rows_.size() > 1) {
+            const double between = (rows_.back().t - rows_.front().t) / static_cast<double>(rows_.size() - 1);
+            check_file_times(between, std::max(std::abs(rows_.front().t), std::abs(rows_.back().t)));
+        }
         if (!stored_dt) facts.warnings.push_back({resampled(fps), "fps"});
         if (rows_.size() == 1) facts.warnings.push_back({"there is one row: it holds for " + brief(step) + " s", "dt"});
         // The last row still holds for a step.

@@ -1,3 +1,4 @@
+#include <import/clip/sample_times.h>
 #include <import/clip/sampling.h>
 #include <import/tracks/track_steps.h>
 #include <import/tracks/tracks.h>
@@ -83,6 +84,7 @@ class FrameClock {
     /// Since the file's first frame.
     double time(double frame) const { return seconds(frame - first_); }
     double t0() const { return seconds(first_); }
+    double end() const { return seconds(last_); }
     double duration() const { return seconds(last_ - first_); }
     double usual_step() const { return step_; }  ///< frames
 
@@ -120,6 +122,7 @@ class TrackClipMaker {
             throw std::invalid_argument("its frames last " + brief(clock_.duration()) + " s, over " +
                                         format_double(mobb::kMaxTime) + "; check them");
         }
+        if (file.timed) check_file_times(usual_step(), std::max(std::abs(clock_.t0()), std::abs(clock_.end())));
         if (!options.dt && !file.rate_assumption.empty()) common_.warnings.push_back({file.rate_assumption, "dt"});
         if (options.unit && *options.unit != "auto") {
             common_.unit = *metres_per_unit(*options.unit);

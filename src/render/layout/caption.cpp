@@ -134,7 +134,9 @@ Caption proof_caption(const Palette& palette, std::span<const DrawnAgent> sides,
         caption.headlines.push_back(named[0].label + " and " + named[1].label + " never collide");
     caption.title = "never collide";
     const std::string fit = fit_words(sides[0].placed.tree().options()) + kDot;
-    const std::string proven = proof_words(proof.certificate, proof.ends);
+    const std::string doubt = doubt_words(sides[0].label, sides[0].clip(), sides[1].label, sides[1].clip());
+    const std::string proven =
+        proof_words(proof.certificate, proof.ends) + (doubt.empty() ? "" : " Not proven: " + doubt + '.');
     caption.detail = fit + proven + kDot + cost_words(recorded.tests);
     caption.short_details = {proven};
     caption.mark = palette.separated;
