@@ -93,7 +93,11 @@ class SceneText {
 
 void add_clip(SceneText& out, const Clip& clip) {
     out.add("{\n      \"dt\": ", clip.dt(), ",\n      \"motion\": \"", name(clip.motion()),
-            "\",\n      \"samples\": [");
+            "\",\n      \"digest\": \"");
+    const std::uint64_t hash = digest(clip);
+    for (int shift = 60; shift >= 0; shift -= 4)
+        out.add(std::string_view("0123456789abcdef").substr(hash >> shift & 15, 1));
+    out.add("\",\n      \"samples\": [");
     const char* separator = "";
     for (const Disk& disk : clip.samples()) {
         out.add(separator, "\n        [", disk.x, ", ", disk.y, ", ", disk.r, "]");

@@ -133,9 +133,15 @@ void append(std::vector<ImportWarning>& to, const std::vector<ImportWarning>& fr
     to.insert(to.end(), from.begin(), from.end());
 }
 
-mobb::ClipPtr read_samples(const JsonPlace& place, const std::optional<mobb::Motion>& instead) {
+/// Of inline samples.
+mobb::Motion read_motion(const JsonPlace& clip) {
     mobb::Motion motion = mobb::Motion::held;
-    if (const auto key = place.find("motion")) read_option(*key, "motion", motion);
+    if (const auto key = clip.find("motion")) read_option(*key, "motion", motion);
+    return motion;
+}
+
+mobb::ClipPtr read_samples(const JsonPlace& place, const std::optional<mobb::Motion>& instead) {
+    const mobb::Motion motion = read_motion(place);
     const JsonPlace dt = place.require("dt");
     const double seconds = dt.number();
     const JsonPlace list = place.require("samples");
@@ -270,6 +276,7 @@ class SceneReader {
         keys.push_back("warp");
         keys.push_back("turn");
         keys.push_back("samples");
+        keys.push_back("digest");
         place.allow_only(keys);
         if (place.find("source")) {
             read_source(place, clip);
@@ -278,12 +285,24 @@ class SceneReader {
             if (const auto turn = place.find("turn"))
                 turn->fail("only a clip with a source is turned; turn the samples, and remove this");
             clip.clip = read_samples(place, overrides_.motion);
+            if (const auto digest = place.find("digest")) check_digest(read_digest(*digest), place, clip);
             warn_of_long_held_step(*clip.clip, clip.facts.warnings);
             warn_of_coarse_times(*clip.clip, 0, clip.facts.warnings);
         } else {
             place.fail("a clip needs a source, or dt and samples");
         }
         return clip;
+    }
+
+    /// Of the samples with the motion that the file says.
+    static void check_digest(std::uint64_t said, const JsonPlace& place, SceneClip& clip) {
+        const mobb::Motion motion = read_motion(place);
+        const std::uint64_t is = mobb::digest(clip.clip->dt(), clip.clip->samples(), motion);
+        if (is != said)
+            clip.facts.warnings.push_back({"its samples are not those that were captured: their digest is " +
+                                               digest_text(is) + ", and the file says " + digest_text(said),
+                                           std::string(kDigest)});
+        if (clip.clip->motion() == motion) clip.digest = said;
     }
 
     static void read_turn(const JsonPlace& place, SceneClip& clip) {
@@ -322,6 +341,8 @@ class SceneReader {
     void read_source(const JsonPlace& place, SceneClip& clip) {
         if (const auto samples = place.find("samples"))
             samples->fail("a clip has a source or samples, not both; remove one");
+        if (const auto digest = place.find("digest"))
+            digest->fail("only samples have a digest; remove it, or give samples");
         const JsonPlace source = place.require("source");
         if (source.string().empty()) source.fail("the source is empty; name a clip file");
         if (source.string().find('\0') != std::string::npos)

@@ -141,6 +141,7 @@ void capture(Workspace& workspace, QueryInspector& queries, Excerpts& excerpts, 
             clip.options = {};
             clip.warp.reset();
             clip.turn.reset();
+            clip.digest = mobb::digest(*clip.clip);
         }
         make_queries_explicit(scene);
         scene.queries.front().expect = Expectation{contact.has_value(), contact};

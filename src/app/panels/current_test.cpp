@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <span>
 #include <string>
 #include <vector>
@@ -208,9 +207,7 @@ void current_test(Ui& ui, const QueryFindings& findings) {
         outcome_sign(ui, mark, ui.px(12));
         ImGui::SameLine(0, ui.px(7));
         words(mark_text(ui.style, mark), headline(mark));
-        std::string sentence = outcome_text(findings.sides, event) + ".";
-        sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
-        words(ui, ui.style.text, sentence, {event.gap, -event.gap});
+        words(ui, ui.style.text, as_sentence(outcome_text(findings.sides, event) + '.'), {event.gap, -event.gap});
     });
     ui.mark("query.test");
     node_line(ui, findings, 0, event.a);
