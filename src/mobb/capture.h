@@ -2,8 +2,8 @@
 /// where its answer differs. One query at a time, or a ring of the last ones, also when the program crashes. POSIX
 /// only.
 ///
-/// A clip is written with its samples, held or linear; the two sides of query 3 are called A3 and B3. The fit of a file
-/// is one for all its queries, which changes no answer: that of the last query's A. A chain is captured as its
+/// A clip is written with its samples, held or linear; the two sides of query 3 are called A3 and B3. All queries of
+/// a file share one fit, that of the last query's A; answers do not depend on it. A chain is captured as its
 /// `flattened` clip, the fastest query (PlacedBlocks) as its clip and placement: neither keeps the angle at which it
 /// was placed, so you give it.
 #pragma once
