@@ -106,8 +106,8 @@ glm::dvec2 MapInspector::place_of_b(const PlacementMap& map) const {
 
 std::string MapInspector::why_not_placed() const {
     if (!can_be()) return "no query is shown";
-    if (workspace_.crowd()) return "a run is not edited";
-    if (query().b.agent < 0) return "the query places B itself: it is no agent of the scene";
+    if (workspace_.crowd()) return "a run cannot be edited";
+    if (query().b.agent < 0) return "the query places B itself: it is not an agent of the scene";
     return "";
 }
 
@@ -119,7 +119,7 @@ void MapInspector::place_b(glm::dvec2 at) {
     order.across.axis = choice.across;
     order.up.axis = choice.up;
     const mobb::Placement placement = moved(b.placement, order, at - offset_between({}, b.placement, order));
-    if (!mobb::is_valid(placement)) throw std::invalid_argument("no agent may stand so far away");
+    if (!mobb::is_valid(placement)) throw std::invalid_argument("that is too far away for an agent");
     if (placement == b.placement) return;
     workspace_.edit({name_of_placing(b.name, b.placement, placement).title, "drag"},
                     [&](Scene& scene) { place_agent(scene, b.agent, placement); });
